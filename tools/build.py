@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Build the extension: one zip per platform in dist/, each with the SciPy wheels of that platform.
+
+    python3 tools/build.py [--blender PATH] [--out DIR]
+
+The wheels named in blender_manifest.toml are downloaded into wheels/ once and compared with
+tools/wheels.sha256. Blender's own extension tool validates and packs, from the given Blender or from
+Blender as a Python module in .venv/. The same checkout gives the same bytes, whenever and wherever.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import subprocess
+import tempfile
+import tomllib
+import zipfile
+from pathlib import Path
+
+import environments
+from environments import ROOT, fail, say
+
+MANIFEST = "blender_manifest.toml"
+SHIPPED = {"__init__.py", MANIFEST, "LICENSE", "batch", "core", "operators", "ui", "wheels"}
+# The oldest date a zip can hold; what is in the files is what matters.
+ZIP_DATE = (1980, 1, 1, 0, 0, 0)
+
+
+def main() -> None:
+    """Download, check, validate, build, repack."""
+    manifest = tomllib.loads((ROOT / MANIFEST).read_text(encoding="utf-8"))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--blender", metavar="PATH", help="use this Blender's extension tool")
+    parser.add_argument("--out", type=Path, default=ROOT / "dist", metavar="DIR", help="default: dist/")
+    arguments = parser.parse_args()
+
+    tool = [arguments.blender, "--command", "extension"] if arguments.blender else _tool_of_module()
+    for wheel in manifest["wheels"]:
+        _download(Path(wheel).name)
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as built:
+        _check([*tool, "validate", str(ROOT)])
+        _check([*tool, "build", "--split-platforms", "--source-dir", str(ROOT), "--output-dir", built])
+        for package in sorted(Path(built).glob("*.zip")):
+            _check([*tool, "validate", str(package)])
+            target = arguments.out / package.name
+            _repack(package, target)
+            digest = hashlib.sha256(target.read_bytes()).hexdigest()
+            say(f"{target} ({target.stat().st_size / 1e6:.1f} MB, sha256 {digest})")
+
+
+def _tool_of_module() -> list[str]:
+    """The extension tool out of the bpy wheel: it needs no Blender executable."""
+    choices = (environments.BLENDER_45, environments.BLENDER_52)
+    environment = next((e for e in choices if environments.find_python(e.python)), None)
+    if environment is None:
+        fail("Python 3.11 or 3.13 was not found; install one, or give a Blender with --blender.")
+    python = environments.prepare(environment)
+    return [str(python), str(next((python.parent.parent / "lib").rglob("bl_pkg/cli/blender_ext.py")))]
+
+
+def _download(wheel: str) -> None:
+    """Fetch a wheel unless it is in wheels/ already, and compare it with its known digest."""
+    path = ROOT / "wheels" / wheel
+    path.parent.mkdir(exist_ok=True)
+    if not path.exists():
+        say(f"downloading {wheel}")
+        name, version, interpreter, abi, platforms = wheel.removesuffix(".whl").split("-")
+        python = environments.prepare(environments.any_python("build"))
+        target = ["--implementation", "cp", "--python-version", interpreter.removeprefix("cp"), "--abi", abi]
+        for platform in platforms.split("."):
+            target += ["--platform", platform]
+        pip = [str(python), "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:"]
+        _check([*pip, *target, "--dest", str(path.parent), f"{name}=={version}"])
+    lines = (ROOT / "tools" / "wheels.sha256").read_text(encoding="ascii").splitlines()
+    digests = {name: digest for digest, name in (line.split() for line in lines)}
+    if hashlib.sha256(path.read_bytes()).hexdigest() != digests[wheel]:
+        fail(f"wheels/{wheel} is not the known file: delete it and try again.")
+
+
+def _repack(package: Path, target: Path) -> None:
+    """Write the zip again with sorted names and one date, and nothing in it that should not be there."""
+    partial = target.with_suffix(".partial")
+    with zipfile.ZipFile(package) as old, zipfile.ZipFile(partial, "w") as new:
+        names = sorted(old.namelist())
+        if strangers := {name for name in names if name.split("/")[0] not in SHIPPED}:
+            fail(f"not meant to be shipped: {', '.join(sorted(strangers))}; see [build] in {MANIFEST}")
+        for name in names:
+            entry = zipfile.ZipInfo(name, ZIP_DATE)
+            entry.external_attr = 0o644 << 16
+            entry.create_system = 3
+            # A wheel is a zip itself.
+            entry.compress_type = zipfile.ZIP_STORED if name.endswith(".whl") else zipfile.ZIP_DEFLATED
+            new.writestr(entry, old.read(name), compresslevel=9)
+    partial.replace(target)
+
+
+def _check(command: list[str]) -> None:
+    """Run a step and stop when it fails."""
+    result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    if result.returncode:
+        fail(f"{' '.join(command)}\n{result.stdout}{result.stderr}".rstrip())
+
+
+if __name__ == "__main__":
+    main()
