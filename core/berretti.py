@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The method of the paper, to the letter: candidates for the preset "Berretti 2009"."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .curvature import k_min
+from .hierarchy import Hierarchy
+from .levelsets import LevelSets
+from .parameters import Parameters
+from .reeb import ReebStructure
+from .refine import search_boundaries
+from .regions import berretti_regions
+
+DECISION = 0.5  # the salience at which the paper's threshold cuts
+
+
+def berretti_candidates(
+    sets: LevelSets, structure: ReebStructure, parameters: Parameters
+) -> tuple[np.ndarray, Hierarchy]:
+    """Regions of section 3.1 with the boundaries of section 3.2.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        Of one connected component.
+    structure : ReebStructure
+        Its Reeb graph, simplified.
+    parameters : Parameters
+
+    Returns
+    -------
+    element_candidate : (E,) int64
+        Region of each element, before small ones are removed.
+    hierarchy : Hierarchy
+        Small regions first; salience 0.5 is the paper's threshold.
+    """
+    regions = berretti_regions(sets, parameters.small_region)
+    curvature = k_min(sets.mesh)
+    kept = regions.hierarchy.parts(regions.hierarchy.n_parts(1.0 - DECISION))
+    piece_part = kept[regions.piece_region]
+    moved = search_boundaries(sets, structure, curvature, piece_part, parameters.alpha,
+                              parameters.sigma)
+    candidate = _follow(sets, regions.piece_region, piece_part, moved)
+    return candidate[sets.element_piece], regions.hierarchy
+
+
+def _follow(sets, piece_region, piece_part, moved) -> np.ndarray:
+    """Give pieces that changed part a region of their new part, that of a neighbour in it."""
+    region = np.where(moved == piece_part, piece_region, -1)
+    a, b = np.concatenate([sets.contour_pieces, sets.contour_pieces[:, ::-1]]).T
+    same_part = moved[a] == moved[b]
+    while True:
+        reach = same_part & (region[a] < 0) & (region[b] >= 0)
+        if not reach.any():
+            break
+        region[a[reach]] = region[b[reach]]
+    return np.where(region < 0, piece_region, region)

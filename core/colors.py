@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Colours for parts: told apart by colour-blind people, and never alike at a cut."""
+
+from __future__ import annotations
+
+import numpy as np
+
+# Okabe & Ito's palette without black, then Paul Tol's muted scheme, as sRGB bytes: both made
+# to stay distinct under the common kinds of colour blindness.
+PALETTE = np.array([
+    (86, 180, 233), (230, 159, 0), (0, 158, 115), (204, 121, 167), (240, 228, 66),
+    (0, 114, 178), (213, 94, 0), (136, 204, 238), (51, 34, 136), (221, 204, 119),
+    (17, 119, 51), (136, 34, 85), (68, 170, 153), (170, 68, 153), (153, 153, 51),
+    (204, 102, 119),
+]) / 255.0
+
+# Viewing with a missing cone type (Vienot et al. 1999), on linear RGB.
+_DEFICIENCIES = np.array([
+    [[0.11238, 0.88762, 0.0], [0.11238, 0.88762, 0.0], [0.00401, -0.00401, 1.0]],
+    [[0.29275, 0.70725, 0.0], [0.29275, 0.70725, 0.0], [-0.02234, 0.02234, 1.0]],
+])
+
+
+def distance_matrix(colors: np.ndarray = PALETTE) -> np.ndarray:
+    """(c, c) smallest difference of two colours over normal, protan and deutan vision."""
+    linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
+    views = [linear] + [linear @ m.T for m in _DEFICIENCIES]
+    views = [np.cbrt(np.clip(view, 0.0, 1.0)) for view in views]  # about even to the eye
+    return np.min([np.linalg.norm(v[:, None] - v[None], axis=2) for v in views], axis=0)
+
+
+def part_colors(count: int, neighbours: np.ndarray) -> np.ndarray:
+    """One colour per part; each new part takes what differs most from its neighbours.
+
+    Parameters
+    ----------
+    count : int
+    neighbours : (e, 2) int64
+        Pairs of parts that touch.
+
+    Returns
+    -------
+    colors : (count, 3) float64
+        sRGB, 0..1. Parts 0..15 differ all; later ones repeat, but not beside each other.
+    """
+    apart = distance_matrix()
+    chosen = np.full(count, -1)
+    used = np.zeros(len(PALETTE), np.int64)
+    around = [[] for _ in range(count)]
+    for a, b in neighbours.tolist():
+        around[a].append(b)
+        around[b].append(a)
+    for part in range(count):
+        beside = [chosen[other] for other in around[part] if chosen[other] >= 0]
+        room = apart[beside].min(axis=0) if beside else np.ones(len(PALETTE))
+        # Least used first, then clearly unlike the neighbours, then palette order.
+        rank = np.lexsort((np.arange(len(PALETTE)), -np.minimum(room, 0.25), used + 99 * (room == 0)))
+        chosen[part] = rank[0]
+        used[rank[0]] += 1
+    return PALETTE[chosen] if count else np.zeros((0, 3))

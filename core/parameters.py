@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every parameter, its range, its default and what it does to the parts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, fields, replace
+
+from .errors import ParameterError
+
+PERCEPTUAL, BERRETTI = "perceptual", "berretti"
+METHODS = (PERCEPTUAL, BERRETTI)
+
+
+def _number(default, low, high, label, text):
+    return field(default=default,
+                 metadata={"range": (low, high), "label": label, "description": text})
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """What a decomposition may be asked for; ``Parameters.RANGES`` has the limits.
+
+    Each field's metadata holds its range (None for switches and choices), a label and a
+    sentence for tooltips, in the artist's words with the paper's symbol second.
+
+    Raises
+    ------
+    ParameterError
+        A value outside its range; ``error.name`` says which.
+    """
+
+    method: str = field(default=BERRETTI, metadata={
+        "choices": METHODS, "label": "Method",
+        "description": "How cuts are chosen: as people would, or by the paper's rules"})
+    detail: float = _number(
+        0.5, 0.0, 1.0, "Detail",
+        "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate")
+    n_parts: int = _number(
+        0, 0, 100_000, "Number of parts",
+        "Exactly this many parts instead of a level of detail; 0 lets Detail decide")
+    base_spacing: float = _number(
+        0.005, 0.0005, 0.05, "Base vertex spacing",
+        "Share of the area around each point that distances are measured from; smaller is "
+        "slower and finer (the paper's 0.005 S)")
+    equalise: bool = field(default=True, metadata={
+        "label": "Equalise",
+        "description": "Give every range of distances the same area, so that long limbs do not "
+                       "hide short ones (the paper's s(p))"})
+    levels: int = _number(
+        100, 8, 1000, "Levels",
+        "Number of slabs the surface is cut into before parts are formed (1 / epsilon)")
+    small_region: float = _number(
+        0.05, 0.0005, 0.5, "Small region",
+        "Parts smaller than this share of the largest one join a neighbour; 0.01 keeps fingers")
+    alpha: float = _number(
+        0.5, 0.0, 1.0, "Concavity",
+        "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)")
+    sigma: float = _number(
+        0.05, 0.0, 0.25, "Smoothing",
+        "How much of a cut's length must be concave to count (the paper's sigma)")
+    follow_level_sets: bool = field(default=True, metadata={
+        "label": "Follow level sets",
+        "description": "Keep cuts on level sets of the distance, as the paper does; off, they "
+                       "follow creases"})
+    loose_part: float = _number(
+        0.01, 0.0, 1.0, "Small loose part",
+        "Loose parts with less than this share of the whole area are one part each")
+
+    def __post_init__(self):
+        for item in fields(self):
+            limits = item.metadata.get("range")
+            value = getattr(self, item.name)
+            if limits is not None:
+                self._check_number(item.name, value, *limits, whole=item.type == "int")
+            elif "choices" in item.metadata and value not in item.metadata["choices"]:
+                choices = ", ".join(item.metadata["choices"])
+                raise ParameterError(
+                    f"{item.name} must be one of {choices}, not {value!r}.", item.name)
+
+    @staticmethod
+    def _check_number(name, value, low, high, whole):
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            raise ParameterError(f"{name} must be a number, not {value!r}.", name) from None
+        if not math.isfinite(number) or not low <= number <= high or (whole and number % 1):
+            kind = "a whole number" if whole else "a number"
+            raise ParameterError(
+                f"{name} must be {kind} from {low} to {high}, not {value!r}.", name)
+
+    @classmethod
+    def preset(cls, name: str, **changes) -> Parameters:
+        """The parameters of a preset of PRESETS, with some of them changed."""
+        if name not in PRESETS:
+            raise ParameterError(
+                f"There is no preset {name!r}. Choose one of: {', '.join(PRESETS)}.", "preset")
+        return replace(PRESETS[name], **changes)
+
+
+Parameters.RANGES = {f.name: f.metadata["range"] for f in fields(Parameters)
+                     if "range" in f.metadata}
+
+BERRETTI_2009 = "Berretti 2009"
+PRESETS = {
+    BERRETTI_2009: Parameters(method=BERRETTI),
+}

@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one door: arrays in, a decomposition out. The stages of the method, in order."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+
+from .agd import ScalarField, agd_field, spread_base_vertices
+from .berretti import berretti_candidates
+from .decomposition import Decomposition
+from .geodesic import GeodesicSolver
+from .hierarchy import Hierarchy
+from .levelsets import LevelSets, cut_at_levels, uniform_levels
+from .mesh import PolygonMesh, TriMesh
+from .parameters import Parameters
+from .reeb import ReebGraph, ReebStructure, reeb_graph, reeb_structure
+from .simplify import simplify
+from .transfer import FaceGraph, connect, fill_unlabelled, majority, settle
+from .working import MAX_EDGE, WorkingMesh, refine, repair
+
+# The graph to look at leaves out leaves that cover less than this share of a component, or
+# less than this many levels: ripples, not protrusions.
+MIN_LEAF_AREA = 0.0025
+MIN_LEAF_LEVELS = 1
+# Below this share of its maximum, the variation of the AGD is the error of the distances.
+FLAT_FIELD = 0.03
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Component:
+    """One loose part of the surface on its way through the stages.
+
+    Attributes
+    ----------
+    mesh : TriMesh
+        Refined.
+    polygon : (m,) int64
+        The caller's face that each triangle lies in.
+    vertex_source : (n,) int64
+        The caller's vertex of each vertex, -1 for one that refinement added.
+    """
+
+    mesh: TriMesh
+    polygon: np.ndarray
+    vertex_source: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Candidates:
+    """Candidate parts of one component.
+
+    Attributes
+    ----------
+    element_candidate : (E,) int64
+        Candidate of each element (face, slab) of the level sets, 0..count-1.
+    hierarchy : Hierarchy
+        Over the candidates; decides what stays.
+    """
+
+    element_candidate: np.ndarray
+    hierarchy: Hierarchy
+
+
+class Stopwatch:
+    """Seconds per stage, and the caller's progress function."""
+
+    def __init__(self, progress: Progress | None):
+        self.progress = progress or (lambda stage, share: None)
+        self.seconds: dict[str, float] = {}
+        self.share = 0.0
+
+    @contextmanager
+    def stage(self, name: str, until: float):
+        """Time a stage that ends at a share of the whole; tells the caller when it starts."""
+        self.progress(name, self.share)
+        begin, start = time.perf_counter(), self.share
+        yield lambda done: self.progress(name, start + done * (until - start))
+        self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - begin
+        self.share = until
+
+
+def decompose(
+    vertices,
+    faces,
+    parameters: Parameters | None = None,
+    polygon=None,
+    progress: Progress | None = None,
+) -> Decomposition:
+    """Cut a mesh into parts.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like of float
+    faces : (m, k) array_like of int, or a sequence of index sequences
+        Triangles, quads or polygons.
+    parameters : Parameters, optional
+        The default preset without.
+    polygon : (m,) array_like of int, optional
+        For triangles that are a triangulation of the caller's polygons: the polygon of each.
+        Labels are then per polygon.
+    progress : callable, optional
+        Called as progress(stage, share) between and within stages, share rising from 0 to 1.
+        What it raises ends the computation; raise ``Cancelled`` to cancel.
+
+    Returns
+    -------
+    decomposition : Decomposition
+        ``decomposition.parts().labels`` is one part per face.
+
+    Raises
+    ------
+    MeshError
+        Shapes, indices or coordinates are wrong, or the mesh is too small to have parts.
+    ParameterError
+        Raised by ``Parameters`` itself.
+
+    Notes
+    -----
+    Deterministic. Time is about that of one Dijkstra search per base vertex (some 140), the
+    rest grows with faces + crossings of faces and levels.
+    """
+    parameters = parameters or Parameters()
+    watch = Stopwatch(progress)
+    with watch.stage("mesh", 0.04):
+        given = PolygonMesh.of(vertices, faces, polygon)
+        working = repair(given)
+        count, component = working.mesh.face_components
+        area = np.bincount(component, working.mesh.face_area, count)
+        large = np.flatnonzero(area >= max(parameters.loose_part * area.sum(), 1e-12 * area.max()))
+    results = []
+    for done, label in enumerate(large):
+        begin = 0.04 + 0.92 * done / len(large)
+        watch.share = begin
+        mask = component == label
+        results.append(_decompose_component(
+            working, mask, parameters, watch, begin, 0.92 / len(large)))
+    with watch.stage("parts", 1.0):
+        result = _assemble(given, working, component, large, results, parameters, watch.seconds)
+    watch.progress("done", 1.0)
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class ComponentResult:
+    """What one component contributes; see Decomposition."""
+
+    mask: np.ndarray  # (m,) bool over the working mesh
+    component: Component
+    field: ScalarField
+    graph: ReebGraph
+    sets: LevelSets
+    structure: ReebStructure
+    candidates: Candidates
+
+
+def _decompose_component(working, mask, parameters, watch, begin, width) -> ComponentResult:
+    """All stages on one connected component."""
+    with watch.stage("mesh", begin + 0.05 * width):
+        part = _component(working, mask)
+    with watch.stage("distances", begin + 0.75 * width) as progress:
+        radius = np.sqrt(parameters.base_spacing * part.mesh.area)
+        base = spread_base_vertices(part.mesh, GeodesicSolver(part.mesh), radius, progress)
+        field = _field(part.mesh, base, parameters)
+    with watch.stage("reeb graph", begin + 0.85 * width):
+        levels = uniform_levels(parameters.levels) if field.values.any() else np.empty(0)
+        sets = cut_at_levels(part.mesh, field.values, levels)
+        structure = simplify(sets, reeb_structure(sets), MIN_LEAF_AREA, MIN_LEAF_LEVELS)
+        graph = reeb_graph(sets, structure)
+    with watch.stage("cuts", begin + width):
+        candidates = Candidates(*berretti_candidates(sets, structure, parameters))
+    return ComponentResult(mask, part, field, graph, sets, structure, candidates)
+
+
+def _component(working: WorkingMesh, mask: np.ndarray) -> Component:
+    """Cut out a component and refine it."""
+    mesh, index = working.mesh.submesh(mask)
+    source = working.vertex_source[index]
+    fine, parent = refine(mesh, MAX_EDGE * np.sqrt(mesh.area))
+    added = np.full(fine.n_vertices - len(source), -1)
+    return Component(fine, working.polygon[mask][parent], np.concatenate([source, added]))
+
+
+def _field(mesh, base, parameters) -> ScalarField:
+    field = agd_field(mesh, base, parameters.equalise)
+    if np.ptp(field.agd) < FLAT_FIELD * field.agd.max():
+        nothing = np.zeros(mesh.n_vertices)
+        return ScalarField(nothing, nothing, field.agd)
+    return field
+
+
+def _assemble(given, working, component, large, results, parameters, seconds) -> Decomposition:
+    """Bring candidates, field and graph back to the caller's faces and vertices."""
+    face_graph = _face_graph(given, working)
+    label, hierarchy = _face_candidates(given, working, component, results, face_graph)
+    values, notes = _vertex_field(given, component, large, results)
+    pairs, length = face_graph.boundaries(label)
+    corners = given.triangles.faces.ravel()
+    # Every corner votes; a little more than nothing where faces have no area.
+    weight = np.repeat(given.triangles.face_area + 1e-12 * given.triangles.area, 3)
+    vertex = majority(corners, np.repeat(label[given.polygon], 3), weight,
+                      given.triangles.n_vertices)
+    nodes, points = _graph_candidates(results, label)
+    return Decomposition(
+        candidates=label, vertex_candidates=vertex,
+        candidate_area=np.bincount(label, face_graph.area), candidate_pairs=pairs,
+        candidate_pair_length=length, hierarchy=hierarchy, field=values,
+        graph=ReebGraph.join([r.graph for r in results]), node_candidate=nodes,
+        point_candidate=points, parameters=parameters, notes=working.notes + notes,
+        seconds=seconds)
+
+
+def _face_graph(given: PolygonMesh, working: WorkingMesh) -> FaceGraph:
+    mesh = working.mesh
+    pairs = working.polygon[mesh.edges.pairs]
+    length = mesh.edge_length[mesh.edges.pair_edge]
+    apart = pairs[:, 0] != pairs[:, 1]
+    area = np.bincount(given.polygon, given.triangles.face_area, given.n_polygons)
+    return FaceGraph(given.n_polygons, pairs[apart], length[apart], area)
+
+
+def _face_candidates(given, working, component, results, face_graph):
+    """One candidate per face of the caller, connected, and the hierarchy over them."""
+    owner, label, weight, hierarchies, first = [], [], [], [], 0
+    for r in results:
+        sets = r.sets
+        owner.append(r.component.polygon[sets.element_face])
+        label.append(first + r.candidates.element_candidate)
+        weight.append(sets.element_area + 1e-12 * sets.mesh.area)
+        hierarchies.append(r.candidates.hierarchy)
+        first += r.candidates.hierarchy.n_candidates
+    rest = ~np.any([r.mask for r in results], axis=0)
+    if rest.any():  # small loose parts, one candidate each
+        names, numbers = np.unique(component[rest], return_inverse=True)
+        owner.append(working.polygon[rest])
+        label.append(first + numbers.reshape(-1))
+        weight.append(working.mesh.face_area[rest] + 1e-12 * working.mesh.area)
+        hierarchies.append(Hierarchy.of(len(names), [], []))
+    face_label = majority(*map(np.concatenate, (owner, label, weight)), given.n_polygons)
+    face_label = connect(face_graph, fill_unlabelled(face_graph, face_label))
+    return settle(face_graph, face_label, Hierarchy.join(hierarchies))
+
+
+def _vertex_field(given, component, large, results) -> tuple[np.ndarray, tuple[str, ...]]:
+    """The normalised field at the caller's vertices, and notes about components."""
+    values = np.full(given.triangles.n_vertices, np.nan)
+    used = np.unique(given.triangles.faces)
+    values[used] = 0.0  # small loose parts
+    for r in results:
+        kept = r.component.vertex_source >= 0
+        values[r.component.vertex_source[kept]] = r.field.normalised[kept]
+    n_loose = int(component.max()) + 1
+    notes = []
+    if n_loose > 1:
+        text = f"{n_loose} loose parts are decomposed each on its own"
+        small = n_loose - len(large)
+        notes.append(text + (f"; {small} small ones are one part each." if small else "."))
+    n_flat = sum(not r.field.values.any() for r in results)
+    if n_flat:
+        notes.append(f"{n_flat} of the loose parts are so even that nothing protrudes: one part "
+                     "each." if n_loose > 1 else "Nothing protrudes: the mesh is one part.")
+    return values, tuple(notes)
+
+
+def _graph_candidates(results, label) -> tuple[np.ndarray, np.ndarray]:
+    """The candidate in which each node and each centre point of the joined graph lies."""
+    nodes, points = [], []
+    for r in results:
+        sets, structure = r.sets, r.structure
+        face_label = label[r.component.polygon[sets.element_face]]
+        node = structure.piece_node[sets.element_piece]
+        inside = node >= 0
+        area = sets.element_area[inside] + 1e-12 * sets.mesh.area
+        nodes.append(majority(node[inside], face_label[inside], area, structure.n_nodes))
+        at = label[r.component.polygon[sets.segment_face]]
+        of_contour = majority(sets.segment_contour, at,
+                              sets.segment_length + 1e-12, sets.n_contours)
+        kept = np.flatnonzero(structure.contour_arc >= 0)
+        order = np.lexsort((sets.contour_level[kept], structure.contour_arc[kept]))
+        points.append(of_contour[kept[order]])
+    return np.concatenate(nodes), np.concatenate(points)

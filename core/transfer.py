@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From the working copy back to the caller's faces and vertices."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .hierarchy import Hierarchy
+from .mesh import components
+
+
+def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners: int) -> np.ndarray:
+    """The label with the most weight in each owner; the smallest label of equals.
+
+    Parameters
+    ----------
+    owner, label : (r,) int64
+        Labels 0 or more.
+    weight : (r,) float64
+    n_owners : int
+
+    Returns
+    -------
+    winner : (n_owners,) int64
+        -1 for owners without a row.
+    """
+    n_labels = int(label.max(initial=0)) + 1
+    cell, where = np.unique(owner * np.int64(n_labels) + label, return_inverse=True)
+    total = np.bincount(where.reshape(-1), weight, len(cell))
+    of, name = np.divmod(cell, n_labels)
+    order = np.lexsort((-name, total, of))
+    winner = np.full(n_owners, -1)
+    winner[of[order]] = name[order]  # the last one written has the most weight
+    return winner
+
+
+@dataclass(frozen=True, eq=False)
+class FaceGraph:
+    """Which faces of the caller touch, and along what length.
+
+    Attributes
+    ----------
+    n_faces : int
+    pairs : (e, 2) int64
+    length : (e,) float64
+    area : (n_faces,) float64
+    """
+
+    n_faces: int
+    pairs: np.ndarray
+    length: np.ndarray
+    area: np.ndarray
+
+    def boundaries(self, label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Pairs of labels that touch, (c, 2) with the smaller first, and (c,) the length."""
+        low, high = np.sort(label[self.pairs], axis=1).T
+        apart = (low != high) & (low >= 0)
+        n = int(label.max(initial=0)) + 1
+        cell, where = np.unique(low[apart] * np.int64(n) + high[apart], return_inverse=True)
+        length = np.bincount(where.reshape(-1), self.length[apart], len(cell))
+        return np.stack(np.divmod(cell, n), axis=1), length
+
+
+def fill_unlabelled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
+    """Give faces labelled -1 the label of a neighbour, outwards from the labelled ones.
+
+    What touches no labelled face gets label 0.
+    """
+    label = label.copy()
+    a, b = np.concatenate([graph.pairs, graph.pairs[:, ::-1]]).T
+    while True:
+        reach = (label[a] < 0) & (label[b] >= 0)
+        if not reach.any():
+            break
+        label[a[reach]] = label[b[reach]]
+    label[label < 0] = 0
+    return label
+
+
+def connect(graph: FaceGraph, label: np.ndarray, min_faces: int = 1) -> np.ndarray:
+    """Make every label one connected set of faces.
+
+    Of each label the component of most area keeps it; the others, and components of fewer than
+    ``min_faces`` faces, go to the neighbour along the longest boundary.
+
+    Returns
+    -------
+    label : (n_faces,) int64
+        Some labels may be gone.
+    """
+    label = label.copy()
+    while True:
+        same = label[graph.pairs[:, 0]] == label[graph.pairs[:, 1]]
+        count, part = components(graph.n_faces, *graph.pairs[same].T)
+        area = np.bincount(part, graph.area, count)
+        size = np.bincount(part, minlength=count)
+        name = np.empty(count, np.int64)
+        name[part] = label
+        order = np.lexsort((np.arange(count), -area, name))
+        largest = np.append(True, name[order][1:] != name[order][:-1])
+        stray = np.ones(count, bool)
+        stray[order[largest]] = False
+        stray |= size < min_faces
+        goal = _best_neighbour(graph, part, area, stray)
+        if not (goal >= 0).any():
+            return label
+        label = name[np.where(goal >= 0, goal, np.arange(count))][part]
+
+
+def _best_neighbour(graph, part, area, stray) -> np.ndarray:
+    """For each stray component, the neighbour it joins; -1 for the others.
+
+    Where two stray ones are each other's best, only the smaller moves.
+    """
+    boundary, length = graph.boundaries(part)
+    both = np.concatenate([boundary, boundary[:, ::-1]])
+    length = np.concatenate([length, length])
+    keep = stray[both[:, 0]]
+    both, length = both[keep], length[keep]
+    order = np.lexsort((-both[:, 1], length, both[:, 0]))
+    goal = np.full(len(area), -1)
+    goal[both[order, 0]] = both[order, 1]
+    mover = np.flatnonzero(goal >= 0)
+    mutual = mover[goal[goal[mover]] == mover]
+    larger = mutual[(area[mutual] > area[goal[mutual]])
+                    | ((area[mutual] == area[goal[mutual]]) & (mutual < goal[mutual]))]
+    goal[larger] = -1
+    return goal
+
+
+def settle(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -> tuple[np.ndarray, Hierarchy]:
+    """Candidates that exist on the caller's faces, and a hierarchy that only merges neighbours.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+    label : (n_faces,) int64
+        Candidate of each face; each candidate connected.
+    hierarchy : Hierarchy
+        Of all candidates, present on faces or not.
+
+    Returns
+    -------
+    label : (n_faces,) int64
+        0..c-1, all present.
+    hierarchy : Hierarchy
+        Of the c candidates. Merges follow the given order; one whose two sides do not touch on
+        the caller's faces waits until they do.
+    """
+    present, label = np.unique(label, return_inverse=True)
+    label = label.reshape(-1)
+    touching, _ = graph.boundaries(label)
+    group = np.arange(hierarchy.n_candidates)  # merged by the hierarchy as given
+    joined = np.arange(len(present))  # merged on the faces
+    merges, salience = [], []
+    for (a, b), strength in zip(hierarchy.merges, hierarchy.salience, strict=True):
+        group[group == group[b]] = group[a]
+        together = group[present]
+        waiting = (together[touching[:, 0]] == together[touching[:, 1]]) & (
+            joined[touching[:, 0]] != joined[touching[:, 1]])
+        while waiting.any():
+            first, second = touching[waiting.argmax()]
+            merges.append((first, second))
+            salience.append(strength)
+            joined[joined == joined[second]] = joined[first]
+            waiting &= joined[touching[:, 0]] != joined[touching[:, 1]]
+    return label, Hierarchy.of(len(present), merges, salience)
