@@ -9,15 +9,32 @@
 ========================  ===============================================================
 """
 
-from .decomposition import VERSION, Decomposition, Parts
-from .errors import Cancelled, EmptyMeshError, MeshError, ParameterError, ReebError
-from .hierarchy import Hierarchy
-from .mesh import TriMesh
-from .parameters import PRESETS, Parameters
-from .pipeline import decompose
-from .reeb import ReebGraph
+from importlib import import_module
 
-__all__ = [
-    "PRESETS", "VERSION", "Cancelled", "Decomposition", "EmptyMeshError", "Hierarchy", "MeshError",
-    "ParameterError", "Parameters", "Parts", "ReebError", "ReebGraph", "TriMesh", "decompose",
-]
+# Loaded on first use: Blender reads the parameters when it starts, long before SciPy is needed.
+_HOME = {
+    "Cancelled": "errors",
+    "Decomposition": "decomposition",
+    "EmptyMeshError": "errors",
+    "Hierarchy": "hierarchy",
+    "MeshError": "errors",
+    "PRESETS": "parameters",
+    "ParameterError": "errors",
+    "Parameters": "parameters",
+    "Parts": "decomposition",
+    "ReebError": "errors",
+    "ReebGraph": "reeb",
+    "TriMesh": "mesh",
+    "VERSION": "decomposition",
+    "decompose": "pipeline",
+}
+
+__all__ = list(_HOME)
+
+
+def __getattr__(name):
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f".{_HOME[name]}", __name__), name)
+    globals()[name] = value
+    return value
