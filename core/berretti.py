@@ -36,7 +36,7 @@ def berretti_candidates(
     hierarchy : Hierarchy
         Small regions first; salience 0.5 is the paper's threshold.
     """
-    regions = berretti_regions(sets, parameters.small_region)
+    regions = berretti_regions(sets, structure, parameters.small_region)
     curvature = k_min(sets.mesh)
     kept = regions.hierarchy.parts(regions.hierarchy.n_parts(1.0 - DECISION))
     piece_part = kept[regions.piece_region]

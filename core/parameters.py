@@ -57,7 +57,7 @@ class Parameters:
         0.5, 0.0, 1.0, "Concavity",
         "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)")
     sigma: float = _number(
-        0.05, 0.0, 0.25, "Smoothing",
+        0.15, 0.0, 0.25, "Smoothing",
         "How much of a cut's length must be concave to count (the paper's sigma)")
     follow_level_sets: bool = field(default=True, metadata={
         "label": "Follow level sets",

@@ -13,6 +13,10 @@ from .mesh import components
 from .reeb import ReebStructure
 
 SAMPLES = 128  # points along a boundary; finer than any sigma in the range of parameters
+# A boundary as concave as a circle of its own radius is worth a move over a tenth of the range
+# of the field; three times that is all that a crease, however sharp, can be worth.
+CREASE_WORTH = 0.1
+MAX_WORTH = 0.3
 
 
 def contour_curve(sets: LevelSets, contour: int) -> tuple[np.ndarray, np.ndarray, bool]:
@@ -46,7 +50,8 @@ def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) ->
     """E_concave of a contour, eq. (9), without unit.
 
     k_min is sampled along the curve, smoothed by a Gaussian over its normalised arc length, and
-    its minimum is taken times the radius of a circle as long as the curve.
+    its minimum is taken times the radius of a circle as long as the curve. The paper leaves the
+    scale of k_min open: CREASE_WORTH and MAX_WORTH are ours (docs/method.md, section 4).
 
     Parameters
     ----------
@@ -75,7 +80,8 @@ def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) ->
     at = (np.arange(SAMPLES) + 0.5) / SAMPLES * total
     smooth = gaussian_filter1d(np.interp(at, arc_length, along), sigma * SAMPLES,
                                mode="wrap" if closed else "nearest")
-    return float(smooth.min() * total / (2 * np.pi))
+    relative = smooth.min() * total / (2 * np.pi)
+    return float(max(CREASE_WORTH * relative, -MAX_WORTH))
 
 
 def search_boundaries(

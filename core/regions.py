@@ -10,6 +10,7 @@ import numpy as np
 from .hierarchy import Hierarchy
 from .levelsets import LevelSets
 from .mesh import components
+from .reeb import ReebStructure
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,13 +31,17 @@ class Regions:
     hierarchy: Hierarchy
 
 
-def berretti_regions(sets: LevelSets, small_region: float) -> Regions:
+def berretti_regions(
+    sets: LevelSets, structure: ReebStructure, small_region: float
+) -> Regions:
     """The paper's regions, before and through its removal of small ones.
 
     Parameters
     ----------
     sets : LevelSets
         Of one connected component.
+    structure : ReebStructure
+        Its Reeb graph without ripples.
     small_region : float
         A region is small whose area is below this share of the largest region's (paper: 0.05).
         Salience 0.5 stands for this threshold.
@@ -45,33 +50,40 @@ def berretti_regions(sets: LevelSets, small_region: float) -> Regions:
     -------
     regions : Regions
     """
-    piece_interval = fuse_intervals(sets)
-    same = piece_interval[sets.contour_pieces[:, 0]] == piece_interval[sets.contour_pieces[:, 1]]
-    count, region = components(sets.n_pieces, *sets.contour_pieces[same].T)
+    count, region = fuse_intervals(sets, structure)
     count, region = fuse_equal_adjacency(sets, count, region)
     merges, ratio = fuse_small(sets, count, region)
     return Regions(region, count, Hierarchy.of(count, merges, ratio / (ratio + small_region)))
 
 
-def fuse_intervals(sets: LevelSets) -> np.ndarray:
+def fuse_intervals(sets: LevelSets, structure: ReebStructure) -> tuple[int, np.ndarray]:
     """Fuse contiguous slabs with the same number of connected components until all differ.
+
+    Ripples (leaves that ``simplify`` cancelled) are not counted: each would end an interval for
+    the whole surface. They belong to the region they sit on.
 
     Returns
     -------
-    piece_interval : (P,) int64
-        The interval that each piece's slab ends up in, ascending.
+    count : int
+        Of regions: connected components of the intervals.
+    region : (P,) int64
     """
+    kept = structure.contour_arc >= 0
+    on_graph = np.zeros(sets.n_pieces, bool)
+    on_graph[sets.contour_pieces[kept]] = True
+    on_graph |= ~on_graph.any()  # a graph of one node has no contour
     interval = np.arange(len(sets.levels) + 1)  # of each slab
     while True:
         piece_interval = interval[sets.piece_slab]
         lower, upper = piece_interval[sets.contour_pieces].T
         _, part = components(sets.n_pieces, *sets.contour_pieces[lower == upper].T)
-        first = np.unique(part, return_index=True)[1]
-        n_parts = np.bincount(piece_interval[first], minlength=interval[-1] + 1)
+        first = np.unique(part[on_graph], return_index=True)[1]
+        n_parts = np.bincount(piece_interval[on_graph][first], minlength=interval[-1] + 1)
         starts = np.append(True, n_parts[1:] != n_parts[:-1])
         if starts.all():
-            return piece_interval
+            break
         interval = (np.cumsum(starts) - 1)[interval]
+    return components(sets.n_pieces, *sets.contour_pieces[(lower == upper) | ~kept].T)
 
 
 class RegionGraph:
