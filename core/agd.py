@@ -8,10 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .coarse import coarsen, prolong
 from .geodesic import GeodesicSolver
 from .mesh import TriMesh, frozen
 
 HISTOGRAM_BINS = 100  # the paper's bin width of 0.01
+# Paths are searched on at most so many vertices: five or more lie on the radius of a base
+# vertex's disc then, and the field is smooth at that scale.
+FIELD_VERTICES = 20_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +65,7 @@ class ScalarField:
 def spread_base_vertices(
     mesh: TriMesh,
     solver: GeodesicSolver,
+    vertex_area: np.ndarray,
     radius: float,
     progress: Callable[[float], None] | None = None,
 ) -> BaseVertices:
@@ -74,6 +79,7 @@ def spread_base_vertices(
         n vertices, one connected component.
     solver : GeodesicSolver
         Of that mesh.
+    vertex_area : (n,) float64
     radius : float
         In the unit of the vertices, above 0.
     progress : callable, optional
@@ -88,12 +94,12 @@ def spread_base_vertices(
     One search per base vertex: O(k n log n) time, 4 k n bytes. Starts at the vertex farthest
     from the centroid, so the choice depends on the shape, not on the order of the vertices.
     """
-    centroid = mesh.vertex_area @ mesh.vertices / mesh.vertex_area.sum()
+    centroid = vertex_area @ mesh.vertices / vertex_area.sum()
     chosen = [int(np.linalg.norm(mesh.vertices - centroid, axis=1).argmax())]
     rows = []
     nearest = np.full(mesh.n_vertices, np.inf)
     owner = np.zeros(mesh.n_vertices, np.int64)
-    expected = mesh.area / (2 * radius**2)  # measured: discs of this radius overlap about so
+    expected = vertex_area.sum() / (1.5 * radius**2)  # measured: discs of this radius overlap about so
     while True:
         row = solver.distances(chosen[-1])
         rows.append(row.astype(np.float32))
@@ -106,7 +112,7 @@ def spread_base_vertices(
         if nearest[farthest] <= radius:
             break
         chosen.append(farthest)
-    areas = np.bincount(owner, mesh.vertex_area, len(chosen))
+    areas = np.bincount(owner, vertex_area, len(chosen))
     return BaseVertices(frozen(chosen, np.int64), frozen(areas, np.float64), np.stack(rows))
 
 
@@ -162,9 +168,41 @@ def equalise(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return np.interp(values, edges, cumulative)
 
 
-def agd_field(mesh: TriMesh, base: BaseVertices, equalised: bool) -> ScalarField:
-    """The field that level sets are taken of, eqs. (2), (3) and (7)."""
+def coarse_agd(mesh: TriMesh, radius: float, progress=None) -> np.ndarray:
+    """AGD by paths on a coarse copy where the mesh is dense.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        n vertices, one connected component.
+    radius : float
+        Of the discs that base vertices stand for, in the unit of the vertices.
+    progress : callable, optional
+        Called with the share done, 0..1.
+
+    Returns
+    -------
+    agd : (n,) float64
+        In the unit of the vertices.
+
+    Notes
+    -----
+    Path searches run on at most FIELD_VERTICES vertices; the rest is O(n).
+    """
+    levels, fine, area, links = [], mesh, mesh.vertex_area, None
+    while fine.n_vertices > FIELD_VERTICES:
+        coarsening = coarsen(fine, area, links)
+        levels.append((fine, coarsening))
+        fine, area, links = coarsening.mesh, coarsening.area, coarsening.links
+    base = spread_base_vertices(fine, GeodesicSolver(fine, links), area, radius, progress)
     agd = average_geodesic_distance(base)
+    for fine, coarsening in reversed(levels):
+        agd = prolong(fine, coarsening, agd)
+    return agd
+
+
+def agd_field(mesh: TriMesh, agd: np.ndarray, equalised: bool) -> ScalarField:
+    """The field that level sets are taken of, eqs. (2), (3) and (7)."""
     normalised = normalise(agd)
     values = equalise(normalised, mesh.vertex_area) if equalised else normalised
     return ScalarField(*(frozen(a, np.float64) for a in (values, normalised, agd)))

@@ -22,11 +22,13 @@ class GeodesicSolver:
     ----------
     mesh : TriMesh
         n vertices.
+    links : (l, 2) int64, optional
+        Pairs of vertices that a straight line joins besides the edges.
     """
 
-    def __init__(self, mesh: TriMesh):
+    def __init__(self, mesh: TriMesh, links: np.ndarray | None = None):
         self.mesh = mesh
-        self.graph = _path_graph(mesh)
+        self.graph = _path_graph(mesh, np.empty((0, 2), np.int64) if links is None else links)
 
     def distances(self, source: int) -> np.ndarray:
         """Distance of every vertex from one vertex.
@@ -59,14 +61,14 @@ class GeodesicSolver:
         return distance
 
 
-def _path_graph(mesh: TriMesh) -> csr_array:
-    """(n, n) symmetric lengths of edges and of lines across two unfolded triangles."""
-    start, end = mesh.edges.vertices.T
+def _path_graph(mesh: TriMesh, links: np.ndarray) -> csr_array:
+    """(n, n) symmetric lengths of edges, links and lines across two unfolded triangles."""
     c, d, across = _unfolded_lines(mesh)
-    rows = np.concatenate([start, c])
-    columns = np.concatenate([end, d])
-    # A stored zero would read as "no edge".
-    length = np.maximum(np.concatenate([mesh.edge_length, across]), np.finfo(float).tiny)
+    rows = np.concatenate([mesh.edges.vertices[:, 0], c, links[:, 0]])
+    columns = np.concatenate([mesh.edges.vertices[:, 1], d, links[:, 1]])
+    straight = np.linalg.norm(mesh.vertices[links[:, 0]] - mesh.vertices[links[:, 1]], axis=1)
+    length = np.concatenate([mesh.edge_length, across, straight])
+    length = np.maximum(length, np.finfo(float).tiny)  # a stored zero would read as "no edge"
     return _shortest_of(rows, columns, length, mesh.n_vertices)
 
 

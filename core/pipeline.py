@@ -10,10 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .agd import ScalarField, agd_field, spread_base_vertices
+from .agd import ScalarField, agd_field, coarse_agd
 from .berretti import berretti_candidates
 from .decomposition import Decomposition
-from .geodesic import GeodesicSolver
 from .hierarchy import Hierarchy
 from .levelsets import LevelSets, cut_at_levels, uniform_levels
 from .mesh import PolygonMesh, TriMesh
@@ -166,8 +165,7 @@ def _decompose_component(working, mask, parameters, watch, begin, width) -> Comp
         part = _component(working, mask)
     with watch.stage("distances", begin + 0.75 * width) as progress:
         radius = np.sqrt(parameters.base_spacing * part.mesh.area)
-        base = spread_base_vertices(part.mesh, GeodesicSolver(part.mesh), radius, progress)
-        field = _field(part.mesh, base, parameters)
+        field = _field(part.mesh, coarse_agd(part.mesh, radius, progress), parameters)
     with watch.stage("reeb graph", begin + 0.85 * width):
         levels = uniform_levels(parameters.levels) if field.values.any() else np.empty(0)
         sets = cut_at_levels(part.mesh, field.values, levels)
@@ -187,8 +185,8 @@ def _component(working: WorkingMesh, mask: np.ndarray) -> Component:
     return Component(fine, working.polygon[mask][parent], np.concatenate([source, added]))
 
 
-def _field(mesh, base, parameters) -> ScalarField:
-    field = agd_field(mesh, base, parameters.equalise)
+def _field(mesh, agd, parameters) -> ScalarField:
+    field = agd_field(mesh, agd, parameters.equalise)
     if np.ptp(field.agd) < FLAT_FIELD * field.agd.max():
         nothing = np.zeros(mesh.n_vertices)
         return ScalarField(nothing, nothing, field.agd)
