@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A picture of an object in its part colours with the Reeb graph drawn over it, for command-line runs.
+
+Everything is set up in a scene of its own and removed afterwards; the object's own scene, materials and
+render settings are left alone. Cycles on the processor renders, since that works on any machine.
+"""
+
+import tempfile
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+from scipy.ndimage import zoom
+
+#: Where the camera stands: in front (Blender's front is -Y), to the left and above.
+VIEW = (-0.62, -1.0, 0.48)
+BACKGROUND = (0.955, 0.957, 0.962)
+#: From back to front: the collections that are there, the one that the camera sees, and how many pixels of
+#: the picture one rendered pixel covers along each side. A soft shadow needs few, and is the dearest layer.
+LAYERS = ((("floor", "model"), "floor", 4), (("model",), "model", 1), (("graph",), "graph", 1))
+ARC_COLOR = (0.012, 0.012, 0.016)
+NODE_COLORS = {"minimum": (0.02, 0.02, 0.025), "saddle": (1.0, 0.62, 0.02), "maximum": (1.0, 1.0, 1.0)}
+
+
+def render_parts(obj, graph, path, *, size=(960, 540), samples=16, view=VIEW):
+    """Render an object and its graph into a PNG file.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        A mesh with the colour attribute that the decomposition wrote, shown whether hidden or not.
+    graph : bpy.types.Collection or None
+        The collection with the graph's curves and empties; None leaves the graph out.
+    path : str or Path
+        Where to write; the folder must exist.
+    size : (2,) int
+        Width and height in pixels.
+    samples : int
+        Light paths per pixel, before denoising.
+    view : (3,) float
+        Direction from the object to the camera.
+    """
+    made = []
+    scene = bpy.data.scenes.new("Reeb Parts picture")
+    made.append(scene)
+    try:
+        parts = {name: _collection(scene, name, made) for name in ("floor", "model", "graph")}
+        _add_model(obj, parts["model"], made)
+        corners = np.array([obj.matrix_world @ Vector(corner) for corner in obj.bound_box])
+        extent = float(np.linalg.norm(np.ptp(corners, axis=0)))
+        if graph is not None:
+            _add_graph(graph, extent, parts["graph"], made)
+        _add_light(scene, made)
+        _add_floor(corners, extent, parts["floor"], made)
+        _add_camera(scene, _points(obj), view, size, made)
+        _set_up_cycles(scene, size, samples)
+        with tempfile.TemporaryDirectory() as folder:
+            layers = [_render(scene, parts, layer, Path(folder)) for layer in LAYERS]
+        _write_png(_over(layers), path)
+    finally:
+        bpy.data.batch_remove(made)
+
+
+def _collection(scene, name, made):
+    """A new collection in the scene."""
+    collection = bpy.data.collections.new(name)
+    scene.collection.children.link(collection)
+    made.append(collection)
+    return collection
+
+
+def _place(data, name, collection, made, matrix=None):
+    """A new object in the collection, rendered even if its like in the user's scene is not."""
+    obj = bpy.data.objects.new(name, data)
+    obj.matrix_world = matrix or Matrix()
+    collection.objects.link(obj)
+    made += [obj, data]
+    return obj
+
+
+def _add_model(obj, collection, made):
+    """The object's mesh in its part colours."""
+    mesh = obj.data.copy()
+    name = mesh.color_attributes.active_color_name
+    mesh.shade_smooth()
+    mesh.set_sharp_from_angle(angle=0.8)
+    mesh.materials.clear()
+    mesh.materials.append(_material("parts", made, attribute=name))
+    _place(mesh, "model", collection, made, obj.matrix_world.copy())
+
+
+def _add_graph(graph, extent, collection, made):
+    """Arcs as tubes and nodes as balls, both of a size that shows at this distance."""
+    arcs = _material("arcs", made, color=ARC_COLOR)
+    for source in graph.all_objects:
+        if source.type == "CURVE":
+            curve = source.data.copy()
+            curve.bevel_depth, curve.bevel_resolution, curve.use_fill_caps = 0.0042 * extent, 3, True
+            for spline in curve.splines:
+                spline.points.foreach_set("radius", np.ones(len(spline.points), np.float32))
+            curve.materials.clear()
+            curve.materials.append(arcs)
+            _place(curve, "arcs", collection, made, source.matrix_world.copy())
+    materials = {kind: _material(kind, made, color=color) for kind, color in NODE_COLORS.items()}
+    for source in graph.all_objects:
+        if source.type == "EMPTY" and source.get("kind") in materials:
+            ball = bpy.data.meshes.new("node")
+            bm = bmesh.new()
+            try:
+                bmesh.ops.create_icosphere(bm, subdivisions=3, radius=0.0115 * extent)
+                for face in bm.faces:
+                    face.smooth = True
+                bm.to_mesh(ball)
+            finally:
+                bm.free()
+            ball.materials.append(materials[source["kind"]])
+            _place(ball, "node", collection, made, Matrix.Translation(source.matrix_world.translation))
+
+
+def _material(name, made, *, attribute=None, color=None):
+    """A matt material of one colour or of a colour attribute."""
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    made.append(material)
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    shader.inputs["Roughness"].default_value = 0.65
+    if attribute is None:
+        shader.inputs["Base Color"].default_value = (*color, 1.0)
+    else:
+        source = nodes.new("ShaderNodeVertexColor")
+        source.layer_name = attribute
+        links.new(source.outputs["Color"], shader.inputs["Base Color"])
+    return material
+
+
+def _add_light(scene, made):
+    """Even light from all sides and a soft sun."""
+    world = bpy.data.worlds.new("sky")
+    world.use_nodes = True
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.75
+    scene.world = world
+    made.append(world)
+    sun = bpy.data.lights.new("sun", "SUN")
+    sun.energy, sun.angle = 1.9, 0.35
+    turn = Vector((0.25, -0.75, 1.0)).to_track_quat("Z", "Y").to_matrix().to_4x4()
+    _place(sun, "sun", scene.collection, made, turn)
+
+
+def _add_floor(corners, extent, collection, made):
+    """A floor that shows nothing but the shadow on it."""
+    floor = bpy.data.meshes.new("floor")
+    center, reach = corners.mean(axis=0), 20.0 * extent
+    square = [(x * reach + center[0], y * reach + center[1], corners[:, 2].min())
+              for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]  # fmt: skip
+    floor.from_pydata(square, [], [(0, 1, 2, 3)])
+    _place(floor, "floor", collection, made).is_shadow_catcher = True
+
+
+def _points(obj):
+    """Vertices of the object in the world, (n, 3)."""
+    points = np.empty(3 * len(obj.data.vertices), np.float32)
+    obj.data.vertices.foreach_get("co", points)
+    world = np.array(obj.matrix_world)
+    return points.reshape(-1, 3) @ world[:3, :3].T + world[:3, 3]
+
+
+def _add_camera(scene, points, view, size, made):
+    """A camera that sees all points, as near as it can."""
+    camera = bpy.data.cameras.new("camera")
+    camera.lens, camera.clip_end = 70.0, 1e6
+    turn = Vector(view).to_track_quat("Z", "Y").to_matrix()
+    margin = 1.08
+    x, y, z = (points @ np.array(turn)).T
+    # tan of half the angle of view, along the width and the height of the picture
+    wide = 0.5 * camera.sensor_width / camera.lens
+    half = np.array([1.0, size[1] / size[0]]) * wide / margin
+    middle = [(x.max() + x.min()) / 2, (y.max() + y.min()) / 2]
+    distance = max((z + np.abs(across - at) / tangent).max()
+                   for across, at, tangent in zip((x, y), middle, half, strict=True))  # fmt: skip
+    camera.clip_start = 1e-3 * (distance - z.max())
+    camera.clip_end = 1e4 * distance
+    position = turn @ Vector((*middle, distance))
+    scene.camera = _place(camera, "camera", scene.collection, made, Matrix.LocRotScale(position, turn, None))
+
+
+def _set_up_cycles(scene, size, samples):
+    """A few samples on the processor, denoised where this build can, with transparent background."""
+    import _cycles
+
+    scene.render.engine = "CYCLES"
+    scene.cycles.device = "CPU"
+    scene.cycles.samples = samples
+    scene.cycles.use_adaptive_sampling = False
+    scene.cycles.max_bounces = 2
+    scene.cycles.use_denoising = _cycles.with_openimagedenoise
+    if _cycles.with_openimagedenoise:
+        scene.cycles.denoiser = "OPENIMAGEDENOISE"
+        scene.cycles.denoising_input_passes = "RGB"
+        scene.cycles.denoising_prefilter = "NONE"
+        if hasattr(scene.cycles, "denoising_quality"):  # from Blender 4.3
+            scene.cycles.denoising_quality = "FAST"
+    scene.render.resolution_x, scene.render.resolution_y = size
+    scene.render.film_transparent = True
+    scene.render.image_settings.file_format = "PNG"
+    scene.render.image_settings.color_mode = "RGBA"
+    # The colours of the parts, as the panel shows them: no filmic look.
+    scene.view_settings.view_transform = "Standard"
+
+
+def _render(scene, parts, layer, folder):
+    """Pixels of one layer of the picture, (height, width, 4), bottom row first."""
+    shown, seen, coarseness = layer
+    for name, collection in parts.items():
+        collection.hide_render = name not in shown
+        for obj in collection.objects:
+            obj.visible_camera = name == seen
+    scene.render.resolution_percentage = 100 // coarseness
+    scene.render.filepath = str(folder / f"{seen}.png")
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+    pixels = _read_png(scene.render.filepath)
+    height, width = scene.render.resolution_y, scene.render.resolution_x
+    scale = (height / pixels.shape[0], width / pixels.shape[1], 1)
+    return zoom(pixels, scale, order=1, mode="nearest", grid_mode=True) if coarseness > 1 else pixels
+
+
+def _read_png(path):
+    """Pixels of a PNG file, (height, width, 4), bottom row first."""
+    image = bpy.data.images.load(path)
+    try:
+        pixels = np.empty(4 * image.size[0] * image.size[1], np.float32)
+        image.pixels.foreach_get(pixels)
+        return pixels.reshape(image.size[1], image.size[0], 4)
+    finally:
+        bpy.data.images.remove(image)
+
+
+def _over(layers):
+    """Layers from back to front upon the background, (height, width, 4)."""
+    result = np.empty_like(layers[0])
+    result[...] = (*BACKGROUND, 1.0)
+    for layer in layers:
+        alpha = layer[..., 3:]
+        result[..., :3] = alpha * layer[..., :3] + (1.0 - alpha) * result[..., :3]
+    return result
+
+
+def _write_png(pixels, path):
+    """Write (height, width, 4) pixels, bottom row first, as a PNG file."""
+    height, width, _ = pixels.shape
+    image = bpy.data.images.new("Reeb Parts picture", width, height)
+    try:
+        image.pixels.foreach_set(pixels.ravel())
+        image.filepath_raw = str(path)
+        image.file_format = "PNG"
+        image.save()
+    finally:
+        bpy.data.images.remove(image)
