@@ -57,8 +57,11 @@ class Parameters:
         0.5, 0.0, 1.0, "Concavity",
         "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)")
     sigma: float = _number(
-        0.15, 0.0, 0.25, "Smoothing",
+        0.15, 0.0, 0.25, "Crease length",
         "How much of a cut's length must be concave to count (the paper's sigma)")
+    smoothing: int = _number(
+        10, 0, 100, "Smoothing",
+        "Rounds that take saw teeth off the cuts, a face at a time; 0 leaves them as they fall")
     follow_level_sets: bool = field(default=True, metadata={
         "label": "Follow level sets",
         "description": "Keep cuts on level sets of the distance, as the paper does; off, they "

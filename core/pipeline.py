@@ -19,7 +19,7 @@ from .mesh import PolygonMesh, TriMesh
 from .parameters import Parameters
 from .reeb import ReebGraph, ReebStructure, reeb_graph, reeb_structure
 from .simplify import simplify
-from .transfer import FaceGraph, connect, fill_unlabelled, majority, settle
+from .transfer import FaceGraph, connect, fill_unlabelled, majority, settle, straighten
 from .working import MAX_EDGE, WorkingMesh, refine, repair
 
 # The graph to look at leaves out leaves that cover less than this share of a component, or
@@ -196,7 +196,8 @@ def _field(mesh, agd, parameters) -> ScalarField:
 def _assemble(given, working, component, large, results, parameters, seconds) -> Decomposition:
     """Bring candidates, field and graph back to the caller's faces and vertices."""
     face_graph = _face_graph(given, working)
-    label, hierarchy = _face_candidates(given, working, component, results, face_graph)
+    label, hierarchy = _face_candidates(given, working, component, results, face_graph,
+                                        parameters.smoothing)
     values, notes = _vertex_field(given, component, large, results)
     pairs, length = face_graph.boundaries(label)
     corners = given.triangles.faces.ravel()
@@ -223,7 +224,7 @@ def _face_graph(given: PolygonMesh, working: WorkingMesh) -> FaceGraph:
     return FaceGraph(given.n_polygons, pairs[apart], length[apart], area)
 
 
-def _face_candidates(given, working, component, results, face_graph):
+def _face_candidates(given, working, component, results, face_graph, rounds):
     """One candidate per face of the caller, connected, and the hierarchy over them."""
     owner, label, weight, hierarchies, first = [], [], [], [], 0
     for r in results:
@@ -242,6 +243,7 @@ def _face_candidates(given, working, component, results, face_graph):
         hierarchies.append(Hierarchy.of(len(names), [], []))
     face_label = majority(*map(np.concatenate, (owner, label, weight)), given.n_polygons)
     face_label = connect(face_graph, fill_unlabelled(face_graph, face_label))
+    face_label = connect(face_graph, straighten(face_graph, face_label, rounds))
     return settle(face_graph, face_label, Hierarchy.join(hierarchies))
 
 
