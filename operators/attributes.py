@@ -1,0 +1,448 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts written to a mesh: groups, attributes, colours, face sets, materials, seams; and taken back.
+
+All functions want Object Mode. What was made is remembered in ``mesh.reeb_parts`` under the name that
+Blender gave it, so that nothing of the user's is touched, not even under the same name. What stood there
+before is kept in attributes whose names start with a dot, which Blender hides and carries through edits.
+"""
+
+import bpy
+import numpy as np
+
+from ..core.numbering import NumberedParts
+from . import bridge, store
+
+FACE_ATTRIBUTE = "reeb_part"
+COLOR_ATTRIBUTE = "Reeb Parts"
+FIELD_ATTRIBUTE = "reeb_agd"
+FACE_SETS = ".sculpt_face_set"
+
+_MATERIAL_INDEX = "material_index"
+_FORMER_FACE_SETS = ".reeb_former_face_set"
+_FORMER_MATERIALS = ".reeb_former_material"
+_FORMER_SEAMS = ".reeb_former_seam"
+
+
+def write_outputs(obj, numbered: NumberedParts, field: np.ndarray, outputs):
+    """Write the chosen outputs, and take back what an earlier run wrote and this one does not want.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    numbered : NumberedParts
+    field : (n,) float64
+    outputs
+        Has the switches of ui.properties.OutputProperties.
+    """
+    mesh = obj.data
+    remove_groups(obj)
+    for wanted, add, remove in (
+        (outputs.vertex_groups, _plan_groups, remove_groups),
+        (outputs.face_attribute, add_face_attribute, remove_face_attribute),
+        (outputs.colors, add_colors, remove_colors),
+        (outputs.field, add_field, remove_field),
+        (outputs.face_sets, add_face_sets, remove_face_sets),
+        (outputs.materials, add_materials, remove_materials),
+        (outputs.seams, add_seams, remove_seams),
+    ):
+        (add if wanted else remove)(obj)
+    if outputs.field:
+        attribute = mesh.attributes[mesh.reeb_parts.field_attribute]
+        attribute.data.foreach_set("value", np.nan_to_num(field).astype(np.float32))
+    update_outputs(obj, numbered)
+
+
+def update_outputs(obj, numbered: NumberedParts, before: np.ndarray | None = None):
+    """Bring the list and all that was written up to date with the parts.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    numbered : NumberedParts
+    before : (p,) int64, optional
+        Numbers of the faces' parts as they are written now, so that only what differs is written
+        where writing is slow.
+    """
+    mesh = obj.data
+    result = mesh.reeb_parts
+    numbers = numbered.face_numbers
+    _list_parts(obj, numbered)
+    if result.has_groups:
+        _write_groups(obj, numbers, before)
+    if attribute := mesh.attributes.get(result.face_attribute):
+        attribute.data.foreach_set("value", numbers.astype(np.int32))
+    if attribute := mesh.attributes.get(result.color_attribute):
+        attribute.data.foreach_set("color_srgb", _corner_colors(mesh, numbered))
+    if result.has_face_sets:
+        mesh.attributes[FACE_SETS].data.foreach_set("value", numbers.astype(np.int32))
+    if result.has_materials:
+        _write_materials(mesh, numbered)
+    if result.has_seams:
+        _write_seams(mesh, numbers)
+    mesh.update()
+
+
+def remove_outputs(obj):
+    """Take back all that was written to the mesh; the result itself stays."""
+    for remove in (remove_groups, remove_face_attribute, remove_colors, remove_field, remove_face_sets,
+                   remove_materials, remove_seams):
+        remove(obj)
+    obj.data.update()
+
+
+def _list_parts(obj, numbered):
+    """Fill the list of parts; what is known of a number stays, what was made for one that is gone goes."""
+    result = obj.data.reeb_parts
+    active = result.parts[result.active].number if result.active < len(result.parts) else 0
+    keys = ("locked", "selected", "group", "material")
+    known = {part.number: [getattr(part, key) for key in keys] for part in result.parts}
+    wanted = numbered.numbers.tolist()
+    for number, (_, _, group, material) in known.items():
+        if number not in wanted:
+            _remove_group(obj, group)
+            _remove_material(obj.data, material)
+    with store.quiet():
+        result.parts.clear()
+        for label, number in enumerate(wanted):
+            part = result.parts.add()
+            part.number = number
+            part.name = store.part_name(obj.data, number)
+            part.color = numbered.parts.colors[label]
+            part.share = numbered.parts.share[label]
+            for key, value in zip(keys, known.get(number, ()), strict=False):
+                setattr(part, key, value)
+        result.active = wanted.index(active) if active in wanted else 0
+        result.n_parts = len(wanted)
+
+
+# Vertex groups
+
+
+def part_vertices(mesh, numbers: np.ndarray, which) -> dict[int, np.ndarray]:
+    """The vertices of some parts: all corners of their faces, so that parts share those on cuts.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+    numbers : (p,) int64
+        Of each face.
+    which : iterable of int
+        The parts asked for.
+
+    Returns
+    -------
+    vertices : dict of number -> (k,) int64, rising
+    """
+    vertex, face = bridge.face_corners(mesh)
+    n = len(mesh.vertices)
+    if len(mesh.polygons) == 0:
+        return {number: np.empty(0, np.int64) for number in which}
+    pairs = numbers[face] * n + vertex
+    pairs = np.unique(pairs[np.isin(numbers, list(which))[face]])
+    bounds = {number: np.searchsorted(pairs, (number * n, (number + 1) * n)) for number in which}
+    return {number: pairs[a:b] - number * n for number, (a, b) in bounds.items()}
+
+
+def _plan_groups(obj):
+    obj.data.reeb_parts.has_groups = True
+
+
+def _write_groups(obj, numbers, before):
+    """Make each part's group hold the part's vertices."""
+    parts = {part.number: part for part in obj.data.reeb_parts.parts}
+    fresh = [n for n, part in parts.items() if part.group not in obj.vertex_groups]
+    changed = set(fresh)
+    if before is None:
+        changed |= set(parts)
+    else:
+        differ = numbers != before
+        changed |= set(np.unique(numbers[differ])) | (set(np.unique(before[differ])) & set(parts))
+    changed = sorted(int(n) for n in changed)
+    new = part_vertices(obj.data, numbers, changed)
+    old = part_vertices(obj.data, before, changed) if before is not None else {}
+    active = obj.vertex_groups.active_index
+    for number in changed:
+        if number in fresh:
+            parts[number].group = obj.vertex_groups.new(name=parts[number].name).name
+            _assign(obj.vertex_groups[parts[number].group], new[number])
+            continue
+        group = obj.vertex_groups[parts[number].group]
+        group.remove(np.setdiff1d(old.get(number, ()), new[number]).astype(int).tolist())
+        _assign(group, np.setdiff1d(new[number], old.get(number, ())))
+    if active >= 0:
+        obj.vertex_groups.active_index = active
+
+
+def _assign(group, vertices):
+    group.add(vertices.astype(int).tolist(), 1.0, "REPLACE")
+
+
+def _remove_group(obj, name):
+    group = obj.vertex_groups.get(name) if name else None
+    if group is None:
+        return
+    active = obj.vertex_groups.active
+    former = active.name if active else ""
+    obj.vertex_groups.remove(group)
+    if former in obj.vertex_groups:
+        obj.vertex_groups.active_index = obj.vertex_groups[former].index
+
+
+def remove_groups(obj):
+    """Remove the vertex groups that were made, and no other."""
+    result = obj.data.reeb_parts
+    for part in result.parts:
+        _remove_group(obj, part.group)
+        part.group = ""
+    result.has_groups = False
+
+
+def rename_group(obj, part):
+    """Give the part's vertex group the part's name, or the nearest that is free."""
+    if part.group in obj.vertex_groups:
+        group = obj.vertex_groups[part.group]
+        group.name = part.name
+        part.group = group.name
+
+
+# Face attribute, colours, field
+
+
+def _add(mesh, former, name, kind, domain):
+    """The name of an attribute of ours: the former one, or a new one beside any of the user's."""
+    attribute = mesh.attributes.get(former) if former else None
+    if attribute is not None and attribute.data_type == kind and attribute.domain == domain:
+        return former
+    index = mesh.attributes.active_index
+    name = mesh.attributes.new(name, kind, domain).name
+    mesh.attributes.active_index = index
+    return name
+
+
+def _remove(mesh, name):
+    attribute = mesh.attributes.get(name) if name else None
+    if attribute is not None:
+        active = mesh.attributes.active
+        former = active.name if active else ""
+        mesh.attributes.remove(attribute)
+        if former in mesh.attributes:
+            mesh.attributes.active = mesh.attributes[former]
+
+
+def add_face_attribute(obj):
+    """Make the attribute with each face's part number, unless it is there."""
+    result = obj.data.reeb_parts
+    result.face_attribute = _add(obj.data, result.face_attribute, FACE_ATTRIBUTE, "INT", "FACE")
+
+
+def remove_face_attribute(obj):
+    """Remove the attribute with each face's part number."""
+    _remove(obj.data, obj.data.reeb_parts.face_attribute)
+    obj.data.reeb_parts.face_attribute = ""
+
+
+def add_field(obj):
+    """Make the attribute with the distance field, unless it is there."""
+    result = obj.data.reeb_parts
+    result.field_attribute = _add(obj.data, result.field_attribute, FIELD_ATTRIBUTE, "FLOAT", "POINT")
+
+
+def remove_field(obj):
+    """Remove the attribute with the distance field."""
+    _remove(obj.data, obj.data.reeb_parts.field_attribute)
+    obj.data.reeb_parts.field_attribute = ""
+
+
+def add_colors(obj):
+    """Make the colour attribute active, for the viewport and for rendering; remember what was."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    if result.color_attribute in mesh.color_attributes:
+        return
+    result.former_color = mesh.attributes.active_color_name or ""
+    result.former_render_color = mesh.attributes.default_color_name or ""
+    result.color_attribute = _add(mesh, "", COLOR_ATTRIBUTE, "BYTE_COLOR", "CORNER")
+    mesh.attributes.active_color_name = result.color_attribute
+    mesh.attributes.default_color_name = result.color_attribute
+
+
+def remove_colors(obj):
+    """Remove the colour attribute; what was active before is active again."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    ours = result.color_attribute
+    if ours in mesh.color_attributes:
+        # Somebody may have chosen another one since: then that stays.
+        if mesh.attributes.active_color_name == ours:
+            mesh.attributes.active_color_name = result.former_color
+        if mesh.attributes.default_color_name == ours:
+            mesh.attributes.default_color_name = result.former_render_color
+        _remove(mesh, ours)
+    result.color_attribute = result.former_color = result.former_render_color = ""
+
+
+def _corner_colors(mesh, numbered):
+    """sRGB and alpha of each corner, flat float32."""
+    colors = np.ones((numbered.parts.count, 4), np.float32)
+    colors[:, :3] = numbered.parts.colors
+    total = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_total", total)
+    return np.repeat(colors[numbered.parts.labels], total, axis=0).ravel()
+
+
+# Face sets
+
+
+def add_face_sets(obj):
+    """Put our face sets where the user's were; those are kept aside."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    if result.has_face_sets and FACE_SETS in mesh.attributes:
+        return
+    result.had_face_sets = FACE_SETS in mesh.attributes
+    if result.had_face_sets:
+        _keep_aside(mesh, mesh.attributes[FACE_SETS].data, "value", _FORMER_FACE_SETS, "INT", "FACE")
+    else:
+        _add(mesh, "", FACE_SETS, "INT", "FACE")
+    result.has_face_sets = True
+
+
+def remove_face_sets(obj):
+    """Bring the user's face sets back, or none."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    if result.has_face_sets:
+        if result.had_face_sets and _FORMER_FACE_SETS in mesh.attributes:
+            _bring_back(mesh, lambda: mesh.attributes[FACE_SETS].data, "value", _FORMER_FACE_SETS)
+        else:
+            _remove(mesh, FACE_SETS)
+    result.has_face_sets = result.had_face_sets = False
+
+
+# Materials
+
+
+def add_materials(obj):
+    """Keep aside which material slot each face uses."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    if not result.has_materials:
+        result.had_material_index = _MATERIAL_INDEX in mesh.attributes
+        _keep_aside(mesh, mesh.polygons, "material_index", _FORMER_MATERIALS, "INT", "FACE")
+        result.has_materials = True
+
+
+def remove_materials(obj):
+    """Remove our materials and their slots; each face uses the slot it used before."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    for part in result.parts:
+        _remove_material(mesh, part.material)
+    if result.has_materials and _FORMER_MATERIALS in mesh.attributes:
+        _bring_back(mesh, lambda: mesh.polygons, "material_index", _FORMER_MATERIALS)
+        if not result.had_material_index:
+            _remove(mesh, _MATERIAL_INDEX)
+    result.has_materials = result.had_material_index = False
+
+
+def _remove_material(mesh, material):
+    if material is None:
+        return
+    for index in reversed(range(len(mesh.materials))):
+        if mesh.materials[index] == material:
+            mesh.materials.pop(index=index)
+    for part in mesh.reeb_parts.parts:
+        if part.material == material:
+            part.material = None
+    if material.users == 0:
+        bpy.data.materials.remove(material)
+
+
+def _write_materials(mesh, numbered):
+    """A material and a slot for each part, in the part's colour."""
+    slots = np.zeros(numbered.parts.count, np.int32)
+    for label, part in enumerate(mesh.reeb_parts.parts):
+        if part.material is None:
+            part.material = bpy.data.materials.new(part.name)
+            part.material.use_nodes = True
+        _color_material(part.material, numbered.parts.colors[label])
+        if part.material not in mesh.materials[:]:
+            mesh.materials.append(part.material)
+        slots[label] = mesh.materials.find(part.material.name)
+    mesh.polygons.foreach_set("material_index", slots[numbered.parts.labels])
+
+
+def _color_material(material, color):
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color.tolist()]
+    material.diffuse_color = (*linear, 1.0)
+    for node in material.node_tree.nodes:
+        if node.type == "BSDF_PRINCIPLED":
+            node.inputs["Base Color"].default_value = (*linear, 1.0)
+
+
+# Seams
+
+
+def add_seams(obj):
+    """Keep aside which seams the user has."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    if not result.has_seams:
+        result.had_seams = _seam_name(mesh) is not None
+        _keep_aside(mesh, mesh.edges, "use_seam", _FORMER_SEAMS, "BOOLEAN", "EDGE")
+        result.has_seams = True
+
+
+def remove_seams(obj):
+    """Leave the user's seams alone again."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    if result.has_seams and _FORMER_SEAMS in mesh.attributes:
+        _bring_back(mesh, lambda: mesh.edges, "use_seam", _FORMER_SEAMS)
+        if not result.had_seams and (name := _seam_name(mesh)):
+            _remove(mesh, name)
+    result.has_seams = result.had_seams = False
+
+
+def _seam_name(mesh):
+    """The attribute that holds seams, None before there is one."""
+    return next((name for name in (".uv_seam", "uv_seam") if name in mesh.attributes), None)
+
+
+def cut_edges(mesh, numbers: np.ndarray) -> np.ndarray:
+    """Whether faces of different parts meet at each edge, (e,) bool."""
+    edge = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("edge_index", edge)
+    _, face = bridge.face_corners(mesh)
+    low = np.full(len(mesh.edges), np.iinfo(np.int64).max)
+    high = np.full(len(mesh.edges), -1, np.int64)
+    np.minimum.at(low, edge, numbers[face])
+    np.maximum.at(high, edge, numbers[face])
+    return low < high
+
+
+def _write_seams(mesh, numbers):
+    seams = np.empty(len(mesh.edges), bool)
+    mesh.attributes[_FORMER_SEAMS].data.foreach_get("value", seams)
+    mesh.edges.foreach_set("use_seam", seams | cut_edges(mesh, numbers))
+
+
+# What was there before
+
+
+def _keep_aside(mesh, items, key, name, kind, domain):
+    """Copy a value of each element into a hidden attribute."""
+    values = np.empty(len(items), bool if kind == "BOOLEAN" else np.int32)
+    items.foreach_get(key, values)
+    _remove(mesh, name)
+    name = _add(mesh, "", name, kind, domain)
+    mesh.attributes[name].data.foreach_set("value", values)
+
+
+def _bring_back(mesh, items, key, name):
+    """Copy a hidden attribute back to where it came from, and remove it."""
+    attribute = mesh.attributes[name]
+    values = np.empty(len(attribute.data), bool if attribute.data_type == "BOOLEAN" else np.int32)
+    attribute.data.foreach_get("value", values)
+    items().foreach_set(key, values)
+    _remove(mesh, name)

@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's objects as arrays; the only reader of bmesh.
+
+Everything is read in bulk on the main thread, so that what follows can run in any other.
+"""
+
+import hashlib
+from dataclasses import dataclass
+
+import bmesh
+import bpy
+import numpy as np
+
+from .modes import check_mode
+from .problems import SceneError
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """The geometry of an object as it is in the world, up to place and rotation.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+        Along the object's axes, in units of the world.
+    triangles : (m, 3) int32
+    polygon : (m,) int32
+        The face of the mesh that each triangle lies in.
+    stretch : (3, 3) float64
+        Symmetric; takes the mesh's coordinates to ``vertices``.
+    digest : str
+        Equal for equal arrays.
+    notes : tuple of str
+    """
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    polygon: np.ndarray
+    stretch: np.ndarray
+    digest: str
+    notes: tuple[str, ...]
+
+
+def targets(context):
+    """The objects to work on: the active mesh, then other selected meshes; one per mesh.
+
+    Raises
+    ------
+    SceneError
+        The active object is none that can be decomposed.
+    """
+    active = context.view_layer.objects.active
+    check_object(active)
+    chosen = [active, *(o for o in context.view_layer.objects.selected if o.type == "MESH" and o != active)]
+    first = {}
+    for obj in chosen:
+        first.setdefault(obj.data, obj)
+    return list(first.values())
+
+
+def check_object(obj):
+    """Raise SceneError unless the object is a mesh that can be read and written."""
+    if obj is None:
+        raise SceneError("There is no active object. Select a mesh and try again.")
+    if obj.type != "MESH":
+        kind = obj.bl_rna.properties["type"].enum_items[obj.type].name.lower()
+        raise SceneError(f"{obj.name} is not a mesh but of the type {kind}. Select a mesh and try again.")
+    for data in (obj, obj.data):
+        if data.override_library:
+            raise SceneError(
+                f"{data.name} is a library override and its mesh cannot be written. Make it local (Object > "
+                "Library Override > Make Local) and try again."
+            )
+        if data.library or not data.is_editable:
+            source = data.library.filepath if data.library else "another file"
+            raise SceneError(
+                f"{data.name} is linked from {source} and cannot be written. Make it local (Object > "
+                "Relations > Make Local) and try again."
+            )
+    check_mode(obj)
+
+
+def read_shape(obj) -> Shape:
+    """Read the mesh of an object: all of it, hidden or not, before any modifier."""
+    mesh = obj.data
+    if obj.mode == "EDIT":
+        # A copy as a mesh of its own can be read in bulk; the edit mesh itself cannot.
+        copy = bpy.data.meshes.new("Reeb Parts")
+        try:
+            edit = bmesh.from_edit_mesh(mesh).copy()
+            try:
+                edit.to_mesh(copy)
+            finally:
+                edit.free()
+            points, triangles, polygon = _points(copy), *_triangles(copy)
+        finally:
+            bpy.data.meshes.remove(copy)
+    else:
+        points, triangles, polygon = _shape_key_mix(obj), *_triangles(mesh)
+    stretch = world_stretch(obj)
+    vertices = points.astype(np.float64)
+    if not np.array_equal(stretch, np.eye(3)):
+        vertices = vertices @ stretch.T
+    digest = _digest(vertices, triangles, polygon)
+    return Shape(vertices, triangles, polygon, stretch, digest, _notes(obj))
+
+
+def world_stretch(obj) -> np.ndarray:
+    """What the object's world matrix does to its mesh besides turning and moving it, (3, 3).
+
+    The symmetric factor of the polar decomposition, rounded so that it does not change when the object
+    is only rotated. A mirrored object gives that of the object itself.
+    """
+    matrix = np.array(obj.matrix_world, dtype=np.float64)[:3, :3]
+    if not np.isfinite(matrix).all() or not matrix.any():
+        return matrix
+    _, scales, axes = np.linalg.svd(matrix)
+    stretch = (axes.T * scales) @ axes
+    return np.round(stretch, 5 - round(float(np.log10(scales.max()))))
+
+
+def fingerprint(mesh) -> str:
+    """Changes when the mesh is edited: its basis positions or its faces. Not in Edit Mode."""
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    starts = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_start", starts)
+    return _digest(_points(mesh), corners, starts)
+
+
+def face_corners(mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Vertex and face of each corner of a mesh, two (c,) int32 arrays."""
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    total = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_total", total)
+    return corners, np.repeat(np.arange(len(total), dtype=np.int32), total)
+
+
+def _digest(*arrays) -> str:
+    digest = hashlib.blake2b(digest_size=16)
+    for array in arrays:
+        digest.update(str(array.shape).encode())
+        digest.update(np.ascontiguousarray(array))
+    return digest.hexdigest()
+
+
+def _points(mesh) -> np.ndarray:
+    points = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", points)
+    return points.reshape(-1, 3)
+
+
+def _triangles(mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Blender's own triangulation, and the face of each triangle."""
+    mesh.calc_loop_triangles()
+    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", triangles)
+    polygon = np.empty(len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("polygon_index", polygon)
+    return triangles.reshape(-1, 3), polygon
+
+
+def _shape_key_mix(obj) -> np.ndarray:
+    """Positions with the shape keys as the object shows them; the basis where keys are absolute."""
+    keys = obj.data.shape_keys
+    if keys is None:
+        return _points(obj.data)
+    if obj.show_only_shape_key:
+        return _key_points(obj.active_shape_key)
+    basis = _key_points(keys.reference_key)
+    if not keys.use_relative:
+        return basis
+    mix = basis.copy()
+    for key in keys.key_blocks:
+        if key.mute or not key.value or key == keys.reference_key:
+            continue
+        move = _key_points(key) - _key_points(key.relative_key)
+        if key.vertex_group in obj.vertex_groups:
+            move *= _weights(obj, key.vertex_group)[:, None]
+        mix += np.float32(key.value) * move
+    return mix
+
+
+def _key_points(key) -> np.ndarray:
+    points = np.empty(3 * len(key.data), np.float32)
+    key.data.foreach_get("co", points)
+    return points.reshape(-1, 3)
+
+
+def _weights(obj, name) -> np.ndarray:
+    """Weight of each vertex in a group, (n,) float32."""
+    index = obj.vertex_groups[name].index
+    weights = np.zeros(len(obj.data.vertices), np.float32)
+    for vertex in obj.data.vertices:  # groups cannot be read in bulk
+        for entry in vertex.groups:
+            if entry.group == index:
+                weights[vertex.index] = entry.weight
+    return weights
+
+
+def _notes(obj) -> tuple[str, ...]:
+    notes = []
+    if obj.modifiers:
+        count = len(obj.modifiers)
+        which = "its modifier was" if count == 1 else f"its {count} modifiers were"
+        notes.append(f"{obj.name} was decomposed as it is before {which} applied.")
+    if obj.data.users > 1 and (users := _users(obj.data)) > 1:
+        notes.append(f"{users} objects share this mesh; all of them show its parts.")
+    return tuple(notes)
+
+
+def _users(mesh) -> int:
+    return sum(obj.data == mesh for obj in bpy.data.objects)

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Clear: remove exactly what was made."""
+
+import bpy
+
+from . import attributes, bridge, overlay, store
+from .modes import object_mode
+from .problems import SceneError
+
+
+def clear(obj):
+    """Remove parts, graph and stored result of an object; Object Mode."""
+    attributes.remove_outputs(obj)
+    overlay.remove(obj)
+    obj.data.property_unset("reeb_parts")
+
+
+class REEB_PARTS_OT_clear(bpy.types.Operator):
+    """Remove everything that Reeb Parts has added to the selected meshes; what was there before is back"""
+
+    bl_idname = "reeb_parts.clear"
+    bl_label = "Clear Parts"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        obj = context.view_layer.objects.active
+        if obj is None or obj.type != "MESH" or not (store.has_result(obj.data) or overlay.find(obj)):
+            cls.poll_message_set("The active object has no parts")
+            return False
+        return True
+
+    def execute(self, context):
+        try:
+            objects = bridge.targets(context)
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        with object_mode(context):
+            for obj in objects:
+                clear(obj)
+        return {"FINISHED"}

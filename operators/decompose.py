@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Decompose: read, compute, write. The scene is untouched until the result exists."""
+
+import time
+from dataclasses import dataclass
+
+import bpy
+
+from ..core.errors import Cancelled, ReebError
+from ..ui.properties import OUTPUTS, OVERLAY, OutputProperties, OverlayProperties, ParameterProperties
+from . import attributes, bridge, compute, jobs, overlay, store
+from .bridge import Shape
+from .modes import object_mode
+from .problems import SceneError, load_core
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What became of one object: a decomposition, or the sentence why there is none."""
+
+    object_name: str
+    shape: Shape
+    decomposition: object = None
+    problem: str = ""
+    seconds: float = 0.0
+
+
+def compute_all(shapes, parameters, progress) -> list[Outcome]:
+    """Decompose shapes one after the other; no Blender data is touched.
+
+    Parameters
+    ----------
+    shapes : list of (object name, Shape)
+    parameters : core.Parameters
+    progress : callable(stage, share)
+        What it raises ends everything.
+    """
+    outcomes = []
+    for index, (name, shape) in enumerate(shapes):
+        several = f"{name}: " if len(shapes) > 1 else ""
+        start = time.perf_counter()
+
+        def step(stage, share, index=index, several=several):
+            progress(several + stage, (index + share) / len(shapes))
+
+        try:
+            result = compute.decomposition(shape, parameters, step)
+        except Cancelled:
+            raise
+        except ReebError as error:
+            outcomes.append(Outcome(name, shape, problem=str(error)))
+        else:
+            outcomes.append(Outcome(name, shape, result, seconds=time.perf_counter() - start))
+    return outcomes
+
+
+def write_result(context, obj, outcome: Outcome, settings):
+    """Write one object's parts and graph; Object Mode.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    outcome : Outcome
+        With a decomposition.
+    settings
+        Has the values of OutputProperties and OverlayProperties.
+    """
+    mesh, decomposition = obj.data, outcome.decomposition
+    parameters = decomposition.parameters
+    stored = store.succeed(mesh, decomposition)
+    numbered = stored.parts(parameters.detail, parameters.n_parts)
+    stored = store.settle(stored, numbered)
+    result = mesh.reeb_parts
+    with store.quiet():
+        store.save(mesh, stored)
+        result.object_name = obj.name
+        result.stretch = outcome.shape.stretch.ravel().tolist()
+        result.seconds = outcome.seconds
+        result.notes = "\n".join(decomposition.notes + outcome.shape.notes)
+        result.detail, result.by_number = parameters.detail, parameters.n_parts > 0
+        attributes.write_outputs(obj, numbered, decomposition.field, settings)
+    if settings.graph:
+        overlay.draw_graph(context, obj, decomposition.graph, outcome.shape.stretch, settings)
+        overlay.update_parts(obj, numbered)
+    else:
+        overlay.remove(obj)
+
+
+class REEB_PARTS_OT_decompose(
+    bpy.types.Operator, ParameterProperties, OutputProperties, OverlayProperties
+):
+    """Cut the selected mesh into the parts a person would name, and show its Reeb graph"""
+
+    bl_idname = "reeb_parts.decompose"
+    bl_label = "Decompose into Parts"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        obj = context.view_layer.objects.active
+        if obj is None or obj.type != "MESH":
+            cls.poll_message_set("Select a mesh first")
+            # Scripts are let through, to be told what is wrong in a sentence.
+            return bpy.app.background
+        if jobs.current is not None:
+            cls.poll_message_set("Reeb Parts is still computing")
+            return False
+        return True
+
+    def invoke(self, context, event):
+        """From the panel: with the panel's settings, in a thread, so that the window stays alive."""
+        settings = context.scene.reeb_parts
+        for name in (*ParameterProperties.__annotations__, *OUTPUTS, *OVERLAY):
+            if not self.properties.is_property_set(name):
+                setattr(self, name, getattr(settings, name))
+        return self._start(context)
+
+    def execute(self, context):
+        """From scripts and the redo panel: all at once."""
+        try:
+            parameters, shapes = self._read(context)
+            outcomes = compute_all(shapes, parameters, lambda stage, share: None)
+        except (SceneError, ReebError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return self._write(context, outcomes)
+
+    def _read(self, context):
+        """The parameters and the shapes; raises SceneError or ReebError."""
+        load_core()
+        parameters = self.parameters()
+        return parameters, [(obj.name, bridge.read_shape(obj)) for obj in bridge.targets(context)]
+
+    def _write(self, context, outcomes):
+        """Write what was computed and report on it."""
+        done = [outcome for outcome in outcomes if outcome.decomposition is not None]
+        if not done:
+            self.report({"ERROR"}, outcomes[0].problem)
+            return {"CANCELLED"}
+        with object_mode(context):
+            for outcome in done:
+                write_result(context, bpy.data.objects[outcome.object_name], outcome, self)
+        for outcome in outcomes:
+            self._report(outcome, len(outcomes) > 1)
+        return {"FINISHED"}
+
+    def _report(self, outcome, several):
+        name = f"{outcome.object_name}: " if several else ""
+        if outcome.decomposition is None:
+            self.report({"WARNING"}, name + outcome.problem)
+            return
+        for note in outcome.decomposition.notes + outcome.shape.notes:
+            self.report({"INFO"}, name + note)
+        result = bpy.data.objects[outcome.object_name].data.reeb_parts
+        self.report({"INFO"}, f"{name}{len(result.parts)} parts in {outcome.seconds:.1f} s")
+
+    # In the window
+
+    def _start(self, context):
+        try:
+            parameters, shapes = self._read(context)
+            self._job = jobs.Job(lambda progress: compute_all(shapes, parameters, progress))
+        except (SceneError, ReebError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        jobs.current = self._job
+        self._digests = {name: shape.digest for name, shape in shapes}
+        self._timer = context.window_manager.event_timer_add(0.05, window=context.window)
+        context.window_manager.progress_begin(0, 100)
+        context.window_manager.modal_handler_add(self)
+        self._job.start()
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        """Watch the thread; every other event goes its usual way."""
+        if event.type == "ESC" and event.value == "PRESS":
+            self._job.cancel()
+        if event.type == "TIMER":
+            self._show_progress(context)
+        if self._job.running and not self._job.cancelled:
+            return {"PASS_THROUGH" if event.type != "ESC" else "RUNNING_MODAL"}
+        # A cancelled thread ends by itself at its next step, and nobody looks at what it leaves.
+        self._stop_watching(context)
+        if self._job.cancelled:
+            self.report({"INFO"}, "Cancelled; nothing was changed")
+            return {"CANCELLED"}
+        return self._finish(context)
+
+    def cancel(self, context):
+        """Blender closes the window or opens another file."""
+        self._job.cancel()
+        self._stop_watching(context)
+
+    def _finish(self, context):
+        error = self._job.error
+        if isinstance(error, (SceneError, ReebError)):
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if error is not None:
+            raise error
+        try:
+            self._check_unchanged()
+        except SceneError as problem:
+            self.report({"ERROR"}, str(problem))
+            return {"CANCELLED"}
+        return self._write(context, self._job.result)
+
+    def _check_unchanged(self):
+        """Raise SceneError if an object was edited while it was being computed."""
+        for name, digest in self._digests.items():
+            obj = bpy.data.objects.get(name)
+            if obj is None or obj.type != "MESH":
+                raise SceneError(f"{name} is gone; its parts were computed in vain.")
+            bridge.check_object(obj)
+            if bridge.read_shape(obj).digest != digest:
+                raise SceneError(f"{name} was changed while its parts were computed. Decompose it again.")
+
+    def _show_progress(self, context):
+        job = self._job
+        context.window_manager.progress_update(round(100 * job.share))
+        context.workspace.status_text_set(
+            f"Reeb Parts: {job.stage} ({job.share:.0%})    Esc: cancel"
+        )
+        _redraw_sidebars(context)
+
+    def _stop_watching(self, context):
+        jobs.current = None
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
+        _redraw_sidebars(context)
+
+
+class REEB_PARTS_OT_cancel(bpy.types.Operator):
+    """Stop computing; the scene is as it was before"""
+
+    bl_idname = "reeb_parts.cancel"
+    bl_label = "Cancel"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context):
+        return jobs.current is not None
+
+    def execute(self, context):
+        jobs.current.cancel()
+        return {"FINISHED"}
+
+
+def _redraw_sidebars(context):
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A computation in a thread of its own, watched from Blender's.
+
+The thread works on arrays and never touches Blender's data; Blender's thread asks how far it is.
+"""
+
+import threading
+
+from .problems import load_core
+
+
+class Job:
+    """Runs ``work(progress)`` in a thread.
+
+    Attributes
+    ----------
+    stage : str
+    share : float
+        How far it is, 0..1.
+    result
+        What ``work`` returned; None until then.
+    error : Exception or None
+        What it raised instead.
+    """
+
+    def __init__(self, work):
+        self.stage, self.share = "", 0.0
+        self.result = self.error = None
+        self._cancelled_error = load_core().Cancelled
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, args=(work,), name="Reeb Parts", daemon=True)
+
+    def start(self):
+        self._thread.start()
+
+    def cancel(self):
+        """Ask it to stop at the next step."""
+        self._stop.set()
+
+    @property
+    def cancelled(self) -> bool:
+        return self._stop.is_set()
+
+    @property
+    def running(self) -> bool:
+        return self._thread.is_alive()
+
+    def _run(self, work):
+        try:
+            self.result = work(self._progress)
+        except BaseException as error:  # noqa: BLE001 - carried to the thread that asked, raised there
+            self.error = error
+
+    def _progress(self, stage, share):
+        self.stage, self.share = stage, share
+        if self._stop.is_set():
+            raise self._cancelled_error
+
+
+# The job that the window shows, if any.
+current: Job | None = None

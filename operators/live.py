@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What happens when the user moves a slider or renames a part: the stored result is shown anew.
+
+Blender itself makes an undo step for a property of the mesh that is changed in the interface.
+"""
+
+import bpy
+import numpy as np
+
+from . import attributes, overlay, store
+from .modes import object_mode
+from .problems import SceneError
+
+
+def show_detail(result, context):
+    """The Detail slider was moved."""
+    if not store.is_quiet():
+        result.by_number = False
+        _show(result, context)
+
+
+def show_number(result, context):
+    """A number of parts was typed."""
+    if not store.is_quiet():
+        result.by_number = True
+        _show(result, context)
+
+
+def rename(part, context):
+    """A part was renamed: its vertex group and its number take the name."""
+    if store.is_quiet():
+        return
+    mesh = part.id_data
+    with store.quiet():
+        if not part.name.strip():
+            part.name = store.part_name(mesh, part.number)
+        for obj in users(mesh)[:1]:
+            attributes.rename_group(obj, part)
+        store.keep_name(mesh, part.number, part.name)
+        _anchor(mesh, part.number)
+
+
+def refresh(context, mesh, stored, numbered):
+    """Write other parts of the same decomposition: outputs, list and graphs."""
+    before = stored.shown[stored.decomposition.candidates]
+    stored = stored.showing(numbered)
+    objects = users(mesh)
+    with store.quiet():
+        store.save_numbers(mesh, stored)
+        attributes.update_outputs(objects[0], numbered, before)
+    for obj in objects:
+        overlay.update_parts(obj, numbered)
+
+
+def users(mesh):
+    """The objects of a mesh; vertex groups can be written through any of them."""
+    return [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data == mesh]
+
+
+def _show(result, context):
+    mesh = result.id_data
+    try:
+        with object_mode(context):
+            stored = store.load(mesh)
+            numbered = stored.parts(result.detail, result.n_parts if result.by_number else 0)
+            refresh(context, mesh, stored, numbered)
+    except SceneError:
+        # The panel says so; a property cannot.
+        result.edited = True
+
+
+def _anchor(mesh, number):
+    """Make the parts that are shown now the ones whose number is remembered."""
+    try:
+        stored = store.load(mesh)
+    except SceneError:
+        return
+    if number not in stored.former:
+        former = np.where(stored.shown == number, number, stored.former)
+        store.save_numbers(mesh, store.Stored(stored.decomposition, former, stored.fixed, stored.shown))

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Reeb graph as objects: an empty for each node and one curve for the arcs, in a collection of ours.
+
+The objects are children of the decomposed one and live in its coordinates, so that moving and scaling it
+carries them along. They are recognised by custom properties, never by name.
+"""
+
+import bpy
+import numpy as np
+
+SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
+ROLE = "reeb_parts_role"  # on our objects: "node" or "arcs"
+KINDS = ("minimum", "saddle", "maximum")
+_DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
+
+
+def find(obj):
+    """The graph's collection of an object, or None."""
+    for collection in bpy.data.collections:
+        if collection.get(SOURCE) == obj:
+            return collection
+    return None
+
+
+def draw_graph(context, obj, graph, stretch, style):
+    """Draw a graph in place of an earlier one.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    graph : core.ReebGraph
+    stretch : (3, 3) float64
+        What took the mesh's coordinates to the graph's; undone here.
+    style
+        Has the values of ui.properties.OverlayProperties.
+    """
+    remove(obj)
+    back = np.linalg.pinv(stretch).T
+    collection = bpy.data.collections.new(f"Reeb Graph {obj.name}")
+    collection[SOURCE] = obj
+    collection.hide_render = True
+    context.scene.collection.children.link(collection)
+    nodes = graph.node_position @ back
+    for index, position in enumerate(nodes.tolist()):
+        kind = KINDS[graph.node_kind[index]]
+        empty = bpy.data.objects.new(f"Reeb {kind}", None)
+        empty.empty_display_type = _DISPLAY[kind]
+        empty.location = position
+        empty["kind"], empty["value"], empty["part"] = kind, float(graph.node_value[index]), 0
+        empty["node"] = index
+        _place(empty, "node", obj, collection)
+    scale = float(np.cbrt(abs(np.linalg.det(back)))) or 1.0
+    curve = _curve(graph, graph.point_position @ back, graph.point_radius * scale, nodes)
+    _place(bpy.data.objects.new("Reeb arcs", curve), "arcs", obj, collection)
+    restyle(obj, style)
+
+
+def _place(item, role, obj, collection):
+    item[ROLE] = role
+    item.parent = obj
+    item.hide_render = True
+    collection.objects.link(item)
+
+
+def _curve(graph, points, radii, nodes):
+    """A poly spline for each arc, from its lower node through its centre points to its upper node."""
+    curve = bpy.data.curves.new("Reeb arcs", "CURVE")
+    curve.dimensions = "3D"
+    for arc, (low, high) in enumerate(graph.arcs.tolist()):
+        inner = slice(graph.arc_points[arc], graph.arc_points[arc + 1])
+        line = np.ones((len(points[inner]) + 2, 4), np.float32)
+        line[:, :3] = np.concatenate([nodes[low : low + 1], points[inner], nodes[high : high + 1]])
+        radius = radii[inner] if len(points[inner]) else np.zeros(1)
+        spline = curve.splines.new("POLY")
+        spline.points.add(len(line) - 1)
+        spline.points.foreach_set("co", line.ravel())
+        ends = np.concatenate([radius[:1], radius, radius[-1:]]).astype(np.float32)
+        spline.points.foreach_set("radius", ends if len(ends) == len(line) else np.zeros(len(line), np.float32))
+    return curve
+
+
+def update_parts(obj, numbered):
+    """Tell the nodes which part they are in now."""
+    collection = find(obj)
+    if collection is None:
+        return
+    numbers = numbered.numbers[numbered.parts.node_part].tolist()
+    colors = numbered.parts.colors[numbered.parts.node_part].tolist()
+    for item in collection.objects:
+        if item.get(ROLE) == "node":
+            item["part"] = numbers[item["node"]]
+            item.color = (*colors[item["node"]], 1.0)
+
+
+def restyle(obj, style):
+    """Draw an object's graph in another size or thickness."""
+    collection = find(obj) if obj else None
+    if collection is None:
+        return
+    corners = np.array([corner[:] for corner in obj.bound_box])
+    size = style.node_size * float(np.linalg.norm(np.ptp(corners, axis=0)))
+    for item in collection.objects:
+        if item.get(ROLE) == "node":
+            item.empty_display_size = size
+            item.show_in_front = style.in_front
+        elif item.get(ROLE) == "arcs":
+            item.data.bevel_depth = style.line_thickness
+            item.show_in_front = style.in_front
+
+
+def remove(obj):
+    """Remove the graph of an object, and those of objects that are gone."""
+    for collection in list(bpy.data.collections):
+        if SOURCE not in collection or collection[SOURCE] not in (obj, None):
+            continue
+        for item in list(collection.objects):
+            if ROLE in item:
+                data = item.data
+                bpy.data.objects.remove(item)
+                if data is not None and data.users == 0:
+                    bpy.data.curves.remove(data)
+        if len(collection.all_objects) or len(collection.children):
+            del collection[SOURCE]  # the user put something in it: it is the user's now
+        else:
+            bpy.data.collections.remove(collection)

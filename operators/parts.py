@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Work on the parts of the list: select, isolate."""
+
+import bpy
+import numpy as np
+
+from . import store
+from .modes import object_mode
+from .problems import SceneError
+
+
+def has_parts(cls, context):
+    """Whether the active object's parts can be worked on; explains itself."""
+    obj = context.view_layer.objects.active
+    if obj is None or obj.type != "MESH" or not store.has_result(obj.data):
+        cls.poll_message_set("Decompose the mesh first")
+        return False
+    return True
+
+
+def chosen_numbers(mesh) -> list[int]:
+    """Numbers of the parts marked in the list, or of the active one."""
+    result = mesh.reeb_parts
+    marked = [part.number for part in result.parts if part.selected]
+    return marked or [part.number for part in result.parts[result.active : result.active + 1]]
+
+
+def select_faces(mesh, mask, mode="SET"):
+    """Select faces with their edges and vertices, and nothing else; Object Mode.
+
+    mask : (p,) bool. mode : "SET", "ADD" or "SUBTRACT".
+    """
+    if mode != "SET":
+        now = np.empty(len(mask), bool)
+        mesh.polygons.foreach_get("select", now)
+        mask = (now | mask) if mode == "ADD" else (now & ~mask)
+    edge = np.empty(len(mesh.loops), np.int32)
+    vertex = np.empty(len(mesh.loops), np.int32)
+    total = np.empty(len(mesh.polygons), np.int32)
+    mesh.loops.foreach_get("edge_index", edge)
+    mesh.loops.foreach_get("vertex_index", vertex)
+    mesh.polygons.foreach_get("loop_total", total)
+    corner = np.repeat(mask, total)
+    for items, index in ((mesh.edges, edge), (mesh.vertices, vertex)):
+        flags = np.zeros(len(items), bool)
+        flags[index[corner]] = True
+        items.foreach_set("select", flags)
+    mesh.polygons.foreach_set("select", mask)
+    mesh.update()
+
+
+class PartOperator:
+    """For operators on the parts of the active object: poll, errors, Object Mode."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return has_parts(cls, context)
+
+    def execute(self, context):
+        obj = context.view_layer.objects.active
+        try:
+            with object_mode(context):
+                message = self.work(context, obj, store.load(obj.data))
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if message:
+            self.report({"INFO"}, message)
+        return {"FINISHED"}
+
+
+class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
+    """Select the faces of the parts chosen in the list, for Edit Mode"""
+
+    bl_idname = "reeb_parts.select"
+    bl_label = "Select Faces of Parts"
+
+    action: bpy.props.EnumProperty(
+        name="Action",
+        items=[("SET", "Set", "Select these faces and no others"),
+               ("ADD", "Extend", "Add these faces to the selection"),
+               ("SUBTRACT", "Subtract", "Take these faces from the selection")],
+    )
+    number: bpy.props.IntProperty(
+        name="Part", default=0, min=0, options={"SKIP_SAVE"},
+        description="Number of the part; 0 for those chosen in the list",
+    )
+
+    def work(self, context, obj, stored):
+        numbers = [self.number] if self.number else chosen_numbers(obj.data)
+        mask = np.isin(stored.shown[stored.decomposition.candidates], numbers)
+        if not mask.any():
+            raise SceneError(f"There is no part with the number {self.number}.")
+        if context.mode == "OBJECT":
+            select_faces(obj.data, mask, self.action)
+
+
+class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
+    """Hide all faces but those of the chosen parts, or show all again"""
+
+    bl_idname = "reeb_parts.isolate"
+    bl_label = "Isolate Parts"
+
+    show_all: bpy.props.BoolProperty(name="Show all", description="Show every face again")
+
+    def work(self, context, obj, stored):
+        mesh = obj.data
+        numbers = stored.shown[stored.decomposition.candidates]
+        shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(mesh))
+        hide_faces(mesh, ~shown)
+
+
+def hide_faces(mesh, mask):
+    """Hide faces, and the edges and vertices of no other face; Object Mode. mask : (p,) bool."""
+    edge = np.empty(len(mesh.loops), np.int32)
+    vertex = np.empty(len(mesh.loops), np.int32)
+    total = np.empty(len(mesh.polygons), np.int32)
+    mesh.loops.foreach_get("edge_index", edge)
+    mesh.loops.foreach_get("vertex_index", vertex)
+    mesh.polygons.foreach_get("loop_total", total)
+    corner = np.repeat(~mask, total)
+    for items, index in ((mesh.edges, edge), (mesh.vertices, vertex)):
+        hidden = np.full(len(items), bool(mask.any()))
+        hidden[index[corner]] = False
+        items.foreach_set("hide", hidden)
+    mesh.polygons.foreach_set("hide", mask)
+    mesh.update()
+
+
+CLASSES = (REEB_PARTS_OT_select, REEB_PARTS_OT_isolate)

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The result kept with its mesh: in the .blend file, through undo, until the mesh is edited.
+
+With it goes what is known of the candidate parts: ``former``, the number each was last known by;
+``fixed``, the number of the locked part that it is tied to whatever the detail; ``shown``, the number of
+the part that it is in now.
+"""
+
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..core.numbering import NumberedParts, default_name, in_number_order, numbered_parts, transfer
+from . import bridge
+from .problems import SceneError, load_core
+
+# The last few results read or computed, by their bytes: undo and redo bring back older ones.
+_read: dict[bytes, object] = {}
+_KEEP = 4
+
+# Set while properties are written that would otherwise act as if the user had changed them.
+_writing = False
+
+
+@contextmanager
+def quiet():
+    """Write properties without their update functions doing anything."""
+    global _writing
+    before, _writing = _writing, True
+    try:
+        yield
+    finally:
+        _writing = before
+
+
+def is_quiet() -> bool:
+    """Whether the program and not the user writes the properties."""
+    return _writing
+
+
+@dataclass(frozen=True, eq=False)
+class Stored:
+    """A decomposition and the numbers of its parts.
+
+    Attributes
+    ----------
+    decomposition : core.Decomposition
+        With c candidates.
+    former, fixed, shown : (c,) int64
+        Part numbers; see core.numbering.numbered_parts for the first two.
+    """
+
+    decomposition: object
+    former: np.ndarray
+    fixed: np.ndarray
+    shown: np.ndarray
+
+    def parts(self, detail, n_parts) -> NumberedParts:
+        """Parts at a level of detail, or of an exact number if that is not 0."""
+        return numbered_parts(self.decomposition, detail, n_parts, self.former, self.fixed)
+
+    def shown_parts(self) -> NumberedParts:
+        """Parts as they are now."""
+        parts = self.decomposition.group(self.shown)
+        numbers = np.zeros(parts.count, np.int64)
+        numbers[parts.candidate_part] = self.shown
+        return in_number_order(parts, numbers)
+
+    def showing(self, numbered: NumberedParts) -> "Stored":
+        """The same with other parts shown."""
+        return replace(self, shown=numbered.candidate_numbers)
+
+
+def has_result(mesh) -> bool:
+    """Whether a decomposition is stored with the mesh."""
+    return mesh.is_property_set("reeb_parts") and bool(mesh.reeb_parts.data)
+
+
+def is_edited(mesh) -> bool:
+    """Whether the mesh was edited since: only the quick checks, for the panel."""
+    result = mesh.reeb_parts
+    return result.edited or (
+        len(mesh.vertices) != result.n_vertices or len(mesh.polygons) != result.n_faces
+    )
+
+
+def load(mesh) -> Stored:
+    """The stored result of a mesh in Object Mode.
+
+    Raises
+    ------
+    SceneError
+        There is none, or the mesh was edited since.
+    """
+    if not has_result(mesh):
+        raise SceneError(f"{mesh.name} has no parts yet. Decompose it first.")
+    result = mesh.reeb_parts
+    if bridge.fingerprint(mesh) != result.fingerprint:
+        raise SceneError(f"{mesh.name} was edited since it was decomposed. Decompose it again.")
+    decomposition = _decomposition(result.data)
+    numbers = np.frombuffer(result.numbers, np.int32).astype(np.int64)
+    return Stored(decomposition, *numbers.reshape(3, -1))
+
+
+def save(mesh, stored: Stored):
+    """Keep a result with its mesh; Object Mode."""
+    result = mesh.reeb_parts
+    data = stored.decomposition.to_bytes()
+    _remember(data, stored.decomposition)
+    result.data = data
+    save_numbers(mesh, stored)
+    result.fingerprint = bridge.fingerprint(mesh)
+    result.n_vertices, result.n_faces = len(mesh.vertices), len(mesh.polygons)
+    result.edited = False
+    graph = stored.decomposition.graph
+    result.n_nodes, result.n_arcs, result.n_loops = graph.n_nodes, graph.n_arcs, int(graph.n_loops)
+
+
+def save_numbers(mesh, stored: Stored):
+    """Keep which candidate has which number."""
+    rows = np.stack([stored.former, stored.fixed, stored.shown])
+    mesh.reeb_parts.numbers = rows.astype(np.int32).tobytes()
+
+
+def succeed(mesh, decomposition) -> Stored:
+    """A new result for a mesh, with the numbers of the parts that its faces had until now."""
+    none = np.zeros(decomposition.n_candidates, np.int64)
+    stored = Stored(decomposition, none, none, none)
+    if not has_result(mesh):
+        return stored
+    faces, fixed_faces = _face_numbers(mesh)
+    if len(faces) != decomposition.n_faces or not faces.any():
+        return stored
+    weight = np.ones(len(faces))
+    former = transfer(decomposition.candidates, faces, weight)
+    fixed = transfer(decomposition.candidates, fixed_faces, weight)
+    return replace(stored, former=former, fixed=fixed)
+
+
+def _face_numbers(mesh) -> tuple[np.ndarray, np.ndarray]:
+    """The number that each face has, and the one that it is tied to; 0 for none. Survives edits."""
+    result = mesh.reeb_parts
+    try:
+        old = load(mesh)
+    except SceneError:  # edited, or from another version: what is left is on the faces
+        pass
+    else:
+        candidates = old.decomposition.candidates
+        return old.former[candidates], old.fixed[candidates]
+    attribute = mesh.attributes.get(result.face_attribute)
+    faces = np.zeros(len(mesh.polygons), np.int32)
+    if attribute is not None and attribute.domain == "FACE" and len(attribute.data) == len(faces):
+        attribute.data.foreach_get("value", faces)
+    faces = faces.astype(np.int64)
+    tied = [part.number for part in result.parts if part.locked]
+    return faces, np.where(np.isin(faces, tied), faces, 0)
+
+
+def part_name(mesh, number) -> str:
+    """The name somebody gave to a number, or its own."""
+    for entry in mesh.reeb_parts.names:
+        if entry.number == number:
+            return entry.name
+    return default_name(number)
+
+
+def keep_name(mesh, number, name):
+    """Remember a name, also while its part is not shown."""
+    names = mesh.reeb_parts.names
+    for index, entry in enumerate(names):
+        if entry.number == number:
+            if name == default_name(number):
+                names.remove(index)
+            else:
+                entry.name = name
+            return
+    if name != default_name(number):
+        entry = names.add()
+        entry.name, entry.number = name, number
+
+
+def _decomposition(data: bytes):
+    if data not in _read:
+        core = load_core()
+        try:
+            _remember(data, core.Decomposition.from_bytes(data))
+        except core.ReebError as error:
+            raise SceneError(str(error)) from error
+    return _read[data]
+
+
+def _remember(data: bytes, decomposition):
+    _read[data] = decomposition
+    while len(_read) > _KEEP:
+        del _read[next(iter(_read))]
+
+
+def forget():
+    """Free what is kept in memory."""
+    _read.clear()
+
+
+def settle(stored: Stored, numbered: NumberedParts) -> Stored:
+    """Show parts and remember their numbers from now on."""
+    numbers = numbered.candidate_numbers
+    return replace(stored, former=numbers, shown=numbers)

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sidebar tab and the properties behind it."""
+
+import bpy
+
+from . import panel, properties
+
+CLASSES = panel.CLASSES
+
+
+def register_properties():
+    """Before the operators, which inherit from the properties."""
+    properties.register()
+
+
+def unregister_properties():
+    properties.unregister()
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

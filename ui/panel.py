@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sidebar tab "Reeb Parts": draws stored facts, never computes."""
+
+import bpy
+
+from ..operators import jobs, store
+
+
+def _result(context):
+    """The stored result of the active mesh, or None."""
+    obj = context.object
+    if obj is None or obj.type != "MESH" or not store.has_result(obj.data):
+        return None
+    return obj.data.reeb_parts
+
+
+class ReebPanel:
+    """Where all panels of the tab live."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Reeb Parts"
+
+    def _column(self, context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        return self.layout.column(), context.scene.reeb_parts
+
+
+class REEB_PARTS_UL_parts(bpy.types.UIList):
+    """Parts with colour, name and share of the area."""
+
+    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index):
+        row = layout.row(align=True)
+        chip = row.row()
+        chip.ui_units_x = 1.0
+        chip.prop(item, "color", text="")
+        row.prop(item, "name", text="", emboss=False)
+        share = row.row()
+        share.alignment = "RIGHT"
+        share.label(text=f"{100 * item.share:.1f} %")
+        row.prop(item, "selected", text="", emboss=False,
+                 icon="CHECKBOX_HLT" if item.selected else "CHECKBOX_DEHLT")
+
+
+class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
+    bl_idname = "REEB_PARTS_PT_main"
+    bl_label = "Reeb Parts"
+
+    def draw(self, context):
+        layout = self.layout
+        settings = context.scene.reeb_parts
+        layout.prop(settings, "preset", text="")
+        if jobs.current is not None:
+            _draw_progress(layout, jobs.current)
+        else:
+            row = layout.row()
+            row.scale_y = 1.5
+            row.operator("reeb_parts.decompose", text="Decompose", icon="MOD_EXPLODE")
+        result = _result(context)
+        if result is None:
+            layout.use_property_split = True
+            layout.use_property_decorate = False
+            column = layout.column(align=True)
+            column.prop(settings, "detail", slider=True)
+            column.prop(settings, "n_parts")
+        else:
+            _draw_result(layout, context.object.data, result)
+
+
+def _draw_progress(layout, job):
+    row = layout.row(align=True)
+    row.scale_y = 1.5
+    row.progress(factor=job.share, text=job.stage.capitalize())
+    row.operator("reeb_parts.cancel", text="", icon="X")
+
+
+def _draw_result(layout, mesh, result):
+    edited = store.is_edited(mesh)
+    if edited:
+        box = layout.box().column(align=True)
+        box.label(text="The mesh was edited since.", icon="ERROR")
+        box.label(text="Decompose it again.", icon="BLANK1")
+    column = layout.column(align=True)
+    column.scale_y = 0.8
+    column.label(text=f"{len(result.parts)} parts in {result.seconds:.2f} s")
+    column.label(text=f"{result.n_nodes} nodes, {result.n_arcs} arcs, {result.n_loops} loops")
+    for note in result.notes.splitlines():
+        column.label(text=note, icon="INFO")
+    column = layout.column(align=True)
+    column.enabled = not edited
+    column.use_property_split = True
+    column.use_property_decorate = False
+    column.prop(result, "detail", slider=True)
+    column.prop(result, "n_parts", text="Parts")
+    layout.operator("reeb_parts.clear", icon="TRASH")
+
+
+class REEB_PARTS_PT_parts(ReebPanel, bpy.types.Panel):
+    bl_parent_id = "REEB_PARTS_PT_main"
+    bl_label = "Parts"
+
+    @classmethod
+    def poll(cls, context):
+        return _result(context) is not None
+
+    def draw(self, context):
+        layout = self.layout
+        result = _result(context)
+        layout.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=5)
+        row = layout.row(align=True)
+        row.operator("reeb_parts.select", text="Select")
+        row.operator("reeb_parts.isolate", text="Isolate").show_all = False
+        row.operator("reeb_parts.isolate", text="Show All").show_all = True
+
+
+class REEB_PARTS_PT_field(ReebPanel, bpy.types.Panel):
+    bl_parent_id = "REEB_PARTS_PT_main"
+    bl_label = "Field"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column, settings = self._column(context)
+        column.prop(settings, "base_spacing")
+        column.prop(settings, "equalise")
+        column.prop(settings, "levels")
+
+
+class REEB_PARTS_PT_graph(ReebPanel, bpy.types.Panel):
+    bl_parent_id = "REEB_PARTS_PT_main"
+    bl_label = "Graph"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column, settings = self._column(context)
+        column.prop(settings, "method")
+        column.prop(settings, "small_region")
+        column.prop(settings, "loose_part")
+
+
+class REEB_PARTS_PT_boundaries(ReebPanel, bpy.types.Panel):
+    bl_parent_id = "REEB_PARTS_PT_main"
+    bl_label = "Boundaries"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column, settings = self._column(context)
+        column.prop(settings, "follow_level_sets")
+        column.prop(settings, "alpha")
+        column.prop(settings, "sigma")
+
+
+class REEB_PARTS_PT_output(ReebPanel, bpy.types.Panel):
+    bl_parent_id = "REEB_PARTS_PT_main"
+    bl_label = "Output"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column, settings = self._column(context)
+        for name in ("vertex_groups", "face_attribute", "colors", "face_sets", "materials", "seams", "field"):
+            column.prop(settings, name)
+
+
+class REEB_PARTS_PT_overlay(ReebPanel, bpy.types.Panel):
+    bl_parent_id = "REEB_PARTS_PT_main"
+    bl_label = "Overlay"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column, settings = self._column(context)
+        column.prop(settings, "graph", text="Show graph")
+        column = column.column()
+        column.enabled = settings.graph
+        column.prop(settings, "node_size")
+        column.prop(settings, "line_thickness")
+        column.prop(settings, "in_front")
+
+
+CLASSES = (
+    REEB_PARTS_UL_parts,
+    REEB_PARTS_PT_main,
+    REEB_PARTS_PT_parts,
+    REEB_PARTS_PT_field,
+    REEB_PARTS_PT_graph,
+    REEB_PARTS_PT_boundaries,
+    REEB_PARTS_PT_output,
+    REEB_PARTS_PT_overlay,
+)

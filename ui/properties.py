@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings on the scene, and the result on the mesh it belongs to.
+
+The properties of the method are made from the fields of ``Parameters``: names, defaults, ranges and
+tooltips are written down once.
+"""
+
+from dataclasses import asdict, fields
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from ..core.parameters import PRESETS, Parameters
+
+
+def _property(field):
+    """The Blender property of a field of Parameters."""
+    meta = field.metadata
+    words = {"name": meta["label"], "description": meta["description"], "default": field.default}
+    if "choices" in meta:
+        items = [(choice, choice.title(), "") for choice in meta["choices"]]
+        return EnumProperty(items=items, **words)
+    if "range" not in meta:
+        return BoolProperty(**words)
+    low, high = meta["range"]
+    if field.type == "int":
+        return IntProperty(min=low, max=high, **words)
+    # Enough digits to tell 0.005 from 0.0055.
+    return FloatProperty(min=low, max=high, precision=4 if low and low < 0.01 else 3, step=1, **words)
+
+
+class ParameterProperties:
+    """One property for each field of Parameters; for operators and property groups to inherit."""
+
+    __annotations__ = {field.name: _property(field) for field in fields(Parameters)}
+
+    def parameters(self):
+        """The values as Parameters; raises ParameterError."""
+        values = {field.name: getattr(self, field.name) for field in fields(Parameters)}
+        for name, value in values.items():
+            if isinstance(value, float):
+                # Blender stores 0.05 as 0.05000000074505806.
+                values[name] = float(f"{value:.6g}")
+        return Parameters(**values)
+
+    def use_parameters(self, parameters):
+        """Take over all values of a Parameters."""
+        for name, value in asdict(parameters).items():
+            setattr(self, name, value)
+
+
+class OutputProperties:
+    """What is written to the object; for operators and property groups to inherit."""
+
+    vertex_groups: BoolProperty(
+        name="Vertex groups", default=True,
+        description="A vertex group for each part; vertices on a cut belong to every part that meets there",
+    )
+    face_attribute: BoolProperty(
+        name="Face attribute", default=True,
+        description="The number of each face's part as the attribute reeb_part, for Geometry Nodes",
+    )
+    colors: BoolProperty(
+        name="Colours", default=True,
+        description="The parts' colours as the active colour attribute Reeb Parts",
+    )
+    face_sets: BoolProperty(
+        name="Face sets", default=False,
+        description="A face set for each part, for Sculpt Mode; Clear brings your own back",
+    )
+    materials: BoolProperty(
+        name="Materials", default=False,
+        description="A material for each part; Clear brings your own back",
+    )
+    seams: BoolProperty(
+        name="Seams along cuts", default=False,
+        description="UV seams where parts meet, beside your own; Clear removes only these",
+    )
+    field: BoolProperty(
+        name="Distance field", default=False,
+        description="The normalised average geodesic distance that the parts come from, as the vertex "
+        "attribute reeb_agd: 0 in the middle of the body, 1 at the farthest tip",
+    )
+    graph: BoolProperty(
+        name="Graph", default=True,
+        description="The Reeb graph as objects: an empty for each node, a curve for the arcs",
+    )
+
+
+OUTPUTS = tuple(OutputProperties.__annotations__)
+
+
+def _redraw_graph(self, context):
+    from ..operators import overlay
+
+    overlay.restyle(context.object, self)
+
+
+class OverlayProperties:
+    """How the graph is drawn; for operators and property groups to inherit."""
+
+    node_size: FloatProperty(
+        name="Node size", default=0.02, min=0.001, max=0.5, precision=3, step=0.1, update=_redraw_graph,
+        description="Size of the empties, as a share of the object's",
+    )
+    line_thickness: FloatProperty(
+        name="Line thickness", default=0.04, min=0.0, max=1.0, precision=3, step=1, update=_redraw_graph,
+        description="Thickness of the arcs, as a share of the radius of the body around them",
+    )
+    in_front: BoolProperty(
+        name="In front", default=True, update=_redraw_graph,
+        description="Draw the graph over the model instead of hidden inside it",
+    )
+
+
+OVERLAY = tuple(OverlayProperties.__annotations__)
+
+
+def _use_preset(self, context):
+    if self.preset != "CUSTOM":
+        self.use_parameters(PRESETS[self.preset])
+
+
+_PRESET_ITEMS = [(name, name, "") for name in PRESETS]
+
+
+class ReebPartsSettings(bpy.types.PropertyGroup, ParameterProperties, OutputProperties, OverlayProperties):
+    """What the next run will do; on the scene."""
+
+    preset: EnumProperty(
+        name="Preset", items=_PRESET_ITEMS, update=_use_preset,
+        description="Set all parameters at once",
+    )
+
+
+def _rename(self, context):
+    from ..operators import live
+
+    live.rename(self, context)
+
+
+def _show_detail(self, context):
+    from ..operators import live
+
+    live.show_detail(self, context)
+
+
+def _show_number(self, context):
+    from ..operators import live
+
+    live.show_number(self, context)
+
+
+class ReebPart(bpy.types.PropertyGroup):
+    """A part as the list shows it."""
+
+    name: StringProperty(
+        name="Name", update=_rename, maxlen=63,
+        description="Name of the part and of its vertex group; double click to change it",
+    )
+    number: IntProperty(name="Number", description="What the part is known by; the value of reeb_part")
+    color: FloatVectorProperty(name="Colour", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0)
+    share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")
+    locked: BoolProperty(name="Locked", description="The part stays as it is whatever the detail")
+    selected: BoolProperty(name="Selected", description="Included in what is done to the selected parts")
+    group: StringProperty(description="The vertex group made for the part")
+    material: PointerProperty(type=bpy.types.Material, description="The material made for the part")
+
+
+class ReebName(bpy.types.PropertyGroup):
+    """A name that somebody gave to a part, kept while the part is not shown."""
+
+    name: StringProperty()
+    number: IntProperty()
+
+
+class ReebPartsResult(bpy.types.PropertyGroup):
+    """A decomposition and what was written of it; on the mesh."""
+
+    # The result itself
+    data: StringProperty(subtype="BYTE_STRING")
+    numbers: StringProperty(subtype="BYTE_STRING")
+    fingerprint: StringProperty()
+    stretch: FloatVectorProperty(size=9)
+    object_name: StringProperty()
+
+    # What the panel shows of it
+    seconds: FloatProperty()
+    n_nodes: IntProperty()
+    n_arcs: IntProperty()
+    n_loops: IntProperty()
+    n_vertices: IntProperty()
+    n_faces: IntProperty()
+    notes: StringProperty()
+    edited: BoolProperty(description="The mesh was edited since")
+
+    # What can be changed
+    detail: FloatProperty(
+        name="Detail", min=0.0, max=1.0, default=0.5, subtype="FACTOR", update=_show_detail,
+        description="How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate. "
+        "Nothing is computed again",
+    )
+    n_parts: IntProperty(
+        name="Number of parts", min=1, update=_show_number,
+        description="Exactly this many parts, whatever the detail. Nothing is computed again",
+    )
+    by_number: BoolProperty(description="The number of parts decides, not the detail")
+    parts: CollectionProperty(type=ReebPart)
+    active: IntProperty(name="Active part")
+    names: CollectionProperty(type=ReebName)
+
+    # What was written, under which name, and what was there before
+    face_attribute: StringProperty()
+    color_attribute: StringProperty()
+    field_attribute: StringProperty()
+    has_groups: BoolProperty()
+    has_face_sets: BoolProperty()
+    has_materials: BoolProperty()
+    has_seams: BoolProperty()
+    former_color: StringProperty()
+    former_render_color: StringProperty()
+    had_face_sets: BoolProperty()
+    had_material_index: BoolProperty()
+    had_seams: BoolProperty()
+
+
+CLASSES = (ReebPartsSettings, ReebPart, ReebName, ReebPartsResult)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Scene.reeb_parts = PointerProperty(type=ReebPartsSettings)
+    bpy.types.Mesh.reeb_parts = PointerProperty(type=ReebPartsResult)
+
+
+def unregister():
+    del bpy.types.Mesh.reeb_parts
+    del bpy.types.Scene.reeb_parts
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)
