@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A picture of an object in its part colours with the Reeb graph drawn over it, for command-line runs.
+"""A picture of objects in their part colours with their Reeb graphs drawn over them, for command-line runs.
 
-Everything is set up in a scene of its own and removed afterwards; the object's own scene, materials and
+Everything is set up in a scene of its own and removed afterwards; the objects' own scene, materials and
 render settings are left alone. Cycles on the processor renders, since that works on any machine.
 """
 
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 import bmesh
@@ -17,44 +18,58 @@ from scipy.ndimage import zoom
 #: Where the camera stands: in front (Blender's front is -Y), to the left and above.
 VIEW = (-0.62, -1.0, 0.48)
 BACKGROUND = (0.955, 0.957, 0.962)
-#: From back to front: the collections that are there, the one that the camera sees, and how many pixels of
-#: the picture one rendered pixel covers along each side. A soft shadow needs few, and is the dearest layer.
-LAYERS = ((("floor", "model"), "floor", 4), (("model",), "model", 1), (("graph",), "graph", 1))
+@dataclass(frozen=True)
+class Layer:
+    """One of the renders that the picture is put together from."""
+
+    there: tuple[str, ...]  # the collections that are there
+    seen: str  # the one of them that the camera sees
+    coarseness: int = 1  # pixels of the picture along each side of a rendered one
+    opacity: float = 1.0
+
+
+#: From back to front. A soft shadow needs few pixels, and is by far the dearest to render.
+LAYERS = (
+    Layer(("floor", "model"), "floor", coarseness=4, opacity=0.6),
+    Layer(("model",), "model"),
+    Layer(("graph",), "graph"),
+)
+#: Opacity that the denoiser leaves on an empty floor.
+HAZE = 0.06
 ARC_COLOR = (0.012, 0.012, 0.016)
 NODE_COLORS = {"minimum": (0.02, 0.02, 0.025), "saddle": (1.0, 0.62, 0.02), "maximum": (1.0, 1.0, 1.0)}
 
 
-def render_parts(obj, graph, path, *, size=(960, 540), samples=16, view=VIEW):
-    """Render an object and its graph into a PNG file.
+def render_parts(objects, path, *, size=(960, 540), samples=16, view=VIEW):
+    """Render objects and their graphs into a PNG file.
 
     Parameters
     ----------
-    obj : bpy.types.Object
-        A mesh with the colour attribute that the decomposition wrote, shown whether hidden or not.
-    graph : bpy.types.Collection or None
-        The collection with the graph's curves and empties; None leaves the graph out.
+    objects : list of (bpy.types.Object, bpy.types.Collection or None)
+        Meshes with the colour attribute that the decomposition wrote, shown whether hidden or not, each with
+        the collection of its graph's curves and empties; None leaves the graph out.
     path : str or Path
         Where to write; the folder must exist.
     size : (2,) int
-        Width and height in pixels.
+        Width and height in pixels, multiples of 4.
     samples : int
         Light paths per pixel, before denoising.
     view : (3,) float
-        Direction from the object to the camera.
+        Direction from the objects to the camera, in the world.
     """
-    made = []
     scene = bpy.data.scenes.new("Reeb Parts picture")
-    made.append(scene)
+    made = [scene]
     try:
         parts = {name: _collection(scene, name, made) for name in ("floor", "model", "graph")}
-        _add_model(obj, parts["model"], made)
-        corners = np.array([obj.matrix_world @ Vector(corner) for corner in obj.bound_box])
-        extent = float(np.linalg.norm(np.ptp(corners, axis=0)))
-        if graph is not None:
-            _add_graph(graph, extent, parts["graph"], made)
-        _add_light(scene, made)
-        _add_floor(corners, extent, parts["floor"], made)
-        _add_camera(scene, _points(obj), view, size, made)
+        points = np.concatenate([_points(obj) for obj, _ in objects])
+        extent = float(np.linalg.norm(np.ptp(points, axis=0)))
+        for obj, graph in objects:
+            _add_model(obj, parts["model"], made)
+            if graph is not None:
+                _add_graph(graph, extent, parts["graph"], made)
+        _add_floor(points, extent, parts["floor"], made)
+        _add_light(scene, view, made)
+        _add_camera(scene, points, view, size, made)
         _set_up_cycles(scene, size, samples)
         with tempfile.TemporaryDirectory() as folder:
             layers = [_render(scene, parts, layer, Path(folder)) for layer in LAYERS]
@@ -136,8 +151,8 @@ def _material(name, made, *, attribute=None, color=None):
     return material
 
 
-def _add_light(scene, made):
-    """Even light from all sides and a soft sun."""
+def _add_light(scene, view, made):
+    """Even light from all sides and a soft sun, over the left shoulder of who looks."""
     world = bpy.data.worlds.new("sky")
     world.use_nodes = True
     world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
@@ -146,15 +161,18 @@ def _add_light(scene, made):
     made.append(world)
     sun = bpy.data.lights.new("sun", "SUN")
     sun.energy, sun.angle = 1.9, 0.35
-    turn = Vector((0.25, -0.75, 1.0)).to_track_quat("Z", "Y").to_matrix().to_4x4()
+    across = Vector((view[0], view[1], 0.0)) if view[0] or view[1] else Vector((0.0, -1.0, 0.0))
+    across.normalize()
+    toward = 0.55 * across + 0.45 * Vector((across.y, -across.x, 0.0)) + Vector((0.0, 0.0, 1.0))
+    turn = toward.to_track_quat("Z", "Y").to_matrix().to_4x4()
     _place(sun, "sun", scene.collection, made, turn)
 
 
-def _add_floor(corners, extent, collection, made):
-    """A floor that shows nothing but the shadow on it."""
+def _add_floor(points, extent, collection, made):
+    """A floor under the points that shows nothing but the shadow on it."""
     floor = bpy.data.meshes.new("floor")
-    center, reach = corners.mean(axis=0), 20.0 * extent
-    square = [(x * reach + center[0], y * reach + center[1], corners[:, 2].min())
+    center, reach = points.mean(axis=0), 20.0 * extent
+    square = [(x * reach + center[0], y * reach + center[1], points[:, 2].min())
               for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]  # fmt: skip
     floor.from_pydata(square, [], [(0, 1, 2, 3)])
     _place(floor, "floor", collection, made).is_shadow_catcher = True
@@ -213,18 +231,20 @@ def _set_up_cycles(scene, size, samples):
 
 def _render(scene, parts, layer, folder):
     """Pixels of one layer of the picture, (height, width, 4), bottom row first."""
-    shown, seen, coarseness = layer
     for name, collection in parts.items():
-        collection.hide_render = name not in shown
+        collection.hide_render = name not in layer.there
         for obj in collection.objects:
-            obj.visible_camera = name == seen
-    scene.render.resolution_percentage = 100 // coarseness
-    scene.render.filepath = str(folder / f"{seen}.png")
+            obj.visible_camera = name == layer.seen
+    scene.render.resolution_percentage = 100 // layer.coarseness
+    scene.render.filepath = str(folder / f"{layer.seen}.png")
     bpy.ops.render.render(write_still=True, scene=scene.name)
     pixels = _read_png(scene.render.filepath)
-    height, width = scene.render.resolution_y, scene.render.resolution_x
-    scale = (height / pixels.shape[0], width / pixels.shape[1], 1)
-    return zoom(pixels, scale, order=1, mode="nearest", grid_mode=True) if coarseness > 1 else pixels
+    if layer.coarseness > 1:
+        scale = (scene.render.resolution_y / len(pixels), scene.render.resolution_x / pixels.shape[1], 1)
+        pixels = zoom(pixels, scale, order=1, mode="nearest", grid_mode=True)
+        pixels[..., 3] = np.maximum(pixels[..., 3] - HAZE, 0.0) / (1.0 - HAZE)
+    pixels[..., 3] *= layer.opacity
+    return pixels
 
 
 def _read_png(path):

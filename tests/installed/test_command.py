@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command of the installed extension, as a process of the full Blender.
+
+Run by tests/run_in_blender.py, which says which Blender and where its settings are.
+"""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SPOT = ROOT / "models" / "spot.obj"
+
+
+def blender(*arguments):
+    """Run Blender without a window; returns the finished process."""
+    command = [os.environ["BLENDER"], "--background", *map(str, arguments)]
+    return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """One run on the bundled model with everything written: the process and its folder."""
+    folder = tmp_path_factory.mktemp("run")
+    files = ("--save", folder / "spot.blend", "--json", folder / "spot.json", "--picture", folder / "spot.png")
+    done = blender("--command", "reeb_parts", SPOT, *files, "--parts", folder / "parts")
+    assert done.returncode == 0, done.stderr
+    return done, folder
+
+
+def test_standard_output_is_one_json_object_equal_to_the_file(run):
+    done, folder = run
+    assert json.loads(done.stdout) == json.loads((folder / "spot.json").read_text())
+
+
+def test_every_face_of_the_model_is_in_one_part(run):
+    done, _ = run
+    (report,) = json.loads(done.stdout)["objects"]
+    n_faces = sum(line.startswith("f ") for line in SPOT.read_text().splitlines())
+    assert sum(part["faces"] for part in report["parts"]) == n_faces
+    assert sum(part["share"] for part in report["parts"]) == pytest.approx(1.0)
+
+
+def test_one_file_for_each_part(run):
+    done, folder = run
+    (report,) = json.loads(done.stdout)["objects"]
+    assert len(list((folder / "parts").glob("*.obj"))) == len(report["parts"]) > 1
+
+
+def test_the_picture_shows_the_colours_of_the_parts(run):
+    _, folder = run
+    png = (folder / "spot.png").read_bytes()
+    assert png.startswith(b"\x89PNG\r\n\x1a\n")
+    width, height = (int.from_bytes(png[at : at + 4], "big") for at in (16, 20))
+    assert (width, height) == (960, 540)
+
+
+def test_the_saved_scene_decomposes_again_to_the_same_parts(run):
+    done, folder = run
+    again = blender(folder / "spot.blend", "--command", "reeb_parts")
+    assert again.returncode == 0, again.stderr
+    first, second = (json.loads(process.stdout)["objects"][0]["parts"] for process in (done, again))
+    assert first == second
+
+
+def test_a_missing_file_is_named_and_fails(tmp_path):
+    done = blender("--command", "reeb_parts", tmp_path / "nothing.obj", "--json", tmp_path / "out.json")
+    assert done.returncode != 0
+    assert "nothing.obj" in done.stderr
+    assert done.stdout == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_help_lists_the_parameters():
+    done = blender("--command", "reeb_parts", "--help")
+    assert done.returncode == 0
+    for option in ("--detail", "--n-parts", "--preset", "--picture", "--save"):
+        assert option in done.stdout

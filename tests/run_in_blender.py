@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Install the built extension into a full Blender and test the installed package.
+
+    python3 tests/run_in_blender.py --blender PATH [--part inside|command|window] [--gui PATH]
+
+Run tools/build.py first. Nothing of the user's Blender settings is touched: the extension goes into a
+settings folder of its own, which --resources keeps. The parts are
+
+inside   tests/unit and tests/blender, in Blender's own Python, on the shipped files
+command  tests/installed: "blender --command reeb_parts" and scripts, as processes
+window   tests/window: buttons pressed with the real pointer; --gui names the program that opens the window
+
+Blender executes this file too, to run pytest in itself.
+"""
+
+import argparse
+import importlib.util
+import os
+import platform
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PARTS = {"inside": ["tests/unit", "tests/blender"], "command": ["tests/installed"], "window": ["tests/window"]}
+PACKAGE = "bl_ext.user_default.reeb_parts"
+
+
+def main() -> int:
+    """Install, then run one part; returns the exit status of pytest."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--blender", required=True, metavar="PATH")
+    parser.add_argument("--gui", metavar="PATH", help="opens Blender in a window, see tests/window/driver.py")
+    parser.add_argument("--part", choices=PARTS, default="inside")
+    parser.add_argument("--resources", type=Path, metavar="DIR", help="settings folder, used again if it exists")
+    parser.add_argument("--junit", type=Path, metavar="FILE", help="also write the results as XML")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        resources = (arguments.resources or Path(scratch) / "resources").resolve()
+        os.environ["BLENDER_USER_RESOURCES"] = str(resources)
+        if not resources.exists():
+            resources.mkdir(parents=True)
+            install(arguments.blender, resources)
+        pytest_arguments = ["-q", "-p", "no:cacheprovider", *PARTS[arguments.part]]
+        if arguments.junit:
+            pytest_arguments.append(f"--junitxml={arguments.junit.resolve()}")
+        if arguments.part == "inside":
+            command = [arguments.blender, "--background", "--python-exit-code", "9", "--python", __file__, "--"]
+            return subprocess.run([*command, str(resources), *pytest_arguments], cwd=ROOT, check=False).returncode
+        os.environ["BLENDER"] = arguments.blender
+        os.environ["BLENDER_GUI"] = arguments.gui or ""
+        command = [sys.executable, "-m", "pytest", *pytest_arguments]
+        return subprocess.run(command, cwd=ROOT, check=False).returncode
+
+
+def install(blender: str, resources: Path) -> None:
+    """Install the zip for this machine and, beside it, pytest for Blender's Python."""
+    system = {"Linux": "linux", "Windows": "windows", "Darwin": "macos"}[platform.system()]
+    machine = {"x86_64": "x64", "AMD64": "x64", "arm64": "arm64"}[platform.machine()]
+    (package,) = (ROOT / "dist").glob(f"reeb_parts-*-{system}_{machine}.zip")
+    command = [blender, "--command", "extension", "install-file", "--repo", "user_default", "--enable", str(package)]
+    subprocess.run(command, check=True)
+    # It is pure Python, so that what this Python installs serves Blender's.
+    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "pytest"]
+    subprocess.run([*pip, "--target", str(resources / "pytest")], check=True)
+
+
+def inside_blender(resources: str, *pytest_arguments: str) -> int:
+    """Run pytest in this Blender; the tests import core from the installed package."""
+    specification = importlib.util.find_spec(PACKAGE)
+    if PACKAGE not in sys.modules or specification is None:
+        print(f"{PACKAGE} is not enabled in this Blender", file=sys.stderr)
+        return 1
+    sys.dont_write_bytecode = True
+    sys.path.append(os.path.join(resources, "pytest"))
+    import pytest
+
+    paths = [str(Path(specification.origin).parent), str(ROOT / "tests")]
+    return int(pytest.main(["-o", f"pythonpath={shlex.join(paths)}", *pytest_arguments]))
+
+
+if __name__ == "__main__":
+    if "bpy" in sys.modules:
+        sys.exit(inside_blender(*sys.argv[sys.argv.index("--") + 1 :]))
+    sys.exit(main())
