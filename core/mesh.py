@@ -202,19 +202,24 @@ class EdgeTable:
         start, end = faces, np.roll(faces, -1, axis=1)
         # One integer per half-edge sorts far faster than rows.
         key = (np.minimum(start, end) * np.int64(n_vertices) + np.maximum(start, end)).ravel()
-        unique, edge, count = np.unique(key, return_inverse=True, return_counts=True)
-        edge = edge.reshape(-1)
-        owner = np.repeat(np.arange(len(faces)), 3)
-        order = np.argsort(edge, kind="stable")
-        together = edge[order][1:] == edge[order][:-1]
-        first, second = owner[order][:-1][together], owner[order][1:][together]
+        order = np.argsort(key, kind="stable")
+        key = key[order]
+        together = key[1:] == key[:-1]
+        first_of_edge = np.flatnonzero(np.append(True, ~together)[: len(key)])
+        edge_sorted = np.cumsum(np.append(True, ~together)[: len(key)]) - 1
+        edge = np.empty(len(key), np.int64)
+        edge[order] = edge_sorted
+        unique = key[first_of_edge]
+        count = np.diff(np.append(first_of_edge, len(key)))
+        owner = order // 3
+        first, second = owner[:-1][together], owner[1:][together]
         distinct = first != second
         return cls(
             vertices=frozen(np.stack(np.divmod(unique, max(n_vertices, 1)), axis=1), np.int64),
             face_edges=frozen(edge.reshape(-1, 3), np.int64),
             n_faces=frozen(count, np.int64),
             pairs=frozen(np.stack([first, second], axis=1)[distinct], np.int64),
-            pair_edge=frozen(edge[order][1:][together][distinct], np.int64),
+            pair_edge=frozen(edge_sorted[1:][together][distinct], np.int64),
         )
 
 
@@ -297,7 +302,9 @@ class PolygonMesh:
                 "solid has. Choose a larger mesh.",
                 faces=np.arange(self.n_polygons),
             )
-        extent = np.ptp(self.triangles.vertices[self.triangles.faces.ravel()], axis=0).max()
+        used = np.zeros(self.triangles.n_vertices, bool)
+        used[self.triangles.faces] = True
+        extent = np.ptp(self.triangles.vertices[used], axis=0).max()
         # Below the rounding error of the coordinates an area is noise.
         if not self.triangles.area > 1e-14 * extent**2:
             raise EmptyMeshError(

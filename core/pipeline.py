@@ -178,7 +178,7 @@ def _decompose_component(working, mask, parameters, watch, begin, width) -> Comp
 
 def _component(working: WorkingMesh, mask: np.ndarray) -> Component:
     """Cut out a component and refine it."""
-    mesh, index = working.mesh.submesh(mask)
+    mesh, index = (working.mesh, slice(None)) if mask.all() else working.mesh.submesh(mask)
     source = working.vertex_source[index]
     fine, parent = refine(mesh, MAX_EDGE * np.sqrt(mesh.area))
     added = np.full(fine.n_vertices - len(source), -1)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .mesh import EdgeTable, PolygonMesh, TriMesh, components, frozen
+from .mesh import PolygonMesh, TriMesh, components, frozen
 
 # No edge of the copy is longer than this share of the square root of the component's area:
 # half the radius of a base vertex's disc, so that a field of its own fits into every disc.
@@ -54,14 +54,14 @@ def repair(given: PolygonMesh) -> WorkingMesh:
     mesh = given.triangles
     joined, note_joined = _join_coincident_borders(mesh)
     faces = joined[mesh.faces]
-    repeated = (faces == np.roll(faces, -1, axis=1)).any(axis=1)
-    faces, polygon = faces[~repeated], given.polygon[~repeated]
-    faces, vertex_source = _separate_fans(faces, mesh.n_vertices)
-    notes = _notes(given, repeated.sum()) + note_joined
-    copy = TriMesh(mesh.vertices[vertex_source], faces)
+    whole = (faces != np.roll(faces, -1, axis=1)).all(axis=1)
+    # What needs no repair keeps the tables that are already made for it.
+    copy = mesh if whole.all() and not note_joined else TriMesh(mesh.vertices, faces[whole])
+    copy, vertex_source = _separate_fans(copy)
     copy, note_turned = _turn_outwards(copy)
-    return WorkingMesh(copy, frozen(polygon, np.int64), frozen(vertex_source, np.int64),
-                       notes + note_turned)
+    return WorkingMesh(copy, frozen(given.polygon[whole], np.int64),
+                       frozen(vertex_source, np.int64),
+                       _notes(given) + note_joined + note_turned)
 
 
 def refine(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndarray]:
@@ -138,26 +138,27 @@ def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]
     return joined, (f"{n_joined} coincident border vertices are treated as joined.",)
 
 
-def _separate_fans(faces: np.ndarray, n_vertices: int) -> tuple[np.ndarray, np.ndarray]:
+def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
     """Give each fan of faces around a vertex a vertex of its own; drop unused vertices.
 
-    Returns the faces over the new vertices, and the given vertex of each new one. In order
-    of the given vertices.
+    Returns the mesh and the given vertex of each of its vertices, ascending.
     """
-    edges = EdgeTable.of(faces, n_vertices)
-    left, right = edges.pairs.T
+    left, right = mesh.edges.pairs.T
     joins_a, joins_b = [], []
     for end in (0, 1):
-        vertex = edges.vertices[edges.pair_edge, end]
-        joins_a.append(3 * left + (faces[left] == vertex[:, None]).argmax(axis=1))
-        joins_b.append(3 * right + (faces[right] == vertex[:, None]).argmax(axis=1))
-    count, fan = components(3 * len(faces), np.concatenate(joins_a), np.concatenate(joins_b))
+        vertex = mesh.edges.vertices[mesh.edges.pair_edge, end]
+        joins_a.append(3 * left + (mesh.faces[left] == vertex[:, None]).argmax(axis=1))
+        joins_b.append(3 * right + (mesh.faces[right] == vertex[:, None]).argmax(axis=1))
+    count, fan = components(3 * mesh.n_faces, np.concatenate(joins_a), np.concatenate(joins_b))
     source = np.empty(count, np.int64)
-    source[fan] = faces.ravel()
+    source[fan] = mesh.faces.ravel()
     order = np.argsort(source, kind="stable")
+    source = source[order]
+    if count == mesh.n_vertices and (source == np.arange(count)).all():
+        return mesh, source
     place = np.empty(count, np.int64)
     place[order] = np.arange(count)
-    return place[fan].reshape(-1, 3), source[order]
+    return TriMesh(mesh.vertices[source], place[fan].reshape(-1, 3)), source
 
 
 def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
@@ -196,7 +197,7 @@ def _edge_direction(mesh: TriMesh, face: np.ndarray, edge: np.ndarray) -> np.nda
     return mesh.faces[face, corner] == mesh.edges.vertices[edge, 0]
 
 
-def _notes(given: PolygonMesh, n_repeated: int) -> tuple[str, ...]:
+def _notes(given: PolygonMesh) -> tuple[str, ...]:
     """What is odd about the caller's mesh, in sentences."""
     mesh = given.triangles
     n_lost = mesh.n_vertices - len(np.unique(mesh.faces))
