@@ -11,7 +11,7 @@ from .mesh import TriMesh
 def k_min(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
     """Smaller principal curvature of every vertex, negative in concavities.
 
-    From the curvature tensor of [Cohen-Steiner2003]: dihedral angles along the edges, summed
+    From the curvature tensor of [CohenSteiner2003]: dihedral angles along the edges, summed
     around each vertex and divided by its area; of the two eigenvalues tangent to the surface,
     each belongs to the direction across its eigenvector. The paper takes another estimator; a
     discrete one that needs no fit stands long thin triangles better.
