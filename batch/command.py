@@ -71,6 +71,9 @@ def parser() -> argparse.ArgumentParser:
     files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
     files.add_argument("--parts-format", choices=("obj", "ply", "stl", "glb"), default="obj",
                        help="format of those files (default: %(default)s)")
+    files.add_argument("--picture", type=Path, metavar="OUT.png", help="a picture of the parts with the graph")
+    files.add_argument("--picture-turn", type=float, default=0.0, metavar="DEGREES",
+                       help="turn its camera, which looks at the front, around the objects")
     _add_parameters(made.add_argument_group("parameters"))
     outputs = made.add_argument_group("what is written to the objects")
     for name, switch in OutputProperties.__annotations__.items():
@@ -191,6 +194,14 @@ def write_files(options, objects, reports) -> dict:
         with _whole(options.save) as path:
             bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)
         written["save"] = str(options.save)
+    if options.picture:
+        from ..operators import overlay
+        from .picture import render_parts, view_from
+
+        with _whole(options.picture) as path:
+            shown = [(obj, overlay.find(obj)) for obj in objects]
+            render_parts(shown, path, view=view_from(options.picture_turn))
+        written["picture"] = str(options.picture)
     if options.json:
         written["json"] = str(options.json)
     result = document(reports, blender=bpy.app.version_string, files=written)

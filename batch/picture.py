@@ -40,6 +40,11 @@ ARC_COLOR = (0.012, 0.012, 0.016)
 NODE_COLORS = {"minimum": (0.02, 0.02, 0.025), "saddle": (1.0, 0.62, 0.02), "maximum": (1.0, 1.0, 1.0)}
 
 
+def view_from(degrees):
+    """Direction from the objects to a camera turned about the vertical, (3,) float."""
+    return Matrix.Rotation(np.radians(degrees), 3, "Z") @ Vector(VIEW)
+
+
 def render_parts(objects, path, *, size=(960, 540), samples=16, view=VIEW):
     """Render objects and their graphs into a PNG file.
 

@@ -66,7 +66,7 @@ def _run(python: Path, model: Path, arguments: argparse.Namespace) -> bool:
     turn = arguments.turn if arguments.turn is not None else SPOT_TURN * (model.resolve() == SPOT)
     command = [
         str(python), str(ROOT / "tools" / "in_blender.py"), str(model), "--save", f"{stem}.blend",
-        "--json", f"{stem}.json", "--picture", f"{stem}.png", "--turn", str(turn),
+        "--json", f"{stem}.json", "--picture", f"{stem}.png", "--picture-turn", str(turn),
         *(["--detail", arguments.detail] if arguments.detail else []),
     ]  # fmt: skip
     with tempfile.TemporaryDirectory() as settings:
