@@ -60,8 +60,8 @@ def install(blender: str, resources: Path) -> None:
     system = {"Linux": "linux", "Windows": "windows", "Darwin": "macos"}[platform.system()]
     machine = {"x86_64": "x64", "AMD64": "x64", "arm64": "arm64"}[platform.machine()]
     (package,) = (ROOT / "dist").glob(f"reeb_parts-*-{system}_{machine}.zip")
-    command = [blender, "--command", "extension", "install-file", "--repo", "user_default", "--enable", str(package)]
-    subprocess.run(command, check=True)
+    install_file = ["--command", "extension", "install-file", "--repo", "user_default", "--enable"]
+    subprocess.run([blender, *install_file, str(package)], check=True)
     # It is pure Python, so that what this Python installs serves Blender's.
     pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "pytest"]
     subprocess.run([*pip, "--target", str(resources / "pytest")], check=True)

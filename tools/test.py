@@ -110,9 +110,10 @@ def _full_blender(blender: str, gui: str | None, scratch: Path) -> list[Outcome]
     """Build the extension, install it into a full Blender and test it there, inside and from outside."""
     start = time.perf_counter()
     say("build: tools/build.py")
-    status = subprocess.run([sys.executable, str(ROOT / "tools" / "build.py"), "--blender", blender], check=False)
-    outcomes = [Outcome("build", int(not status.returncode), int(bool(status.returncode)), time.perf_counter() - start)]
-    if status.returncode:
+    command = [sys.executable, str(ROOT / "tools" / "build.py"), "--blender", blender]
+    status = subprocess.run(command, check=False).returncode
+    outcomes = [Outcome("build", int(status == 0), int(status != 0), time.perf_counter() - start)]
+    if status:
         return outcomes
 
     python = environments.prepare(NEWEST)
