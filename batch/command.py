@@ -12,7 +12,6 @@ import argparse
 import json
 import os
 import sys
-import tempfile
 from contextlib import contextmanager
 from dataclasses import fields, replace
 from pathlib import Path
@@ -21,8 +20,9 @@ import bpy
 
 from ..core.errors import ReebError
 from ..core.parameters import PRESETS, Parameters
+from ..operators import bridge, decompose, export
 from ..operators.problems import SceneError, load_core
-from ..ui.properties import OutputProperties
+from ..ui.properties import OutputProperties, OverlayProperties
 
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
@@ -68,6 +68,7 @@ def parser() -> argparse.ArgumentParser:
     files = made.add_argument_group("files to write")
     files.add_argument("--save", type=Path, metavar="OUT.blend", help="the scene with the parts in it")
     files.add_argument("--json", type=Path, metavar="OUT.json", help="the JSON that also goes to standard output")
+    files.add_argument("--labels", action="store_true", help="also list the part of every face in the JSON")
     files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
     files.add_argument("--parts-format", choices=("obj", "ply", "stl", "glb"), default="obj",
                        help="format of those files (default: %(default)s)")
@@ -76,10 +77,13 @@ def parser() -> argparse.ArgumentParser:
                        help="turn its camera, which looks at the front, around the objects")
     _add_parameters(made.add_argument_group("parameters"))
     outputs = made.add_argument_group("what is written to the objects")
-    for name, switch in OutputProperties.__annotations__.items():
-        words = switch.keywords
-        outputs.add_argument(f"--{_dashed(name)}", action=argparse.BooleanOptionalAction,
-                             default=words["default"], help=words["description"].replace("%", "%%"))
+    for name, prop in (OutputProperties.__annotations__ | OverlayProperties.__annotations__).items():
+        words = {"default": prop.keywords["default"], "help": prop.keywords["description"].replace("%", "%%")}
+        if isinstance(words["default"], bool):
+            words["action"] = argparse.BooleanOptionalAction
+        else:
+            words |= {"type": float, "metavar": "N"}
+        outputs.add_argument(f"--{_dashed(name)}", **words)
     return made
 
 
@@ -105,9 +109,9 @@ def _dashed(name):
 
 def run(options) -> dict:
     """Do all that the options ask for; returns the JSON."""
-    from ..operators import decompose
-
     load_core()
+    from ..operators.facts import object_report  # imports SciPy
+
     parameters = replace(
         PRESETS[options.preset] if options.preset else Parameters(),
         **{field.name: value for field in fields(Parameters)
@@ -116,9 +120,9 @@ def run(options) -> dict:
     objects = find_objects(options)
     reports = []
     for obj in objects:
-        outcome = decompose_object(obj, parameters, decompose)
+        outcome = decompose_object(obj, parameters)
         decompose.write_result(bpy.context, obj, outcome, options)
-        reports.append(_report(obj))
+        reports.append(object_report(obj, options.labels))
     return write_files(options, objects, reports)
 
 
@@ -154,10 +158,8 @@ def _open(path: Path) -> list:
     return meshes
 
 
-def decompose_object(obj, parameters, decompose):
+def decompose_object(obj, parameters):
     """Read and compute one object; raises what the user should hear."""
-    from ..operators import bridge
-
     bridge.check_object(obj)
     shape = bridge.read_shape(obj)
     last = [-1]
@@ -173,23 +175,15 @@ def decompose_object(obj, parameters, decompose):
     return outcome
 
 
-def _report(obj) -> dict:
-    from ..operators.facts import object_report
-
-    return object_report(obj)
-
-
 def write_files(options, objects, reports) -> dict:
     """Write what is asked for; returns the JSON with what was written."""
     from ..core.report import document
 
     written = {}
     if options.parts:
-        from ..operators.export import export_parts
-
         options.parts.mkdir(parents=True, exist_ok=True)
         written["parts"] = [str(path) for obj in objects
-                            for path in export_parts(obj, options.parts, options.parts_format)]
+                            for path in export.export_parts(obj, options.parts, options.parts_format)]
     if options.save:
         with _whole(options.save) as path:
             bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)
@@ -216,10 +210,13 @@ def _whole(path: Path):
     """A name to write to beside the path; the file is moved to the path when it is complete."""
     path = path.resolve()
     path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".reeb_parts_") as folder:
-        part = Path(folder) / path.name
+    # In the same folder: a scene's paths to its pictures are relative to where it is saved.
+    part = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    try:
         yield part
         os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)
 
 
 @contextmanager

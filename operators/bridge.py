@@ -96,7 +96,7 @@ def read_shape(obj) -> Shape:
         finally:
             bpy.data.meshes.remove(copy)
     else:
-        points, triangles, polygon = _shape_key_mix(obj), *_triangles(mesh)
+        points, triangles, polygon = shown_points(obj), *_triangles(mesh)
     stretch = world_stretch(obj)
     vertices = points.astype(np.float64)
     if not np.array_equal(stretch, np.eye(3)):
@@ -161,7 +161,7 @@ def _triangles(mesh) -> tuple[np.ndarray, np.ndarray]:
     return triangles.reshape(-1, 3), polygon
 
 
-def _shape_key_mix(obj) -> np.ndarray:
+def shown_points(obj) -> np.ndarray:
     """Positions with the shape keys as the object shows them; the basis where keys are absolute."""
     keys = obj.data.shape_keys
     if keys is None:

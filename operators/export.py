@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts as files."""
+
+import os
+import re
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+
+import bpy
+
+from . import separate, store
+from .problems import SceneError
+
+EXPORTERS = {
+    "obj": lambda path: bpy.ops.wm.obj_export(filepath=path, export_selected_objects=True),
+    "ply": lambda path: bpy.ops.wm.ply_export(filepath=path, export_selected_objects=True),
+    "stl": lambda path: bpy.ops.wm.stl_export(filepath=path, export_selected_objects=True),
+    "glb": lambda path: bpy.ops.export_scene.gltf(filepath=path, use_selection=True, export_format="GLB"),
+}
+
+
+def export_parts(obj, folder: Path, kind: str, numbers=None) -> list[Path]:
+    """Write each part of an object as a file of its own; the scene stays as it is.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        In Object Mode, with parts.
+    folder : Path
+        Exists.
+    kind : str
+        Of EXPORTERS.
+    numbers : iterable of int, optional
+        Only these parts.
+
+    Returns
+    -------
+    paths : list of Path
+
+    Raises
+    ------
+    SceneError
+        The parts are out of date, or two parts would get the same file name.
+    """
+    stored = store.load(obj.data)
+    face_numbers = stored.shown[stored.decomposition.candidates]
+    numbers = sorted(set(face_numbers.tolist()) if numbers is None else numbers)
+    names = [_file_name(f"{obj.name} {store.part_name(obj.data, number)}") for number in numbers]
+    if len({name.lower() for name in names}) < len(names):
+        raise SceneError("Two parts have the same name; give them different ones to write them as files.")
+    with _own_selection():
+        return [_export(obj, face_numbers == number, folder / f"{name}.{kind}", kind)
+                for number, name in zip(numbers, names, strict=True)]
+
+
+@contextmanager
+def _own_selection():
+    """Nothing selected for a while; the user's selection is back afterwards."""
+    layer = bpy.context.view_layer
+    active, selected = layer.objects.active, list(layer.objects.selected)
+    for obj in selected:
+        obj.select_set(False)
+    try:
+        yield
+    finally:
+        for obj in selected:
+            obj.select_set(True)
+        layer.objects.active = active
+
+
+def _export(obj, mask, path, kind) -> Path:
+    """Write some faces of an object as a file, whole or not at all."""
+    mesh = separate.part_mesh(obj.data, mask)
+    piece = bpy.data.objects.new(path.stem, mesh)
+    try:
+        bpy.context.scene.collection.objects.link(piece)
+        piece.matrix_world = obj.matrix_world
+        piece.select_set(True)
+        bpy.context.view_layer.objects.active = piece
+        with tempfile.TemporaryDirectory(dir=path.parent, prefix=".reeb_parts_") as made:
+            EXPORTERS[kind](str(Path(made) / path.name))
+            for file in Path(made).iterdir():  # an .obj comes with an .mtl
+                os.replace(file, path.parent / file.name)
+    finally:
+        bpy.data.objects.remove(piece)
+        bpy.data.meshes.remove(mesh)
+    return path
+
+
+def _file_name(text: str) -> str:
+    """The text without what a file system might not like."""
+    return re.sub(r"[^\w .()+-]", "_", text).strip(" .") or "part"

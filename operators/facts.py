@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the JSON says of an object."""
+
+import numpy as np
+
+from ..core.report import bounding_boxes, report
+from . import bridge, store
+
+
+def object_report(obj, labels=False) -> dict:
+    """The JSON of an object's stored result, in coordinates of the world; Object Mode.
+
+    Raises
+    ------
+    SceneError
+        Nothing is stored, or the mesh was edited since.
+    """
+    mesh = obj.data
+    stored = store.load(mesh)
+    numbered = stored.shown_parts()
+    world = np.array(obj.matrix_world, np.float64)
+    stretch = np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+    from_result = world.copy()
+    from_result[:3, :3] = world[:3, :3] @ np.linalg.pinv(stretch)
+    vertex, face = bridge.face_corners(mesh)
+    points = bridge.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
+    boxes = bounding_boxes(numbered.parts.labels[face], points[vertex], numbered.parts.count)
+    names = [store.part_name(mesh, number) for number in numbered.numbers.tolist()]
+    result = report(stored.decomposition, numbered.parts, obj.name, numbers=numbered.numbers, names=names,
+                    boxes=boxes, transform=from_result, labels=labels)
+    result["notes"] = mesh.reeb_parts.notes.splitlines()
+    return result
