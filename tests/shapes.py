@@ -1,0 +1,392 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes made by formula, for the tests and the documentation; numpy only.
+
+Each function returns a ``Shape``: ``vertices`` (n, 3) float64 and ``faces`` (m, 3) int64, turned
+outwards where there is an outside. ``TriMesh(*shape)`` and ``decompose(*shape)`` take it as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Shape(NamedTuple):
+    """Vertices (n, 3) float64 and triangles (m, 3) int64."""
+
+    vertices: np.ndarray
+    faces: np.ndarray
+
+
+# By formula ------------------------------------------------------------------------------------
+
+
+def tetrahedron() -> Shape:
+    """Four faces, the smallest solid."""
+    vertices = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
+    return Shape(vertices, np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)]))
+
+
+def octahedron() -> Shape:
+    """Eight faces, corners on the axes: 0 and 1 on x, 2 and 3 on y, 4 (top) and 5 on z."""
+    vertices = np.array([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], float)
+    faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    return Shape(vertices, np.array(faces))
+
+
+def icosphere(subdivisions: int = 3, radius: float = 1.0) -> Shape:
+    """A sphere of 20 * 4**subdivisions nearly equal faces."""
+    golden = (1 + np.sqrt(5)) / 2
+    vertices = np.array([(-1, golden, 0), (1, golden, 0), (-1, -golden, 0), (1, -golden, 0),
+                         (0, -1, golden), (0, 1, golden), (0, -1, -golden), (0, 1, -golden),
+                         (golden, 0, -1), (golden, 0, 1), (-golden, 0, -1), (-golden, 0, 1)])
+    faces = np.array([(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9),
+                      (5, 11, 4), (11, 10, 2), (10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2),
+                      (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10),
+                      (8, 6, 7), (9, 8, 1)])
+    shape = Shape(vertices, faces)
+    for _ in range(subdivisions):
+        shape = subdivide(shape)
+        shape = Shape(shape.vertices / np.linalg.norm(shape.vertices, axis=1)[:, None], shape.faces)
+    return Shape(radius * shape.vertices / np.linalg.norm(shape.vertices, axis=1)[:, None], shape.faces)
+
+
+def flat_grid(n_x: int, n_y: int, step: float = 1.0) -> Shape:
+    """n_x by n_y square cells in the plane z = 0, each cut along its rising diagonal.
+
+    Vertex (i, j) has index i * (n_y + 1) + j and lies at (i, j) * step.
+    """
+    i, j = np.meshgrid(np.arange(n_x + 1), np.arange(n_y + 1), indexing="ij")
+    vertices = step * np.stack([i.ravel(), j.ravel(), 0 * i.ravel()], axis=1).astype(float)
+    return Shape(vertices, split_quads(_grid_quads(n_x, n_y, n_y + 1)))
+
+
+def torus(n_ring: int = 48, n_tube: int = 16, ring: float = 1.0, tube: float = 0.35) -> Shape:
+    """A ring around the z axis."""
+    u = 2 * np.pi * np.arange(n_ring) / n_ring
+    v = 2 * np.pi * np.arange(n_tube) / n_tube
+    u, v = np.meshgrid(u, v, indexing="ij")
+    far = ring + tube * np.cos(v)
+    vertices = np.stack([far * np.cos(u), far * np.sin(u), tube * np.sin(v)], axis=-1)
+    i, j = np.meshgrid(np.arange(n_ring), np.arange(n_tube), indexing="ij")
+    corner = [((i + a) % n_ring * n_tube + (j + b) % n_tube).ravel()
+              for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    return Shape(vertices.reshape(-1, 3), split_quads(np.stack(corner, axis=1)))
+
+
+def lathe(radius, height, n_around: int = 24) -> Shape:
+    """A closed surface of revolution around z, tips on the axis.
+
+    ``radius`` and ``height`` (k,) describe the profile from the lower tip to the upper, both
+    tips with radius 0.
+    """
+    radius, height = np.asarray(radius, float)[1:-1], np.asarray(height, float)
+    k = len(radius)
+    angle = 2 * np.pi * np.arange(n_around) / n_around
+    rings = np.stack([radius[:, None] * np.cos(angle), radius[:, None] * np.sin(angle),
+                      np.broadcast_to(height[1:-1, None], (k, n_around))], axis=-1).reshape(-1, 3)
+    vertices = np.concatenate([rings, [(0, 0, height[0]), (0, 0, height[-1])]])
+    this, following = np.arange(n_around), (np.arange(n_around) + 1) % n_around
+    sides = [np.stack([r * n_around + this, r * n_around + following,
+                       (r + 1) * n_around + following, (r + 1) * n_around + this], axis=1)
+             for r in range(k - 1)]
+    bottom = np.stack([following, this, np.full(n_around, k * n_around)], axis=1)
+    top = (k - 1) * n_around + np.stack([this, following, np.full(n_around, n_around + 1)], axis=1)
+    return Shape(vertices, np.concatenate([split_quads(np.concatenate(sides)), bottom, top]))
+
+
+def dumbbell(n_along: int = 80, n_around: int = 24, neck: float = 0.25) -> Shape:
+    """Two balls of unit radius with a neck at z = 0, six lengths from tip to tip."""
+    t = np.linspace(-1, 1, n_along)
+    z = 3 * np.sin(0.5 * np.pi * t)
+    ball = np.sqrt(np.maximum(1 - (np.abs(z) / 1.5 - 1) ** 2, 0))  # two lobes that meet at 0
+    return lathe(np.hypot(ball, neck * np.cos(0.5 * np.pi * t)), z, n_around)
+
+
+def cylinder(n_along: int, n_around: int, radius: float = 1.0, length: float = 4.0,
+             capped: bool = True) -> Shape:
+    """A cylinder around z from 0 to ``length``, with fans for caps or open."""
+    z = np.linspace(0, length, n_along + 1)
+    closed = lathe(np.concatenate([[0], np.full(n_along + 1, radius), [0]]),
+                   np.concatenate([[0], z, [length]]), n_around)
+    if capped:
+        return closed
+    return Shape(closed.vertices[:-2], closed.faces[: 2 * n_along * n_around])
+
+
+def monkey_saddle(n: int = 6) -> Shape:
+    """A disc of 6 n triangles around vertex 0, with height r**3 cos(3 angle): three ways down."""
+    angle = np.pi / 3 * np.arange(6)
+    rings = [np.stack([r * np.cos(angle), r * np.sin(angle), r**3 * np.cos(3 * angle)], axis=1)
+             for r in np.arange(1, n + 1) / n]
+    vertices = np.concatenate([np.zeros((1, 3)), *rings])
+    this, following = np.arange(6), (np.arange(6) + 1) % 6
+    faces = [np.stack([np.zeros(6, int), 1 + this, 1 + following], axis=1)]
+    for ring in range(n - 1):
+        low, high = 1 + 6 * ring, 7 + 6 * ring
+        faces.append(split_quads(np.stack([low + this, high + this, high + following, low + following], 1)))
+    return Shape(vertices, np.concatenate(faces))
+
+
+def box(size=(1.0, 1.0, 1.0)) -> Shape:
+    """Twelve triangles."""
+    vertices, quads = box_quads(size)
+    return Shape(vertices, split_quads(quads))
+
+
+def box_quads(size=(1.0, 1.0, 1.0)) -> tuple[np.ndarray, np.ndarray]:
+    """Eight vertices and six quads."""
+    corner = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return corner * size, np.array(quads)
+
+
+def prism(n_sides: int = 8, radius: float = 0.5, length: float = 6.0):
+    """A cylinder as artists draw it: one long quad per side and two n-gons.
+
+    Returns (2 n, 3) vertices and a list of polygons.
+    """
+    angle = 2 * np.pi * np.arange(n_sides) / n_sides
+    ring = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0 * angle], axis=1)
+    vertices = np.concatenate([ring, ring + (0, 0, length)])
+    n = n_sides
+    sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    return vertices, [*sides, list(range(n))[::-1], list(range(n, 2 * n))]
+
+
+# Level surfaces --------------------------------------------------------------------------------
+
+
+def level_surface(distance: Callable[[np.ndarray], np.ndarray], low, high, step: float) -> Shape:
+    """The surface where a function of (n, 3) points is zero; it is negative inside.
+
+    Surface nets: a vertex in each grid cell the surface passes, a quad across each grid edge that
+    it crosses; then a few steps of Newton's method on to the surface.
+    """
+    axes = [np.arange(a, b + step, step) for a, b in zip(low, high, strict=True)]
+    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    value = distance(nodes.reshape(-1, 3)).reshape(nodes.shape[:3])
+    sums, count, quads = np.zeros((value.size, 3)), np.zeros(value.size), []
+    for axis in range(3):
+        near, far = np.moveaxis(value, axis, 0)[:-1], np.moveaxis(value, axis, 0)[1:]
+        crossed = np.moveaxis((near < 0) != (far < 0), 0, axis)
+        index = np.stack(np.nonzero(crossed), axis=1)
+        unit = np.eye(3, dtype=int)
+        start, stop = value[tuple(index.T)], value[tuple((index + unit[axis]).T)]
+        point = nodes[tuple(index.T)] + step * (start / (start - stop))[:, None] * unit[axis]
+        u, v = unit[(axis + 1) % 3], unit[(axis + 2) % 3]
+        cells = np.stack([np.ravel_multi_index(tuple((index - a * u - b * v).T), value.shape)
+                          for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))], axis=1)
+        for column in cells.T:
+            np.add.at(sums, column, point)
+            np.add.at(count, column, 1)
+        quads.append(np.where((start < 0)[:, None], cells, cells[:, ::-1]))
+    used, quads = np.unique(np.concatenate(quads), return_inverse=True)
+    vertices = _onto(distance, sums[used] / count[used][:, None], step)
+    return Shape(vertices, split_quads(quads.reshape(-1, 4), vertices))
+
+
+def _onto(distance, points: np.ndarray, step: float) -> np.ndarray:
+    """Move points on to the zero set, at most a fraction of a grid step at a time."""
+    small = 1e-3 * step
+    for _ in range(4):
+        value = distance(points)
+        gradient = np.stack([distance(points + small * e) - value for e in np.eye(3)], axis=1) / small
+        move = -(value / np.maximum((gradient**2).sum(axis=1), 1e-9))[:, None] * gradient
+        length = np.linalg.norm(move, axis=1, keepdims=True)
+        points = points + move * np.minimum(1.0, 0.25 * step / np.maximum(length, 1e-12))
+    return points
+
+
+def _capsule(points, start, end, radius):
+    """Signed distance from a rod with round ends; ``radius`` may be a pair, one per end."""
+    start, end = np.asarray(start, float), np.asarray(end, float)
+    along = np.clip((points - start) @ (end - start) / ((end - start) @ (end - start)), 0, 1)
+    thick = np.broadcast_to(radius, 2)
+    nearest = start + along[:, None] * (end - start)
+    return np.linalg.norm(points - nearest, axis=1) - (thick[0] + along * (thick[1] - thick[0]))
+
+
+def _ring(points, centre, axis: int, ring: float, tube: float):
+    """Signed distance from a torus around a coordinate axis."""
+    offset = points - np.asarray(centre, float)
+    flat = np.delete(offset, axis, axis=1)
+    return np.hypot(np.linalg.norm(flat, axis=1) - ring, offset[:, axis]) - tube
+
+
+def _blend(a, b, width: float):
+    """Union with a rounded seam of about ``width``."""
+    near = np.maximum(width - np.abs(a - b), 0) / width
+    return np.minimum(a, b) - 0.25 * width * near**2
+
+
+def surface_of_genus(genus: int, step: float = 0.12) -> Shape:
+    """A closed orientable surface: a chain of ``genus`` rings along x, or a bar."""
+    def distance(points):
+        solid = _capsule(points, (-1.6, 0, 0), (-0.9, 0, 0), 0.35)
+        for k in range(genus):
+            solid = _blend(solid, _ring(points, (2.1 * k, 0, 0), 2, 0.8, 0.35), 0.3)
+        return solid
+
+    high = max(2.1 * (genus - 1) + 1.5, 0.0)
+    # No grid line on an axis of symmetry: ambiguous cells lie there.
+    return level_surface(distance, (-2.317, -1.513, -0.711), (high, 1.6, 0.8), step)
+
+
+TREE_TIPS = np.array([(2.0, 0.2, 0.1), (-1.6, 0.9, 0.0), (-0.6, -1.9, 0.3), (0.1, 0.4, 1.5)])
+
+
+def tube_tree(n_branches: int = 4, step: float = 0.11) -> Shape:
+    """Tubes of radius 0.25 from the origin to the first of TREE_TIPS, blended."""
+    def distance(points):
+        solid = np.linalg.norm(points, axis=1) - 0.4
+        for tip in TREE_TIPS[:n_branches]:
+            solid = _blend(solid, _capsule(points, (0, 0, 0), tip, 0.25), 0.15)
+        return solid
+
+    return level_surface(distance, (-2.217, -2.413, -0.811), (2.5, 1.5, 2.1), step)
+
+
+def genus_two(step: float = 0.045) -> Shape:
+    """An amphora: body, foot, neck with a lip, and two handles. Our own model of genus 2."""
+    def distance(points):
+        x, y, z = points.T
+        # An egg, slender below.
+        body = np.linalg.norm(points / (0.8, 0.8, 1.05), axis=1) - 1.0
+        body = 0.8 * body * (1.0 - 0.12 * np.clip(z, -1, 1))
+        solid = _blend(body, _capsule(points, (0, 0, -0.9), (0, 0, -1.35), 0.22), 0.25)
+        foot = np.hypot(np.maximum(np.hypot(x, y) - 0.36, 0), np.maximum(np.abs(z + 1.5) - 0.02, 0)) - 0.1
+        solid = _blend(solid, foot, 0.2)
+        solid = _blend(solid, _capsule(points, (0, 0, 0.8), (0, 0, 1.75), 0.27), 0.25)
+        lip = np.hypot(np.maximum(np.hypot(x, y) - 0.34, 0), np.maximum(np.abs(z - 1.85) - 0.02, 0)) - 0.1
+        solid = _blend(solid, lip, 0.15)
+        for side in (-1, 1):
+            path = [(0.2, 1.5), (0.62, 1.55), (0.92, 1.3), (0.95, 0.9), (0.8, 0.55), (0.6, 0.4)]
+            handle = np.full(len(points), np.inf)
+            for (xa, za), (xb, zb) in zip(path, path[1:], strict=False):
+                rod = _capsule(points, (side * xa, 0, za), (side * xb, 0, zb), 0.11)
+                handle = rod if np.isinf(handle).all() else _blend(handle, rod, 0.08)
+            solid = _blend(solid, handle, 0.12)
+        return solid
+
+    return level_surface(distance, (-1.2137, -1.0131, -1.7119), (1.25, 1.05, 2.1), step)
+
+
+# Made from others ------------------------------------------------------------------------------
+
+
+def split_quads(quads: np.ndarray, vertices: np.ndarray | None = None) -> np.ndarray:
+    """Two triangles per quad, along the diagonal 0-2, or the shorter one of ``vertices``."""
+    a, b, c, d = quads.T
+    first = np.ones(len(quads), bool)
+    if vertices is not None:
+        first = (np.linalg.norm(vertices[a] - vertices[c], axis=1)
+                 <= np.linalg.norm(vertices[b] - vertices[d], axis=1))
+    one = np.where(first[:, None], np.stack([a, b, c], 1), np.stack([a, b, d], 1))
+    two = np.where(first[:, None], np.stack([a, c, d], 1), np.stack([b, c, d], 1))
+    return np.stack([one, two], axis=1).reshape(-1, 3)
+
+
+def _grid_quads(n_x: int, n_y: int, stride: int) -> np.ndarray:
+    i, j = (x.ravel() for x in np.meshgrid(np.arange(n_x), np.arange(n_y), indexing="ij"))
+    corner = i * stride + j
+    return np.stack([corner, corner + stride, corner + stride + 1, corner + 1], axis=1)
+
+
+def subdivide(shape: Shape) -> Shape:
+    """Every triangle to four, on the same surface."""
+    start, end = shape.faces, np.roll(shape.faces, -1, axis=1)
+    edges, index = np.unique(np.sort(np.stack([start, end], axis=-1).reshape(-1, 2), axis=1),
+                             axis=0, return_inverse=True)
+    ab, bc, ca = (len(shape.vertices) + index.reshape(-1, 3)).T
+    a, b, c = shape.faces.T
+    faces = np.stack([(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]).transpose(2, 0, 1)
+    return Shape(np.concatenate([shape.vertices, shape.vertices[edges].mean(axis=1)]),
+                 faces.reshape(-1, 3))
+
+
+def together(*shapes: Shape) -> Shape:
+    """Several shapes as loose parts of one mesh, in order."""
+    offsets = np.cumsum([0] + [len(s.vertices) for s in shapes])
+    return Shape(np.concatenate([s.vertices for s in shapes]),
+                 np.concatenate([s.faces + o for s, o in zip(shapes, offsets, strict=False)]))
+
+
+def moved(shape: Shape, offset) -> Shape:
+    return Shape(shape.vertices + np.asarray(offset, float), shape.faces)
+
+
+def two_spheres(subdivisions: int = 2) -> Shape:
+    """Two loose parts, the second of half the radius."""
+    return together(icosphere(subdivisions), moved(icosphere(subdivisions, 0.5), (3, 0, 0)))
+
+
+def inside_out(shape: Shape) -> Shape:
+    """Every face turned the other way."""
+    return Shape(shape.vertices, shape.faces[:, ::-1])
+
+
+def unjoined(shape: Shape) -> Shape:
+    """Every face with three vertices of its own, as in an STL file."""
+    return Shape(shape.vertices[shape.faces.ravel()], np.arange(3 * len(shape.faces)).reshape(-1, 3))
+
+
+def with_fin(shape: Shape) -> Shape:
+    """A triangle more, standing on the first edge of face 0: three faces meet there."""
+    a, b, _ = shape.faces[0]
+    tip = 1.5 * (shape.vertices[a] + shape.vertices[b]) / 2 + (0, 0, 0.1)
+    return Shape(np.concatenate([shape.vertices, [tip]]),
+                 np.concatenate([shape.faces, [(a, b, len(shape.vertices))]]))
+
+
+def bowtie(shape: Shape) -> Shape:
+    """The shape and its mirror image through vertex 0, which the two share and nothing else."""
+    mirror = 2 * shape.vertices[0] - shape.vertices
+    other = np.concatenate([[0], len(shape.vertices) + np.arange(len(shape.vertices) - 1)])
+    return Shape(np.concatenate([shape.vertices, mirror[1:]]),
+                 np.concatenate([shape.faces, other[shape.faces][:, ::-1]]))
+
+
+def with_unused_vertices(shape: Shape, count: int = 3) -> Shape:
+    """Vertices of no face before, between and after the others."""
+    half = len(shape.vertices) // 2
+    place = np.arange(len(shape.vertices)) + np.where(np.arange(len(shape.vertices)) < half, count, 2 * count)
+    vertices = np.full((len(shape.vertices) + 3 * count, 3), 7.0)
+    vertices[place] = shape.vertices
+    return Shape(vertices, place[shape.faces])
+
+
+def with_flat_faces(shape: Shape, count: int = 5) -> Shape:
+    """Faces without area more: a repeated corner, or three corners on a line."""
+    v = np.concatenate([shape.vertices, shape.vertices[shape.faces[:count, :2]].mean(axis=1)])
+    a, b, _ = shape.faces[:count].T
+    needle = np.stack([a, b, len(shape.vertices) + np.arange(count)], axis=1)
+    return Shape(v, np.concatenate([shape.faces, needle, np.stack([a, a, b], axis=1)]))
+
+
+def crumbs(count: int = 2000, seed: int = 0) -> Shape:
+    """Small loose triangles scattered in a ball."""
+    rng = np.random.default_rng(seed)
+    corners = rng.normal(size=(count, 1, 3)) + 0.02 * rng.normal(size=(count, 3, 3))
+    return Shape(corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))
+
+
+def shuffled(shape: Shape, rng: np.random.Generator) -> tuple[Shape, np.ndarray, np.ndarray]:
+    """The same mesh with vertices and faces in another order.
+
+    Returns it, and the old index of each new vertex and of each new face.
+    """
+    vertex = rng.permutation(len(shape.vertices))
+    face = rng.permutation(len(shape.faces))
+    place = np.empty_like(vertex)
+    place[vertex] = np.arange(len(vertex))
+    return Shape(shape.vertices[vertex], place[shape.faces[face]]), vertex, face
+
+
+def rotation(rng: np.random.Generator) -> np.ndarray:
+    """A random rotation matrix, (3, 3)."""
+    q, r = np.linalg.qr(rng.normal(size=(3, 3)))
+    q *= np.sign(np.diag(r))
+    return q * np.linalg.det(q)
