@@ -24,12 +24,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import environments
-from environments import PYTEST, ROOT, SCIPY, Environment, say
+from environments import JSONSCHEMA, PYTEST, ROOT, SCIPY, Environment, say
 
 RUFF = Environment("lint", environments.any_python("lint").python, ("ruff==0.17.5",))
-NEWEST = environments.any_python("unit-newest", "numpy", "scipy", PYTEST)
+NEWEST = environments.any_python("unit-newest", "numpy", "scipy", PYTEST, JSONSCHEMA)
 SUITES = {
-    "unit-oldest": (Environment("unit-oldest", "3.11", ("numpy==1.24.3", SCIPY, PYTEST)), "tests/unit"),
+    "unit-oldest": (Environment("unit-oldest", "3.11", ("numpy==1.24.3", SCIPY, PYTEST, JSONSCHEMA)), "tests/unit"),
     "unit-newest": (NEWEST, "tests/unit"),
     "blender-4.2": (environments.BLENDER_42, "tests/blender"),
     "blender-4.5": (environments.BLENDER_45, "tests/blender"),
