@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How much of the parts is left when a mesh is changed: noise, smoothing, decimation, poses.
+
+    python3 benchmarks/robustness.py [MESHES ...] [--preset NAME]
+
+Each mesh (default: the bundled Spot) is decomposed as it is and changed; the parts of the changed mesh
+are brought back by the nearest face and compared with the parts of the mesh as it is. Prints, per change,
+the mean over the meshes of the Rand index and of the paper's agreement (12) over faces (both 1 when
+nothing changed), and the number of parts against that of the mesh as it is.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+import numpy as np
+from label import load_mesh
+from scipy.spatial import cKDTree
+from tqdm import tqdm
+
+from core import PRESETS, Parameters, TriMesh, decompose
+
+SPOT = Path(__file__).resolve().parent.parent / "models" / "spot.obj"
+SEED = 2009
+
+
+def with_noise(share: float):
+    """Gaussian noise along the normals; standard deviation in shares of the mean edge length."""
+
+    def change(mesh: TriMesh) -> TriMesh:
+        rng = np.random.default_rng(SEED)
+        normal = np.stack([np.bincount(mesh.faces.ravel(), np.repeat(column, 3), mesh.n_vertices)
+                           for column in mesh.area_normals.T], axis=1)
+        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), np.finfo(float).tiny)
+        step = share * mesh.edge_length.mean() * rng.standard_normal((mesh.n_vertices, 1))
+        return TriMesh(mesh.vertices + step * normal, mesh.faces)
+
+    return change
+
+
+def smoothed(mesh: TriMesh) -> TriMesh:
+    """Ten steps of Laplacian smoothing, halfway to the mean of the neighbours."""
+    a, b = mesh.edges.vertices.T
+    n, points = mesh.n_vertices, mesh.vertices
+    degree = np.maximum(np.bincount(a, minlength=n) + np.bincount(b, minlength=n), 1)
+    for _ in range(10):
+        around = [np.bincount(a, c[b], n) + np.bincount(b, c[a], n) for c in points.T]
+        points = 0.5 * points + 0.5 * np.stack(around, axis=1) / degree[:, None]
+    return TriMesh(points, mesh.faces)
+
+
+def decimated(share: float):
+    """Quadric edge collapse down to a share of the faces."""
+
+    def change(mesh: TriMesh) -> TriMesh:
+        import fast_simplification
+
+        points, faces = fast_simplification.simplify(
+            mesh.vertices.astype(np.float32), mesh.faces.astype(np.int32), 1.0 - share)
+        return TriMesh(points, faces)
+
+    return change
+
+
+def subdivided(mesh: TriMesh) -> TriMesh:
+    """Every triangle cut into four."""
+    import trimesh
+
+    return TriMesh(*trimesh.remesh.subdivide(mesh.vertices, mesh.faces))
+
+
+def bent(angle: float):
+    """The mesh wound around an axis: along its longest direction it turns by so many degrees."""
+
+    def change(mesh: TriMesh) -> TriMesh:
+        middle = mesh.vertices.mean(axis=0)
+        _, _, axes = np.linalg.svd(mesh.vertices - middle, full_matrices=False)
+        along, across, up = ((mesh.vertices - middle) @ axes.T).T
+        radius = np.ptp(along) / np.radians(angle)
+        turn = along / radius
+        bent_points = np.stack([(radius + up) * np.sin(turn), across, (radius + up) * np.cos(turn)], axis=1)
+        return TriMesh(bent_points, mesh.faces)
+
+    return change
+
+
+def twisted(angle: float):
+    """The mesh twisted about its longest direction by so many degrees from end to end."""
+
+    def change(mesh: TriMesh) -> TriMesh:
+        middle = mesh.vertices.mean(axis=0)
+        _, _, axes = np.linalg.svd(mesh.vertices - middle, full_matrices=False)
+        along, across, up = ((mesh.vertices - middle) @ axes.T).T
+        turn = np.radians(angle) * along / np.ptp(along)
+        points = np.stack([along, np.cos(turn) * across - np.sin(turn) * up,
+                           np.sin(turn) * across + np.cos(turn) * up], axis=1)
+        return TriMesh(points, mesh.faces)
+
+    return change
+
+
+CHANGES = {
+    "noise, 5 % of an edge": with_noise(0.05),
+    "noise, 20 % of an edge": with_noise(0.2),
+    "10 steps of smoothing": smoothed,
+    "decimated to half": decimated(0.5),
+    "decimated to 10 %": decimated(0.1),
+    "subdivided": subdivided,
+    "bent by 45 degrees": bent(45.0),
+    "bent by 90 degrees": bent(90.0),
+    "twisted by 60 degrees": twisted(60.0),
+}
+
+
+def rand_index(a: np.ndarray, b: np.ndarray) -> float:
+    """Share of the pairs of faces that both labellings join or both separate."""
+    table = _overlap(a, b)
+
+    def pairs(count):
+        return (count * (count - 1.0)).sum() / 2
+
+    apart = pairs(table.sum(axis=1)) + pairs(table.sum(axis=0)) - 2 * pairs(table)
+    return 1.0 - apart / (len(a) * (len(a) - 1.0) / 2)
+
+
+def agreement(a: np.ndarray, b: np.ndarray) -> float:
+    """The paper's agreement of a with b, eq. (12), over faces."""
+    table = _overlap(a, b)
+    larger = np.maximum(table.sum(axis=1)[:, None], table.sum(axis=0)[None])
+    return float((table / larger).max(axis=1).mean())
+
+
+def _overlap(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Faces in common of each label of a and each of b."""
+    return np.bincount(a * (b.max() + 1) + b, minlength=(a.max() + 1) * (b.max() + 1)).reshape(a.max() + 1, -1)
+
+
+def compare(mesh: TriMesh, labels: np.ndarray, change, parameters: Parameters) -> tuple[float, float, float]:
+    """Rand index, agreement and ratio of the numbers of parts of a mesh and its changed copy."""
+    changed = change(mesh)
+    parts = decompose(changed.vertices, changed.faces, parameters).parts()
+    if changed.n_faces == mesh.n_faces:
+        back = parts.labels
+    else:
+        back = parts.labels[cKDTree(changed.face_centroids).query(mesh.face_centroids)[1]]
+    return rand_index(back, labels), agreement(back, labels), parts.count / (labels.max() + 1)
+
+
+def main() -> int:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("meshes", nargs="*", type=Path, default=[SPOT], metavar="MESHES")
+    parser.add_argument("--preset", choices=list(PRESETS), default=next(iter(PRESETS)), metavar="NAME")
+    arguments = parser.parse_args()
+    parameters = Parameters.preset(arguments.preset)
+    rows = {name: [] for name in CHANGES}
+    for path in tqdm(arguments.meshes, unit="mesh", disable=None):
+        mesh = TriMesh(*load_mesh(path))
+        labels = decompose(mesh.vertices, mesh.faces, parameters).parts().labels
+        for name, change in CHANGES.items():
+            rows[name].append(compare(mesh, labels, change, parameters))
+    print(f"| {arguments.preset}, {len(arguments.meshes)} meshes | Rand index | agreement (12) | parts |")
+    print("| --- | --- | --- | --- |")
+    for name, values in rows.items():
+        rand, agree, ratio = np.mean(values, axis=0)
+        print(f"| {name} | {rand:.3f} | {agree:.2f} | x {ratio:.2f} |")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
