@@ -54,13 +54,6 @@ class ScalarField:
     normalised: np.ndarray
     agd: np.ndarray
 
-    @property
-    def rank(self) -> np.ndarray:
-        """(n,) int64, place of each vertex in the total order (value, vertex index): no ties."""
-        rank = np.empty(len(self.values), np.int64)
-        rank[np.argsort(self.values, kind="stable")] = np.arange(len(self.values))
-        return rank
-
 
 def spread_base_vertices(
     mesh: TriMesh,

@@ -40,6 +40,13 @@ class CriticalPoints:
         return int(self.multiplicity[self.kind == kind].sum())
 
 
+def total_order(values: np.ndarray) -> np.ndarray:
+    """Place of each vertex by (value, vertex index), without ties: (n,) int64."""
+    rank = np.empty(len(values), np.int64)
+    rank[np.argsort(values, kind="stable")] = np.arange(len(values))
+    return rank
+
+
 def critical_points(mesh: TriMesh, rank: np.ndarray) -> CriticalPoints:
     """Classify every vertex by its lower link.
 
@@ -49,7 +56,7 @@ def critical_points(mesh: TriMesh, rank: np.ndarray) -> CriticalPoints:
         n vertices. On a closed manifold, minima - saddles + maxima is the Euler
         characteristic; at a border the kinds are those of the surface as it is.
     rank : (n,) int64
-        Place of each vertex in the total order.
+        Place of each vertex in the total order, as ``total_order`` gives it.
 
     Returns
     -------

@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .critical import MAXIMUM, MINIMUM, SADDLE
+from .critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from .levelsets import LevelSets
 from .mesh import components
 
@@ -170,7 +170,8 @@ def reeb_graph(sets: LevelSets, structure: ReebStructure) -> ReebGraph:
     n_above = np.bincount(structure.arcs[:, 0], minlength=structure.n_nodes)
     kind = np.where(n_below == 0, MINIMUM, np.where(n_above == 0, MAXIMUM, SADDLE)).astype(np.int8)
     tip = _tip_vertices(sets, structure, kind)
-    value, position = _node_means(sets, structure)
+    middle, position = _node_means(sets, structure)
+    value = _saddle_values(sets, structure, middle)
     has_tip = tip >= 0
     value[has_tip] = sets.values[tip[has_tip]]
     position[has_tip] = sets.mesh.vertices[tip[has_tip]]
@@ -200,6 +201,22 @@ def _tip_vertices(sets: LevelSets, structure: ReebStructure, kind: np.ndarray) -
     tip = np.where(kind == MINIMUM, lowest, tip)
     tip[kind == SADDLE] = -1
     return tip
+
+
+def _saddle_values(sets: LevelSets, structure: ReebStructure, middle: np.ndarray) -> np.ndarray:
+    """Value of each node's saddle vertex: the one of most arcs, then nearest the middle level.
+
+    Nodes without one (a loop thinner than a slab, a border) keep the middle level.
+    """
+    critical = critical_points(sets.mesh, total_order(sets.values))
+    node = structure.piece_node[sets.vertex_piece[critical.vertex]]
+    saddle = (critical.kind == SADDLE) & (node >= 0)
+    node, vertex = node[saddle], critical.vertex[saddle]
+    off = np.abs(sets.values[vertex] - middle[node])
+    order = np.lexsort((vertex, -off, critical.multiplicity[saddle]))
+    value = middle.copy()
+    value[node[order]] = sets.values[vertex[order]]  # the last one written is the best
+    return value
 
 
 def _node_means(sets: LevelSets, structure: ReebStructure) -> tuple[np.ndarray, np.ndarray]:
