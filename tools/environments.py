@@ -23,7 +23,7 @@ PROGRAM = Path(sys.argv[0]).stem
 SCIPY = "scipy==1.15.3"
 PYTEST = "pytest==9.2.0"
 #: What the tests check the JSON with.
-JSONSCHEMA = "jsonschema==4.23.0"
+JSONSCHEMA = "jsonschema==4.26.0"
 
 #: Shared libraries that Blender as a Python module loads, and the Debian package of each.
 LIBRARIES = {
