@@ -351,6 +351,8 @@ def _remove_material(mesh, material):
     for index in reversed(range(len(mesh.materials))):
         if mesh.materials[index] == material:
             mesh.materials.pop(index=index)
+    if not len(mesh.materials):
+        mesh.materials.clear()  # popping the last one leaves an empty slot on the objects
     for part in mesh.reeb_parts.parts:
         if part.material == material:
             part.material = None

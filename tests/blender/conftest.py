@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The extension switched on, an empty scene for each test, and what the tests compare scenes by.
+"""The extension switched on, an empty scene for each test, and a mesh with obvious parts.
 
 In Blender as a module the checkout is the package; in a full Blender the installed zip is.
 """
@@ -9,6 +9,8 @@ from pathlib import Path
 
 import bpy
 import pytest
+import shapes
+from snapshot import activate
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -36,3 +38,39 @@ def scene(package):
     """An empty scene, with the extension enabled."""
     bpy.ops.wm.read_homefile(use_empty=True)
     return bpy.context.scene
+
+
+@pytest.fixture(scope="session")
+def tree():
+    """Vertices and triangles of a trunk with four branches."""
+    return shapes.tube_tree()
+
+
+@pytest.fixture
+def make(scene):
+    """A function that adds an object with a mesh, active and selected alone."""
+
+    def make_object(shape, name="Tree"):
+        vertices, faces = shape
+        mesh = bpy.data.meshes.new(name)
+        mesh.from_pydata([tuple(v) for v in vertices], [], [tuple(map(int, f)) for f in faces])
+        obj = bpy.data.objects.new(name, mesh)
+        bpy.context.scene.collection.objects.link(obj)
+        activate(obj)
+        return obj
+
+    return make_object
+
+
+@pytest.fixture
+def obj(make, tree):
+    """The tree as an object."""
+    return make(tree)
+
+
+def pytest_sessionfinish(session, exitstatus):
+    """Switch the extension off: Blender as a module does not like to end with it."""
+    import addon_utils
+
+    for name in [name for name in sys.modules if name == "bl_ext.development.reeb_parts"]:
+        addon_utils.disable(name, default_set=True)

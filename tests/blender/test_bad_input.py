@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bad input: one sentence each, and the scene is as it was."""
+
+import bpy
+import numpy as np
+import pytest
+from snapshot import snapshot
+
+
+def refused(match, **arguments):
+    """Decompose is refused with a sentence and changes nothing."""
+    before = snapshot()
+    with pytest.raises(RuntimeError, match=match) as error:
+        bpy.ops.reeb_parts.decompose(**arguments)
+    assert snapshot() == before
+    assert str(error.value).strip().endswith(".")
+
+
+def test_no_active_object(scene):
+    refused("no active object")
+
+
+def test_not_a_mesh(scene):
+    bpy.ops.object.light_add()
+    refused("not a mesh")
+
+
+def test_no_faces(make):
+    make(([(0, 0, 0), (1, 0, 0)], []))
+    refused("no faces")
+
+
+def test_too_few_faces(make):
+    make(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
+    refused("only 1")
+
+
+def test_coordinates_that_are_no_numbers(obj):
+    obj.data.vertices[7].co.x = float("nan")
+    refused("7")
+
+
+def test_infinite_coordinates(obj):
+    positions = np.zeros(3 * len(obj.data.vertices), np.float32)
+    obj.data.vertices.foreach_get("co", positions)
+    positions[3 * 7] = np.inf
+    obj.data.vertices.foreach_set("co", positions)
+    refused("7")
+
+
+def test_no_area(make):
+    make(([(i, 0, 0) for i in range(6)], [(i, i + 1, i + 2) for i in range(4)]))
+    refused("area")
+
+
+def test_scaled_to_nothing(obj):
+    obj.scale = (0, 0, 0)
+    bpy.context.view_layer.update()
+    refused("area")
+
+
+def test_linked_data(obj, tmp_path):
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (_, to):
+        to.objects = ["Tree"]
+    linked = bpy.data.objects["Tree"]
+    bpy.context.scene.collection.objects.link(linked)
+    bpy.context.view_layer.objects.active = linked
+    refused("linked")
+
+
+def test_overridden_data(obj, tmp_path):
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (_, to):
+        to.objects = ["Tree"]
+    override = bpy.data.objects["Tree"].override_create()
+    bpy.context.scene.collection.objects.link(override)
+    bpy.context.view_layer.objects.active = override
+    refused("override")
+
+
+def test_parameters_out_of_range_are_clipped_by_blender(obj):
+    bpy.ops.reeb_parts.decompose(detail=7.0)
+    assert obj.data.reeb_parts.detail == 1.0
+
+
+def test_in_edit_mode(make):
+    make(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
+    bpy.ops.object.mode_set(mode="EDIT")
+    refused("only 1")
+
+
+def test_clear_without_parts(obj):
+    with pytest.raises(RuntimeError):
+        bpy.ops.reeb_parts.clear()

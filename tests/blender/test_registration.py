@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Properties that mirror the parameters, and an extension that comes and goes without a trace."""
+
+import importlib
+from dataclasses import fields
+
+import addon_utils
+import bpy
+import pytest
+
+
+@pytest.fixture
+def parameters(package):
+    return importlib.import_module(f"{package}.core.parameters").Parameters
+
+
+@pytest.mark.parametrize("where", ["scene", "operator"])
+def test_properties_mirror_the_parameters(parameters, where):
+    if where == "scene":
+        properties = bpy.context.scene.reeb_parts.bl_rna.properties
+    else:
+        properties = bpy.ops.reeb_parts.decompose.get_rna_type().properties
+    for field in fields(parameters):
+        mirrored = properties[field.name]
+        if mirrored.type == "FLOAT":
+            assert mirrored.default == pytest.approx(field.default, rel=1e-6)
+        else:
+            assert mirrored.default == field.default
+        if "range" in field.metadata:
+            low, high = field.metadata["range"]
+            assert (mirrored.hard_min, mirrored.hard_max) == pytest.approx((low, high), rel=1e-6)
+        if "choices" in field.metadata:
+            assert tuple(mirrored.enum_items.keys()) == field.metadata["choices"]
+        assert mirrored.name
+        assert mirrored.description
+
+
+def test_defaults_make_default_parameters(parameters):
+    assert bpy.context.scene.reeb_parts.parameters() == parameters()
+
+
+def test_presets_set_all_parameters(package):
+    presets = importlib.import_module(f"{package}.core.parameters").PRESETS
+    settings = bpy.context.scene.reeb_parts
+    for name, expected in presets.items():
+        settings.detail = 0.125
+        settings.preset = name
+        assert settings.parameters() == expected
+
+
+def _ours():
+    return {
+        "types": sorted(name for name in dir(bpy.types) if "reeb" in name.lower()),
+        "operators": sorted(dir(bpy.ops.reeb_parts)),
+        "properties": [cls.__name__ for cls in (bpy.types.Scene, bpy.types.Mesh) if hasattr(cls, "reeb_parts")],
+    }
+
+
+def test_switched_off_leaves_nothing_and_on_again_works(package, obj):
+    before = _ours()
+    assert before["properties"] == ["Scene", "Mesh"]
+    addon_utils.disable(package)
+    try:
+        assert _ours() == {"types": [], "operators": [], "properties": []}
+    finally:
+        addon_utils.enable(package)
+    assert _ours() == before
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The result that stays with the mesh: detail, numbers and names, saving, editing."""
+
+import bpy
+import numpy as np
+import pytest
+from snapshot import snapshot
+
+
+def numbers(mesh):
+    values = np.zeros(len(mesh.polygons), np.int32)
+    mesh.attributes["reeb_part"].data.foreach_get("value", values)
+    return values
+
+
+@pytest.fixture
+def result(obj):
+    bpy.ops.reeb_parts.decompose()
+    return obj.data.reeb_parts
+
+
+def check_outputs(obj):
+    """Attribute, groups, list, colours and overlay all tell of the same parts."""
+    result, mesh = obj.data.reeb_parts, obj.data
+    faces = numbers(mesh)
+    assert sorted(set(faces.tolist())) == [part.number for part in result.parts]
+    assert sorted(obj.vertex_groups.keys()) == sorted(part.group for part in result.parts)
+    for part in result.parts:
+        index = obj.vertex_groups[part.group].index
+        group = {v.index for v in mesh.vertices if any(g.group == index for g in v.groups)}
+        assert group == {v for p in mesh.polygons if faces[p.index] == part.number for v in p.vertices}
+    shown = np.zeros(4 * len(mesh.loops), np.float32)
+    mesh.attributes["Reeb Parts"].data.foreach_get("color_srgb", shown)
+    color = {part.number: tuple(part.color) for part in result.parts}
+    expected = [color[faces[p.index]] for p in mesh.polygons for _ in p.vertices]
+    assert shown.reshape(-1, 4)[:, :3] == pytest.approx(np.array(expected), abs=1 / 255)
+    for item in bpy.data.collections[f"Reeb Graph {obj.name}"].objects:
+        if item.type == "EMPTY":
+            assert item["part"] in color
+            assert tuple(item.color)[:3] == pytest.approx(color[item["part"]])
+
+
+@pytest.mark.parametrize("detail", [0.0, 0.3, 0.7, 1.0])
+def test_detail_equals_a_run_with_that_detail(obj, result, detail):
+    result.detail = detail
+    check_outputs(obj)
+    live = numbers(obj.data)
+    bpy.ops.reeb_parts.clear()
+    bpy.ops.reeb_parts.decompose(detail=detail)
+    once = numbers(obj.data)
+    # The same parts; their numbers come from the first run.
+    pairs = set(zip(live.tolist(), once.tolist(), strict=True))
+    assert len(pairs) == len(set(live)) == len(set(once))
+
+
+def test_there_and_back_is_where_it_was(obj, result):
+    before = snapshot()
+    for detail in (0.0, 1.0, 0.2, 0.5):
+        result.detail = detail
+    after = snapshot()
+    # Groups are as before, their order in the list aside.
+    assert sorted(after["objects"]["Tree"]["groups"]) == before["objects"]["Tree"]["groups"]
+    assert after["meshes"]["Tree"]["attributes"] == before["meshes"]["Tree"]["attributes"]
+    check_outputs(obj)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_exact_number(obj, result, count):
+    result.n_parts = count
+    assert len(result.parts) == count
+    assert result.by_number
+    check_outputs(obj)
+
+
+def test_number_is_clipped_to_what_there_is(obj, result):
+    result.n_parts = 100_000
+    assert result.n_parts == len(result.parts) < 100_000
+
+
+def test_names_are_kept_through_detail_runs_and_poses(obj, result):
+    number = result.parts[2].number
+    result.parts[2].name = "Arm"
+    assert "Arm" in obj.vertex_groups
+    faces = numbers(obj.data) == number
+    result.n_parts = 1
+    assert "Arm" not in obj.vertex_groups
+    result.detail = 0.5
+    assert "Arm" in obj.vertex_groups
+    for vertex in obj.data.vertices:  # another pose
+        vertex.co.x += 0.2 * vertex.co.z**2
+    bpy.ops.reeb_parts.decompose()
+    part = next(part for part in obj.data.reeb_parts.parts if part.name == "Arm")
+    assert ((numbers(obj.data) == part.number) == faces).mean() > 0.95
+    check_outputs(obj)
+
+
+def test_names_stay_beside_the_users_own(obj, result):
+    obj.vertex_groups.new(name="Arm")
+    result.parts[1].name = "Arm"
+    assert result.parts[1].name == "Arm"
+    assert result.parts[1].group == "Arm.001"
+    result.parts[1].name = "  "
+    assert result.parts[1].name == "Arm"
+
+
+def test_numbers_of_parts_survive_a_coarser_run(obj, result):
+    fine = numbers(obj.data)
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    bpy.ops.reeb_parts.decompose()
+    assert (numbers(obj.data) == fine).all() or len(set(fine)) == len(set(numbers(obj.data)))
+
+
+def test_saved_and_opened_again(obj, result, tmp_path):
+    result.parts[1].name = "Arm"
+    path = str(tmp_path / "tree.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    before = snapshot()
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert snapshot() == before
+    obj = bpy.data.objects["Tree"]
+    result = obj.data.reeb_parts
+    result.n_parts = 2
+    assert not result.edited
+    check_outputs(obj)
+    result.detail = 0.5
+    assert result.parts[1].name == "Arm"
+
+
+def test_an_edited_mesh_is_noticed_and_not_mislabelled(obj, result):
+    obj.data.vertices[0].co.x += 0.5
+    before = numbers(obj.data)
+    result.detail = 0.0
+    assert result.edited
+    assert (numbers(obj.data) == before).all()
+    bpy.ops.reeb_parts.decompose()
+    assert not obj.data.reeb_parts.edited
+    check_outputs(obj)
+
+
+def test_a_mesh_with_other_faces_is_decomposed_anew(obj, result):
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    former = numbers(obj.data)
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+    check_outputs(obj)
+    # Subdivided faces carry their part's number along, and the new parts follow it.
+    assert (numbers(obj.data) == former).mean() > 0.9
+    with pytest.raises(RuntimeError):
+        obj.data.vertices[0].co.x += 0.5
+        bpy.ops.reeb_parts.select()
+
+
+def test_clear_works_on_an_edited_mesh(obj, result):
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.reeb_parts.clear()
+    assert obj.vertex_groups.keys() == []
+    assert not [name for name in obj.data.attributes.keys() if "eeb" in name]
+    assert len(bpy.data.objects) == 1
+
+
+def test_select_and_isolate(obj, result):
+    result.active = 1
+    wanted = numbers(obj.data) == result.parts[1].number
+    bpy.ops.reeb_parts.select()
+    assert [p.select for p in obj.data.polygons] == wanted.tolist()
+    bpy.ops.reeb_parts.select(number=result.parts[0].number, action="ADD")
+    assert sum(p.select for p in obj.data.polygons) > wanted.sum()
+    bpy.ops.reeb_parts.isolate()
+    assert [not p.hide for p in obj.data.polygons] == wanted.tolist()
+    bpy.ops.reeb_parts.isolate(show_all=True)
+    assert not any(p.hide for p in obj.data.polygons)
