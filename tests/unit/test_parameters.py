@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ranges, messages and presets of the parameters."""
+
+from dataclasses import FrozenInstanceError, fields
+
+import pytest
+
+from core.errors import ParameterError
+from core.parameters import METHODS, PRESETS, Parameters
+
+NUMBERS = sorted(Parameters.RANGES)
+WHOLE = sorted(f.name for f in fields(Parameters) if f.name in NUMBERS and f.type == "int")
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_both_ends_of_every_range_are_allowed(name):
+    for value in Parameters.RANGES[name]:
+        assert getattr(Parameters(**{name: value}), name) == value
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_outside_every_range_the_message_names_parameter_range_and_value(name):
+    low, high = Parameters.RANGES[name]
+    for value in (low - 1, high + 1, float("nan"), float("inf")):
+        with pytest.raises(ParameterError) as caught:
+            Parameters(**{name: value})
+        assert caught.value.name == name
+        message = str(caught.value)
+        assert message.startswith(f"{name} must be a ")
+        assert f"from {low} to {high}" in message
+        assert repr(value) in message
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+@pytest.mark.parametrize("value", ["many", None, [1]])
+def test_what_is_no_number_is_refused(name, value):
+    with pytest.raises(ParameterError, match=f"^{name} must be a number, not ") as caught:
+        Parameters(**{name: value})
+    assert caught.value.name == name
+
+
+@pytest.mark.parametrize("name", WHOLE)
+def test_counts_are_whole(name):
+    low, high = Parameters.RANGES[name]
+    with pytest.raises(ParameterError, match="whole number"):
+        Parameters(**{name: low + 0.5})
+
+
+def test_unknown_method():
+    with pytest.raises(ParameterError, match="method must be one of") as caught:
+        Parameters(method="magic")
+    assert caught.value.name == "method"
+    assert all(method in str(caught.value) for method in METHODS)
+
+
+def test_ranges_contain_the_defaults_and_every_field_explains_itself():
+    for item in fields(Parameters):
+        assert item.metadata["description"]
+        assert item.metadata["label"]
+        if item.name in Parameters.RANGES:
+            low, high = Parameters.RANGES[item.name]
+            assert low <= item.default <= high
+            assert low < high
+
+
+def test_parameters_cannot_be_changed():
+    with pytest.raises(FrozenInstanceError):
+        Parameters().detail = 1.0
+
+
+def test_preset_of_the_paper():
+    paper = Parameters.preset("Berretti 2009")
+    assert paper.method == "berretti"
+    assert paper.base_spacing == 0.005
+    assert paper.equalise
+    assert paper.levels == 100
+    assert paper.small_region == 0.05
+    assert paper.alpha == 0.5
+    assert paper.follow_level_sets
+    assert paper.detail == 0.5
+
+
+@pytest.mark.parametrize("name", list(PRESETS))
+def test_presets_can_be_changed(name):
+    changed = Parameters.preset(name, detail=0.25, levels=50)
+    assert (changed.detail, changed.levels) == (0.25, 50)
+    assert changed.method == PRESETS[name].method
+    with pytest.raises(ParameterError):
+        Parameters.preset(name, detail=2)
+
+
+def test_unknown_preset_lists_the_known():
+    with pytest.raises(ParameterError) as caught:
+        Parameters.preset("Berretti 2010")
+    assert caught.value.name == "preset"
+    assert all(name in str(caught.value) for name in PRESETS)
