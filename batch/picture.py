@@ -5,7 +5,10 @@ Everything is set up in a scene of its own and removed afterwards; the objects' 
 render settings are left alone. Cycles on the processor renders, since that works on any machine.
 """
 
+import os
+import sys
 import tempfile
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -242,7 +245,8 @@ def _render(scene, parts, layer, folder):
             obj.visible_camera = name == layer.seen
     scene.render.resolution_percentage = 100 // layer.coarseness
     scene.render.filepath = str(folder / f"{layer.seen}.png")
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+    with _silence():
+        bpy.ops.render.render(write_still=True, scene=scene.name)
     pixels = _read_png(scene.render.filepath)
     if layer.coarseness > 1:
         scale = (scene.render.resolution_y / len(pixels), scene.render.resolution_x / pixels.shape[1], 1)
@@ -250,6 +254,21 @@ def _render(scene, parts, layer, folder):
         pixels[..., 3] = np.maximum(pixels[..., 3] - HAZE, 0.0) / (1.0 - HAZE)
     pixels[..., 3] *= layer.opacity
     return pixels
+
+
+@contextmanager
+def _silence():
+    """Without what the renderer prints, a line for each of its steps."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 1)
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(nowhere)
 
 
 def _read_png(path):

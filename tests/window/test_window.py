@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The installed extension in Blender's real window, used with the real pointer; driver.py says how.
+
+The pictures stay in out/window, to be looked at.
+"""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+OUT = HERE.parents[1] / "out" / "window"
+
+
+@pytest.fixture(scope="module")
+def seen():
+    """What the driver saw of the scene before and after each step."""
+    OUT.mkdir(parents=True, exist_ok=True)
+    for old in OUT.iterdir():
+        old.unlink()
+    command = [os.environ["BLENDER_GUI"], "--size", "1280x800", "--driver", str(HERE / "driver.py")]
+    variables = {**os.environ, "GUI_OUT": str(OUT)}
+    done = subprocess.run(command, env=variables, stdin=subprocess.DEVNULL, check=False)
+    assert done.returncode == 0
+    return json.loads((OUT / "seen.json").read_text())
+
+
+def test_the_tab_opens(seen):
+    assert seen["tab"] == "Reeb Parts"
+
+
+def test_a_click_on_decompose_writes_the_parts_and_the_graph(seen):
+    before, after = seen["before"], seen["after"]
+    assert before["parts"] == []
+    assert after["parts"] == list(range(1, len(after["groups"]) + 1))
+    assert len(after["groups"]) > 1
+    assert after["active_color"] == "Reeb Parts"
+    assert set(after["collections"]) - set(before["collections"]) == {"Reeb Graph spot"}
+    assert (after["vertices"], after["faces"]) == (before["vertices"], before["faces"])
+
+
+def test_undo_takes_all_of_it_back(seen):
+    assert seen["undone"] == seen["before"]
+
+
+def test_redo_brings_all_of_it_again(seen):
+    assert seen["redone"] == seen["after"]
+
+
+def test_pictures_are_left(seen):
+    assert [path.name for path in sorted(OUT.glob("*.png"))] == [
+        "1_tab.png", "2_decomposed.png", "3_undone.png", "4_redone.png",
+    ]  # fmt: skip
