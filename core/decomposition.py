@@ -15,6 +15,7 @@ from .errors import ReebError
 from .hierarchy import Hierarchy
 from .parameters import Parameters
 from .reeb import ReebGraph
+from .transfer import majority
 
 VERSION = "0.1.0"
 _FORMAT = 1  # of to_bytes
@@ -203,12 +204,9 @@ class Decomposition:
         return cuts.reshape(-1, 2), length, salience
 
     def _arc_parts(self, point_part: np.ndarray) -> np.ndarray:
-        """The part that most centre points of each arc lie in; an arc without any, its node's."""
-        from .transfer import majority
-
-        part = majority(self.graph.point_arc, point_part, np.ones(len(point_part)),
+        """The part that most centre points of each arc lie in; every arc has a point."""
+        return majority(self.graph.point_arc, point_part, np.ones(len(point_part)),
                         self.graph.n_arcs)
-        return part
 
     def to_bytes(self) -> bytes:
         """Everything, compressed; ``from_bytes`` reads it back."""
