@@ -161,7 +161,7 @@ class LevelSets:
     def _contour_mean(self, of_segments: np.ndarray) -> np.ndarray:
         # A contour through one vertex has no length; its segments then count alike.
         weight = self.segment_length + 1e-9 * np.sqrt(self.mesh.area)
-        columns = of_segments.reshape(len(weight), -1).T
+        columns = np.atleast_2d(of_segments.T)
         sums = [np.bincount(self.segment_contour, weight * c, self.n_contours) for c in columns]
         total = np.bincount(self.segment_contour, weight, self.n_contours)
         return (np.stack(sums, axis=-1) / total[:, None]).reshape(-1, *of_segments.shape[1:])
