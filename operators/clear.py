@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import attributes, bridge, overlay, store
+from . import attributes, bridge, overlay, store, view
 from .modes import object_mode
 from .problems import SceneError
 
@@ -39,4 +39,5 @@ class REEB_PARTS_OT_clear(bpy.types.Operator):
         with object_mode(context):
             for obj in objects:
                 clear(obj)
+        view.restore_colors(context)
         return {"FINISHED"}

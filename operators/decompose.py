@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Decompose: read, compute, write. The scene is untouched until the result exists."""
 
-import time
 from dataclasses import dataclass
 
 import bpy
 
 from ..core.errors import Cancelled, ReebError
 from ..ui.properties import OUTPUTS, OVERLAY, OutputProperties, OverlayProperties, ParameterProperties
-from . import attributes, bridge, compute, jobs, overlay, store
+from . import attributes, bridge, compute, jobs, overlay, store, view
 from .bridge import Shape
 from .modes import object_mode
 from .problems import SceneError, load_core
@@ -38,7 +37,6 @@ def compute_all(shapes, parameters, progress) -> list[Outcome]:
     outcomes = []
     for index, (name, shape) in enumerate(shapes):
         several = f"{name}: " if len(shapes) > 1 else ""
-        start = time.perf_counter()
 
         def step(stage, share, index=index, several=several):
             progress(several + stage, (index + share) / len(shapes))
@@ -50,7 +48,7 @@ def compute_all(shapes, parameters, progress) -> list[Outcome]:
         except ReebError as error:
             outcomes.append(Outcome(name, shape, problem=str(error)))
         else:
-            outcomes.append(Outcome(name, shape, result, seconds=time.perf_counter() - start))
+            outcomes.append(Outcome(name, shape, result, seconds=sum(result.seconds.values())))
     return outcomes
 
 
@@ -126,6 +124,14 @@ class REEB_PARTS_OT_decompose(
             return {"CANCELLED"}
         return self._write(context, outcomes)
 
+    def draw(self, context):
+        """The redo panel: what changes the parts first."""
+        self.layout.use_property_split = True
+        for names in (ParameterProperties.__annotations__, OUTPUTS, OVERLAY):
+            column = self.layout.column(align=True)
+            for name in names:
+                column.prop(self, name)
+
     def _read(self, context):
         """The parameters and the shapes; raises SceneError or ReebError."""
         load_core()
@@ -165,6 +171,7 @@ class REEB_PARTS_OT_decompose(
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         jobs.current = self._job
+        self._shown = ""
         self._digests = {name: shape.digest for name, shape in shapes}
         self._timer = context.window_manager.event_timer_add(0.05, window=context.window)
         context.window_manager.progress_begin(0, 100)
@@ -204,6 +211,8 @@ class REEB_PARTS_OT_decompose(
         except SceneError as problem:
             self.report({"ERROR"}, str(problem))
             return {"CANCELLED"}
+        if self.colors:
+            view.show_colors(context)
         return self._write(context, self._job.result)
 
     def _check_unchanged(self):
@@ -217,12 +226,12 @@ class REEB_PARTS_OT_decompose(
                 raise SceneError(f"{name} was changed while its parts were computed. Decompose it again.")
 
     def _show_progress(self, context):
-        job = self._job
-        context.window_manager.progress_update(round(100 * job.share))
-        context.workspace.status_text_set(
-            f"Reeb Parts: {job.stage} ({job.share:.0%})    Esc: cancel"
-        )
-        _redraw_sidebars(context)
+        text = f"Reeb Parts: {self._job.stage} ({self._job.share:.0%})    Esc: cancel"
+        if text != self._shown:
+            self._shown = text
+            context.window_manager.progress_update(round(100 * self._job.share))
+            context.workspace.status_text_set(text)
+            _redraw_sidebars(context)
 
     def _stop_watching(self, context):
         jobs.current = None

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar tab "Reeb Parts": draws stored facts, never computes."""
 
+import textwrap
+
 import bpy
 
 from ..operators import jobs, store
@@ -65,7 +67,9 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
             column.prop(settings, "detail", slider=True)
             column.prop(settings, "n_parts")
         else:
-            _draw_result(layout, context.object.data, result)
+            # Letters are about 7 pixels wide, and the icon takes 30.
+            width = int((context.region.width / context.preferences.system.ui_scale - 60) / 7)
+            _draw_result(layout, context.object.data, result, max(width, 20))
 
 
 def _draw_progress(layout, job):
@@ -75,7 +79,7 @@ def _draw_progress(layout, job):
     row.operator("reeb_parts.cancel", text="", icon="X")
 
 
-def _draw_result(layout, mesh, result):
+def _draw_result(layout, mesh, result, width):
     edited = store.is_edited(mesh)
     if edited:
         box = layout.box().column(align=True)
@@ -83,10 +87,12 @@ def _draw_result(layout, mesh, result):
         box.label(text="Decompose it again.", icon="BLANK1")
     column = layout.column(align=True)
     column.scale_y = 0.8
-    column.label(text=f"{len(result.parts)} parts in {result.seconds:.2f} s")
-    column.label(text=f"{result.n_nodes} nodes, {result.n_arcs} arcs, {result.n_loops} loops")
+    column.label(text=f"{_count(len(result.parts), 'part')} in {result.seconds:.2f} s")
+    column.label(text=f"{_count(result.n_nodes, 'node')}, {_count(result.n_arcs, 'arc')}, "
+                      f"{_count(result.n_loops, 'loop')}")
     for note in result.notes.splitlines():
-        column.label(text=note, icon="INFO")
+        for index, line in enumerate(textwrap.wrap(note, width)):
+            column.label(text=line, icon="BLANK1" if index else "INFO")
     column = layout.column(align=True)
     column.enabled = not edited
     column.use_property_split = True
@@ -94,6 +100,10 @@ def _draw_result(layout, mesh, result):
     column.prop(result, "detail", slider=True)
     column.prop(result, "n_parts", text="Parts")
     layout.operator("reeb_parts.clear", icon="TRASH")
+
+
+def _count(number, noun):
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 class REEB_PARTS_PT_parts(ReebPanel, bpy.types.Panel):
