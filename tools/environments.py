@@ -147,7 +147,9 @@ def _mend_system(environment: Environment, interpreter: Path) -> None:
         fail(f"some system packages are missing; as root, run: {command}")
     say(f"installing system packages: {' '.join(packages)}")
     os.environ["DEBIAN_FRONTEND"] = "noninteractive"
-    if _run([*sudo, "apt-get", "update", "-qq"]) or _run([*sudo, *install, "-qq"]):
+    # Of what apt prints only its complaints.
+    apt = [["apt-get", "update", "-qq"], [*install, "-qq"]]
+    if any(subprocess.run([*sudo, *words], stdout=subprocess.DEVNULL, check=False).returncode for words in apt):
         fail(f"apt-get failed, see above; as root, run: {command}")
 
 
