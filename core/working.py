@@ -20,6 +20,8 @@ MAX_EDGE = 0.5 * np.sqrt(0.005)
 # Needles (long, thin triangles) multiply under refinement; past this factor coarse is better.
 MAX_GROWTH = 4
 MIN_BUDGET = 50_000  # faces that refinement may always reach
+# Lengths that differ by less are equal: rounding must not decide how a box is divided.
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +82,7 @@ def refine(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndarray]:
     parent = np.arange(mesh.n_faces)
     budget = max(MIN_BUDGET, MAX_GROWTH * mesh.n_faces)
     while mesh.n_faces < budget:
-        long = mesh.edge_length > max_length
+        long = mesh.edge_length > (1 + ROUNDING) * max_length
         if not long.any():
             break
         mesh, step = _split_edges(mesh, long)
@@ -102,7 +104,7 @@ def _split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray
     a, b, c = np.take_along_axis(mesh.faces, turn, axis=1).T
     ab, bc, ca = np.take_along_axis(mids, turn, axis=1).T
     # Two split edges leave a quadrangle: cut it along its shorter diagonal.
-    shorter = np.linalg.norm(vertices[a] - vertices[bc], axis=1) <= np.linalg.norm(
+    shorter = np.linalg.norm(vertices[a] - vertices[bc], axis=1) <= (1 + ROUNDING) * np.linalg.norm(
         vertices[b] - vertices[ca], axis=1)
     patterns = (
         (n_split == 0, ((a, b, c),)),
@@ -202,7 +204,9 @@ def _notes(given: PolygonMesh) -> tuple[str, ...]:
     mesh = given.triangles
     n_lost = mesh.n_vertices - len(np.unique(mesh.faces))
     flat = np.ones(given.n_polygons, bool)
-    flat[given.polygon[mesh.face_area > 0]] = False
+    longest = mesh.edge_length[mesh.edges.face_edges].max(axis=1)
+    # Three corners on a line rarely have an area of exactly 0.
+    flat[given.polygon[mesh.face_area > 1e-12 * longest**2]] = False
     counts = (
         (int((mesh.edges.n_faces > 2).sum()), "edges join more than two faces (non-manifold)."),
         (int((mesh.edges.n_faces == 1).sum()), "border edges: the surface is open there."),
