@@ -36,6 +36,7 @@ LIBRARIES = {
     "libXi.so.6": "libxi6",
     "libXrender.so.1": "libxrender1",
     "libXxf86vm.so.1": "libxxf86vm1",
+    "libgomp.so.1": "libgomp1",
     "libxkbcommon.so.0": "libxkbcommon0",
 }
 
