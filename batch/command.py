@@ -75,6 +75,8 @@ def parser() -> argparse.ArgumentParser:
     files.add_argument("--picture", type=Path, metavar="OUT.png", help="a picture of the parts with the graph")
     files.add_argument("--picture-turn", type=float, default=0.0, metavar="DEGREES",
                        help="turn its camera, which looks at the front, around the objects")
+    files.add_argument("--picture-size", type=_size, default=(960, 540), metavar="WxH",
+                       help="its width and height in pixels (default: 960x540)")
     _add_parameters(made.add_argument_group("parameters"))
     outputs = made.add_argument_group("what is written to the objects")
     for name, prop in (OutputProperties.__annotations__ | OverlayProperties.__annotations__).items():
@@ -101,6 +103,14 @@ def _add_parameters(group):
             group.add_argument(name, type=int if field.type == "int" else float, metavar="N", **words)
         else:
             group.add_argument(name, action=argparse.BooleanOptionalAction, **words)
+
+
+def _size(text):
+    """Width and height out of "960x540"; argparse turns the error into a sentence."""
+    width, height = (int(number) for number in text.split("x"))
+    if not (16 <= width <= 8192 and 16 <= height <= 8192):
+        raise ValueError
+    return width, height
 
 
 def _dashed(name):
@@ -194,7 +204,7 @@ def write_files(options, objects, reports) -> dict:
 
         with _whole(options.picture) as path:
             shown = [(obj, overlay.find(obj)) for obj in objects]
-            render_parts(shown, path, view=view_from(options.picture_turn))
+            render_parts(shown, path, view=view_from(options.picture_turn), size=options.picture_size)
         written["picture"] = str(options.picture)
     if options.json:
         written["json"] = str(options.json)

@@ -65,6 +65,7 @@ def render_parts(objects, path, *, size=(960, 540), samples=16, view=VIEW):
     view : (3,) float
         Direction from the objects to the camera, in the world.
     """
+    bpy.context.view_layer.update()  # objects made just now do not know where they are
     scene = bpy.data.scenes.new("Reeb Parts picture")
     made = [scene]
     try:
