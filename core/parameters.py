@@ -30,7 +30,7 @@ class Parameters:
         A value outside its range; ``error.name`` says which.
     """
 
-    method: str = field(default=BERRETTI, metadata={
+    method: str = field(default=PERCEPTUAL, metadata={
         "choices": METHODS, "label": "Method",
         "description": "How cuts are chosen: as people would, or by the paper's rules"})
     detail: float = _number(
@@ -62,7 +62,7 @@ class Parameters:
     smoothing: int = _number(
         10, 0, 100, "Smoothing",
         "Rounds that take saw teeth off the cuts, a face at a time; 0 leaves them as they fall")
-    follow_level_sets: bool = field(default=True, metadata={
+    follow_level_sets: bool = field(default=False, metadata={
         "label": "Follow level sets",
         "description": "Keep cuts on level sets of the distance, as the paper does; off, they "
                        "follow creases"})
@@ -104,7 +104,8 @@ class Parameters:
 Parameters.RANGES = {f.name: f.metadata["range"] for f in fields(Parameters)
                      if "range" in f.metadata}
 
-BERRETTI_2009 = "Berretti 2009"
+PERCEPTUAL_PRESET, BERRETTI_2009 = "Perceptual", "Berretti 2009"
 PRESETS = {
-    BERRETTI_2009: Parameters(method=BERRETTI),
+    PERCEPTUAL_PRESET: Parameters(),
+    BERRETTI_2009: Parameters(method=BERRETTI, follow_level_sets=True),
 }

@@ -16,7 +16,8 @@ from .decomposition import Decomposition
 from .hierarchy import Hierarchy
 from .levelsets import LevelSets, cut_at_levels, uniform_levels
 from .mesh import PolygonMesh, TriMesh
-from .parameters import Parameters
+from .parameters import PERCEPTUAL, Parameters
+from .perceptual import perceptual_candidates
 from .reeb import ReebGraph, ReebStructure, reeb_graph, reeb_structure
 from .simplify import simplify
 from .transfer import FaceGraph, connect, fill_unlabelled, majority, settle, straighten
@@ -172,7 +173,11 @@ def _decompose_component(working, mask, parameters, watch, begin, width) -> Comp
         structure = simplify(sets, reeb_structure(sets), MIN_LEAF_AREA, MIN_LEAF_LEVELS)
         graph = reeb_graph(sets, structure)
     with watch.stage("cuts", begin + width):
-        candidates = Candidates(*berretti_candidates(sets, structure, parameters))
+        if parameters.method == PERCEPTUAL:
+            found = perceptual_candidates(sets, field, parameters)
+        else:
+            found = berretti_candidates(sets, structure, parameters)
+        candidates = Candidates(*found)
     return ComponentResult(mask, part, field, graph, sets, structure, candidates)
 
 

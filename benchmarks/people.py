@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Merging with people's segmentations at hand: what train.py and crossvalidate.py learn from."""
+
+from __future__ import annotations
+
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from core.agd import agd_field, coarse_agd
+from core.features import surface_measures
+from core.levelsets import cut_at_levels, uniform_levels
+from core.merging import RegionGraph, merge_all_
+from core.mesh import PolygonMesh
+from core.parameters import Parameters
+from core.patches import concave_patches
+from core.working import MAX_EDGE, refine, repair
+
+CATEGORIES = (
+    ("Human", 1), ("Cup", 21), ("Glasses", 41), ("Airplane", 61), ("Ant", 81), ("Chair", 101),
+    ("Octopus", 121), ("Table", 141), ("Teddy", 161), ("Hand", 181), ("Plier", 201), ("Fish", 221),
+    ("Bird", 241), ("Armadillo", 281), ("Bust", 301), ("Mech", 321), ("Bearing", 341), ("Vase", 361),
+    ("FourLeg", 381))
+
+
+def category_of(number: int) -> str:
+    """Category of a mesh of the benchmark."""
+    return [name for name, first in CATEGORIES if first <= number][-1]
+
+
+def mesh_numbers(folder: Path) -> list[int]:
+    """Meshes in a folder of N.npz."""
+    return sorted(int(p.stem) for p in folder.glob("*.npz") if re.fullmatch(r"\d+", p.stem))
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """A mesh measured, cut into patches, and how people label the patches.
+
+    Attributes
+    ----------
+    sets, field, measures, label
+        As in core.perceptual, of the working mesh.
+    votes : (patches, people's parts) float64
+        Faces of the benchmark in each patch with each label of each person.
+    n_people : int
+    split, together : float
+        Rand index error of the patches as they are and what is needed to go on from there.
+    """
+
+    mesh: object
+    measures: object
+    label: np.ndarray
+    votes: np.ndarray
+    n_people: int
+    error: float
+    median_parts: float
+
+    @property
+    def n_faces(self) -> float:
+        return self.votes.sum() / self.n_people
+
+
+def prepare(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray,
+            n_patches: int | None = None) -> Subject:
+    """Everything that does not depend on the model."""
+    parameters = Parameters()
+    working = repair(PolygonMesh.of(vertices, faces))
+    mesh, parent = refine(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
+    owner = working.polygon[parent]
+    radius = np.sqrt(parameters.base_spacing * mesh.area)
+    field = agd_field(mesh, coarse_agd(mesh, radius), True)
+    sets = cut_at_levels(mesh, field.values, uniform_levels(parameters.levels))
+    label = concave_patches(mesh, *([n_patches] if n_patches else []))
+    weight = 1.0 / np.bincount(owner, minlength=len(faces))[owner]
+    votes = []
+    for person in human:
+        _, part = np.unique(person, return_inverse=True)
+        n = int(part.max()) + 1
+        cells = np.bincount(label * n + part.reshape(-1)[owner], weight, (label.max() + 1) * n)
+        votes.append(cells.reshape(-1, n))
+    parts = np.median([v.shape[1] for v in votes])
+    return Subject(mesh, surface_measures(sets, field), label, np.hstack(votes), len(human),
+                   _error(votes), float(parts))
+
+
+def _error(votes: list[np.ndarray]) -> float:
+    """Mean Rand index error of the patches against people."""
+    def pairs(count):
+        return (count * (count - 1)).sum() / 2
+    n = votes[0].sum()
+    split = [pairs(v.sum(1)) + pairs(v.sum(0)) - 2 * pairs(v) for v in votes]
+    return float(np.mean(split) / (n * (n - 1) / 2))
+
+
+class VotedGraph(RegionGraph):
+    """A region graph that knows what share of people separates two regions."""
+
+    def __init__(self, subject: Subject):
+        super().__init__(subject.mesh, subject.measures, subject.label)
+        self.subject = subject
+        self.votes = subject.votes.copy()
+        self.error = [subject.error]  # Rand index error after each merge
+
+    def counts(self, borders) -> np.ndarray:
+        """(k, 2) faces on either side."""
+        return self.votes.sum(axis=1)[self.ends[borders]] / self.subject.n_people
+
+    def people(self, borders) -> np.ndarray:
+        """(k,) share of pairs of faces across each border that people separate, on average."""
+        a, b = self.ends[borders].T
+        same = (self.votes[a] * self.votes[b]).sum(axis=1) / self.subject.n_people
+        return 1.0 - same / np.maximum(self.counts(borders).prod(axis=1), 1e-9)
+
+    def merge_(self, border: int) -> list[int]:
+        n = self.subject.n_faces
+        change = (2 * self.people([border])[0] - 1) * self.counts([border])[0].prod()
+        self.error.append(self.error[-1] + change / (n * (n - 1) / 2))
+        a, b = self.ends[border].copy()
+        gone = super().merge_(border)
+        self.votes[a] += self.votes[b]
+        return gone
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One merging to the end: the states it met, and how good every stop would have been.
+
+    Attributes
+    ----------
+    rows : (k, features) float32;  share, weight : (k,) float64
+        Cuts as judged, what people say of them, how many pairs of faces they concern.
+    error : (c,) float64
+        Rand index error after 0..c - 1 merges.
+    salience : (c - 1,) float64
+    """
+
+    rows: np.ndarray
+    share: np.ndarray
+    weight: np.ndarray
+    error: np.ndarray
+    salience: np.ndarray
+
+    def n_parts(self, decision: float) -> int:
+        """Parts left where a salience is first reached."""
+        return len(self.error) - int(np.searchsorted(np.maximum.accumulate(self.salience), decision))
+
+    def error_at(self, decision: float) -> float:
+        """Rand index error there."""
+        return float(self.error[len(self.error) - self.n_parts(decision)])
+
+
+def merge_and_record(subject: Subject, model=None) -> Run:
+    """Merge by a model of cuts, or without one as people would."""
+    graph = VotedGraph(subject)
+    rows, share, weight = [], [], []
+
+    def judge(graph, borders):
+        features = graph.features(borders)
+        people = graph.people(borders)
+        rows.append(features.astype(np.float32))
+        share.append(people)
+        weight.append(graph.counts(borders).prod(axis=1) / subject.n_faces**2)
+        return people.copy() if model is None else model(features)
+
+    _, salience = merge_all_(graph, judge)
+    return Run(*map(np.concatenate, (rows, share, weight)), np.array(graph.error), salience)

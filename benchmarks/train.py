@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Learn from people which cuts to keep; writes core/data/cuts.npz.
+
+    python benchmarks/train.py MESHES [--out core/data/cuts.npz] [--rounds 3]
+
+MESHES holds N.npz with ``vertices`` (n, 3), ``faces`` (m, 3) and ``human`` (people, m): the layout
+of the Princeton Segmentation Benchmark as converted for this project. Cuts are learned without
+their category or any other knowledge of what the mesh shows. Needs lightgbm (requirements.txt).
+
+The model first sees the states that merging with people's help goes through, then, round by round,
+those that its own merging reaches on meshes it was not trained on: a model that never met its own
+mistakes does not know how to go on from them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import lightgbm
+from people import Run, Subject, category_of, merge_and_record, mesh_numbers, prepare
+
+from core.features import FEATURES
+from core.trees import Trees
+
+N_TREES = 250
+SETTINGS = {
+    "objective": "cross_entropy", "learning_rate": 0.06, "num_leaves": 16, "min_data_in_leaf": 100,
+    "feature_fraction": 0.4, "bagging_fraction": 0.5, "bagging_freq": 1, "max_bin": 127,
+    "lambda_l2": 5.0, "verbose": -1, "num_threads": 1, "deterministic": True, "force_row_wise": True,
+    "seed": 1,
+}
+POWER = 0.75  # a row counts by the pairs of faces it concerns, to this power; every run counts alike
+N_FOLDS = 5
+
+
+def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES) -> Trees:
+    """Boosted trees from the states met on some meshes.
+
+    Parameters
+    ----------
+    runs : list of Run
+    seed : int
+    n_trees : int
+
+    Returns
+    -------
+    trees : Trees
+    """
+    weight = [r.weight**POWER / (r.weight**POWER).sum() for r in runs]
+    rows, share = (np.concatenate([getattr(r, name) for r in runs]) for name in ("rows", "share"))
+    weight = np.concatenate(weight)
+    weight *= len(weight) / weight.sum()
+    kept = weight > 1e-4  # the others are most rows and next to no weight
+    data = lightgbm.Dataset(rows[kept], np.clip(share[kept], 0, 1), weight=weight[kept])
+    return trees_of(lightgbm.train(SETTINGS | {"seed": seed}, data, n_trees))
+
+
+def trees_of(booster) -> Trees:
+    """The arrays of a trained model."""
+    infos = booster.dump_model()["tree_info"]
+    n_leaves = max(t["num_leaves"] for t in infos)
+    shape = (len(infos), n_leaves - 1)
+    trees = Trees(np.zeros(shape, np.int64), np.full(shape, np.inf, np.float32),
+                  np.full(shape, 0xFFFF, np.uint16), np.zeros((len(infos), n_leaves)))
+    for tree, info in enumerate(infos):
+        _add_nodes(trees, tree, info["tree_structure"], 0, 0)
+    return trees
+
+
+def _add_nodes(trees: Trees, tree: int, node: dict, leaf: int, inner: int) -> tuple[int, int]:
+    """Write a node and what is below it; the next free leaf and inner node."""
+    if "split_feature" not in node:
+        trees.leaf[tree, leaf] = node["leaf_value"]
+        return leaf + 1, inner
+    trees.feature[tree, inner] = node["split_feature"]
+    # Rounded down: rows are rounded to 32 bits as well, and "at or below" must stay so.
+    threshold = np.float32(node["threshold"])
+    if threshold > node["threshold"]:
+        threshold = np.nextafter(threshold, np.float32(-np.inf))
+    trees.threshold[tree, inner] = threshold
+    middle, free = _add_nodes(trees, tree, node["left_child"], leaf, inner + 1)
+    ruled_out = (1 << middle) - (1 << leaf)
+    trees.mask[tree, inner] = 0xFFFF & ~ruled_out
+    return _add_nodes(trees, tree, node["right_child"], middle, free)
+
+
+def learn(subjects: dict[int, Subject], fold: dict[int, int], rounds: int, tell=print):
+    """States for training, met by models that did not know the mesh.
+
+    Parameters
+    ----------
+    subjects : dict of Subject by mesh number
+    fold : dict of int by mesh number
+        Meshes of one fold are not trained on together with it.
+    rounds : int
+    tell : callable
+
+    Returns
+    -------
+    runs : dict of lists of Run by mesh number
+        By people's help, then one of each round.
+    models : dict of Trees by fold
+        Of the last round; each has seen all other folds.
+    """
+    runs = {n: [merge_and_record(s)] for n, s in subjects.items()}
+    for number in range(rounds):
+        start, models = time.perf_counter(), {}
+        for left_out in sorted(set(fold.values())):
+            seen = [r for n in subjects if fold[n] != left_out for r in runs[n]]
+            models[left_out] = fit(seen, seed=number + 1)
+        for n, subject in subjects.items():
+            runs[n].append(merge_and_record(subject, models[fold[n]].predict))
+        last = {n: r[-1] for n, r in runs.items()}
+        tell(f"round {number}: {summary(last, subjects)}, {time.perf_counter() - start:.0f} s")
+    return runs, models
+
+
+DECISIONS = (0.4, 0.45, 0.5, 0.55, 0.6)
+
+
+def summary(runs: dict[int, Run], subjects: dict[int, Subject]) -> str:
+    """Mean over categories of the error at several decisions, and of the number of parts."""
+    errors = [over_categories({n: r.error_at(d) for n, r in runs.items()}) for d in DECISIONS]
+    best = over_categories({n: r.error.min() for n, r in runs.items()})
+    parts = np.mean([abs(np.log2(r.n_parts(0.5) / subjects[n].median_parts)) for n, r in runs.items()])
+    text = " ".join(f"{e:.4f}" for e in errors)
+    return f"error at {DECISIONS[0]}-{DECISIONS[-1]}: {text}, best stop {best:.4f}, parts {parts:.2f}"
+
+
+def over_categories(values: dict[int, float]) -> float:
+    """Mean over the categories of their means."""
+    return float(np.mean(list(by_category(values).values())))
+
+
+def by_category(values: dict[int, float]) -> dict[str, float]:
+    """Mean of each category."""
+    groups: dict[str, list[float]] = {}
+    for number, value in values.items():
+        groups.setdefault(category_of(number), []).append(value)
+    return {name: float(np.mean(group)) for name, group in groups.items()}
+
+
+def folds_of(numbers: list[int], kind: str) -> dict[int, int]:
+    """Fold of each mesh: "half" of each category, one "category" each, or "groups" of categories."""
+    categories = [category_of(n) for n in numbers]
+    names = list(dict.fromkeys(categories))
+    if kind == "half":
+        return {n: categories[:i].count(categories[i]) % 2 for i, n in enumerate(numbers)}
+    place = {n: names.index(c) for n, c in zip(numbers, categories, strict=True)}
+    return place if kind == "category" else {n: p % N_FOLDS for n, p in place.items()}
+
+
+def read_subjects(folder: Path, tell=print) -> dict[int, Subject]:
+    """Measure every mesh of the benchmark."""
+    subjects, start = {}, time.perf_counter()
+    for number in mesh_numbers(folder):
+        with np.load(folder / f"{number}.npz") as stored:
+            subjects[number] = prepare(stored["vertices"].astype(float), stored["faces"],
+                                       stored["human"])
+    count = np.mean([s.label.max() + 1 for s in subjects.values()])
+    tell(f"{len(subjects)} meshes of {len({category_of(n) for n in subjects})} categories, "
+         f"{count:.0f} candidates each, {time.perf_counter() - start:.0f} s")
+    return subjects
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("meshes", type=Path)
+    parser.add_argument("--out", type=Path,
+                        default=Path(__file__).resolve().parents[1] / "core" / "data" / "cuts.npz")
+    parser.add_argument("--rounds", type=int, default=3)
+    options = parser.parse_args()
+    subjects = read_subjects(options.meshes)
+    runs, _ = learn(subjects, folds_of(list(subjects), "half"), options.rounds)
+    model = fit([r for of_mesh in runs.values() for r in of_mesh], seed=options.rounds + 1)
+    model.write(options.out)
+    print(f"{options.out}: {len(model.leaf)} trees on {len(FEATURES)} features of "
+          f"{', '.join(map(str, subjects))}")
+
+
+if __name__ == "__main__":
+    main()
