@@ -134,13 +134,16 @@ def part_vertices(mesh, numbers: np.ndarray, which) -> dict[int, np.ndarray]:
     vertices : dict of number -> (k,) int64, rising
     """
     vertex, face = bridge.face_corners(mesh)
-    n = len(mesh.vertices)
-    if len(mesh.polygons) == 0:
-        return {number: np.empty(0, np.int64) for number in which}
-    pairs = numbers[face] * n + vertex
-    pairs = np.unique(pairs[np.isin(numbers, list(which))[face]])
-    bounds = {number: np.searchsorted(pairs, (number * n, (number + 1) * n)) for number in which}
-    return {number: pairs[a:b] - number * n for number, (a, b) in bounds.items()}
+    corner = numbers.astype(np.int32)[face]
+    order = np.argsort(corner.astype(np.int16) if corner.max(initial=0) < 2**15 else corner, kind="stable")
+    bounds = np.searchsorted(corner[order], np.arange(max(which, default=0) + 2))
+    member = np.zeros(len(mesh.vertices), bool)
+    vertices = {}
+    for number in which:
+        member[:] = False
+        member[vertex[order[bounds[number] : bounds[number + 1]]]] = True
+        vertices[number] = np.flatnonzero(member)
+    return vertices
 
 
 def _plan_groups(obj):
@@ -151,13 +154,12 @@ def _write_groups(obj, numbers, before):
     """Make each part's group hold the part's vertices."""
     parts = {part.number: part for part in obj.data.reeb_parts.parts}
     fresh = [n for n, part in parts.items() if part.group not in obj.vertex_groups]
-    changed = set(fresh)
     if before is None:
-        changed |= set(parts)
+        changed = sorted(parts)
     else:
         differ = numbers != before
-        changed |= set(np.unique(numbers[differ])) | (set(np.unique(before[differ])) & set(parts))
-    changed = sorted(int(n) for n in changed)
+        touched = np.flatnonzero(np.bincount(np.concatenate([numbers[differ], before[differ]])))
+        changed = sorted({*fresh, *touched.tolist()} & set(parts))
     new = part_vertices(obj.data, numbers, changed)
     old = part_vertices(obj.data, before, changed) if before is not None else {}
     active = obj.vertex_groups.active_index
@@ -167,14 +169,19 @@ def _write_groups(obj, numbers, before):
             _assign(obj.vertex_groups[parts[number].group], new[number])
             continue
         group = obj.vertex_groups[parts[number].group]
-        group.remove(np.setdiff1d(old.get(number, ()), new[number]).astype(int).tolist())
-        _assign(group, np.setdiff1d(new[number], old.get(number, ())))
+        former = old.get(number, np.empty(0, np.int64))
+        group.remove(_without(former, new[number]).tolist())
+        _assign(group, _without(new[number], former))
     if active >= 0:
         obj.vertex_groups.active_index = active
 
 
 def _assign(group, vertices):
-    group.add(vertices.astype(int).tolist(), 1.0, "REPLACE")
+    group.add(vertices.tolist(), 1.0, "REPLACE")
+
+
+def _without(vertices, others):
+    return np.setdiff1d(vertices, others, assume_unique=True)
 
 
 def _remove_group(obj, name):
@@ -285,9 +292,8 @@ def _corner_colors(mesh, numbered):
     """sRGB and alpha of each corner, flat float32."""
     colors = np.ones((numbered.parts.count, 4), np.float32)
     colors[:, :3] = numbered.parts.colors
-    total = np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_total", total)
-    return np.repeat(colors[numbered.parts.labels], total, axis=0).ravel()
+    _, face = bridge.face_corners(mesh)
+    return colors[numbered.parts.labels[face]].ravel()
 
 
 # Face sets
@@ -413,8 +419,7 @@ def _seam_name(mesh):
 
 def cut_edges(mesh, numbers: np.ndarray) -> np.ndarray:
     """Whether faces of different parts meet at each edge, (e,) bool."""
-    edge = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("edge_index", edge)
+    edge = bridge.corner_edges(mesh)
     _, face = bridge.face_corners(mesh)
     low = np.full(len(mesh.edges), np.iinfo(np.int64).max)
     high = np.full(len(mesh.edges), -1, np.int64)

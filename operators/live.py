@@ -37,7 +37,8 @@ def rename(part, context):
         for obj in users(mesh)[:1]:
             attributes.rename_group(obj, part)
         store.keep_name(mesh, part.number, part.name)
-        _anchor(mesh, part.number)
+        with object_mode(context):
+            _anchor(mesh, part.number)
 
 
 def refresh(context, mesh, stored, numbered):
@@ -63,7 +64,10 @@ def _show(result, context):
         with object_mode(context):
             stored = store.load(mesh)
             numbered = stored.parts(result.detail, result.n_parts if result.by_number else 0)
-            refresh(context, mesh, stored, numbered)
+            if not np.array_equal(numbered.candidate_numbers, stored.shown):
+                refresh(context, mesh, stored, numbered)
+            with store.quiet():
+                result.n_parts = numbered.parts.count
     except SceneError:
         # The panel says so; a property cannot.
         result.edited = True
