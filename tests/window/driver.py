@@ -50,13 +50,13 @@ def import_model():
         bpy.data.objects.remove(obj)
     bpy.ops.wm.obj_import(filepath=str(ROOT / "models" / "spot.obj"))
     yield 0.5
-    window, area = bpy.context.window, view_area()
-    view = area.spaces.active
-    view.shading.type, view.shading.color_type = "SOLID", "VERTEX"
-    view.overlay.show_floor = view.overlay.show_axis_x = view.overlay.show_axis_y = False
-    view.region_3d.view_rotation = (0.21, 0.14, 0.53, 0.81)
+    with bpy.context.temp_override(area=view_area()):
+        bpy.ops.screen.screen_full_area()
+    yield 0.5
+    area = view_area()
+    area.spaces.active.region_3d.view_rotation = (0.21, 0.14, 0.53, 0.81)
     region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=window, area=area, region=region):
+    with bpy.context.temp_override(area=area, region=region):
         bpy.ops.view3d.view_selected()
         bpy.ops.ed.undo_push(message="Import")
     yield 1.0
