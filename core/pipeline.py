@@ -221,12 +221,31 @@ def _assemble(given, working, component, large, results, parameters, seconds) ->
 
 
 def _face_graph(given: PolygonMesh, working: WorkingMesh) -> FaceGraph:
+    """Faces of the caller that touch; faces the working copy lacks hang on one neighbour."""
     mesh = working.mesh
     pairs = working.polygon[mesh.edges.pairs]
     length = mesh.edge_length[mesh.edges.pair_edge]
     apart = pairs[:, 0] != pairs[:, 1]
+    lost = _lost_faces(given, working)
+    pairs = np.concatenate([pairs[apart], lost])
+    length = np.concatenate([length[apart], np.zeros(len(lost))])
     area = np.bincount(given.polygon, given.triangles.face_area, given.n_polygons)
-    return FaceGraph(given.n_polygons, pairs[apart], length[apart], area)
+    return FaceGraph(given.n_polygons, pairs, length, area)
+
+
+def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
+    """(l, 2) int64: each face with repeated corners only, and a neighbour by edge, else by corner."""
+    kept = np.zeros(given.n_polygons, bool)
+    kept[working.polygon] = True
+    kept_triangle = kept[given.polygon]
+    at_vertex = np.full(given.triangles.n_vertices, -1)
+    at_vertex[given.triangles.faces[kept_triangle]] = given.polygon[kept_triangle][:, None]
+    pairs = given.polygon[given.triangles.edges.pairs]
+    by_corner = np.stack([np.repeat(given.polygon[~kept_triangle], 3),
+                          at_vertex[given.triangles.faces[~kept_triangle]].ravel()], axis=1)
+    pairs = np.concatenate([pairs, pairs[:, ::-1], by_corner[by_corner[:, 1] >= 0]])
+    pairs = pairs[~kept[pairs[:, 0]] & kept[pairs[:, 1]]]
+    return pairs[np.unique(pairs[:, 0], return_index=True)[1]]
 
 
 def _face_candidates(given, working, component, results, face_graph, rounds):
@@ -239,7 +258,9 @@ def _face_candidates(given, working, component, results, face_graph, rounds):
         weight.append(sets.element_area + 1e-12 * sets.mesh.area)
         hierarchies.append(r.candidates.hierarchy)
         first += r.candidates.hierarchy.n_candidates
-    rest = ~np.any([r.mask for r in results], axis=0)
+    rest = np.ones(len(component), bool)
+    for r in results:
+        rest &= ~r.mask
     if rest.any():  # small loose parts, one candidate each
         names, numbers = np.unique(component[rest], return_inverse=True)
         owner.append(working.polygon[rest])
@@ -275,7 +296,7 @@ def _vertex_field(given, component, large, results) -> tuple[np.ndarray, tuple[s
 
 def _graph_candidates(results, label) -> tuple[np.ndarray, np.ndarray]:
     """The candidate in which each node and each centre point of the joined graph lies."""
-    nodes, points = [], []
+    nodes, points = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
     for r in results:
         sets, structure = r.sets, r.structure
         face_label = label[r.component.polygon[sets.element_face]]

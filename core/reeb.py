@@ -74,8 +74,16 @@ class ReebGraph:
         return np.repeat(np.arange(self.n_arcs), np.diff(self.arc_points))
 
     @classmethod
+    def empty(cls) -> ReebGraph:
+        """The graph of nothing."""
+        number, place, index = np.empty(0), np.empty((0, 3)), np.zeros(1, np.int64)
+        return cls(np.empty(0, np.int8), number, place, np.empty((0, 2), np.int64), index, place,
+                   number, number, number, 0)
+
+    @classmethod
     def join(cls, graphs: list[ReebGraph]) -> ReebGraph:
-        """One graph of several components' graphs, in order."""
+        """One graph of several components' graphs, in order; of none, the empty one."""
+        graphs = [cls.empty(), *graphs]
         nodes = np.cumsum([0] + [g.n_nodes for g in graphs])
         points = np.cumsum([0] + [len(g.point_value) for g in graphs])
         arrays = {

@@ -137,7 +137,7 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
         gain = np.bincount(owner[toward], weight[toward], graph.n_faces) - inside
         gain[best < 0] = 0.0
         # A hair above rounding; of two neighbours that gain, the one that gains more goes.
-        gain[gain <= 1e-9 * length.mean()] = 0.0
+        gain[gain <= 1e-9 * length.max(initial=0.0)] = 0.0
         rank = np.empty(graph.n_faces, np.int64)
         rank[np.lexsort((np.arange(graph.n_faces), gain))] = np.arange(graph.n_faces)
         beaten = np.zeros(graph.n_faces, bool)
