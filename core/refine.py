@@ -78,8 +78,9 @@ def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) ->
     if total <= 0:
         return 0.0
     at = (np.arange(SAMPLES) + 0.5) / SAMPLES * total
-    smooth = gaussian_filter1d(np.interp(at, arc_length, along), sigma * SAMPLES,
-                               mode="wrap" if closed else "nearest")
+    smooth = np.interp(at, arc_length, along)
+    if sigma > 0:
+        smooth = gaussian_filter1d(smooth, sigma * SAMPLES, mode="wrap" if closed else "nearest")
     relative = smooth.min() * total / (2 * np.pi)
     return float(max(CREASE_WORTH * relative, -MAX_WORTH))
 
