@@ -3,13 +3,14 @@
 
 import bpy
 
-from . import clear, compute, decompose, jobs, parts, store
+from . import bridge, clear, compute, decompose, jobs, parts, separate, store
 
 CLASSES = (
     decompose.REEB_PARTS_OT_decompose,
     decompose.REEB_PARTS_OT_cancel,
     clear.REEB_PARTS_OT_clear,
     *parts.CLASSES,
+    *separate.CLASSES,
 )
 
 
@@ -23,5 +24,6 @@ def unregister():
         jobs.current.cancel()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
+    bridge.forget()
     compute.forget()
     store.forget()

@@ -20,7 +20,7 @@ EXPORTERS = {
 }
 
 
-def export_parts(obj, folder: Path, kind: str, numbers=None) -> list[Path]:
+def export_parts(obj, folder: Path, kind: str, numbers=None, close=False) -> list[Path]:
     """Write each part of an object as a file of its own; the scene stays as it is.
 
     Parameters
@@ -33,6 +33,8 @@ def export_parts(obj, folder: Path, kind: str, numbers=None) -> list[Path]:
         Of EXPORTERS.
     numbers : iterable of int, optional
         Only these parts.
+    close : bool
+        Close the holes that the cuts leave.
 
     Returns
     -------
@@ -44,14 +46,19 @@ def export_parts(obj, folder: Path, kind: str, numbers=None) -> list[Path]:
         The parts are out of date, or two parts would get the same file name.
     """
     stored = store.load(obj.data)
-    face_numbers = stored.shown[stored.decomposition.candidates]
+    face_numbers = stored.shown_parts().face_numbers
     numbers = sorted(set(face_numbers.tolist()) if numbers is None else numbers)
     names = [_file_name(f"{obj.name} {store.part_name(obj.data, number)}") for number in numbers]
     if len({name.lower() for name in names}) < len(names):
         raise SceneError("Two parts have the same name; give them different ones to write them as files.")
-    with _own_selection():
-        return [_export(obj, face_numbers == number, folder / f"{name}.{kind}", kind)
-                for number, name in zip(numbers, names, strict=True)]
+    meshes, _ = separate.part_meshes(obj.data, face_numbers, numbers, close)
+    try:
+        with _own_selection():
+            return [_export(obj, meshes[number], folder / f"{name}.{kind}", kind)
+                    for number, name in zip(numbers, names, strict=True)]
+    finally:
+        for mesh in meshes.values():
+            bpy.data.meshes.remove(mesh)
 
 
 @contextmanager
@@ -69,9 +76,8 @@ def _own_selection():
         layer.objects.active = active
 
 
-def _export(obj, mask, path, kind) -> Path:
-    """Write some faces of an object as a file, whole or not at all."""
-    mesh = separate.part_mesh(obj.data, mask)
+def _export(obj, mesh, path, kind) -> Path:
+    """Write a mesh in the place of an object as a file, whole or not at all."""
     piece = bpy.data.objects.new(path.stem, mesh)
     try:
         bpy.context.scene.collection.objects.link(piece)
@@ -84,7 +90,6 @@ def _export(obj, mask, path, kind) -> Path:
                 os.replace(file, path.parent / file.name)
     finally:
         bpy.data.objects.remove(piece)
-        bpy.data.meshes.remove(mesh)
     return path
 
 

@@ -3,17 +3,19 @@
 
 import bpy
 
-from . import panel, properties
+from . import panel, properties, use_panel, use_properties
 
-CLASSES = panel.CLASSES
+CLASSES = (*panel.CLASSES, *use_panel.CLASSES)
 
 
 def register_properties():
     """Before the operators, which inherit from the properties."""
     properties.register()
+    use_properties.register()
 
 
 def unregister_properties():
+    use_properties.unregister()
     properties.unregister()
 
 

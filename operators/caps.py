@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Caps: faces that close what a cut has opened."""
+
+import bmesh
+import numpy as np
+from mathutils.geometry import tessellate_polygon
+
+#: Face attribute: 1 on a cap.
+CAP = "reeb_cap"
+
+# A loop that leaves its plane by less than this share of its size is filled with one face.
+_FLAT = 1e-3
+
+
+def close_cuts(mesh, opened: np.ndarray) -> tuple[int, int]:
+    """Fill the holes that a cut has left; borders that were there before stay open.
+
+    A cut that ends on a border makes one hole together with a stretch of it: that is filled as a whole.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+        In Object Mode.
+    opened : (e,) bool
+        Edges that had faces on both sides before the cut.
+
+    Returns
+    -------
+    closed, left : int
+        Holes that were filled; edges that were not, because there is no telling which faces go on there.
+    """
+    bm = bmesh.new()
+    try:
+        bm.from_mesh(mesh, face_normals=False, vertex_normals=False)
+        bm.edges.ensure_lookup_table()
+        edges = [edge for i in np.flatnonzero(opened).tolist() if (edge := bm.edges[i]).is_boundary]
+        holes, left = _holes(edges)
+        if not holes:
+            return 0, left
+        layer = bm.faces.layers.int.get(CAP) or bm.faces.layers.int.new(CAP)
+        made = [face for hole in holes for face in _fill(bm, hole)]
+        for face in made:
+            face[layer] = 1
+        bm.to_mesh(mesh)
+    finally:
+        bm.free()
+    return len(holes), left
+
+
+def _holes(edges):
+    """Vertices around each hole with some of the edges, so that a face on them looks outwards."""
+    done, holes, left = set(), [], 0
+    for edge in edges:
+        if edge in done:
+            continue
+        around = _around(edge)
+        if around is None:
+            done.add(edge)
+            left += 1
+            continue
+        done.update(edge for edge, _ in around)
+        holes += _simple([vertex for _, vertex in around])
+    return holes, left
+
+
+def _around(start):
+    """Edges of a hole in order, each with the vertex it leads to; None if faces do not lie in one sheet."""
+    loop = start.link_loops[0]
+    edge, vertex = start, loop.vert
+    around = []
+    while True:
+        around.append((edge, vertex))
+        loop = _next_border(loop, vertex)
+        if loop is None:
+            return None
+        edge = loop.edge
+        if edge == start:
+            return around
+        vertex = edge.other_vert(vertex)
+
+
+def _next_border(loop, vertex):
+    """Turn around a vertex from one border edge to the other of the same sheet of faces."""
+    while True:
+        loop = loop.link_loop_prev if loop.vert == vertex else loop.link_loop_next
+        if loop.edge.is_boundary:
+            return loop
+        if len(loop.edge.link_loops) != 2:
+            return None
+        loop = loop.link_loop_radial_next
+
+
+def _simple(vertices):
+    """Take a closed walk apart into closed walks that meet no vertex twice."""
+    walks, path, place = [], [], {}
+    for vertex in vertices:
+        if vertex in place:
+            at = place[vertex]
+            walks.append(path[at:])
+            for gone in path[at:]:
+                del place[gone]
+            del path[at:]
+        place[vertex] = len(path)
+        path.append(vertex)
+    return [walk for walk in [*walks, path] if len(walk) > 2]
+
+
+def _fill(bm, hole):
+    """Faces on a hole; never an edge with three faces.
+
+    One face if the hole is flat; a fan around its middle if that can be seen from all of the rim; else
+    triangles between its corners. The other side of the cut is filled alike, so that pieces fit together.
+    """
+    rim = next(edge for edge in hole[0].link_edges if edge.other_vert(hole[0]) == hole[1])
+    beside = rim.link_loops[0]
+    corners = {vertex: _border_corner(vertex, beside) for vertex in hole}
+    points = np.array([vertex.co[:] for vertex in hole], np.float64)
+    if _is_flat(points) and bm.faces.get(hole) is None:
+        polygons = [hole]
+    else:
+        polygons = None if _is_star(points) else _triangles(hole, points)
+        polygons = polygons or _fan(bm, hole)
+    faces = [bm.faces.new(polygon) for polygon in polygons]
+    for face in faces:
+        face.material_index = beside.face.material_index
+        for layers in (bm.loops.layers.color, bm.loops.layers.float_color):
+            for layer in layers.values():
+                for loop in face.loops:
+                    loop[layer] = corners.get(loop.vert, beside)[layer]
+    return faces
+
+
+def _border_corner(vertex, otherwise):
+    """A corner at the vertex whose face lies on the border."""
+    corners = (c for c in vertex.link_loops if c.edge.is_boundary or c.link_loop_prev.edge.is_boundary)
+    return next(corners, otherwise)
+
+
+def _middle(points):
+    """Shares of the points in their middle: short edges count less, so that dense stretches do not draw it."""
+    length = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1)
+    weight = length + np.roll(length, -1)
+    return weight / weight.sum() if weight.any() else np.full(len(points), 1 / len(points))
+
+
+def _spokes(points):
+    """Normals of the triangles of a fan, twice their area long, (n, 3)."""
+    out = points - _middle(points) @ points
+    return np.cross(out, np.roll(out, -1, axis=0))
+
+
+def _is_flat(points):
+    normal = _spokes(points).sum(axis=0)
+    height = (points - points[0]) @ normal
+    return np.ptp(height) <= _FLAT * np.linalg.norm(normal) * np.linalg.norm(np.ptp(points, axis=0))
+
+
+def _is_star(points):
+    spokes = _spokes(points)
+    return bool((spokes @ spokes.sum(axis=0) > 0).all())
+
+
+def _triangles(hole, points):
+    """Triangles between the corners of a hole, or None if some edge would meet a third face."""
+    n = len(hole)
+    # From the same corner in the same direction on both sides of the cut.
+    first = min(range(n), key=lambda i: tuple(points[i]))
+    turn = 1 if tuple(points[first - 1]) < tuple(points[(first + 1) % n]) else -1
+    order = [(first + turn * i) % n for i in range(n)]
+    triples = [tuple(order[i] for i in t) for t in tessellate_polygon([[hole[i].co for i in order]])]
+    rim = {(i, (i + 1) % n) for i in range(n)}
+    if any((t[i - 2], t[i]) in rim for t in triples for i in range(3)):
+        triples = [t[::-1] for t in triples]
+    directed = {(t[i], t[i - 2]) for t in triples for i in range(3)}
+    inner = directed - rim
+    neighbours = [{edge.other_vert(vertex) for edge in vertex.link_edges} for vertex in hole]
+    proper = (
+        n > 3
+        and len(directed) == 3 * len(triples) == 3 * (n - 2)
+        and rim <= directed
+        and all((b, a) in inner for a, b in inner)
+        and not any(hole[b] in neighbours[a] for a, b in inner)
+    )
+    return [tuple(hole[i] for i in t) for t in triples] if proper else None
+
+
+def _fan(bm, hole):
+    """Triangles to a new vertex in the middle of a hole, which is whatever its neighbours are on average."""
+    share = _middle(np.array([vertex.co[:] for vertex in hole], np.float64))
+    middle = bm.verts.new()
+    middle.copy_from_vert_interp([hole[0], hole[len(hole) // 2]], 0.5)
+    middle.co = share @ np.array([vertex.co[:] for vertex in hole])
+    for layer in bm.verts.layers.shape.values():
+        middle[layer] = share @ np.array([vertex[layer][:] for vertex in hole])
+    if deform := bm.verts.layers.deform.active:
+        sums = {}
+        for vertex, part in zip(hole, share.tolist(), strict=True):
+            for group, value in vertex[deform].items():
+                sums[group] = sums.get(group, 0.0) + part * value
+        middle[deform].clear()
+        for group, value in sums.items():
+            middle[deform][group] = value
+    return [(a, b, middle) for a, b in zip(hole, [*hole[1:], hole[0]], strict=True)]

@@ -1,0 +1,461 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""reeb_parts.separate: pieces are what their faces were, and nothing of the user's is lost."""
+
+import importlib
+from pathlib import Path
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+import shapes
+from snapshot import activate, snapshot
+
+SPOT = Path(__file__).resolve().parents[2] / "models" / "spot.obj"
+KEEP = {"hide": False, "center": False}
+WIDTH = {"FLOAT_VECTOR": ("vector", 3), "FLOAT2": ("vector", 2), "FLOAT_COLOR": ("color", 4),
+         "BYTE_COLOR": ("color", 4), "INT32_2D": ("value", 2), "INT16_2D": ("value", 2)}  # fmt: skip
+SHAPES = {
+    "tree": shapes.tube_tree,
+    "genus two": lambda: shapes.genus_two(0.09),
+    "open tube": lambda: shapes.cylinder(24, 16),
+    "loose parts": lambda: shapes.together(shapes.tube_tree(), shapes.moved(shapes.dumbbell(40, 12), (9, 0, 0))),
+}
+
+
+def read(items, key, dtype=np.float32, width=1):
+    values = np.zeros(len(items) * width, dtype)
+    items.foreach_get(key, values)
+    return values.reshape(len(items), width) if width > 1 else values
+
+
+def pieces(name="Tree"):
+    found = [o for o in bpy.data.collections[f"Parts of {name}"].objects if "reeb_parts_number" in o]
+    return sorted(found, key=lambda piece: piece["reeb_parts_number"])
+
+
+def numbers_of(obj):
+    """Number of each face's part."""
+    return read(obj.data.attributes["reeb_part"].data, "value", np.int32)
+
+
+def elements(mesh, mask):
+    """For each domain, the elements that belong to some faces."""
+    corner = np.repeat(mask, read(mesh.polygons, "loop_total", np.int32))
+    return {
+        "FACE": np.flatnonzero(mask), "CORNER": np.flatnonzero(corner),
+        "POINT": np.unique(read(mesh.loops, "vertex_index", np.int32)[corner]),
+        "EDGE": np.unique(read(mesh.loops, "edge_index", np.int32)[corner]),
+    }  # fmt: skip
+
+
+def attributes_of(mesh):
+    """Domain and values of everything that Blender keeps as an attribute, but for the topology."""
+    found = {}
+    for attribute in mesh.attributes:
+        # Blender 5 writes the selection in the UV editor whenever a mesh comes out of BMesh.
+        name = attribute.name
+        if name not in (".edge_verts", ".corner_vert", ".corner_edge", "custom_normal") and ".uv_select" not in name:
+            key, width = WIDTH.get(attribute.data_type, ("value", 1))
+            dtype = bool if attribute.data_type == "BOOLEAN" else np.float32
+            found[attribute.name] = (attribute.domain, read(attribute.data, key, dtype, width))
+    return found
+
+
+def world_points(obj):
+    bpy.context.view_layer.update()
+    points = read(obj.data.vertices, "co", np.float32, 3)
+    matrix = np.array(obj.matrix_world)
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def caps_of(mesh):
+    """Which faces are caps."""
+    if "reeb_cap" not in mesh.attributes:
+        return np.zeros(len(mesh.polygons), np.int32)
+    return read(mesh.attributes["reeb_cap"].data, "value", np.int32)
+
+
+def borders(mesh):
+    """Edges of one face, by the places of their ends; and how many edges are no proper ones."""
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    found = {frozenset(tuple(round(x, 5) for x in v.co) for v in e.verts) for e in bm.edges if e.is_boundary}
+    bad = sum(not (edge.is_boundary or edge.is_contiguous) for edge in bm.edges)
+    bm.free()
+    return found, bad
+
+
+@pytest.fixture
+def rich(obj):
+    """The tree with all that a mesh can carry."""
+    rng = np.random.default_rng(0)
+    mesh = obj.data
+
+    def fill(attribute, key, width, dtype):
+        values = rng.random(len(attribute.data) * width)
+        attribute.data.foreach_set(key, (values if dtype is np.float32 else 9 * values).astype(dtype))
+
+    for name in ("Map", "Light"):
+        layer = mesh.uv_layers.new(name=name)
+        layer.data.foreach_set("uv", rng.random(2 * len(mesh.loops)).astype(np.float32))
+    for name, kind, domain in (
+        ("Paint", "BYTE_COLOR", "CORNER"), ("Dust", "FLOAT_COLOR", "POINT"), ("wear", "FLOAT", "POINT"),
+        ("flow", "FLOAT_VECTOR", "FACE"), ("layer", "INT", "FACE"), ("crease_edge", "FLOAT", "EDGE"),
+        ("bevel_weight_edge", "FLOAT", "EDGE"),
+    ):  # fmt: skip
+        key, width = WIDTH.get(kind, ("value", 1))
+        fill(mesh.attributes.new(name, kind, domain), key, width, np.int32 if kind == "INT" else np.float32)
+    for key in ("use_seam", "use_edge_sharp"):
+        mesh.edges.foreach_set(key, rng.random(len(mesh.edges)) < 0.1)
+    for name in ("Red", "Green"):
+        mesh.materials.append(bpy.data.materials.new(name))
+    mesh.polygons.foreach_set("material_index", rng.integers(0, 2, len(mesh.polygons)).astype(np.int32))
+    mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
+    group = obj.vertex_groups.new(name="Arm")
+    for index, weight in enumerate(rng.random(len(mesh.vertices)).tolist()):
+        group.add([index], weight, "REPLACE")
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Fat")
+    key.data.foreach_set("co", 1.1 * read(mesh.vertices, "co", np.float32, 3).ravel())
+    directions = read(mesh.vertices, "normal", np.float32, 3) + 0.3 * rng.standard_normal(3)
+    mesh.normals_split_custom_set_from_vertices(directions.tolist())
+    return obj
+
+
+@pytest.fixture(params=SHAPES)
+def shape(request, make):
+    return make(SHAPES[request.param](), "Tree")
+
+
+def test_faces_and_area_are_conserved(shape):
+    bpy.ops.reeb_parts.decompose()
+    assert bpy.ops.reeb_parts.separate(**KEEP) == {"FINISHED"}
+    numbers = numbers_of(shape)
+    assert [len(p.data.polygons) for p in pieces()] == np.bincount(numbers)[1:].tolist()
+    area = sum(polygon.area for piece in pieces() for polygon in piece.data.polygons)
+    assert area == pytest.approx(sum(polygon.area for polygon in shape.data.polygons), rel=1e-5)
+
+
+@pytest.mark.parametrize("caps", [False, True])
+def test_all_that_the_faces_carry_is_carried_on(rich, caps):
+    user = attributes_of(rich.data)
+    weights = [round(v.groups[0].weight, 6) for v in rich.data.vertices]
+    normals = read(rich.data.corner_normals, "vector", np.float32, 3)
+    bpy.ops.reeb_parts.decompose(face_sets=True, seams=True, field=True)
+    numbers = numbers_of(rich)
+    bpy.ops.reeb_parts.separate(caps=caps, **KEEP)
+    fat = read(rich.data.shape_keys.key_blocks["Fat"].data, "co", np.float32, 3)
+    for piece in pieces():
+        mesh = piece.data
+        here = elements(rich.data, numbers == piece["reeb_parts_number"])
+        found = attributes_of(mesh)
+        assert set(found) - set(user) == ({"reeb_cap"} if caps else set())
+        for name, (domain, values) in user.items():
+            count = len(here[domain])
+            if name not in found:  # flags that are set nowhere need not be there
+                assert values.dtype == bool
+                assert not values[here[domain]].any()
+                continue
+            assert found[name][0] == domain
+            assert np.array_equal(found[name][1][:count], values[here[domain]]), name
+        assert [round(v.groups[0].weight, 6) for v in mesh.vertices][: len(here["POINT"])] == [
+            weights[i] for i in here["POINT"]
+        ]
+        assert piece.vertex_groups.keys() == ["Arm"]
+        assert [m.name for m in mesh.materials] == ["Red", "Green"]
+        assert mesh.shape_keys.key_blocks.keys() == ["Basis", "Fat"]
+        key = read(mesh.shape_keys.key_blocks["Fat"].data, "co", np.float32, 3)
+        assert key[: len(here["POINT"])] == pytest.approx(fat[here["POINT"]])
+        mine = read(mesh.corner_normals, "vector", np.float32, 3)[: len(here["CORNER"])]
+        # Blender keeps directions as two angles of sixteen bits, rounded once more here.
+        assert mine == pytest.approx(normals[here["CORNER"]], abs=5e-3)
+
+
+def test_without_custom_normals_none_are_made(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    assert not any(piece.data.has_custom_normals for piece in pieces())
+
+
+@pytest.fixture
+def separate(package):
+    """The module behind the operator, to try parts that no decomposition would give."""
+    return importlib.import_module(f"{package}.operators.separate")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_closed_pieces_have_no_border_that_was_not_there(shape, separate, seed):
+    """Parts around random faces: ragged, with cuts that end on borders, meet, and touch in a vertex."""
+    before, bad = borders(shape.data)
+    assert bad == 0
+    rng = np.random.default_rng(seed)
+    centers = read(shape.data.polygons, "center", np.float32, 3)
+    centers = centers + 0.05 * rng.standard_normal(centers.shape)
+    seeds = centers[rng.choice(len(centers), 12, replace=False)]
+    numbers = 1 + np.linalg.norm(centers[:, None] - seeds[None], axis=2).argmin(axis=1)
+    meshes, left_open = separate.part_meshes(shape.data, numbers, range(1, 13), close=True)
+    assert left_open == 0
+    for number, mesh in meshes.items():
+        assert len(mesh.polygons) - caps_of(mesh).sum() == (numbers == number).sum()
+        after, bad = borders(mesh)
+        assert after <= before
+        assert bad == 0
+
+
+def test_a_tube_cut_along_becomes_two_bodies(make, separate):
+    """The cuts run from border to border: each half is closed with its stretches of the borders."""
+    tube = make(shapes.cylinder(24, 16))
+    halves = 1 + (read(tube.data.polygons, "center", np.float32, 3)[:, 0] > 0)
+    meshes, left_open = separate.part_meshes(tube.data, halves, (1, 2), close=True)
+    assert [borders(mesh) for mesh in meshes.values()] == [(set(), 0)] * 2
+    assert left_open == 0
+
+
+def test_single_faces_can_be_closed(make, separate):
+    """A part of one triangle has no room for a second face between the same corners."""
+    obj = make(shapes.octahedron())
+    meshes, left_open = separate.part_meshes(obj.data, np.arange(8), range(8), close=True)
+    assert left_open == 0
+    assert [borders(mesh) for mesh in meshes.values()] == [(set(), 0)] * 8
+
+
+def test_a_hole_where_three_faces_meet_is_left_open_and_counted(make, separate):
+    """Beside the fin there is no telling which of the faces goes on around the hole."""
+    shape = shapes.with_fin(shapes.octahedron())
+    a, b, _ = shape.faces[0]
+    taken = next(i for i, face in enumerate(shape.faces) if a in face and b not in face)
+    obj = make(shape)
+    numbers = np.ones(len(shape.faces), np.int64)
+    numbers[taken] = 2
+    meshes, left_open = separate.part_meshes(obj.data, numbers, (1, 2), close=True)
+    assert left_open == 3
+    assert len(meshes[1].polygons) == len(shape.faces) - 1
+    assert borders(meshes[2]) == (set(), 0)
+
+
+def test_pieces_that_meet_in_rings_fit_together(make):
+    """Both sides of a cut are closed by the same surface: together, they enclose what the mesh encloses."""
+    def volume(mesh):
+        bm = bmesh.new()
+        bm.from_mesh(mesh)
+        found = bm.calc_volume(signed=True)
+        bm.free()
+        return found
+
+    obj = make(shapes.dumbbell())
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    bpy.ops.reeb_parts.separate(caps=True, **KEEP)
+    volumes = [volume(piece.data) for piece in pieces()]
+    assert min(volumes) > 0
+    assert sum(volumes) == pytest.approx(volume(obj.data), rel=1e-5)
+
+
+def test_caps_are_marked_and_have_the_part_material(rich):
+    slots = read(rich.data.polygons, "material_index", np.int32)
+    bpy.ops.reeb_parts.decompose()
+    numbers = numbers_of(rich)
+    bpy.ops.reeb_parts.separate(caps=True, **KEEP)
+    for piece in pieces():
+        mine = numbers == piece["reeb_parts_number"]
+        cap = caps_of(piece.data)
+        assert cap[: mine.sum()].tolist() == [0] * mine.sum()
+        assert cap[mine.sum() :].tolist() == [1] * (len(cap) - mine.sum()) != []
+        assert set(read(piece.data.polygons, "material_index", np.int32)[cap == 1]) <= set(slots[mine])
+        corners = np.repeat(cap, read(piece.data.polygons, "loop_total", np.int32)) == 1
+        assert not read(piece.data.uv_layers["Map"].data, "uv", np.float32, 2)[corners].any()
+
+
+def test_the_original_is_not_changed(rich):
+    bpy.ops.reeb_parts.decompose(materials=True)
+    before = snapshot()
+    bpy.ops.reeb_parts.separate(caps=True, hide=False)
+    after = snapshot()
+    assert after["meshes"]["Tree"] == before["meshes"]["Tree"]
+    assert after["objects"]["Tree"].pop("properties").keys() <= {"reeb_parts_made"}
+    assert not before["objects"]["Tree"].pop("properties")
+    assert after["objects"]["Tree"] == before["objects"]["Tree"]
+
+
+def test_the_original_is_hidden_and_comes_back(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    assert obj.hide_get()
+    assert obj.hide_render
+    assert bpy.context.view_layer.objects.active == pieces()[0]
+    assert set(bpy.context.selected_objects) == set(pieces())
+    bpy.ops.reeb_parts.show_original()
+    assert not obj.hide_get()
+    assert not obj.hide_render
+    assert bpy.context.view_layer.objects.active == obj
+
+
+def test_names_colours_and_materials_of_the_parts(obj):
+    bpy.ops.reeb_parts.decompose(materials=True)
+    obj.data.reeb_parts.parts[1].name = "Head"
+    bpy.ops.reeb_parts.separate(**KEEP)
+    listed = obj.data.reeb_parts.parts
+    assert [piece.name for piece in pieces()] == [part.name for part in listed]
+    assert [piece.data.name for piece in pieces()] == [part.name for part in listed]
+    for piece, part in zip(pieces(), listed, strict=True):
+        assert tuple(piece.color)[:3] == pytest.approx(tuple(part.color))
+        assert piece.data.materials[:] == [part.material]
+
+
+@pytest.mark.parametrize("center", [False, True])
+@pytest.mark.parametrize("parent", [False, True])
+def test_pieces_lie_where_their_faces_lay(obj, center, parent):
+    frame = bpy.data.objects.new("Frame", None)
+    bpy.context.scene.collection.objects.link(frame)
+    frame.rotation_euler, frame.location = (0.3, 0.2, 0.1), (4, 5, 6)
+    obj.parent = frame
+    obj.scale, obj.rotation_euler, obj.location = (-1.5, 0.5, 2.0), (0.1, 0.7, -0.4), (1, 2, 3)
+    obj.delta_location = (0.5, 0, 0)
+    bpy.ops.reeb_parts.decompose()
+    numbers, points = numbers_of(obj), world_points(obj)
+    bpy.ops.reeb_parts.separate(center=center, parent=parent)
+    for piece in pieces():
+        here = elements(obj.data, numbers == piece["reeb_parts_number"])["POINT"]
+        assert world_points(piece) == pytest.approx(points[here], abs=1e-4)
+        assert piece.parent == (obj if parent else frame)
+    origins = {tuple(round(x, 4) for x in piece.matrix_world.translation) for piece in pieces()}
+    assert len(origins) == (len(pieces()) if center else 1)
+
+
+def test_an_animated_object_keeps_its_origin(obj):
+    obj.keyframe_insert("location", frame=1)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(center=True)
+    assert all(piece.location == obj.location for piece in pieces())
+
+
+def test_modifiers_are_copied_or_not(obj):
+    obj.modifiers.new("Smooth", "SUBSURF")
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert all(piece.modifiers.keys() == ["Smooth"] for piece in pieces())
+    bpy.ops.reeb_parts.separate(modifiers=False, **KEEP)
+    assert not any(piece.modifiers for piece in pieces())
+
+
+def test_a_second_run_makes_the_same_again(rich):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(caps=True, hide=False)
+    first = snapshot()
+    activate(rich)
+    bpy.ops.reeb_parts.separate(caps=True, hide=False)
+    assert snapshot() == first
+
+
+def test_other_parts_replace_the_earlier_pieces(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    meshes = len(bpy.data.meshes)
+    activate(obj)
+    obj.data.reeb_parts.n_parts = 2
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert len(bpy.data.collections["Parts of Tree"].objects) == len(pieces()) == 2
+    assert len(bpy.data.meshes) < meshes
+
+
+@pytest.mark.parametrize("work", ["mesh", "place", "name", "modifier", "material"])
+def test_pieces_that_somebody_worked_on_are_kept(obj, work):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    count = len(pieces())
+    mine = pieces()[0]
+    if work == "mesh":
+        mine.data.vertices[0].co.x += 0.01
+    elif work == "place":
+        mine.location.z += 1
+    elif work == "name":
+        mine.name = "Body"
+    elif work == "modifier":
+        mine.modifiers.new("Bevel", "BEVEL")
+    else:
+        mine.data.materials.append(bpy.data.materials.new("Gold"))
+    activate(obj)
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert mine in bpy.data.objects[:]
+    assert mine not in pieces()
+    assert len(pieces()) == count
+
+
+def test_only_the_chosen_parts(obj):
+    bpy.ops.reeb_parts.decompose()
+    listed = obj.data.reeb_parts.parts
+    for index in (1, 2):
+        listed[index].selected = True
+    bpy.ops.reeb_parts.separate(which="CHOSEN", **KEEP)
+    assert [p["reeb_parts_number"] for p in pieces()] == [2, 3]
+    activate(obj)
+    listed[1].selected = False
+    listed[3].selected = True
+    bpy.ops.reeb_parts.separate(which="CHOSEN", **KEEP)
+    assert [p["reeb_parts_number"] for p in pieces()] == [2, 3, 4]
+
+
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT", "TEXTURE_PAINT"])
+@pytest.mark.parametrize("hide", [False, True])
+def test_from_every_mode(obj, mode, hide):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.object.mode_set(mode=mode)
+    bpy.ops.reeb_parts.separate(hide=hide)
+    assert len(pieces()) == len(obj.data.reeb_parts.parts)
+    assert obj.mode == ("OBJECT" if hide else mode)
+
+
+def test_linked_duplicates_get_pieces_of_their_own(obj):
+    bpy.ops.reeb_parts.decompose()
+    twin = obj.copy()
+    twin.location.x = 20
+    bpy.context.scene.collection.objects.link(twin)
+    bpy.ops.reeb_parts.separate(**KEEP)
+    activate(twin)
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert [p.location.x for p in pieces(twin.name)] == [20] * len(pieces())
+    assert [p.location.x for p in pieces()] == [0] * len(pieces())
+
+
+def test_several_objects_at_once(make):
+    objects = [make(shapes.tube_tree(), name) for name in ("First", "Second")]
+    for obj in objects:
+        obj.select_set(True)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    for obj in objects:
+        assert len(pieces(obj.name)) == len(obj.data.reeb_parts.parts)
+
+
+def test_undo_and_redo(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.ed.undo_push(message="before")
+    before = snapshot()
+    bpy.ops.reeb_parts.separate(caps=True)
+    bpy.ops.ed.undo_push(message="after")
+    after = snapshot()
+    bpy.ops.ed.undo()
+    assert snapshot() == before
+    bpy.ops.ed.redo()
+    assert snapshot() == after
+
+
+def test_an_edited_mesh_is_refused_and_nothing_written(obj):
+    bpy.ops.reeb_parts.decompose()
+    obj.data.vertices[0].co.x += 1
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="was edited since"):
+        bpy.ops.reeb_parts.separate()
+    assert snapshot() == before
+
+
+def test_spot_in_closed_pieces(make):
+    bpy.ops.wm.obj_import(filepath=str(SPOT))
+    (spot,) = bpy.context.selected_objects
+    activate(spot)
+    bpy.ops.reeb_parts.decompose(n_parts=12)
+    bpy.ops.reeb_parts.separate(caps=True, **KEEP)
+    assert len(pieces("spot")) == 12
+    assert [borders(piece.data) for piece in pieces("spot")] == [(set(), 0)] * 12
+    cap = [caps_of(piece.data) for piece in pieces("spot")]
+    assert sum((values == 0).sum() for values in cap) == len(spot.data.polygons)

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel "Use Parts": what parts can become."""
+
+import bpy
+
+from ..operators import separate, store
+from .panel import ReebPanel
+
+
+class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
+    bl_parent_id = "REEB_PARTS_PT_main"
+    bl_label = "Use Parts"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        obj = context.object
+        return obj is not None and obj.type == "MESH" and store.has_result(obj.data)
+
+    def draw(self, context):
+        column, _ = self._column(context)
+        settings = context.scene.reeb_parts_use
+        column.row().prop(settings, "which", expand=True)
+        column.separator()
+        for name in ("caps", "center", "modifiers", "parent", "hide"):
+            column.prop(settings, name)
+        column.operator("reeb_parts.separate", text="Separate", icon="MOD_EXPLODE")
+
+
+class REEB_PARTS_PT_piece(ReebPanel, bpy.types.Panel):
+    bl_parent_id = "REEB_PARTS_PT_main"
+    bl_label = "Separated Part"
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None and separate.original(context.object) is not None
+
+    def draw(self, context):
+        obj = separate.original(context.object)
+        self.layout.label(text=f"A part of {obj.name}", icon="MESH_DATA")
+        self.layout.operator("reeb_parts.show_original", text=f"Show {obj.name}", icon="HIDE_OFF")
+
+
+CLASSES = (REEB_PARTS_PT_use, REEB_PARTS_PT_piece)
