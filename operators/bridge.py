@@ -151,6 +151,33 @@ def corner_edges(mesh) -> np.ndarray:
     return _corners(mesh, ".corner_edge")
 
 
+def face_graph(obj) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """How the faces of an object's mesh lie beside each other; Object Mode.
+
+    Returns
+    -------
+    area : (p,) float64
+        Of each face, in units of the world.
+    pairs : (e, 2) int32
+        Faces that share an edge.
+    length : (e,) float64
+        Of that edge.
+    """
+    shape = read_shape(obj)
+    a, b, c = shape.vertices[shape.triangles].transpose(1, 0, 2)
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    _, face = face_corners(obj.data)
+    edge = corner_edges(obj.data)
+    order = np.argsort(edge, kind="stable")
+    together = np.flatnonzero(np.diff(edge[order]) == 0)
+    first, second = order[together], order[together + 1]
+    ends = np.empty(2 * len(obj.data.edges), np.int32)
+    obj.data.edges.foreach_get("vertices", ends)
+    start, end = shape.vertices[ends.reshape(-1, 2)[edge[first]]].transpose(1, 0, 2)
+    return (np.bincount(shape.polygon, area, len(obj.data.polygons)),
+            np.stack([face[first], face[second]], axis=1), np.linalg.norm(end - start, axis=1))
+
+
 _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
 
 

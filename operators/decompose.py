@@ -78,6 +78,7 @@ def write_result(context, obj, outcome: Outcome, settings):
         result.notes = "\n".join(decomposition.notes + outcome.shape.notes)
         result.detail, result.by_number = parameters.detail, parameters.n_parts > 0
         attributes.write_outputs(obj, numbered, decomposition.field, settings)
+    store.mark_pins(mesh, stored)
     if settings.graph:
         overlay.draw_graph(context, obj, decomposition.graph, outcome.shape.stretch, settings)
         overlay.update_parts(obj, numbered)

@@ -4,6 +4,8 @@
 Blender itself makes an undo step for a property of the mesh that is changed in the interface.
 """
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 
@@ -16,14 +18,14 @@ def show_detail(result, context):
     """The Detail slider was moved."""
     if not store.is_quiet():
         result.by_number = False
-        _show(result, context)
+        show(result, context)
 
 
 def show_number(result, context):
     """A number of parts was typed."""
     if not store.is_quiet():
         result.by_number = True
-        _show(result, context)
+        show(result, context)
 
 
 def rename(part, context):
@@ -41,6 +43,26 @@ def rename(part, context):
             _anchor(mesh, part.number)
 
 
+def lock(part, context):
+    """A part was locked or unlocked in the list."""
+    if store.is_quiet():
+        return
+    mesh = part.id_data
+    number, locked = part.number, part.locked
+    try:
+        with object_mode(context):
+            stored = store.load(mesh)
+            own = stored.shown == number
+            fixed = np.where(own, number if locked else 0, stored.fixed)
+            former = np.where(own, number, stored.former)
+            with store.quiet():
+                store.save_numbers(mesh, replace(stored, former=former, fixed=fixed))
+    except SceneError:
+        mesh.reeb_parts.edited = True
+        return
+    show(mesh.reeb_parts, context)
+
+
 def refresh(context, mesh, stored, numbered):
     """Write other parts of the same decomposition: outputs, list and graphs."""
     before = stored.shown[stored.decomposition.candidates]
@@ -49,6 +71,7 @@ def refresh(context, mesh, stored, numbered):
     with store.quiet():
         store.save_numbers(mesh, stored)
         attributes.update_outputs(objects[0], numbered, before)
+    store.mark_pins(mesh, stored)
     for obj in objects:
         overlay.update_parts(obj, numbered)
 
@@ -58,13 +81,16 @@ def users(mesh):
     return [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data == mesh]
 
 
-def _show(result, context):
+def show(result, context):
+    """Show the parts of the detail or number that is set."""
     mesh = result.id_data
     try:
         with object_mode(context):
             stored = store.load(mesh)
             numbered = stored.parts(result.detail, result.n_parts if result.by_number else 0)
-            if not np.array_equal(numbered.candidate_numbers, stored.shown):
+            if np.array_equal(numbered.candidate_numbers, stored.shown):
+                store.mark_pins(mesh, stored)
+            else:
                 refresh(context, mesh, stored, numbered)
             with store.quiet():
                 result.n_parts = numbered.parts.count
@@ -81,4 +107,4 @@ def _anchor(mesh, number):
         return
     if number not in stored.former:
         former = np.where(stored.shown == number, number, stored.former)
-        store.save_numbers(mesh, store.Stored(stored.decomposition, former, stored.fixed, stored.shown))
+        store.save_numbers(mesh, replace(stored, former=former))

@@ -153,7 +153,7 @@ def _face_numbers(mesh) -> tuple[np.ndarray, np.ndarray]:
     if attribute is not None and attribute.domain == "FACE" and len(attribute.data) == len(faces):
         attribute.data.foreach_get("value", faces)
     faces = faces.astype(np.int64)
-    tied = [part.number for part in result.parts if part.locked]
+    tied = [part.number for part in result.parts if part.pinned]
     return faces, np.where(np.isin(faces, tied), faces, 0)
 
 
@@ -199,6 +199,14 @@ def _remember(data: bytes, decomposition):
 def forget():
     """Free what is kept in memory."""
     _read.clear()
+
+
+def mark_pins(mesh, stored: Stored):
+    """Tell the list which parts stay whatever the detail."""
+    pinned = set(stored.fixed.tolist())
+    with quiet():
+        for part in mesh.reeb_parts.parts:
+            part.pinned = part.number in pinned
 
 
 def settle(stored: Stored, numbered: NumberedParts) -> Stored:

@@ -148,6 +148,12 @@ def _rename(self, context):
     live.rename(self, context)
 
 
+def _lock(self, context):
+    from ..operators import live
+
+    live.lock(self, context)
+
+
 def _show_detail(self, context):
     from ..operators import live
 
@@ -170,7 +176,11 @@ class ReebPart(bpy.types.PropertyGroup):
     number: IntProperty(name="Number", description="What the part is known by; the value of reeb_part")
     color: FloatVectorProperty(name="Colour", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0)
     share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")
-    locked: BoolProperty(name="Locked", description="The part stays as it is whatever the detail")
+    locked: BoolProperty(
+        name="Locked", update=_lock,
+        description="The part stays as it is, whatever the detail and whatever is done to its neighbours",
+    )
+    pinned: BoolProperty(name="Pinned", description="The part was changed by hand and stays whatever the detail")
     selected: BoolProperty(name="Selected", description="Included in what is done to the selected parts")
     group: StringProperty(description="The vertex group made for the part")
     material: PointerProperty(type=bpy.types.Material, description="The material made for the part")

@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts changed by hand: where a part would split, what it would take or give, whether it is in one piece.
+
+Everything works on candidate parts, the grains of a decomposition; ``split_candidates`` makes finer ones
+where a grain is not fine enough. Masks are (c,) bool over the candidates.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .decomposition import Decomposition
+from .hierarchy import Hierarchy
+from .mesh import components
+
+
+def pieces(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
+    """Connected pieces of some candidates.
+
+    Returns
+    -------
+    piece : (c,) int64
+        0 for the largest piece by area, 1 for the next; -1 outside the mask.
+    """
+    pairs = _inside(decomposition, mask)
+    _, label = components(decomposition.n_candidates, *pairs.T)
+    label = np.where(mask, label, -1)
+    found = np.unique(label[mask])
+    area = np.array([decomposition.candidate_area[label == piece].sum() for piece in found])
+    result = np.full(len(mask), -1, np.int64)
+    for place, index in enumerate(np.argsort(-area, kind="stable")):
+        result[label == found[index]] = place
+    return result
+
+
+def best_split(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray | None:
+    """The two sides of the best cut within a part: of all cuts inside, the last to be merged.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+    mask : (c,) bool
+        Candidates of one connected part.
+
+    Returns
+    -------
+    side : (c,) bool or None
+        The smaller side; None for a part of a single candidate.
+    """
+    if mask.sum() < 2:
+        return None
+    pairs = _inside(decomposition, mask)
+    order = np.argsort(_merge_time(decomposition, pairs), kind="stable")
+    part = np.arange(decomposition.n_candidates)
+    for a, b in pairs[order].tolist():
+        if part[a] != part[b]:
+            last = part == part[b]
+            part[last] = part[a]
+    # The last two sides to be joined; nothing else was left to join.
+    other = mask & ~last
+    area = decomposition.candidate_area
+    return last if area[last].sum() <= area[other].sum() else other
+
+
+def growth(decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray) -> int | None:
+    """The candidate that a part takes next: the one beyond the weakest piece of its boundary.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+    mask : (c,) bool
+        Candidates of the part.
+    allowed : (c,) bool
+        Candidates that may be taken.
+
+    Returns
+    -------
+    candidate : int or None
+        None if nothing allowed touches the part.
+    """
+    inner, outer = _border(decomposition, mask)
+    usable = allowed[outer]
+    inner, outer = inner[usable], outer[usable]
+    if not len(outer):
+        return None
+    return int(outer[_weakest(decomposition, inner, outer)])
+
+
+def shrinkage(
+    decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray
+) -> tuple[int, int] | None:
+    """The candidate that a part gives away next, and the one beyond the boundary that it goes to.
+
+    The part stays in one piece, and is never given away whole.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+    mask : (c,) bool
+        Candidates of the part.
+    allowed : (c,) bool
+        Candidates whose parts may receive one.
+
+    Returns
+    -------
+    given, receiver : int
+        None if nothing can be given.
+    """
+    inner, outer = _border(decomposition, mask)
+    usable = allowed[outer]
+    inner, outer = inner[usable], outer[usable]
+    time = _merge_time(decomposition, np.stack([inner, outer], axis=1))
+    for index in np.argsort(time, kind="stable").tolist():
+        rest = mask.copy()
+        rest[inner[index]] = False
+        if rest.any() and pieces(decomposition, rest).max() == 0:
+            return int(inner[index]), int(outer[index])
+    return None
+
+
+def split_candidates(
+    decomposition: Decomposition,
+    faces: np.ndarray,
+    face_area: np.ndarray,
+    face_pairs: np.ndarray,
+    pair_length: np.ndarray,
+) -> Decomposition:
+    """The same decomposition with candidates cut along the outline of some faces.
+
+    The new candidates are the first to merge again, so that no level of detail shows the new cuts unless
+    somebody ties the candidates to different parts.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+        Of p faces, with c candidates.
+    faces : (p,) bool
+        Faces to be separable from the others.
+    face_area : (p,) float64
+    face_pairs : (e, 2) int64
+        Faces that share an edge.
+    pair_length : (e,) float64
+        Length of the edge.
+
+    Returns
+    -------
+    finer : Decomposition
+        Old candidates keep their number, less the faces that now belong to new ones from c on.
+    """
+    old = decomposition.candidates
+    size = np.bincount(old, minlength=decomposition.n_candidates)
+    inside = np.bincount(old, faces, decomposition.n_candidates)
+    cut = np.flatnonzero((inside > 0) & (inside < size))
+    if not len(cut):
+        return decomposition
+    new_index = np.arange(decomposition.n_candidates)
+    new_index[cut] = decomposition.n_candidates + np.arange(len(cut))
+    candidates = np.where(faces, new_index[old], old)
+    count = decomposition.n_candidates + len(cut)
+    pairs, length = _boundaries(candidates, face_pairs, pair_length)
+    area = np.bincount(candidates, face_area, count)
+    area *= decomposition.candidate_area.sum() / area.sum()
+    hierarchy = decomposition.hierarchy
+    merges = np.concatenate([np.stack([cut, new_index[cut]], axis=1), hierarchy.merges])
+    salience = np.concatenate([np.zeros(len(cut)), hierarchy.salience])
+    return replace(
+        decomposition, candidates=candidates, candidate_area=area, candidate_pairs=pairs,
+        candidate_pair_length=length, hierarchy=Hierarchy.of(count, merges, salience))
+
+
+def _boundaries(candidates, face_pairs, pair_length):
+    """Pairs of candidates that touch, smaller first, and the length of their boundary."""
+    ends = np.sort(candidates[face_pairs], axis=1).reshape(-1, 2)
+    apart = ends[:, 0] != ends[:, 1]
+    pairs, where = np.unique(ends[apart], axis=0, return_inverse=True)
+    return pairs, np.bincount(where.reshape(-1), pair_length[apart], len(pairs))
+
+
+def _inside(decomposition, mask) -> np.ndarray:
+    pairs = decomposition.candidate_pairs
+    return pairs[mask[pairs].all(axis=1)]
+
+
+def _border(decomposition, mask) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of touching candidates across the boundary: inner and outer ones."""
+    pairs = decomposition.candidate_pairs
+    across = pairs[mask[pairs].sum(axis=1) == 1]
+    first_inside = mask[across[:, 0]]
+    return (np.where(first_inside, across[:, 0], across[:, 1]),
+            np.where(first_inside, across[:, 1], across[:, 0]))
+
+
+def _weakest(decomposition, a, b) -> int:
+    return int(_merge_time(decomposition, np.stack([a, b], axis=1)).argmin())
+
+
+def _merge_time(decomposition, pairs) -> np.ndarray:
+    """When in the merging sequence two candidates come together, 0..1; no two merges at once."""
+    hierarchy = decomposition.hierarchy
+    count = len(hierarchy.merges)
+    clock = Hierarchy.of(hierarchy.n_candidates, hierarchy.merges, np.arange(count) / max(count, 1))
+    return clock.cut_salience(*pairs.T)

@@ -1,0 +1,275 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Change parts by hand: lock, merge, split, grow, shrink, paint.
+
+Every part that is changed by hand is pinned by that: it stays as it is while the detail changes around
+it, and through another run, until it is released. A lock pins a part and keeps the hands off it, too.
+"""
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+
+from ..core.numbering import numbered_parts
+from . import bridge, live, store
+from .parts import PartOperator, chosen_numbers
+from .problems import SceneError
+
+
+def tie(context, obj, stored, candidate_numbers, changed):
+    """Show parts that were changed by hand, and pin those that are part of the change.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    stored : store.Stored
+    candidate_numbers : (c,) int64
+        The part of each candidate from now on.
+    changed : iterable of int
+        Numbers to pin.
+    """
+    mesh = obj.data
+    result = mesh.reeb_parts
+    pinned = np.isin(candidate_numbers, list(changed)) | (stored.fixed > 0)
+    fixed = np.where(pinned, candidate_numbers, 0)
+    former = np.where(pinned, candidate_numbers, stored.former)
+    tied = replace(stored, former=former, fixed=fixed)
+    # Around the pinned parts everything is as the hierarchy has it.
+    count = len(np.unique(candidate_numbers)) if result.by_number else 0
+    numbered = numbered_parts(tied.decomposition, result.detail, count, former, fixed)
+    live.refresh(context, mesh, tied, numbered)
+
+
+def free_number(mesh, stored) -> int:
+    """The smallest number that no part has, had or is named by."""
+    used = {*stored.shown.tolist(), *stored.former.tolist(), *(e.number for e in mesh.reeb_parts.names)}
+    return next(number for number in range(1, len(used) + 2) if number not in used)
+
+
+def check_unlocked(obj, numbers):
+    """Raise SceneError if one of some parts is locked."""
+    for part in obj.data.reeb_parts.parts:
+        if part.locked and part.number in numbers:
+            raise SceneError(f"{part.name} is locked. Unlock it in the list first.")
+
+
+def merge(context, obj, stored, numbers, into):
+    """Make one part of several that touch; raises SceneError if they do not."""
+    from ..core.editing import pieces
+
+    check_unlocked(obj, numbers)
+    mask = np.isin(stored.shown, numbers)
+    if pieces(stored.decomposition, mask).max() > 0:
+        raise SceneError("These parts do not touch each other. Choose parts that do.")
+    tie(context, obj, stored, np.where(mask, into, stored.shown), [into])
+
+
+def _name(obj, number):
+    return store.part_name(obj.data, number)
+
+
+class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
+    """Make one part of the parts marked in the list; it takes the name of the active one"""
+
+    bl_idname = "reeb_parts.merge"
+    bl_label = "Merge Parts"
+
+    def work(self, context, obj, stored):
+        result = obj.data.reeb_parts
+        numbers = chosen_numbers(obj.data)
+        active = result.parts[result.active].number
+        into = active if active in numbers else numbers[0]
+        if len(numbers) < 2:
+            raise SceneError("Mark the parts to merge in the list, two or more.")
+        merge(context, obj, stored, numbers, into)
+        return f"{len(numbers)} parts are {_name(obj, into)} now"
+
+
+class REEB_PARTS_OT_merge_neighbour(PartOperator, bpy.types.Operator):
+    """Merge each chosen part into the neighbour that it is least clearly cut from"""
+
+    bl_idname = "reeb_parts.merge_neighbour"
+    bl_label = "Merge into Neighbour"
+
+    def work(self, context, obj, stored):
+        for number in chosen_numbers(obj.data):
+            neighbour = _weakest_neighbour(obj, stored, number)
+            merge(context, obj, stored, [number, neighbour], neighbour)
+            stored = store.load(obj.data)
+
+
+def _weakest_neighbour(obj, stored, number):
+    """The part beyond the least salient cut; the longest of equals."""
+    numbered = stored.shown_parts()
+    cuts = numbered.numbers[numbered.parts.cuts]
+    own = (cuts == number).any(axis=1)
+    if not own.any():
+        raise SceneError(f"{_name(obj, number)} touches no other part.")
+    order = np.lexsort((-numbered.parts.cut_length[own], numbered.parts.cut_salience[own]))
+    ends = cuts[own][order[0]]
+    return int(ends[0] if ends[1] == number else ends[1])
+
+
+class REEB_PARTS_OT_split(PartOperator, bpy.types.Operator):
+    """Split each chosen part in two, where its own best cut is"""
+
+    bl_idname = "reeb_parts.split"
+    bl_label = "Split Parts"
+
+    def work(self, context, obj, stored):
+        from ..core.editing import best_split
+
+        check_unlocked(obj, chosen_numbers(obj.data))
+        for number in chosen_numbers(obj.data):
+            side = best_split(stored.decomposition, stored.shown == number)
+            if side is None:
+                raise SceneError(
+                    f"No cut was found inside {_name(obj, number)}. Select faces in Edit Mode and assign "
+                    "them to another part instead."
+                )
+            new = free_number(obj.data, stored)
+            tie(context, obj, stored, np.where(side, new, stored.shown), [number, new])
+            stored = store.load(obj.data)
+
+
+class REEB_PARTS_OT_grow(PartOperator, bpy.types.Operator):
+    """Move the boundary of each chosen part outwards, to the next crease beyond its weakest stretch"""
+
+    bl_idname = "reeb_parts.grow"
+    bl_label = "Grow Parts"
+
+    def work(self, context, obj, stored):
+        from ..core.editing import growth
+
+        check_unlocked(obj, chosen_numbers(obj.data))
+        for number in chosen_numbers(obj.data):
+            mask = stored.shown == number
+            taken = growth(stored.decomposition, mask, _not_locked(obj, stored, number))
+            if taken is None:
+                raise SceneError(f"Nothing is left around {_name(obj, number)} that is not locked.")
+            _move(context, obj, stored, taken, number)
+            stored = store.load(obj.data)
+
+
+class REEB_PARTS_OT_shrink(PartOperator, bpy.types.Operator):
+    """Move the boundary of each chosen part inwards, to the next crease"""
+
+    bl_idname = "reeb_parts.shrink"
+    bl_label = "Shrink Parts"
+
+    def work(self, context, obj, stored):
+        from ..core.editing import shrinkage
+
+        check_unlocked(obj, chosen_numbers(obj.data))
+        for number in chosen_numbers(obj.data):
+            mask = stored.shown == number
+            step = shrinkage(stored.decomposition, mask, _not_locked(obj, stored, number))
+            if step is None:
+                raise SceneError(f"{_name(obj, number)} cannot give away anything more.")
+            given, receiver = step
+            _move(context, obj, stored, given, int(stored.shown[receiver]))
+            stored = store.load(obj.data)
+
+
+def _not_locked(obj, stored, number) -> np.ndarray:
+    """Candidates of other parts that the user did not lock, (c,) bool."""
+    held = [part.number for part in obj.data.reeb_parts.parts if part.locked and part.number != number]
+    return ~np.isin(stored.shown, held)
+
+
+def _move(context, obj, stored, candidate, number):
+    """Give a candidate to a part; what it leaves behind stays in one piece, or becomes several parts."""
+    giver = int(stored.shown[candidate])
+    numbers = stored.shown.copy()
+    numbers[candidate] = number
+    changed = {giver, number} | _part_pieces(obj, stored, numbers, giver)
+    tie(context, obj, stored, numbers, changed)
+
+
+def _part_pieces(obj, stored, numbers, number) -> set:
+    """Give all but the largest piece of a part numbers of their own, in place; returns these."""
+    from ..core.editing import pieces
+
+    piece = pieces(stored.decomposition, numbers == number)
+    made = set()
+    for index in range(1, piece.max() + 1):
+        known = replace(stored, shown=np.concatenate([numbers, stored.shown]))
+        made.add(free_number(obj.data, known))
+        numbers[piece == index] = max(made)
+    return made
+
+
+class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
+    """Give the faces selected in Edit Mode to the active part"""
+
+    bl_idname = "reeb_parts.assign"
+    bl_label = "Assign Faces to Part"
+
+    new: bpy.props.BoolProperty(name="New part", description="Make a part of its own of the faces")
+
+    def work(self, context, obj, stored):
+        from ..core.editing import split_candidates
+
+        mesh = obj.data
+        result = mesh.reeb_parts
+        faces = np.empty(len(mesh.polygons), bool)
+        mesh.polygons.foreach_get("select", faces)
+        if not faces.any():
+            raise SceneError("No faces are selected. Select some in Edit Mode.")
+        number = free_number(mesh, stored) if self.new else result.parts[result.active].number
+        given = set(np.unique(stored.shown[stored.decomposition.candidates[faces]]).tolist()) - {number}
+        check_unlocked(obj, given | {number})
+        finer = split_candidates(stored.decomposition, faces, *bridge.face_graph(obj))
+        added = np.full(finer.n_candidates - len(stored.shown), -1)
+        origin = _origins(stored.decomposition.candidates, finer.candidates, added)
+        stored = store.Stored(finer, stored.former[origin], stored.fixed[origin], stored.shown[origin])
+        with store.quiet():
+            store.save(mesh, stored)
+        numbers = stored.shown.copy()
+        numbers[np.unique(finer.candidates[faces])] = number
+        changed = {number} | given
+        for giver in sorted(given):
+            if (numbers == giver).any():
+                changed |= _part_pieces(obj, stored, numbers, giver)
+        changed |= _part_pieces(obj, stored, numbers, number)
+        tie(context, obj, stored, numbers, changed)
+        return f"{int(faces.sum())} faces are {_name(obj, number)} now"
+
+
+def _origins(old, new, added):
+    """The old candidate that each new one was cut from."""
+    count = int(old.max()) + 1
+    origin = np.concatenate([np.arange(count), added])
+    origin[new] = old
+    return origin
+
+
+class REEB_PARTS_OT_release(PartOperator, bpy.types.Operator):
+    """Let the detail decide about the chosen parts again, which were changed by hand"""
+
+    bl_idname = "reeb_parts.release"
+    bl_label = "Release Parts"
+
+    everything: bpy.props.BoolProperty(name="All", description="Release every part that is not locked")
+
+    def work(self, context, obj, stored):
+        result = obj.data.reeb_parts
+        locked = {part.number for part in result.parts if part.locked}
+        numbers = {part.number for part in result.parts} if self.everything else set(chosen_numbers(obj.data))
+        fixed = np.where(np.isin(stored.fixed, list(numbers - locked)), 0, stored.fixed)
+        with store.quiet():
+            store.save_numbers(obj.data, replace(stored, fixed=fixed))
+        result.by_number = False
+        live.show(result, context)
+
+
+CLASSES = (
+    REEB_PARTS_OT_release,
+    REEB_PARTS_OT_merge,
+    REEB_PARTS_OT_merge_neighbour,
+    REEB_PARTS_OT_split,
+    REEB_PARTS_OT_grow,
+    REEB_PARTS_OT_shrink,
+    REEB_PARTS_OT_assign,
+)

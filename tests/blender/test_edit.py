@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts changed by hand: locked, merged, split, grown, shrunk, painted; kept when the detail changes."""
+
+import bpy
+import numpy as np
+import pytest
+from snapshot import snapshot
+
+
+def numbers(mesh):
+    values = np.zeros(len(mesh.polygons), np.int32)
+    mesh.attributes["reeb_part"].data.foreach_get("value", values)
+    return values
+
+
+@pytest.fixture
+def result(obj):
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    return obj.data.reeb_parts
+
+
+def choose(result, *chosen):
+    """Mark parts in the list by number; the first is active."""
+    for index, part in enumerate(result.parts):
+        part.selected = part.number in chosen
+        if part.number == chosen[0]:
+            result.active = index
+
+
+def neighbours(mesh, number):
+    """Numbers of the parts that share an edge with a part."""
+    faces, around = numbers(mesh), {}
+    for polygon in mesh.polygons:
+        for key in polygon.edge_keys:
+            around.setdefault(key, set()).add(int(faces[polygon.index]))
+    return sorted(set().union(*(found for found in around.values() if number in found)) - {number})
+
+
+def part(result, number):
+    return next(part for part in result.parts if part.number == number)
+
+
+def check(obj):
+    """The list, the attribute and the groups agree."""
+    faces = numbers(obj.data)
+    parts = obj.data.reeb_parts.parts
+    assert sorted(set(faces.tolist())) == [p.number for p in parts]
+    assert sum(p.share for p in parts) == pytest.approx(1.0)
+    for p in parts:
+        index = obj.vertex_groups[p.group].index
+        group = {v.index for v in obj.data.vertices if any(g.group == index for g in v.groups)}
+        assert group == {v for f in obj.data.polygons if faces[f.index] == p.number for v in f.vertices}
+
+
+def test_merge_makes_one_part_and_touches_no_other(obj, result):
+    before = numbers(obj.data)
+    other = neighbours(obj.data, 1)[0]
+    choose(result, 1, other)
+    bpy.ops.reeb_parts.merge()
+    assert (numbers(obj.data) == np.where(before == other, 1, before)).all()
+    assert part(result, 1).pinned
+    check(obj)
+
+
+def test_merge_needs_parts_that_touch(obj, result):
+    apart = next(p.number for p in result.parts if p.number != 1 and p.number not in neighbours(obj.data, 1))
+    choose(result, 1, apart)
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="do not touch"):
+        bpy.ops.reeb_parts.merge()
+    assert snapshot() == before
+
+
+def test_merged_parts_stay_at_every_detail(obj, result):
+    other = neighbours(obj.data, 1)[0]
+    choose(result, 1, other)
+    bpy.ops.reeb_parts.merge()
+    merged = numbers(obj.data) == 1
+    for detail in (0.0, 0.9, 0.3, 1.0):
+        result.detail = detail
+        assert ((numbers(obj.data) == 1) == merged).all()
+        check(obj)
+    bpy.ops.reeb_parts.decompose(method="berretti", detail=1.0)
+    assert ((numbers(obj.data) == 1) == merged).all()
+    assert part(result, 1).pinned
+
+
+def test_merge_into_neighbour(obj, result):
+    count = len(result.parts)
+    leaf = next(p.number for p in result.parts if len(neighbours(obj.data, p.number)) == 1)
+    (receiver,) = neighbours(obj.data, leaf)
+    before = numbers(obj.data)
+    choose(result, leaf)
+    bpy.ops.reeb_parts.merge_neighbour()
+    assert len(result.parts) == count - 1
+    assert (numbers(obj.data) == np.where(before == leaf, receiver, before)).all()
+    check(obj)
+
+
+def test_split_and_merge_again(obj, result):
+    result.n_parts = 2
+    before = numbers(obj.data)
+    choose(result, 1)
+    bpy.ops.reeb_parts.split()
+    after = numbers(obj.data)
+    assert len(result.parts) == 3
+    assert set(after[before != 1]) == set(before[before != 1])
+    (new,) = set(after.tolist()) - set(before.tolist())
+    assert (before[after == new] == 1).all()
+    check(obj)
+    choose(result, 1, new)
+    bpy.ops.reeb_parts.merge()
+    assert (numbers(obj.data) == before).all()
+
+
+def test_a_grain_does_not_split(obj, result):
+    result.detail = 1.0
+    choose(result, 1)
+    with pytest.raises(RuntimeError, match="No cut"):
+        bpy.ops.reeb_parts.split()
+
+
+def test_lock_keeps_a_part_and_unlock_releases_it(obj, result):
+    number = result.parts[-1].number
+    mask = numbers(obj.data) == number
+    part(result, number).locked = True
+    result.detail = 0.0
+    assert ((numbers(obj.data) == number) == mask).all()
+    assert len(result.parts) >= 2
+    result.n_parts = 2
+    assert len(result.parts) == 2
+    assert ((numbers(obj.data) == number) == mask).all()
+    part(result, number).locked = False
+    result.detail = 0.0
+    assert len(result.parts) == 1
+    check(obj)
+
+
+def test_a_locked_part_is_kept_by_another_run(obj, result):
+    number = result.parts[-1].number
+    mask = numbers(obj.data) == number
+    part(result, number).locked = True
+    bpy.ops.reeb_parts.decompose(method="berretti", detail=0.0)
+    assert ((numbers(obj.data) == number) == mask).all()
+    assert part(obj.data.reeb_parts, number).locked
+
+
+def test_locked_parts_are_not_merged_or_split(obj, result):
+    other = neighbours(obj.data, 1)[0]
+    part(result, other).locked = True
+    choose(result, 1, other)
+    with pytest.raises(RuntimeError, match="locked"):
+        bpy.ops.reeb_parts.merge()
+    with pytest.raises(RuntimeError, match="locked"):
+        bpy.ops.reeb_parts.split()
+
+
+def test_release_gives_back_to_the_detail(obj, result):
+    before = numbers(obj.data)
+    choose(result, 1, neighbours(obj.data, 1)[0])
+    bpy.ops.reeb_parts.merge()
+    bpy.ops.reeb_parts.release(everything=True)
+    assert not any(p.pinned for p in result.parts)
+    assert len(set(numbers(obj.data))) == len(set(before))
+    check(obj)
+
+
+def test_grow_and_shrink_move_the_boundary(obj, result):
+    result.n_parts = 3
+    number = result.parts[-1].number
+    choose(result, number)
+    before = numbers(obj.data) == number
+    bpy.ops.reeb_parts.grow()
+    grown = numbers(obj.data) == number
+    assert (grown & before).sum() == before.sum() < grown.sum()
+    check(obj)
+    bpy.ops.reeb_parts.shrink()
+    shrunk = numbers(obj.data) == number
+    assert shrunk.sum() < grown.sum()
+    check(obj)
+
+
+@pytest.mark.parametrize("new", [False, True])
+def test_faces_are_assigned(obj, result, new):
+    before = numbers(obj.data)
+    result.active = 0
+    giver = neighbours(obj.data, 1)[0]
+    chosen = np.zeros(len(before), bool)
+    beside = {v for f in obj.data.polygons if before[f.index] == 1 for v in f.vertices}
+    for polygon in obj.data.polygons:
+        if before[polygon.index] == giver and beside.intersection(polygon.vertices):
+            chosen[polygon.index] = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type="FACE")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    obj.data.polygons.foreach_set("select", chosen)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.reeb_parts.assign(new=new)
+    assert obj.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    after = numbers(obj.data)
+    assert (after != before)[chosen].all()
+    assert len(set(after[chosen])) >= 1
+    if not new:
+        assert (after[chosen] == 1).all()
+    result = obj.data.reeb_parts
+    check(obj)
+    kept = after.copy()
+    result.detail = 0.2
+    result.detail = 0.5
+    assert (numbers(obj.data)[chosen] == kept[chosen]).all()
+    check(obj)
+
+
+def test_edits_are_undone_and_redone(obj, result):
+    bpy.ops.ed.undo_push(message="before")
+    before = snapshot()
+    choose(obj.data.reeb_parts, 1)
+    bpy.ops.reeb_parts.split()
+    bpy.ops.ed.undo_push(message="after")
+    after = snapshot()
+    bpy.ops.ed.undo()
+    assert snapshot() == before
+    bpy.ops.ed.redo()
+    assert snapshot() == after
+    bpy.data.objects["Tree"].data.reeb_parts.detail = 0.1
+    check(bpy.data.objects["Tree"])
+
+
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT"])
+def test_in_other_modes(obj, result, mode):
+    bpy.ops.object.mode_set(mode=mode)
+    choose(result, 1, neighbours_in_object_mode(obj))
+    bpy.ops.reeb_parts.merge()
+    assert obj.mode == mode
+    bpy.ops.object.mode_set(mode="OBJECT")
+    check(obj)
+
+
+def neighbours_in_object_mode(obj):
+    mode = obj.mode
+    bpy.ops.object.mode_set(mode="OBJECT")
+    found = neighbours(obj.data, 1)[0]
+    bpy.ops.object.mode_set(mode=mode)
+    return found
