@@ -3,13 +3,14 @@
 
 import bpy
 
-from . import bridge, clear, compute, decompose, jobs, parts, separate, store
+from . import bridge, clear, compute, decompose, edit, jobs, parts, separate, store
 
 CLASSES = (
     decompose.REEB_PARTS_OT_decompose,
     decompose.REEB_PARTS_OT_cancel,
     clear.REEB_PARTS_OT_clear,
     *parts.CLASSES,
+    *edit.CLASSES,
     *separate.CLASSES,
 )
 
