@@ -107,8 +107,11 @@ def load_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
     import trimesh
 
     # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
-    mesh = trimesh.load(path, process=False, force="mesh", maintain_order=True, skip_materials=True)
-    return np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    scene = trimesh.load_scene(path, process=False, maintain_order=True, skip_materials=True)
+    meshes = list(scene.geometry.values())
+    first = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
+    vertices = np.concatenate([mesh.vertices for mesh in meshes])
+    return vertices, np.concatenate([mesh.faces + start for mesh, start in zip(meshes, first, strict=False)])
 
 
 def write_times(path: Path, rows: list[dict]) -> None:

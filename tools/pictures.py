@@ -39,7 +39,7 @@ class Model:
 
 MODELS = (
     Model("spot.obj", "Spot", "Keenan Crane, CC0, in models/", 180),
-    Model("cow.obj", "Cow", "Viewpoint Animation Engineering", 90),
+    Model("cow.obj", "Cow", "Viewpoint Animation Engineering", 65),
     Model("stanford-bunny.obj", "Stanford bunny", "Stanford, with holes in its base and 1,113 vertices of no face"),
     Model("rocker-arm.obj", "Rocker arm", "INRIA, genus 1", 120),
     Model("teapot.obj", "Utah teapot", "Martin Newell, four loose parts with open borders"),
