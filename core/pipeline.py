@@ -15,7 +15,7 @@ from .berretti import berretti_candidates
 from .decomposition import Decomposition
 from .hierarchy import Hierarchy
 from .levelsets import LevelSets, cut_at_levels, uniform_levels
-from .mesh import PolygonMesh, TriMesh
+from .mesh import MIN_FACES, PolygonMesh, TriMesh
 from .parameters import PERCEPTUAL, Parameters
 from .perceptual import perceptual_candidates
 from .reeb import ReebGraph, ReebStructure, reeb_graph, reeb_structure
@@ -132,8 +132,7 @@ def decompose(
         given = PolygonMesh.of(vertices, faces, polygon)
         working = repair(given)
         count, component = working.mesh.face_components
-        area = np.bincount(component, working.mesh.face_area, count)
-        large = np.flatnonzero(area >= max(parameters.loose_part * area.sum(), 1e-12 * area.max()))
+        large = _large_components(working, count, component, parameters.loose_part)
     results = []
     for done, label in enumerate(large):
         begin = 0.04 + 0.92 * done / len(large)
@@ -145,6 +144,16 @@ def decompose(
         result = _assemble(given, working, component, large, results, parameters, watch.seconds)
     watch.progress("done", 1.0)
     return result
+
+
+def _large_components(working, count, component, loose_part) -> np.ndarray:
+    """Components worth a decomposition of their own: of some area, and faces enough for parts."""
+    area = np.bincount(component, working.mesh.face_area, count)
+    n_polygons = int(working.polygon.max()) + 1
+    faces = np.unique(component * np.int64(n_polygons) + working.polygon)
+    n_faces = np.bincount(faces // n_polygons, minlength=count)
+    return np.flatnonzero((area >= max(loose_part * area.sum(), 1e-12 * area.max()))
+                          & (n_faces >= MIN_FACES))
 
 
 @dataclass(frozen=True, eq=False)
