@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The method of the paper, from level sets to candidates."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.berretti import berretti_candidates
+from core.levelsets import cut_at_levels, uniform_levels
+from core.mesh import TriMesh, components
+from core.parameters import Parameters
+from core.reeb import reeb_structure
+from core.regions import berretti_regions
+from core.simplify import simplify
+
+PAPER = Parameters.preset("Berretti 2009")
+
+
+def candidates(shape, direction, **changes):
+    values = shape.vertices @ np.asarray(direction, float)
+    sets = cut_at_levels(TriMesh(*shape), (values - values.min()) / np.ptp(values), uniform_levels(50))
+    structure = simplify(sets, reeb_structure(sets), 0.0025, 1)
+    parameters = Parameters.preset("Berretti 2009", **changes)
+    return sets, structure, *berretti_candidates(sets, structure, parameters)
+
+
+@pytest.fixture(params=["tree", "genus 2", "dumbbell", "border"])
+def made(request):
+    return {
+        "tree": lambda: candidates(shapes.tube_tree(), (0.3, 1, 0.2), small_region=0.02),
+        "genus 2": lambda: candidates(shapes.surface_of_genus(2), (1, 0.1, 0)),
+        "dumbbell": lambda: candidates(shapes.dumbbell(), (1, 0, 0.2)),
+        "border": lambda: candidates(shapes.flat_grid(30, 20), (1, 0.4, 0)),
+    }[request.param]()
+
+
+def test_every_element_has_a_candidate_of_the_hierarchy(made):
+    sets, _, element, hierarchy = made
+    assert element.shape == sets.element_face.shape
+    assert element.min() >= 0
+    assert element.max() < hierarchy.n_candidates
+    assert hierarchy.n_loose == 1
+
+
+def test_a_candidate_is_made_of_whole_pieces(made):
+    # The paper's cuts run along level sets.
+    sets, _, element, _ = made
+    assert len(np.unique(sets.element_piece * (element.max() + 1) + element)) == sets.n_pieces
+
+
+def test_parts_of_the_papers_decision_are_connected(made):
+    sets, _, element, hierarchy = made
+    part = hierarchy.parts(hierarchy.n_parts(0.5))[element]
+    piece = np.empty(sets.n_pieces, np.int64)
+    piece[sets.element_piece] = part
+    same = piece[sets.contour_pieces[:, 0]] == piece[sets.contour_pieces[:, 1]]
+    assert components(sets.n_pieces, *sets.contour_pieces[same].T)[0] == len(np.unique(part))
+
+
+def test_without_concavity_the_regions_stay():
+    sets, structure, element, hierarchy = candidates(shapes.tube_tree(), (0.3, 1, 0.2), alpha=0.0)
+    regions = berretti_regions(sets, structure, PAPER.small_region)
+    np.testing.assert_array_equal(element, regions.piece_region[sets.element_piece])
+    np.testing.assert_array_equal(hierarchy.merges, regions.hierarchy.merges)
+
+
+def test_with_concavity_cuts_are_shorter_or_stay():
+    # The tree's branches leave a ball: necks at their feet pull the cuts.
+    def cut_length(alpha):
+        sets, _, element, hierarchy = candidates(shapes.dumbbell(), (0, 0.05, 1), alpha=alpha)
+        piece = np.empty(sets.n_pieces, np.int64)
+        piece[sets.element_piece] = hierarchy.parts(2)[element]
+        apart = piece[sets.contour_pieces[:, 0]] != piece[sets.contour_pieces[:, 1]]
+        return sets.contour_length[apart].sum()
+
+    assert cut_length(0.9) <= cut_length(0.0)
+
+
+def test_upright_dumbbell_has_no_branch_and_so_one_part():
+    # Seen along its own axis every level set is one circle: the graph is one arc.
+    _, _, element, hierarchy = candidates(shapes.dumbbell(), (0, 0, 1))
+    assert hierarchy.n_candidates == 1
+    assert (element == 0).all()
