@@ -3,7 +3,19 @@
 
 import bpy
 
-from . import bridge, clear, compute, decompose, edit, jobs, parts, separate, store
+from . import (
+    bridge,
+    clear,
+    compute,
+    decompose,
+    edit,
+    handles,
+    highlight,
+    jobs,
+    parts,
+    separate,
+    store,
+)
 
 CLASSES = (
     decompose.REEB_PARTS_OT_decompose,
@@ -11,6 +23,7 @@ CLASSES = (
     clear.REEB_PARTS_OT_clear,
     *parts.CLASSES,
     *edit.CLASSES,
+    *handles.CLASSES,
     *separate.CLASSES,
 )
 
@@ -18,11 +31,15 @@ CLASSES = (
 def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
+    handles.register()
+    highlight.register()
 
 
 def unregister():
     if jobs.current is not None:
         jobs.current.cancel()
+    highlight.unregister()
+    handles.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
     bridge.forget()

@@ -83,6 +83,9 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
         if len(numbers) < 2:
             raise SceneError("Mark the parts to merge in the list, two or more.")
         merge(context, obj, stored, numbers, into)
+        with store.quiet():
+            for part in result.parts:
+                part.selected = False
         return f"{len(numbers)} parts are {_name(obj, into)} now"
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Work on the parts of the list: select, isolate."""
 
+import bmesh
 import bpy
 import numpy as np
 
@@ -129,4 +130,71 @@ def hide_faces(mesh, mask):
     mesh.update()
 
 
-CLASSES = (REEB_PARTS_OT_select, REEB_PARTS_OT_isolate)
+class REEB_PARTS_OT_mark(bpy.types.Operator):
+    """Mark parts in the list"""
+
+    bl_idname = "reeb_parts.mark"
+    bl_label = "Mark Parts"
+    bl_options = {"REGISTER", "UNDO"}
+
+    action: bpy.props.EnumProperty(
+        name="Action",
+        items=[("ALL", "All", "Mark every part"), ("NONE", "None", "Mark no part"),
+               ("INVERT", "Invert", "Mark the parts that are not marked"),
+               ("SMALL", "Smaller", "Mark the parts smaller than the active one"),
+               ("FACES", "Of selected faces", "Mark the parts that have selected faces")],
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return has_parts(cls, context)
+
+    def execute(self, context):
+        obj = context.view_layer.objects.active
+        result = obj.data.reeb_parts
+        share = result.parts[result.active].share
+        try:
+            faces = _numbers_of_selected_faces(context, obj) if self.action == "FACES" else ()
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for part in result.parts:
+            part.selected = {
+                "ALL": True, "NONE": False, "INVERT": not part.selected,
+                "SMALL": part.share < share, "FACES": part.number in faces,
+            }[self.action]
+        return {"FINISHED"}
+
+
+def _numbers_of_selected_faces(context, obj):
+    with object_mode(context):
+        stored = store.load(obj.data)
+        chosen = np.empty(len(obj.data.polygons), bool)
+        obj.data.polygons.foreach_get("select", chosen)
+        return set(stored.shown[stored.decomposition.candidates[chosen]].tolist())
+
+
+def pick(result, context):
+    """A part was clicked in the list: it alone is chosen, and in Edit Mode its faces are selected."""
+    mesh = result.id_data
+    if store.is_quiet() or result.active >= len(result.parts):
+        return
+    for part in result.parts:
+        part.selected = False
+    if not mesh.is_editmode:
+        return
+    number = result.parts[result.active].number
+    edit = bmesh.from_edit_mesh(mesh)
+    layer = edit.faces.layers.int.get(result.face_attribute)
+    if layer is None:
+        return
+    # The edit mesh cannot be written in bulk.
+    for item in (*edit.verts, *edit.edges):
+        item.select = False
+    for face in edit.faces:
+        face.select_set(face[layer] == number and not face.hide)
+    edit.select_flush_mode()
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+CLASSES = (REEB_PARTS_OT_select, REEB_PARTS_OT_isolate, REEB_PARTS_OT_mark)

@@ -22,8 +22,10 @@ def unregister_properties():
 def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
+    panel.register_menus()
 
 
 def unregister():
+    panel.unregister_menus()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -5,7 +5,7 @@ import textwrap
 
 import bpy
 
-from ..operators import jobs, store
+from ..operators import handles, jobs, store
 
 
 def _result(context):
@@ -30,7 +30,7 @@ class ReebPanel:
 
 
 class REEB_PARTS_UL_parts(bpy.types.UIList):
-    """Parts with colour, name and share of the area."""
+    """Parts with colour, name, share of the area, lock and mark."""
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index):
         row = layout.row(align=True)
@@ -41,8 +41,53 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
         share = row.row()
         share.alignment = "RIGHT"
         share.label(text=f"{100 * item.share:.1f} %")
+        unlocked = "PINNED" if item.pinned else "UNLOCKED"
+        row.prop(item, "locked", text="", emboss=False, icon="LOCKED" if item.locked else unlocked)
         row.prop(item, "selected", text="", emboss=False,
                  icon="CHECKBOX_HLT" if item.selected else "CHECKBOX_DEHLT")
+
+
+class REEB_PARTS_MT_parts(bpy.types.Menu):
+    bl_idname = "REEB_PARTS_MT_parts"
+    bl_label = "Parts"
+
+    def draw(self, context):
+        draw_part_menu(self.layout)
+
+
+def draw_part_menu(layout):
+    """All that can be done with the chosen parts; also in the list's context menu."""
+    layout.operator_menu_enum("reeb_parts.mark", "action", icon="CHECKBOX_HLT")
+    layout.separator()
+    layout.operator("reeb_parts.merge", icon="AUTOMERGE_ON")
+    layout.operator("reeb_parts.merge_neighbour")
+    layout.operator("reeb_parts.split", icon="MOD_EDGESPLIT")
+    layout.operator("reeb_parts.grow", icon="ADD")
+    layout.operator("reeb_parts.shrink", icon="REMOVE")
+    layout.separator()
+    layout.operator("reeb_parts.assign", icon="FACESEL").new = False
+    layout.operator("reeb_parts.assign", text="New Part of Selected Faces").new = True
+    layout.separator()
+    layout.operator("reeb_parts.release", icon="UNPINNED").everything = False
+    layout.operator("reeb_parts.release", text="Release All Parts").everything = True
+    layout.separator()
+    layout.operator("reeb_parts.to_nodes", icon="EMPTY_AXIS")
+
+
+def _draw_list_menu(self, context):
+    """Under what Blender itself offers for an entry of a list."""
+    ui_list = getattr(context, "ui_list", None)
+    if ui_list is not None and ui_list.bl_idname == "REEB_PARTS_UL_parts":
+        self.layout.separator()
+        draw_part_menu(self.layout)
+
+
+def register_menus():
+    bpy.types.UI_MT_list_item_context_menu.append(_draw_list_menu)
+
+
+def unregister_menus():
+    bpy.types.UI_MT_list_item_context_menu.remove(_draw_list_menu)
 
 
 class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
@@ -60,7 +105,11 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
             row.scale_y = 1.5
             row.operator("reeb_parts.decompose", text="Decompose", icon="MOD_EXPLODE")
         result = _result(context)
-        if result is None:
+        if result is None and handles.part_of(context.object) is not None:
+            source, number = handles.part_of(context.object)
+            layout.label(text=f"{store.part_name(source.data, number)} of {source.name}", icon="EMPTY_AXIS")
+            layout.operator("reeb_parts.from_nodes")
+        elif result is None:
             layout.use_property_split = True
             layout.use_property_decorate = False
             column = layout.column(align=True)
@@ -117,7 +166,16 @@ class REEB_PARTS_PT_parts(ReebPanel, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         result = _result(context)
-        layout.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=5)
+        row = layout.row()
+        row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=7)
+        column = row.column(align=True)
+        column.operator("reeb_parts.merge", text="", icon="AUTOMERGE_ON")
+        column.operator("reeb_parts.split", text="", icon="MOD_EDGESPLIT")
+        column.separator()
+        column.operator("reeb_parts.grow", text="", icon="ADD")
+        column.operator("reeb_parts.shrink", text="", icon="REMOVE")
+        column.separator()
+        column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT")
         row = layout.row(align=True)
         row.operator("reeb_parts.select", text="Select")
         row.operator("reeb_parts.isolate", text="Isolate").show_all = False
@@ -184,10 +242,13 @@ class REEB_PARTS_PT_overlay(ReebPanel, bpy.types.Panel):
         column.prop(settings, "node_size")
         column.prop(settings, "line_thickness")
         column.prop(settings, "in_front")
+        column = self.layout.column()
+        column.prop(settings, "highlight")
 
 
 CLASSES = (
     REEB_PARTS_UL_parts,
+    REEB_PARTS_MT_parts,
     REEB_PARTS_PT_main,
     REEB_PARTS_PT_parts,
     REEB_PARTS_PT_field,

@@ -136,6 +136,10 @@ _PRESET_ITEMS = [(name, name, "") for name in PRESETS]
 class ReebPartsSettings(bpy.types.PropertyGroup, ParameterProperties, OutputProperties, OverlayProperties):
     """What the next run will do; on the scene."""
 
+    highlight: BoolProperty(
+        name="Outline chosen parts", default=True,
+        description="Draw a line around the parts that are chosen in the list",
+    )
     preset: EnumProperty(
         name="Preset", items=_PRESET_ITEMS, update=_use_preset,
         description="Set all parameters at once",
@@ -152,6 +156,12 @@ def _lock(self, context):
     from ..operators import live
 
     live.lock(self, context)
+
+
+def _pick(self, context):
+    from ..operators import parts
+
+    parts.pick(self, context)
 
 
 def _show_detail(self, context):
@@ -225,7 +235,7 @@ class ReebPartsResult(bpy.types.PropertyGroup):
     )
     by_number: BoolProperty(description="The number of parts decides, not the detail")
     parts: CollectionProperty(type=ReebPart)
-    active: IntProperty(name="Active part")
+    active: IntProperty(name="Active part", update=_pick)
     names: CollectionProperty(type=ReebName)
 
     # What was written, under which name, and what was there before

@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from snapshot import snapshot
+from snapshot import activate, snapshot
 
 
 def numbers(mesh):
@@ -21,10 +21,9 @@ def result(obj):
 
 def choose(result, *chosen):
     """Mark parts in the list by number; the first is active."""
-    for index, part in enumerate(result.parts):
+    result.active = [part.number for part in result.parts].index(chosen[0])
+    for part in result.parts:
         part.selected = part.number in chosen
-        if part.number == chosen[0]:
-            result.active = index
 
 
 def neighbours(mesh, number):
@@ -226,6 +225,39 @@ def test_edits_are_undone_and_redone(obj, result):
     assert snapshot() == after
     bpy.data.objects["Tree"].data.reeb_parts.detail = 0.1
     check(bpy.data.objects["Tree"])
+
+
+def test_a_click_in_the_list_selects_faces_in_edit_mode(obj, result):
+    wanted = numbers(obj.data) == result.parts[2].number
+    choose(result, 1)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type="FACE")
+    result.active = 2
+    assert not any(p.selected for p in result.parts)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert [p.select for p in obj.data.polygons] == wanted.tolist()
+    bpy.ops.reeb_parts.mark(action="FACES")
+    assert [p.number for p in result.parts if p.selected] == [result.parts[2].number]
+
+
+def test_marks(obj, result):
+    bpy.ops.reeb_parts.mark(action="ALL")
+    assert all(p.selected for p in result.parts)
+    result.parts[0].selected = False
+    bpy.ops.reeb_parts.mark(action="INVERT")
+    assert [p.selected for p in result.parts] == [True] + [False] * (len(result.parts) - 1)
+
+
+def test_nodes_are_handles_of_their_parts(obj, result):
+    nodes = [item for item in bpy.data.collections["Reeb Graph Tree"].objects if item.type == "EMPTY"]
+    tip = next(item for item in nodes if item["kind"] == "maximum" and item["part"] != 1)
+    activate(tip)
+    assert bpy.ops.reeb_parts.from_nodes() == {"FINISHED"}
+    assert bpy.context.view_layer.objects.active == obj
+    assert result.parts[result.active].number == tip["part"]
+    bpy.ops.reeb_parts.to_nodes()
+    assert tip.select_get()
+    assert {item["part"] for item in nodes if item.select_get()} == {tip["part"]}
 
 
 @pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT"])

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The outline of the chosen parts, drawn over the active object in the window.
+
+Built when the choice or the parts change, drawn as often as the view is; nothing is written anywhere.
+"""
+
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+from . import attributes, bridge, parts, store
+from .problems import SceneError
+
+COLOR = (1.0, 1.0, 1.0, 0.9)
+WIDTH = 2.5
+
+_handle = None
+_built = None  # what the lines below were built of
+_lines = None
+
+
+def register():
+    global _handle
+    if not bpy.app.background:  # there is nothing to draw on
+        _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
+
+
+def unregister():
+    global _handle, _built, _lines
+    if _handle is not None:
+        bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
+    _handle = _built = _lines = None
+
+
+def outline(obj, numbers) -> np.ndarray:
+    """Where some parts border on others: ends of edges, (2e, 3) float32, in the object's coordinates.
+
+    Raises
+    ------
+    SceneError
+        The parts are out of date.
+    """
+    mesh = obj.data
+    stored = store.load(mesh)
+    mine = np.isin(stored.shown[stored.decomposition.candidates], numbers)
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    edges = ends.reshape(-1, 2)[attributes.cut_edges(mesh, mine.astype(np.int64))]
+    return bridge.shown_points(obj)[edges.ravel()]
+
+
+def _draw():
+    global _built, _lines
+    context = bpy.context
+    obj = context.object
+    if (obj is None or obj.type != "MESH" or obj.mode != "OBJECT" or not obj.select_get()
+            or not context.scene.reeb_parts.highlight or not context.space_data.overlay.show_overlays
+            or not store.has_result(obj.data) or store.is_edited(obj.data)):
+        return
+    result = obj.data.reeb_parts
+    numbers = parts.chosen_numbers(obj.data)
+    key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers))
+    if key != _built:
+        _built = key
+        _lines = _batch(obj, numbers)
+    if _lines is None:
+        return
+    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+    shader.uniform_float("lineWidth", WIDTH)
+    shader.uniform_float("color", COLOR)
+    gpu.state.blend_set("ALPHA")
+    with gpu.matrix.push_pop():
+        gpu.matrix.multiply_matrix(obj.matrix_world)
+        _lines.draw(shader)
+    gpu.state.blend_set("NONE")
+
+
+def _batch(obj, numbers):
+    """Lines for the card, None if there are none."""
+    try:
+        points = outline(obj, numbers)
+    except SceneError:
+        return None
+    if not len(points):
+        return None
+    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    return batch_for_shader(shader, "LINES", {"pos": points})
