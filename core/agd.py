@@ -10,7 +10,7 @@ import numpy as np
 
 from .coarse import coarsen, prolong
 from .geodesic import GeodesicSolver
-from .mesh import TriMesh, frozen
+from .mesh import TriMesh, first_largest, frozen
 
 HISTOGRAM_BINS = 100  # the paper's bin width of 0.01
 # Paths are searched on at most so many vertices: five or more lie on the radius of a base
@@ -88,7 +88,7 @@ def spread_base_vertices(
     from the centroid, so the choice depends on the shape, not on the order of the vertices.
     """
     centroid = vertex_area @ mesh.vertices / vertex_area.sum()
-    chosen = [int(np.linalg.norm(mesh.vertices - centroid, axis=1).argmax())]
+    chosen = [first_largest(np.linalg.norm(mesh.vertices - centroid, axis=1))]
     rows = []
     nearest = np.full(mesh.n_vertices, np.inf)
     owner = np.zeros(mesh.n_vertices, np.int64)
@@ -96,12 +96,12 @@ def spread_base_vertices(
     while True:
         row = solver.distances(chosen[-1])
         rows.append(row.astype(np.float32))
-        closer = row < nearest
+        closer = row < (1 - 1e-9) * nearest  # of equals the first, whatever the last bit says
         nearest[closer] = row[closer]
         owner[closer] = len(chosen) - 1
         if progress:
             progress(min(len(chosen) / expected, 1.0))
-        farthest = int(nearest.argmax())
+        farthest = first_largest(nearest)
         if nearest[farthest] <= radius:
             break
         chosen.append(farthest)

@@ -223,6 +223,15 @@ class EdgeTable:
         )
 
 
+def first_largest(values: np.ndarray) -> int:
+    """Index of the largest value; the first of those that differ from it by rounding only.
+
+    On a symmetric shape two sides are equally far from its middle. Their last bit depends on
+    the processor and on where the shape stands, the order of the vertices does not.
+    """
+    return int((values >= (1 - 1e-9) * values.max()).argmax())
+
+
 def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     """Connected components of n elements joined by the pairs (a, b).
 

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
-from .mesh import TriMesh, components
+from .mesh import TriMesh, components, first_largest
 
 N_PATCHES = 160
 ROUNDS = 4  # a third of the seeds are spread by straight distance, the others in so many rounds
@@ -120,11 +120,11 @@ def _first_seeds(mesh: TriMesh, count: int) -> np.ndarray:
     """Faces far from each other in a straight line."""
     centre = mesh.face_centroids
     middle = mesh.face_area @ centre / mesh.area
-    seeds = [int(((centre - middle) ** 2).sum(axis=1).argmax())]
+    seeds = [first_largest(((centre - middle) ** 2).sum(axis=1))]
     nearest = np.full(mesh.n_faces, np.inf)
     while len(seeds) < min(count, mesh.n_faces):
         nearest = np.minimum(nearest, ((centre - centre[seeds[-1]]) ** 2).sum(axis=1))
-        farthest = int(nearest.argmax())
+        farthest = first_largest(nearest)
         if nearest[farthest] <= 0:
             break
         seeds.append(farthest)
