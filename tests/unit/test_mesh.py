@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core.errors import EmptyMeshError, MeshError
-from core.mesh import EdgeTable, PolygonMesh, TriMesh, components
+from core.mesh import EdgeTable, PolygonMesh, TriMesh, components, first_largest
 
 CLOSED = {
     "tetrahedron": (shapes.tetrahedron, 2), "octahedron": (shapes.octahedron, 2),
@@ -118,6 +118,12 @@ def test_components_are_numbered_by_their_lowest_element():
     count, label = components(6, np.array([5, 2]), np.array([1, 4]))
     assert count == 4
     assert label.tolist() == [0, 1, 2, 3, 2, 1]
+
+
+def test_the_first_of_values_that_differ_by_rounding_only():
+    assert first_largest(np.array([1.0, 3 * (1 - 1e-15), 3.0, 3 * (1 - 1e-13)])) == 1
+    assert first_largest(np.array([1.0, 3 * (1 - 1e-6), 3.0])) == 2
+    assert first_largest(np.zeros(4)) == 0
 
 
 def test_a_shared_vertex_does_not_join_faces():

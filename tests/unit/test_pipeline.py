@@ -162,19 +162,21 @@ def test_scaled_by_a_power_of_two_exactly(name, scale, preset):
     np.testing.assert_allclose(scale * one.graph.node_position, two.graph.node_position, rtol=1e-9, atol=1e-9 * scale)
 
 
-# Ties and rounding may decide a face on a cut here and there: 99 % of all pairs of area agree.
+# Rounding may decide a face on a cut here and there; the order of faces and vertices, which of
+# two equally good base vertices is taken. How much of all pairs of area must agree is stated.
 
 
 @pytest.mark.parametrize(("name", "seed", "scale"), [
-    ("tree", 0, 1e-6), ("tree", 1, 1.0), ("genus 2", 0, 1e6), ("genus 2", 1, 3.0), ("dumbbell", 0, 1.0)])
+    ("tree", 0, 1e-6), ("tree", 1, 1.0), ("genus 2", 0, 1e6), ("genus 2", 1, 3.0), ("dumbbell", 0, 1.0),
+    ("torus", 2, 0.7)])  # the last two: equal sides, where only the order of vertices may decide
 def test_scaled_and_moved(name, seed, scale, preset):
     shape, one = model(name), known(name, preset)
     rng = np.random.default_rng(seed)
     moved = scale * (shape.vertices @ shapes.rotation(rng).T + rng.normal(size=3))
     two = decompose(moved, shape.faces, parameters=preset)
     assert two.graph.n_loops == one.graph.n_loops
-    assert agreement(name, preset, two) > 0.99
-    np.testing.assert_allclose(one.field, two.field, atol=0.01)
+    assert agreement(name, preset, two) > 0.995
+    np.testing.assert_allclose(one.field, two.field, atol=1e-5)
 
 
 @pytest.mark.parametrize("name", ["tree", "genus 2", "dumbbell"])
