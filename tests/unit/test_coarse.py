@@ -110,7 +110,7 @@ def test_the_choice_does_not_depend_on_the_order(seed):
 
 
 def test_twice_is_coarser_still():
-    mesh = TriMesh(*shapes.genus_two())
+    mesh = TriMesh(*shapes.genus_two(0.08))
     one = coarsen(mesh, mesh.vertex_area)
     two = coarsen(one.mesh, one.area, one.links)
     assert two.mesh.n_vertices < 0.5 * one.mesh.n_vertices

@@ -266,7 +266,7 @@ def test_long_quads_are_cut_as_well_as_short_ones():
 def test_permuted_shifted_and_scaled(seed):
     rng = np.random.default_rng(seed)
     shape = shapes.surface_of_genus(2, 0.2)
-    other, vertex, face = shapes.shuffled(shape, rng)
+    other, vertex, _ = shapes.shuffled(shape, rng)
     mesh = TriMesh(*shape)
     values, levels = slope_of(mesh, seed), uniform_levels(17)
     one = cut_at_levels(mesh, values, levels)

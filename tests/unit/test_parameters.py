@@ -41,7 +41,7 @@ def test_what_is_no_number_is_refused(name, value):
 
 @pytest.mark.parametrize("name", WHOLE)
 def test_counts_are_whole(name):
-    low, high = Parameters.RANGES[name]
+    low, _ = Parameters.RANGES[name]
     with pytest.raises(ParameterError, match="whole number"):
         Parameters(**{name: low + 0.5})
 

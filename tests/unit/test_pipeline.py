@@ -2,7 +2,7 @@
 """The one door: labels that partition the faces, at every level, whatever comes in."""
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import cache
 
 import numpy as np
 import pytest
@@ -83,7 +83,7 @@ MODELS = {
 }
 
 
-@lru_cache(maxsize=None)
+@cache
 def model(name):
     shape = MODELS[name]()
     for array in shape:
@@ -91,7 +91,7 @@ def model(name):
     return shape
 
 
-@lru_cache(maxsize=None)
+@cache
 def known(name, parameters):
     """The decomposition of a model as it is."""
     return decompose(*model(name), parameters=parameters)
@@ -108,8 +108,11 @@ def test_models(name, preset):
     # The extremes may lie at vertices that refinement added.
     assert 0 <= result.field.min() < 0.02
     assert 0.98 < result.field.max() <= 1
-    corner = result.vertex_candidates[shape.faces] == result.candidates[:, None]
-    assert corner.any(axis=1).mean() > 0.9
+    # Every vertex belongs to the candidate of a face around it.
+    beside = np.zeros(len(shape.vertices), bool)
+    same = result.vertex_candidates[shape.faces] == result.candidates[:, None]
+    beside[shape.faces[same]] = True
+    assert beside.all()
 
 
 def test_a_tree_of_tubes_is_cut_where_its_branches_are(preset):
@@ -132,7 +135,7 @@ def test_a_dumbbell_is_cut_in_two_at_its_neck(preset):
 
 
 def test_amphora_has_two_loops_and_handles_of_their_own(preset):
-    shape = shapes.genus_two()
+    shape = shapes.genus_two(step=0.08)
     result = sound_triangles(shape, preset)
     assert result.graph.n_loops == 2
     labels = result.parts().labels
@@ -236,10 +239,9 @@ def test_single_precision_is_enough(preset):
 # Polygons --------------------------------------------------------------------------------------
 
 
-def test_quads_lists_and_triangulated_quads_are_labelled_alike(preset):
+def test_quads_and_triangulated_quads_are_labelled_alike(preset):
     vertices, quads = shapes.box_quads((1, 1, 8))
-    forms = (decompose(vertices, quads, parameters=preset),
-             decompose(vertices, quads.tolist(), parameters=preset),
+    forms = (decompose(vertices, quads.tolist(), parameters=preset),
              decompose(vertices, shapes.split_quads(quads), preset, np.repeat(np.arange(6), 2)))
     for result in forms:
         assert result.candidates.shape == (6,)

@@ -105,7 +105,7 @@ def made(request):
 
 
 def test_arcs_are_maximal_chains(made):
-    sets, structure, graph = made
+    sets, structure, _ = made
     lower, upper = sets.contour_pieces.T
     below = np.bincount(upper, minlength=sets.n_pieces)
     above = np.bincount(lower, minlength=sets.n_pieces)
@@ -124,7 +124,7 @@ def test_arcs_are_maximal_chains(made):
 
 
 def test_graph_has_the_loops_and_components_of_the_surface(made):
-    sets, structure, graph = made
+    sets, _, graph = made
     assert graph.n_loops == sets.n_loops
     assert graph.n_components == components(sets.n_pieces, *sets.contour_pieces.T)[0]
     assert len(graph.point_value) == sets.n_contours
@@ -141,7 +141,7 @@ def test_nodes_are_what_their_arcs_make_them(made):
 
 
 def test_arcs_rise_and_so_do_their_centre_lines(made):
-    sets, _, graph = made
+    _, _, graph = made
     low, high = graph.node_value[graph.arcs].T
     assert (low <= high).all()
     for arc in range(graph.n_arcs):

@@ -56,7 +56,7 @@ def test_closed_curves_pass_every_crossing_once(make):
 def test_open_curves_run_from_border_to_border():
     vertices, faces = shapes.flat_grid(6, 9)
     sets = cut_at_levels(TriMesh(vertices, faces), vertices[:, 0], np.array([2.5]))
-    edge, points, closed = contour_curve(sets, 0)
+    _, points, closed = contour_curve(sets, 0)
     assert not closed
     y = points[:, 1]
     assert (np.diff(y) > 0).all() or (np.diff(y) < 0).all()
@@ -147,7 +147,7 @@ def test_regions_stay_connected_and_none_is_lost(make, seed):
     region = rng.permutation(structure.n_nodes + len(structure.arcs))[region]
     after = search_boundaries(sets, structure, k_min(sets.mesh), region, 0.7, 0.1)
     same = after[sets.contour_pieces[:, 0]] == after[sets.contour_pieces[:, 1]]
-    count, part = components(sets.n_pieces, *sets.contour_pieces[same].T)
+    count, _ = components(sets.n_pieces, *sets.contour_pieces[same].T)
     assert count == len(np.unique(after))
     assert {tuple(sorted(p)) for p in after[sets.contour_pieces].tolist() if p[0] != p[1]} <= {
         tuple(sorted(p)) for p in region[sets.contour_pieces].tolist() if p[0] != p[1]}

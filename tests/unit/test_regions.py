@@ -59,7 +59,7 @@ def test_a_y_by_hand():
 def test_contiguous_intervals_differ():
     for shape, direction in ((shapes.surface_of_genus(2), (1, 0.1, 0)), (shapes.tube_tree(), (0.3, 1, 0.2))):
         sets = along(shape, direction)
-        count, region = fuse_intervals(sets, reeb_structure(sets))
+        _, region = fuse_intervals(sets, reeb_structure(sets))
         # Count regions over each slab: consecutive slabs differ only where an interval ends.
         starts = [set(region[sets.piece_slab == s].tolist()) for s in range(len(sets.levels) + 1)]
         ends = [s for s in range(len(starts) - 1) if starts[s].isdisjoint(starts[s + 1])]

@@ -78,7 +78,7 @@ def test_there_was_something_to_do(made):
 
 
 def test_loops_and_components_stay(made):
-    genus, sets, before, after = made
+    genus, _, before, after = made
     for structure in (before, after):
         count, _ = components(structure.n_nodes, *structure.arcs.T)
         assert count == 1
@@ -86,7 +86,7 @@ def test_loops_and_components_stay(made):
 
 
 def test_every_piece_is_on_one_node_or_one_arc(made):
-    _, sets, _, after = made
+    _, _, _, after = made
     np.testing.assert_array_equal(after.piece_node < 0, after.piece_arc >= 0)
     assert after.piece_node.max() == after.n_nodes - 1
     assert np.isin(np.arange(after.n_nodes), after.piece_node).all()

@@ -134,11 +134,11 @@ def test_settle_merges_only_what_touches(seed):
 
 def test_settle_keeps_the_order_of_merges_where_they_touch():
     given = Hierarchy.of(4, [(1, 2), (0, 1), (2, 3)], [0.1, 0.2, 0.3])
-    label, hierarchy = settle(path(4), np.arange(4), given)
+    _, hierarchy = settle(path(4), np.arange(4), given)
     assert [set(m) for m in hierarchy.merges.tolist()] == [{1, 2}, {0, 1}, {2, 3}]
     assert hierarchy.salience.tolist() == [0.1, 0.2, 0.3]
     # Candidates 0 and 2 do not touch: their merge waits for 1.
-    label, hierarchy = settle(path(3), np.arange(3), Hierarchy.of(3, [(0, 2), (1, 2)], [0.1, 0.2]))
+    _, hierarchy = settle(path(3), np.arange(3), Hierarchy.of(3, [(0, 2), (1, 2)], [0.1, 0.2]))
     assert len(hierarchy.merges) == 2
     assert hierarchy.salience.tolist() == [0.2, 0.2]
 
