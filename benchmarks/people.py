@@ -13,10 +13,10 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from core.agd import agd_field, coarse_agd
-from core.features import surface_measures
+from core.features import SurfaceMeasures, surface_measures
 from core.levelsets import cut_at_levels, uniform_levels
 from core.merging import RegionGraph, merge_all_
-from core.mesh import PolygonMesh
+from core.mesh import PolygonMesh, TriMesh
 from core.parameters import Parameters
 from core.patches import concave_patches
 from core.working import MAX_EDGE, refine, repair
@@ -44,17 +44,19 @@ class Subject:
 
     Attributes
     ----------
-    sets, field, measures, label
-        As in core.perceptual, of the working mesh.
+    mesh, measures, label
+        As in core.perceptual, of the refined mesh.
     votes : (patches, people's parts) float64
         Faces of the benchmark in each patch with each label of each person.
     n_people : int
-    split, together : float
-        Rand index error of the patches as they are and what is needed to go on from there.
+    error : float
+        Rand index error of the patches as they are.
+    median_parts : float
+        Of people.
     """
 
-    mesh: object
-    measures: object
+    mesh: TriMesh
+    measures: SurfaceMeasures
     label: np.ndarray
     votes: np.ndarray
     n_people: int
@@ -90,12 +92,24 @@ def prepare(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray,
 
 
 def _error(votes: list[np.ndarray]) -> float:
-    """Mean Rand index error of the patches against people."""
+    """Mean Rand index error of the patches against people, from their tables of counts."""
     def pairs(count):
         return (count * (count - 1)).sum() / 2
+
     n = votes[0].sum()
-    split = [pairs(v.sum(1)) + pairs(v.sum(0)) - 2 * pairs(v) for v in votes]
+    split = [pairs(v.sum(axis=1)) + pairs(v.sum(axis=0)) - 2 * pairs(v) for v in votes]
     return float(np.mean(split) / (n * (n - 1) / 2))
+
+
+def rand_index_error(labels: np.ndarray, human: np.ndarray) -> float:
+    """Share of pairs of faces on which a labelling and a person disagree, mean over people."""
+    n = int(labels.max()) + 1
+    tables = []
+    for person in human.astype(np.int64):
+        width = int(person.max()) + 1
+        cells = np.bincount(labels * width + person, minlength=n * width)
+        tables.append(cells.reshape(n, width).astype(float))
+    return _error(tables)
 
 
 class VotedGraph(RegionGraph):

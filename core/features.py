@@ -22,6 +22,7 @@ from .thickness import LARGEST, thickness
 
 SCALES = (0.01, 0.02, 0.04)  # widths over which normals are smoothed
 MAX_CURVATURE = 60.0  # one over the radius; sharper is as sharp
+MAX_CONDUCTANCE = 20.0  # edge length over the way across; an equilateral pair has 1.7
 CREASE = -3.0  # below this curvature a cut counts as creased
 THICKNESS_BINS = 8
 
@@ -39,8 +40,8 @@ class Columns:
 REGION = Columns(area=1, centroid=3, spread=6, normal=3, normal_spread=6, level=1, level2=1, agd=1,
                  inside=1, inside2=1, outside=1, outside2=1, reach=1, contour=1, contour2=1,
                  gauss=1, inside_bins=THICKNESS_BINS)
-BORDER = Columns(length=1, curvature=3, hollow=3, creased=1, turn=1, level=1, inside=1, outside=1,
-                 contour=1, centre=3)
+BORDER = Columns(length=1, curvature=3, hollow=3, creased=3, turn=1, level=1, agd=1, inside=1,
+                 outside=1, contour=1, centre=3, spread=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,13 +54,14 @@ class SurfaceMeasures:
         Weighted by the share of the area.
     pair : (p, BORDER.width) float64
         Weighted by the length of the edge.
-    level : (m,) float64
-        Equalised AGD, 0..1.
+    level, agd : (m,) float64
+        Equalised AGD, 0..1, and the AGD above its minimum, relative to the surface.
     """
 
     face: np.ndarray
     pair: np.ndarray
     level: np.ndarray
+    agd: np.ndarray
 
 
 def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
@@ -74,11 +76,11 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
     """
     mesh = sets.mesh
     level = equalise(field.normalised, mesh.vertex_area)[mesh.faces].mean(axis=1)
-    agd = field.normalised[mesh.faces].mean(axis=1)
+    unit = np.sqrt(mesh.area)
+    agd = (field.agd[mesh.faces].mean(axis=1) - field.agd.min()) / unit
     inside, outside = (np.log(t / LARGEST) for t in thickness(mesh, agd))
     contour = np.log(_contour_length(sets))
     share = mesh.face_area / mesh.area
-    unit = np.sqrt(mesh.area)
     centre = (mesh.face_centroids - share @ mesh.face_centroids) / unit
     normal = mesh.face_normals
     face = np.column_stack([
@@ -87,66 +89,75 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
         (centre * normal).sum(axis=1), contour, contour**2,
     ]) * share[:, None]
     face = np.column_stack([face, _gauss_curvature(mesh), _bins(inside) * share[:, None]])
-    curvature = [curvature_across(mesh, scale) for scale in SCALES]
+    curvature = curvature_across(mesh)
     a, b = mesh.edges.pairs.T
     middle = mesh.vertices[mesh.edges.vertices[mesh.edges.pair_edge]].mean(axis=1)
+    middle = (middle - share @ mesh.face_centroids) / unit
     pair = np.column_stack([
         np.ones(len(a)), *curvature, *(np.minimum(c, 0.0) for c in curvature),
-        curvature[0] < CREASE, np.minimum(mesh.dihedral, 0.0),
-        *((x[a] + x[b]) / 2 for x in (level, inside, outside, contour)),
-        (middle - share @ mesh.face_centroids) / unit,
+        *(curvature < CREASE), np.minimum(mesh.dihedral, 0.0),
+        *((x[a] + x[b]) / 2 for x in (level, agd, inside, outside, contour)),
+        middle, (middle**2).sum(axis=1),
     ]) * (pair_length(mesh) / unit)[:, None]
-    return SurfaceMeasures(face, pair, level)
+    return SurfaceMeasures(face, pair, level, agd)
 
 
-def curvature_across(mesh: TriMesh, scale: float) -> np.ndarray:
+def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.ndarray:
     """Change of the smoothed normal across each pair of faces, per way.
 
     Parameters
     ----------
     mesh : TriMesh
-    scale : float
-        Width of the smoothing, in units of the square root of the area.
+    scales : tuple of float
+        Widths of the smoothing, in units of the square root of the area.
 
     Returns
     -------
-    curvature : (p,) float64
+    curvature : (len(scales), p) float64
         Dimensionless: times the square root of the area. Negative in concavities.
     """
     unit = np.sqrt(mesh.area)
-    normal = _diffuse(mesh, (scale * unit) ** 2)
     a, b = mesh.edges.pairs.T
     way = mesh.face_centroids[b] - mesh.face_centroids[a]
-    square = np.maximum((way**2).sum(axis=1), 1e-12 * mesh.area)
-    change = ((normal[b] - normal[a]) * way).sum(axis=1) / square * unit
-    return np.clip(change, -MAX_CURVATURE, MAX_CURVATURE)
+    square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-12 * mesh.area)
+    exchange = _exchange(mesh)
+    curvature = []
+    for scale in scales:
+        normal = _diffuse(mesh, exchange, (scale * unit) ** 2)
+        change = np.einsum("ij,ij->i", normal[b] - normal[a], way) / square * unit
+        curvature.append(np.clip(change, -MAX_CURVATURE, MAX_CURVATURE))
+    return np.array(curvature)
 
 
-def _diffuse(mesh: TriMesh, time: float, steps: int = 40) -> np.ndarray:
-    """Unit normals after one implicit step of heat flow from face to face."""
+def _exchange(mesh: TriMesh):
+    """Symmetric (m, m) conductances between faces: edge length over way."""
     a, b = mesh.edges.pairs.T
-    flow = time * pair_length(mesh) / np.maximum(pair_distance(mesh), 1e-9 * np.sqrt(mesh.area))
+    flow = pair_length(mesh) / np.maximum(pair_distance(mesh), 1e-9 * np.sqrt(mesh.area))
     # A sliver exchanges with its neighbours in no time; bounded, or the solver would stall.
-    flow = np.minimum(flow, 1e4 * mesh.area / mesh.n_faces)
+    flow = np.minimum(flow, MAX_CONDUCTANCE)
     both = (np.concatenate([a, b]), np.concatenate([b, a]))
-    exchange = coo_array((np.concatenate([flow, flow]), both), shape=(mesh.n_faces,) * 2).tocsr()
+    return coo_array((np.concatenate([flow, flow]), both), shape=(mesh.n_faces,) * 2).tocsr()
+
+
+def _diffuse(mesh: TriMesh, exchange, time: float, steps: int = 40) -> np.ndarray:
+    """Unit normals after one implicit step of heat flow from face to face."""
     mass = mesh.face_area + 1e-9 * mesh.area / mesh.n_faces
-    diagonal = mass + exchange.sum(axis=1)
-    system = diags_array(diagonal).tocsr() - exchange
+    diagonal = mass + time * exchange.sum(axis=1)
+    system = diags_array(diagonal).tocsr() - time * exchange
     x = mesh.face_normals
     residual = mass[:, None] * x - system @ x
     goal = 1e-3 * np.linalg.norm(mass[:, None] * x)
     step = gradient = residual / diagonal[:, None]
-    power = (residual * gradient).sum(axis=0)
+    power = np.einsum("ij,ij->j", residual, gradient)
     for _ in range(steps):  # conjugate gradients, three right sides at once
         if np.linalg.norm(residual) <= goal:
             break
         image = system @ step
-        length = power / np.maximum((step * image).sum(axis=0), 1e-300)
+        length = power / np.maximum(np.einsum("ij,ij->j", step, image), 1e-300)
         x = x + length * step
         residual = residual - length * image
         gradient = residual / diagonal[:, None]
-        last, power = power, (residual * gradient).sum(axis=0)
+        last, power = power, np.einsum("ij,ij->j", residual, gradient)
         step = gradient + step * (power / np.maximum(last, 1e-300))
     return x / np.maximum(np.linalg.norm(x, axis=1, keepdims=True), 1e-300)
 
@@ -243,12 +254,12 @@ def region_shape(sums: np.ndarray, perimeter: np.ndarray, level_min, level_max) 
 
 SIBLING = (0.4, 0.3, 0.15)  # how much log area, log thickness and level of like regions may differ
 CUT = ("length", "length_small", "length_large", "share_small", "share_large", "distance",
-       "curvature_1", "curvature_2", "curvature_3", "hollow_1", "hollow_2", "hollow_3", "creased",
-       "turn", "level", "inside", "inside_small", "inside_large", "outside", "outside_drop",
+       "curvature_1", "curvature_2", "curvature_3", "hollow_1", "hollow_2", "hollow_3", "creased_1",
+       "creased_2", "creased_3", "turn", "level", "inside", "inside_small", "inside_large", "outside", "outside_drop",
        "narrow_small", "narrow_large", "facing", "inside_change", "level_change", "inside_overlap",
        "other_hollow_small", "other_hollow_large", "other_turn_small", "other_turn_large",
        "climb", "descent", "reach_small", "reach_large", "neighbours_small", "neighbours_large",
-       "hollow_by_inside", "bend", "largest", "siblings_small", "siblings_union")
+       "hollow_by_inside", "bend", "protrusion", "apart", "largest", "siblings_small", "siblings_union")
 FEATURES = (*CUT, *(f"small_{s}" for s in SHAPE), *(f"large_{s}" for s in SHAPE),
             *(f"union_{s}" for s in SHAPE))
 
@@ -260,7 +271,7 @@ class Regions:
     Attributes
     ----------
     sums : (r, REGION.width) float64
-    level_min, level_max, perimeter, degree : (r,) float64
+    level_min, level_max, agd_max, perimeter, degree : (r,) float64
         Degree is the number of neighbours; perimeters leave out the borders of the surface.
     around : (r, BORDER.width) float64
         Sums over all borders of each region.
@@ -272,6 +283,7 @@ class Regions:
     sums: np.ndarray
     level_min: np.ndarray
     level_max: np.ndarray
+    agd_max: np.ndarray
     perimeter: np.ndarray
     degree: np.ndarray
     around: np.ndarray
@@ -350,7 +362,7 @@ def _cut_columns(regions, small, large, mean, length, union) -> list[np.ndarray]
         np.log(length), length / small.size, length / large.size,
         length / np.maximum(regions.perimeter[small.index], length),
         length / np.maximum(regions.perimeter[large.index], length), apart / small.size,
-        *curvature.T, *hollow.T, mean[:, b.creased], mean[:, b.turn], level,
+        *curvature.T, *hollow.T, *mean[:, b.creased].T, mean[:, b.turn], level,
         inside, inside - small.shape["inside"], inside - large.shape["inside"],
         outside, outside - np.minimum(small.shape["outside"], large.shape["outside"]),
         contour - small.shape["contour"], contour - large.shape["contour"],
@@ -361,7 +373,9 @@ def _cut_columns(regions, small, large, mean, length, union) -> list[np.ndarray]
         small.other[:, b.turn], large.other[:, b.turn],
         small.shape["level_max"] - level, level - small.shape["level_min"], *reach,
         regions.degree[small.index], regions.degree[large.index],
-        curvature[:, 1] * np.exp(inside), curvature[:, 2] * length, largest,
+        curvature[:, 1] * np.exp(inside), curvature[:, 2] * length,
+        (regions.agd_max[small.index] - mean[:, b.agd]) / length,
+        np.sqrt(np.maximum(mean[:, b.spread] - (middle**2).sum(axis=1), 0.0)) / length, largest,
         like_small, like_union,
     ]
 

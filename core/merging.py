@@ -50,12 +50,14 @@ class RegionGraph:
         level_min, level_max = np.full(n, np.inf), np.full(n, -np.inf)
         np.minimum.at(level_min, label, measures.level)
         np.maximum.at(level_max, label, measures.level)
+        agd_max = np.full(n, -np.inf)
+        np.maximum.at(agd_max, label, measures.agd)
         sums = _sums(label, measures.face, n)
         perimeter = around[:, BORDER.length].copy()
         degree = np.bincount(self.ends.ravel(), minlength=n).astype(float)
         shape = region_shape(sums, perimeter, level_min, level_max)
-        self.regions = Regions(sums, level_min, level_max, perimeter, degree, around, shape,
-                               np.ones(n, bool))
+        self.regions = Regions(sums, level_min, level_max, agd_max, perimeter, degree, around,
+                               shape, np.ones(n, bool))
         self.neighbours: list[dict[int, int]] = [{} for _ in range(n)]
         for index, (a, b) in enumerate(self.ends.tolist()):
             self.neighbours[a][b] = self.neighbours[b][a] = index
@@ -78,6 +80,7 @@ class RegionGraph:
         r.perimeter[a] = max(r.perimeter[a] - 2 * lost[BORDER.length], 0.0)
         r.level_min[a] = min(r.level_min[a], r.level_min[b])
         r.level_max[a] = max(r.level_max[a], r.level_max[b])
+        r.agd_max[a] = max(r.agd_max[a], r.agd_max[b])
         r.alive[b] = False
         del self.neighbours[a][b], self.neighbours[b][a]
         gone = [border]

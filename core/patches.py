@@ -13,11 +13,11 @@ from scipy.sparse.csgraph import dijkstra
 
 from .mesh import TriMesh, components, first_largest
 
-N_PATCHES = 160
+N_PATCHES = 220
 ROUNDS = 4  # a third of the seeds are spread by straight distance, the others in so many rounds
 TURN = 0.1  # one radian of convex turning is as far as this share of the square root of the area
-CONCAVE = 10.0  # how much more a concave turn costs
-SMALLEST = 0.0006  # share of the area below which a patch joins a neighbour
+CONCAVE = 20.0  # how much more a concave turn costs
+SMALLEST = 0.0004  # share of the area below which a patch joins a neighbour
 
 
 def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
