@@ -12,6 +12,7 @@ from . import (
     handles,
     highlight,
     jobs,
+    outputs,
     parts,
     separate,
     store,
@@ -25,6 +26,7 @@ CLASSES = (
     *edit.CLASSES,
     *handles.CLASSES,
     *separate.CLASSES,
+    *outputs.CLASSES,
 )
 
 

@@ -3,13 +3,15 @@
 
 import bpy
 
-from . import attributes, bridge, overlay, store, view
+from . import attributes, bridge, explode, live, overlay, store, view
 from .modes import object_mode
 from .problems import SceneError
 
 
 def clear(obj):
     """Remove parts, graph and stored result of an object; Object Mode."""
+    for user in live.users(obj.data):
+        explode.remove(user)
     attributes.remove_outputs(obj)
     overlay.remove(obj)
     obj.data.property_unset("reeb_parts")

@@ -13,7 +13,7 @@ from mathutils import Matrix, Vector
 
 from ..core.errors import ReebError
 from ..ui.use_properties import SeparateProperties
-from . import attributes, bridge, caps, parts, store
+from . import attributes, bridge, caps, explode, parts, store
 from .modes import object_mode
 from .problems import SceneError
 from .use import use_panel_settings, wanted
@@ -67,12 +67,12 @@ def part_meshes(mesh, face_numbers: np.ndarray, wanted, close=False):
     """
     plain = plain_copy(mesh)
     normals = _custom_normals(plain)
-    edge, total = _corner_values(plain, ".corner_edge"), _corner_counts(plain)
+    edge, (_, face) = bridge.corner_edges(plain), bridge.face_corners(plain)
     cut = attributes.cut_edges(plain, face_numbers)
     wanted = [number for number in wanted if (face_numbers == number).any()]
     made, left_open = {}, 0
     for number, piece in _divide(plain, face_numbers, wanted, _has_loose(plain)):
-        corner = np.repeat(face_numbers == number, total)
+        corner = (face_numbers == number)[face]
         if close:
             # Elements keep their order, so that the edges of the piece are those of its faces, rising.
             left_open += caps.close_cuts(piece, cut[np.unique(edge[corner])])[1]
@@ -118,25 +118,12 @@ def _with_faces(mesh, mask, loose):
     return copy
 
 
-def _corner_values(mesh, name):
-    """An attribute of the topology: the vertex or the edge of each corner, (c,) int32."""
-    values = np.empty(len(mesh.loops), np.int32)
-    mesh.attributes[name].data.foreach_get("value", values)
-    return values
-
-
-def _corner_counts(mesh):
-    """How many corners each face has, (p,) int32."""
-    total = np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_total", total)
-    return total
-
-
 def _has_loose(mesh):
     """Whether there are edges or vertices of no face."""
+    vertex, _ = bridge.face_corners(mesh)
     return any(
-        np.bincount(_corner_values(mesh, name), minlength=len(items)).min(initial=1) == 0
-        for name, items in ((".corner_edge", mesh.edges), (".corner_vert", mesh.vertices))
+        np.bincount(corner, minlength=len(items)).min(initial=1) == 0
+        for corner, items in ((bridge.corner_edges(mesh), mesh.edges), (vertex, mesh.vertices))
     )
 
 
@@ -274,6 +261,7 @@ def _looks(piece) -> str:
 def _piece(obj, mesh, name, style):
     """An object like the given one with another mesh."""
     piece = obj.copy()
+    explode.remove(piece)
     piece.property_unset("reeb_parts_made")
     piece.name = mesh.name = name
     piece.data = mesh

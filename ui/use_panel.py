@@ -20,11 +20,24 @@ class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
     def draw(self, context):
         column, _ = self._column(context)
         settings = context.scene.reeb_parts_use
+        column.prop(context.object.reeb_parts_made, "explode", slider=True)
+        column.separator()
         column.row().prop(settings, "which", expand=True)
         column.separator()
         for name in ("caps", "center", "modifiers", "parent", "hide"):
             column.prop(settings, name)
-        column.operator("reeb_parts.separate", text="Separate", icon="MOD_EXPLODE")
+        column.operator("reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
+        self._draw_outputs(context.object.data.reeb_parts)
+
+    def _draw_outputs(self, result):
+        """Buttons that stay pressed for as long as there is what they make."""
+        row = self.layout.row(align=True)
+        for name, text, there in (
+            ("seams", "Seams", result.has_seams),
+            ("face_sets", "Face Sets", result.has_face_sets),
+            ("materials", "Materials", result.has_materials),
+        ):
+            row.operator(f"reeb_parts.{name}", text=text, depress=there).remove = there
 
 
 class REEB_PARTS_PT_piece(ReebPanel, bpy.types.Panel):

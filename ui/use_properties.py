@@ -2,7 +2,7 @@
 """Settings of what is made from parts; and, on the object, what was made."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, PointerProperty
 
 
 class WhichProperties:
@@ -48,10 +48,21 @@ class ReebPartsUse(bpy.types.PropertyGroup, SeparateProperties):
     """What the buttons under Use Parts will do; on the scene."""
 
 
+def _explode(self, context):
+    from ..operators import explode
+
+    explode.changed(self, context)
+
+
 class ReebPartsMade(bpy.types.PropertyGroup):
     """What was made from an object's parts; on the object."""
 
     pieces: PointerProperty(type=bpy.types.Collection, description="Where the separated parts are")
+    explode: FloatProperty(
+        name="Explode", default=0.0, min=0.0, soft_max=2.0, step=1, update=_explode,
+        description="How far the parts drift apart, as a multiple of their distance from the middle. Only "
+        "looks so: at 0 the mesh is as it was. Can be animated",
+    )
 
 
 CLASSES = (ReebPartsUse, ReebPartsMade)

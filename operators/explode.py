@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Explode: the parts drift apart in the view; the mesh itself stays as it is.
+
+A modifier of ours moves the faces of each part away from the middle of the whole. How far is a property of
+the object, which drives a value in the modifier's nodes: so it can be dragged, typed and animated.
+"""
+
+import bpy
+
+from . import attributes, live, store
+from .problems import SceneError
+
+NAME = "Reeb Parts Explode"
+PROPERTY = "reeb_parts_made.explode"
+OURS = "reeb_parts_explode"  # on the node group
+
+
+def find(obj):
+    """Our modifier on an object, or None."""
+    for modifier in obj.modifiers:
+        if modifier.type == "NODES" and modifier.node_group and OURS in modifier.node_group:
+            return modifier
+    return None
+
+
+def changed(made, context):
+    """The slider was moved: the modifier is there while there is something for it to do."""
+    obj = made.id_data
+    if made.explode or (obj.animation_data and obj.animation_data.action):
+        _ensure(obj)
+    else:
+        _remove_modifier(obj)
+
+
+def remove(obj):
+    """Take the modifier away and put the slider back to 0."""
+    _remove_modifier(obj)
+    obj.reeb_parts_made.property_unset("explode")
+
+
+def _remove_modifier(obj):
+    modifier = find(obj)
+    if modifier is not None:
+        group = modifier.node_group
+        obj.modifiers.remove(modifier)
+        if group.users == 0:
+            bpy.data.node_groups.remove(group)
+
+
+def _ensure(obj):
+    """Put the modifier last, for the parts as they are now."""
+    if obj.type != "MESH" or not store.has_result(obj.data):
+        return
+    name = _face_attribute(obj)
+    modifier = find(obj)
+    if modifier is None:
+        modifier = obj.modifiers.new(NAME, "NODES")
+    group = modifier.node_group
+    if group is None or group[OURS] != obj.name:
+        # A copy of the object comes with the group of the original, which listens to the original.
+        modifier.node_group = group = _node_group(obj)
+    group.nodes["Part"].inputs["Name"].default_value = name
+
+
+def _face_attribute(obj):
+    """Name of the attribute with the part numbers; made unless it is there."""
+    result = obj.data.reeb_parts
+    if result.face_attribute not in obj.data.attributes:
+        try:
+            numbered = store.load(obj.data).shown_parts()
+        except SceneError:  # the mesh was edited: the panel says so
+            return ""
+        with store.quiet():
+            attributes.add_face_attribute(obj)
+            attributes.update_outputs(live.users(obj.data)[0], numbered, numbered.face_numbers)
+    return result.face_attribute
+
+
+def _node_group(obj):
+    """Nodes that move each part from the middle of the whole by a multiple of its distance from there."""
+    group = bpy.data.node_groups.new(f"{NAME} {obj.name}", "GeometryNodeTree")
+    group[OURS] = obj.name
+    group.is_modifier = True
+    for way in ("INPUT", "OUTPUT"):
+        group.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    made = _Nodes(group)
+    start, end = made.new("NodeGroupInput"), made.new("NodeGroupOutput")
+    part = made.new("GeometryNodeInputNamedAttribute", "Part", data_type="INT")
+    amount = made.new("ShaderNodeValue", "Amount")
+    # Areas as weights, so that dense stretches do not draw the middle towards them.
+    area = made.new("GeometryNodeInputMeshFaceArea").outputs[0]
+    moment = made.math("SCALE", made.new("GeometryNodeInputPosition").outputs[0], area)
+    offset = made.math("SUBTRACT", made.middle(moment, area, part.outputs[0]), made.middle(moment, area))
+    edges = made.new("GeometryNodeMeshFaceSetBoundaries", inputs=[part.outputs[0]])
+    split = made.new("GeometryNodeSplitEdges", inputs=[start.outputs[0], edges.outputs[0]])
+    move = made.new("GeometryNodeSetPosition", inputs=[split.outputs[0]])
+    made.link(made.math("SCALE", offset, amount.outputs[0]), move.inputs["Offset"])
+    made.link(move.outputs[0], end.inputs[0])
+    _drive(amount.outputs[0], obj)
+    return group
+
+
+def _drive(socket, obj):
+    driver = socket.driver_add("default_value").driver
+    driver.type = "SUM"
+    variable = driver.variables.new()
+    variable.targets[0].id = obj
+    variable.targets[0].data_path = PROPERTY
+
+
+class _Nodes:
+    """Makes nodes in a row."""
+
+    def __init__(self, group):
+        self.group = group
+
+    def new(self, kind, name="", inputs=(), **values):
+        """A node with what comes in, in order."""
+        node = self.group.nodes.new(kind)
+        node.location.x = 180 * len(self.group.nodes)
+        if name:
+            node.name = node.label = name
+        for key, value in values.items():
+            setattr(node, key, value)
+        for source, socket in zip(inputs, node.inputs, strict=False):
+            self.link(source, socket)
+        return node
+
+    def link(self, source, target):
+        self.group.links.new(source, target)
+
+    def math(self, operation, first, second):
+        """Vector arithmetic; the output."""
+        node = self.new("ShaderNodeVectorMath", operation=operation)
+        self.link(first, node.inputs[0])
+        self.link(second, node.inputs["Scale"] if operation == "SCALE" else node.inputs[1])
+        return node.outputs[0]
+
+    def middle(self, moment, area, part=None):
+        """Middle of the surface, or of each part's."""
+        total = []
+        for value, kind in ((moment, "FLOAT_VECTOR"), (area, "FLOAT")):
+            node = self.new("GeometryNodeAccumulateField", data_type=kind, domain="FACE", inputs=[value])
+            if part is not None:
+                self.link(part, node.inputs["Group ID"])
+            total.append(node.outputs["Total"])
+        return self.math("DIVIDE", *total)

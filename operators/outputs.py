@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams, face sets and materials of the parts, each with one click, and taken back with another."""
+
+import bpy
+
+from . import attributes, live, store
+from .parts import PartOperator
+
+
+class OutputOperator(PartOperator):
+    """For operators that write one thing more to the mesh, which then follows the parts until it is taken back."""
+
+    remove: bpy.props.BoolProperty(
+        name="Take back", options={"SKIP_SAVE"},
+        description="Take them away again; what was there before is back",
+    )
+
+    def work(self, context, obj, stored):
+        add, remove, done, undone = self.steps
+        obj = live.users(obj.data)[0]
+        with store.quiet():
+            (remove if self.remove else add)(obj)
+            if not self.remove:
+                numbered = stored.shown_parts()
+                attributes.update_outputs(obj, numbered, numbered.face_numbers)
+        obj.data.update()
+        return undone if self.remove else done.format(n=len(obj.data.reeb_parts.parts))
+
+
+class REEB_PARTS_OT_seams(OutputOperator, bpy.types.Operator):
+    """Mark UV seams where parts meet, beside your own; they follow the parts"""
+
+    bl_idname = "reeb_parts.seams"
+    bl_label = "Mark Seams between Parts"
+    steps = (attributes.add_seams, attributes.remove_seams,
+             "Seams around {n} parts", "The seams are yours alone again")
+
+
+class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
+    """Make a face set of each part, for Sculpt Mode; they follow the parts"""
+
+    bl_idname = "reeb_parts.face_sets"
+    bl_label = "Make Face Sets of Parts"
+    steps = (attributes.add_face_sets, attributes.remove_face_sets,
+             "{n} parts are face sets", "The face sets are yours alone again")
+
+
+class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
+    """Give each part a material of its own, in the part's colour; they follow the parts"""
+
+    bl_idname = "reeb_parts.materials"
+    bl_label = "Give Each Part a Material"
+    steps = (attributes.add_materials, attributes.remove_materials,
+             "{n} parts have materials", "The materials are yours alone again")
+
+
+CLASSES = (REEB_PARTS_OT_seams, REEB_PARTS_OT_face_sets, REEB_PARTS_OT_materials)

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The explode slider: every part moves as one, the mesh stays as it is, 0 and Clear leave nothing."""
+
+import bpy
+import numpy as np
+import pytest
+from snapshot import activate, snapshot
+
+
+def read(items, key, dtype=np.float32, width=1):
+    values = np.zeros(len(items) * width, dtype)
+    items.foreach_get(key, values)
+    return values.reshape(len(items), width) if width > 1 else values
+
+
+def shown(obj):
+    """Corners of the faces as the viewport shows them, (c, 3)."""
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = evaluated.to_mesh()
+    points = read(mesh.vertices, "co", np.float32, 3)[read(mesh.loops, "vertex_index", np.int32)]
+    evaluated.to_mesh_clear()
+    return points
+
+
+def expected(obj, amount):
+    """The same by hand: each part moved along the line from the middle of all to its own middle."""
+    mesh = obj.data
+    points = read(mesh.vertices, "co", np.float32, 3)
+    numbers = read(mesh.attributes["reeb_part"].data, "value", np.int32)
+    area = read(mesh.polygons, "area")
+    center = read(mesh.polygons, "center", np.float32, 3)
+    moved = np.zeros((len(numbers), 3))
+    for number in np.unique(numbers):
+        mine = numbers == number
+        moved[mine] = np.average(center[mine], axis=0, weights=area[mine]) - np.average(center, axis=0, weights=area)
+    corner = read(mesh.loops, "vertex_index", np.int32)
+    face = np.repeat(np.arange(len(numbers)), read(mesh.polygons, "loop_total", np.int32))
+    return points[corner] + amount * moved[face]
+
+
+@pytest.mark.parametrize("amount", [0.5, 2.0])
+def test_each_part_moves_away_from_the_middle(obj, amount):
+    bpy.ops.reeb_parts.decompose()
+    obj.reeb_parts_made.explode = amount
+    assert shown(obj) == pytest.approx(expected(obj, amount), abs=1e-4)
+
+
+def test_the_slider_moves_what_is_there(obj):
+    bpy.ops.reeb_parts.decompose()
+    for amount in (1.0, 0.25):
+        obj.reeb_parts_made.explode = amount
+        assert shown(obj) == pytest.approx(expected(obj, amount), abs=1e-4)
+    assert len(obj.modifiers) == 1
+
+
+def test_it_follows_the_detail(obj):
+    bpy.ops.reeb_parts.decompose()
+    obj.reeb_parts_made.explode = 1.0
+    obj.data.reeb_parts.n_parts = 3
+    assert shown(obj) == pytest.approx(expected(obj, 1.0), abs=1e-4)
+
+
+def test_the_mesh_is_not_changed_and_at_zero_nothing_is_left(obj):
+    bpy.ops.reeb_parts.decompose()
+    before = snapshot()
+    obj.reeb_parts_made.explode = 1.0
+    assert snapshot()["meshes"] == before["meshes"]
+    obj.reeb_parts_made.explode = 0.0
+    after = snapshot()
+    after["objects"]["Tree"].pop("properties")
+    before["objects"]["Tree"].pop("properties")
+    assert after == before
+    assert not bpy.data.node_groups
+
+
+def test_clear_removes_it(obj):
+    obj.modifiers.new("Smooth", "SUBSURF")
+    bpy.ops.reeb_parts.decompose()
+    obj.reeb_parts_made.explode = 1.0
+    assert obj.modifiers.keys() == ["Smooth", "Reeb Parts Explode"]
+    bpy.ops.reeb_parts.clear()
+    assert obj.modifiers.keys() == ["Smooth"]
+    assert obj.reeb_parts_made.explode == 0.0
+    assert not bpy.data.node_groups
+
+
+def test_it_needs_no_output(obj):
+    bpy.ops.reeb_parts.decompose(face_attribute=False)
+    obj.reeb_parts_made.explode = 1.0
+    assert shown(obj) == pytest.approx(expected(obj, 1.0), abs=1e-4)
+
+
+def test_it_can_be_animated(obj):
+    bpy.ops.reeb_parts.decompose()
+    made = obj.reeb_parts_made
+    for frame, amount in ((1, 0.0), (11, 1.0)):
+        made.explode = amount
+        obj.keyframe_insert("reeb_parts_made.explode", frame=frame)
+    for frame, amount in ((11, 1.0), (1, 0.0)):
+        bpy.context.scene.frame_set(frame)
+        assert shown(obj) == pytest.approx(expected(obj, amount), abs=1e-4)
+
+
+def test_a_copy_has_a_slider_of_its_own(obj):
+    bpy.ops.reeb_parts.decompose()
+    obj.reeb_parts_made.explode = 1.0
+    bpy.ops.object.duplicate(linked=True)
+    twin = bpy.context.object
+    twin.reeb_parts_made.explode = 0.5
+    assert shown(twin) == pytest.approx(expected(obj, 0.5), abs=1e-4)
+    assert shown(obj) == pytest.approx(expected(obj, 1.0), abs=1e-4)
+    activate(obj)
+
+
+def test_pieces_are_not_exploded(obj):
+    bpy.ops.reeb_parts.decompose()
+    obj.reeb_parts_made.explode = 1.0
+    bpy.ops.reeb_parts.separate(hide=False)
+    made = [o for o in bpy.data.objects if "reeb_parts_number" in o]
+    assert len(made) > 1
+    assert not any(piece.modifiers or piece.reeb_parts_made.explode for piece in made)
+    assert obj.modifiers.keys() == ["Reeb Parts Explode"]
+
+
+def test_nobody_is_told_of_our_own_modifier(obj):
+    bpy.ops.reeb_parts.decompose()
+    notes = obj.data.reeb_parts.notes
+    obj.reeb_parts_made.explode = 1.0
+    bpy.ops.reeb_parts.decompose()
+    assert obj.data.reeb_parts.notes == notes

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Seams, face sets and materials after the fact: the same as if decompose had been asked for them."""
+
+import bpy
+import pytest
+from snapshot import snapshot
+
+OPERATORS = {"seams": "seams", "face_sets": "face_sets", "materials": "materials"}
+
+
+def run(name, **options):
+    return getattr(bpy.ops.reeb_parts, name)(**options)
+
+
+@pytest.fixture
+def owned(obj):
+    """The tree with seams, face sets and materials of the user's."""
+    mesh = obj.data
+    mesh.attributes.new(".sculpt_face_set", "INT", "FACE").data.foreach_set("value", [7] * len(mesh.polygons))
+    mesh.edges.foreach_set("use_seam", [i % 5 == 0 for i in range(len(mesh.edges))])
+    for name in ("Red", "Green"):
+        mesh.materials.append(bpy.data.materials.new(name))
+    mesh.polygons.foreach_set("material_index", [i % 2 for i in range(len(mesh.polygons))])
+    return obj
+
+
+def contents(mesh_name="Tree"):
+    """The mesh, and the materials without their suffixes of former runs."""
+    seen = snapshot()
+    return seen["meshes"][mesh_name], sorted(seen["materials"])
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_the_same_as_decompose_would_have_written(owned, name):
+    bpy.ops.reeb_parts.decompose(**{name: True})
+    wanted = contents()
+    bpy.ops.reeb_parts.clear()
+    bpy.ops.reeb_parts.decompose()
+    assert run(name) == {"FINISHED"}
+    assert contents() == wanted
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_taken_back_everything_is_as_before(owned, name):
+    bpy.ops.reeb_parts.decompose()
+    before = snapshot()
+    run(name)
+    assert snapshot() != before
+    run(name, remove=True)
+    assert snapshot() == before
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_twice_is_once(owned, name):
+    bpy.ops.reeb_parts.decompose()
+    run(name)
+    once = snapshot()
+    run(name)
+    assert snapshot() == once
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_they_follow_the_parts(owned, name):
+    bpy.ops.reeb_parts.decompose()
+    run(name)
+    owned.data.reeb_parts.n_parts = 2
+    followed = contents()
+    run(name, remove=True)
+    run(name)
+    assert contents() == followed
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT"])
+def test_from_every_mode(owned, name, mode):
+    bpy.ops.reeb_parts.decompose()
+    run(name)
+    wanted = contents()
+    run(name, remove=True)
+    bpy.ops.object.mode_set(mode=mode)
+    run(name)
+    assert owned.mode == mode
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert contents()[0]["seams"] == wanted[0]["seams"]
+    assert contents()[0]["slots"] == wanted[0]["slots"]
+    face_sets = ".sculpt_face_set"
+    assert contents()[0]["attributes"][face_sets] == wanted[0]["attributes"][face_sets]
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_undo(owned, name):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.ed.undo_push(message="before")
+    before = snapshot()
+    run(name)
+    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.ed.undo()
+    assert snapshot() == before
