@@ -63,6 +63,14 @@ def flat_grid(n_x: int, n_y: int, step: float = 1.0) -> Shape:
     return Shape(vertices, split_quads(_grid_quads(n_x, n_y, n_y + 1)))
 
 
+def flat_cells(cells) -> Shape:
+    """Unit squares of the plane z = 0, each given by its lower corner (x, y)."""
+    corners = sorted({(x + a, y + b) for x, y in cells for a in (0, 1) for b in (0, 1)})
+    index = {corner: i for i, corner in enumerate(corners)}
+    quads = [[index[x, y], index[x + 1, y], index[x + 1, y + 1], index[x, y + 1]] for x, y in cells]
+    return Shape(np.array([(x, y, 0) for x, y in corners], float), split_quads(np.array(quads)))
+
+
 def torus(n_ring: int = 48, n_tube: int = 16, ring: float = 1.0, tube: float = 0.35) -> Shape:
     """A ring around the z axis."""
     u = 2 * np.pi * np.arange(n_ring) / n_ring

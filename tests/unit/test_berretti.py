@@ -6,10 +6,12 @@ import pytest
 import shapes
 
 from core.berretti import berretti_candidates
+from core.curvature import k_min
 from core.levelsets import cut_at_levels, uniform_levels
 from core.mesh import TriMesh, components
 from core.parameters import Parameters
 from core.reeb import reeb_structure
+from core.refine import concavity
 from core.regions import berretti_regions
 from core.simplify import simplify
 
@@ -64,16 +66,28 @@ def test_without_concavity_the_regions_stay():
     np.testing.assert_array_equal(hierarchy.merges, regions.hierarchy.merges)
 
 
-def test_with_concavity_cuts_are_shorter_or_stay():
-    # The tree's branches leave a ball: necks at their feet pull the cuts.
-    def cut_length(alpha):
-        sets, _, element, hierarchy = candidates(shapes.dumbbell(), (0, 0.05, 1), alpha=alpha)
-        piece = np.empty(sets.n_pieces, np.int64)
-        piece[sets.element_piece] = hierarchy.parts(2)[element]
-        apart = piece[sets.contour_pieces[:, 0]] != piece[sets.contour_pieces[:, 1]]
-        return sets.contour_length[apart].sum()
+def test_concavity_pulls_cuts_into_creases():
+    # Distance from the middle of the tree: its four branches leave a ball, with a crease around each foot.
+    shape = shapes.tube_tree()
+    distance = np.linalg.norm(shape.vertices, axis=1)
+    sets = cut_at_levels(TriMesh(*shape), distance, np.linspace(distance.min(), distance.max(), 51)[1:-1])
+    structure = simplify(sets, reeb_structure(sets), 0.0025, 1)
+    curvature = k_min(sets.mesh)
 
-    assert cut_length(0.9) <= cut_length(0.0)
+    def cuts(alpha):
+        element, hierarchy = berretti_candidates(sets, structure, Parameters.preset("Berretti 2009", alpha=alpha))
+        piece = np.empty(sets.n_pieces, np.int64)
+        piece[sets.element_piece] = hierarchy.parts(hierarchy.n_parts(0.5))[element]
+        lower, upper = piece[sets.contour_pieces].T
+        return np.flatnonzero((lower != upper) & (structure.contour_arc >= 0))
+
+    def energy(contours):
+        return [concavity(sets, curvature, c, PAPER.sigma) for c in contours.tolist()]
+
+    stay, slide = cuts(0.0), cuts(1.0)
+    assert len(stay) == len(slide) >= 4
+    assert np.mean(energy(slide)) < np.mean(energy(stay)) - 0.01
+    assert max(np.sort(energy(slide)) - np.sort(energy(stay))) <= 0
 
 
 def test_upright_dumbbell_has_no_branch_and_so_one_part():

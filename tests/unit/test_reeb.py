@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.critical import MAXIMUM, MINIMUM, SADDLE
+from core.critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from core.levelsets import cut_at_levels, uniform_levels
 from core.mesh import TriMesh, components
 from core.reeb import ReebGraph, reeb_graph, reeb_structure
@@ -64,6 +64,14 @@ def test_standing_torus_by_hand():
     middle = np.abs(graph.point_value - 0.5) < 0.02
     np.testing.assert_allclose(graph.point_radius[middle], 0.35, rtol=0.05)
     np.testing.assert_allclose(np.abs(graph.point_position[middle, 1]), 1, rtol=0.05)
+
+
+@pytest.mark.parametrize("n_slabs", [7, 12, 60])
+def test_nodes_have_the_values_of_the_critical_points(n_slabs):
+    # However coarse the levels: not the middle of a slab, but where the saddle is.
+    sets, _, graph = along(shapes.torus(), (1, 0.013, 0.007), n_slabs)
+    points = critical_points(sets.mesh, total_order(sets.values))
+    assert np.sort(graph.node_value).tolist() == sets.values[points.vertex].tolist()
 
 
 @pytest.mark.parametrize("genus", range(4))

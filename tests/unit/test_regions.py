@@ -25,12 +25,8 @@ def y_shape():
     Cut half way through every square: slab k is x from k - 1/2 to k + 1/2.
     """
     cells = [(0, 1), (1, 1), (2, 1), (3, 0), (3, 1), (3, 2), (4, 0), (5, 0), (6, 0), (4, 2), (5, 2)]
-    corners = sorted({(x + a, y + b) for x, y in cells for a in (0, 1) for b in (0, 1)})
-    index = {c: i for i, c in enumerate(corners)}
-    quads = [[index[x, y], index[x + 1, y], index[x + 1, y + 1], index[x, y + 1]] for x, y in cells]
-    vertices = np.array([(x, y, 0) for x, y in corners], float)
-    mesh = TriMesh(vertices, shapes.split_quads(np.array(quads)))
-    return cut_at_levels(mesh, vertices[:, 0], np.arange(7) + 0.5)
+    shape = shapes.flat_cells(cells)
+    return cut_at_levels(TriMesh(*shape), shape.vertices[:, 0], np.arange(7) + 0.5)
 
 
 def described(sets, count, region):

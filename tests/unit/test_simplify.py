@@ -53,6 +53,21 @@ def test_by_hand():
     assert (last.n_nodes, len(last.arcs)) == (2, 1)
 
 
+def test_an_arc_put_together_from_two_is_as_long_as_both():
+    # Two legs and a body. The left leg, from x = 0 to the hip at 7, has a twig at x = 3: three
+    # levels below it, four above, two along the twig itself.
+    left = [(x, 0) for x in range(7)] + [(3, 1), (3, 2), (2, 2), (1, 2)]
+    right = [(x, -4) for x in range(-5, 7)]
+    shape = shapes.flat_cells([*left, *right, *((7, y) for y in range(-4, 1)), (8, -2), (9, -2)])
+    sets = cut_at_levels(TriMesh(*shape), shape.vertices[:, 0], np.arange(-5, 10) + 0.5)
+    structure = reeb_structure(sets)
+    assert sorted(np.bincount(structure.contour_arc).tolist()) == [2, 3, 3, 4, 12]
+    # With leaves of fewer than five levels gone, the twig is no more and the leg of seven stays.
+    done = simplify(sets, structure, 0.0, 5)
+    assert sorted(np.bincount(done.contour_arc[done.contour_arc >= 0]).tolist()) == [3, 7, 12]
+    assert done.n_nodes == 4
+
+
 def test_nothing_below_the_limits_nothing_changes():
     sets = noisy(1, 0)
     structure = reeb_structure(sets)
