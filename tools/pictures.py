@@ -74,7 +74,8 @@ def main() -> None:
     IMAGES.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as own:
         run = [str(python), "-c", MAKE_OWN, own]
-        subprocess.run(run, check=True, stdout=subprocess.DEVNULL, env={**os.environ, "PYTHONPATH": str(ROOT / "tests")})
+        variables = {**os.environ, "PYTHONPATH": str(ROOT / "tests")}
+        subprocess.run(run, check=True, stdout=subprocess.DEVNULL, env=variables)
         reports = {}
         for model in MODELS:
             if arguments.only and model.file not in arguments.only:
@@ -122,7 +123,8 @@ def _page(presets: list[str], reports: dict) -> str:
         "ones maxima (the tips).", "",
     ]  # fmt: skip
     for model in MODELS:
-        lines += [f"## {model.title}", f"{model.origin}.", "", f"| {' | '.join(presets)} |", "|" + " --- |" * len(presets)]
+        lines += [f"## {model.title}", f"{model.origin}.", ""]
+        lines += [f"| {' | '.join(presets)} |", "|" + " --- |" * len(presets)]
         cells = [f"![{model.title} in parts]({_image(model, preset).relative_to(PAGE.parent)})" for preset in presets]
         lines += [f"| {' | '.join(cells)} |"]
         cells = [_facts(reports[model, preset]) for preset in presets]

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+
 from core import Parameters, decompose
 from core.numbering import follow, numbered_parts, transfer
 

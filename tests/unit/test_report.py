@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapes
+
 from core import Parameters, decompose
 from core.report import SCHEMA_VERSION, bounding_boxes, document, report
 
