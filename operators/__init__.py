@@ -16,6 +16,7 @@ from . import (
     parts,
     separate,
     store,
+    unwrap,
 )
 
 CLASSES = (
@@ -27,6 +28,7 @@ CLASSES = (
     *handles.CLASSES,
     *separate.CLASSES,
     *outputs.CLASSES,
+    *unwrap.CLASSES,
 )
 
 

@@ -39,6 +39,8 @@ def plain_copy(mesh):
             copy.property_unset("reeb_parts")
     finally:
         bpy.data.objects.remove(twin)
+    for key in [key for key in copy.keys() if key.startswith("reeb_parts")]:  # noqa: SIM118
+        del copy[key]
     for name in [a.name for a in copy.attributes if a.name.startswith(_FORMER)]:
         copy.attributes.remove(copy.attributes[name])
     return copy

@@ -38,6 +38,7 @@ class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
             ("materials", "Materials", result.has_materials),
         ):
             row.operator(f"reeb_parts.{name}", text=text, depress=there).remove = there
+        self.layout.operator("reeb_parts.unwrap", icon="UV")
 
 
 class REEB_PARTS_PT_piece(ReebPanel, bpy.types.Panel):

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Unwrap along cuts: a UV map of ours with an island for each part, or several where one would tear."""
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ..core.errors import ReebError
+from . import attributes, bridge, separate, store
+from .parts import PartOperator
+from .problems import SceneError
+
+UV_MAP = "Reeb Parts UV"
+MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
+
+
+def find(mesh):
+    """Our UV map, or None."""
+    return mesh.uv_layers.get(mesh.get(MADE, ""))
+
+
+def remove(mesh):
+    """Remove our UV map."""
+    layer = find(mesh)
+    if layer is not None:
+        mesh.uv_layers.remove(layer)
+    if MADE in mesh:
+        del mesh[MADE]
+
+
+def unwrap(context, obj, face_numbers, open_parts, method):
+    """Unwrap an object into our UV map, which becomes the active one; Object Mode.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    face_numbers : (p,) int64
+        Number of each face's part.
+    open_parts : bool
+        Cut tubes and closed parts open, so that they can be laid flat.
+    method : str
+        Of bpy.ops.uv.unwrap.
+    """
+    mesh = obj.data
+    coordinates = _unwrapped(context, obj, _seams(obj, face_numbers, open_parts), method)
+    layer = find(mesh)
+    if layer is None:
+        layer = mesh.uv_layers.new(name=UV_MAP, do_init=False)
+        if layer is None:
+            raise SceneError(f"{mesh.name} has as many UV maps as Blender allows. Remove one and try again.")
+        mesh[MADE] = layer.name
+        mesh.uv_layers.active = layer
+    layer.uv.foreach_set("vector", coordinates)
+    mesh.update()
+
+
+def _seams(obj, face_numbers, open_parts):
+    """The user's seams, the cuts between parts and, if asked for, what opens parts; (e,) bool."""
+    mesh = obj.data
+    seams = np.empty(len(mesh.edges), bool)
+    mesh.edges.foreach_get("use_seam", seams)
+    seams |= attributes.cut_edges(mesh, face_numbers)
+    if open_parts:
+        from ..core.unfold import opening_seams  # imports SciPy
+
+        ends = np.empty(2 * len(mesh.edges), np.int32)
+        mesh.edges.foreach_get("vertices", ends)
+        points = bridge.shown_points(obj) @ _stretch(mesh).T
+        _, face = bridge.face_corners(mesh)
+        seams |= opening_seams(points, ends.reshape(-1, 2), bridge.corner_edges(mesh), face, seams)
+    return seams
+
+
+def _stretch(mesh):
+    """How the object stretches its mesh, as it was decomposed, (3, 3)."""
+    return np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+
+
+def _unwrapped(context, obj, seams, method):
+    """The UV coordinates of each corner, flat float32; unwrapped on a copy, so that no selection is touched."""
+    layer = context.view_layer
+    active, selected = layer.objects.active, list(layer.objects.selected)
+    copy = separate.plain_copy(obj.data)
+    twin = bpy.data.objects.new(copy.name, copy)
+    try:
+        _prepare(twin, bridge.shown_points(obj) @ _stretch(obj.data).T, seams)
+        context.scene.collection.objects.link(twin)
+        for other in selected:
+            other.select_set(False)
+        twin.select_set(True)
+        layer.objects.active = twin
+        with context.temp_override(active_object=twin, object=twin):
+            bpy.ops.object.mode_set(mode="EDIT")
+            with context.temp_override(edit_object=twin):
+                bpy.ops.uv.unwrap(method=method, margin=0.005)
+            bpy.ops.object.mode_set(mode="OBJECT")
+        coordinates = np.empty(2 * len(copy.loops), np.float32)
+        copy.uv_layers.active.uv.foreach_get("vector", coordinates)
+    finally:
+        bpy.data.objects.remove(twin)
+        bpy.data.meshes.remove(copy)
+        for other in selected:
+            other.select_set(True)
+        layer.objects.active = active
+    return coordinates
+
+
+def _prepare(twin, points, seams):
+    """Give a copy the shape that is seen, our seams, one UV map, and all selected."""
+    mesh = twin.data
+    if mesh.shape_keys:
+        twin.shape_key_clear()
+    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    mesh.edges.foreach_set("use_seam", seams)
+    for items in (mesh.vertices, mesh.edges, mesh.polygons):
+        items.foreach_set("hide", np.zeros(len(items), bool))
+        items.foreach_set("select", np.ones(len(items), bool))
+    for name in mesh.uv_layers.keys():  # noqa: SIM118
+        mesh.uv_layers.remove(mesh.uv_layers[name])
+    mesh.uv_layers.new(name=UV_MAP)
+
+
+class REEB_PARTS_OT_unwrap(PartOperator, bpy.types.Operator):
+    """Unwrap the mesh along the cuts between parts and your own seams, into a UV map of its own"""
+
+    bl_idname = "reeb_parts.unwrap"
+    bl_label = "Unwrap along Cuts"
+
+    open_parts: bpy.props.BoolProperty(
+        name="Open tubes", default=True,
+        description="Also cut tubes along and closed parts open, by the shortest way, so that they lie flat; "
+        "these seams are not marked on the mesh",
+    )
+    method: bpy.props.EnumProperty(
+        name="Method", default="ANGLE_BASED",
+        items=[("ANGLE_BASED", "Angle based", "Good for organic shapes"),
+               ("CONFORMAL", "Conformal", "Faster, less even")],
+        description="How faces are laid flat",
+    )
+
+    def work(self, context, obj, stored):
+        try:
+            unwrap(context, obj, stored.shown_parts().face_numbers, self.open_parts, self.method)
+        except ReebError as error:
+            raise SceneError(str(error)) from error
+        return f"Unwrapped into the UV map {find(obj.data).name}"
+
+
+CLASSES = (REEB_PARTS_OT_unwrap,)

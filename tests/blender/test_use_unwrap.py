@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""reeb_parts.unwrap: parts become islands of a UV map of ours; nothing else is touched."""
+
+import bpy
+import numpy as np
+import pytest
+import shapes
+from snapshot import snapshot
+
+MAP = "Reeb Parts UV"
+
+
+def read(items, key, dtype=np.float32, width=1):
+    values = np.zeros(len(items) * width, dtype)
+    items.foreach_get(key, values)
+    return values.reshape(len(items), width) if width > 1 else values
+
+
+def torn_edges(mesh):
+    """Whether the faces at each edge lie apart in the map."""
+    uv = read(mesh.uv_layers[MAP].uv, "vector", np.float32, 2)
+    at = {}
+    for polygon in mesh.polygons:
+        loops = list(polygon.loop_indices)
+        for a, b in zip(loops, [*loops[1:], loops[0]], strict=True):
+            ends = {mesh.loops[a].vertex_index: uv[a], mesh.loops[b].vertex_index: uv[b]}
+            at.setdefault(mesh.loops[a].edge_index, []).append(ends)
+    torn = np.zeros(len(mesh.edges), bool)
+    for edge, (first, *others) in at.items():
+        torn[edge] = not others or any(np.abs(first[v] - other[v]).max() > 1e-5 for other in others for v in first)
+    return torn
+
+
+def face_areas(mesh):
+    """Signed area of each triangle in the map."""
+    uv = read(mesh.uv_layers[MAP].uv, "vector", np.float32, 2).reshape(-1, 3, 2).astype(np.float64)
+    a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
+    return 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+
+
+def cuts(mesh):
+    numbers = read(mesh.attributes["reeb_part"].data, "value", np.int32)
+    around = {}
+    for polygon in mesh.polygons:
+        for loop in polygon.loop_indices:
+            around.setdefault(mesh.loops[loop].edge_index, set()).add(numbers[polygon.index])
+    return np.array([len(around[edge.index]) > 1 for edge in mesh.edges])
+
+
+def test_the_map_is_torn_along_the_cuts(obj):
+    bpy.ops.reeb_parts.decompose()
+    assert bpy.ops.reeb_parts.unwrap() == {"FINISHED"}
+    torn = torn_edges(obj.data)
+    assert torn[cuts(obj.data)].all()
+    assert torn.mean() < 0.25
+    assert obj.data.uv_layers.active.name == MAP
+
+
+@pytest.mark.parametrize("name", ["tree", "torus", "genus two", "sphere"])
+def test_every_face_lies_flat_and_no_face_is_turned_over(make, name):
+    shape = {"tree": shapes.tube_tree, "torus": shapes.torus, "genus two": lambda: shapes.genus_two(0.09),
+             "sphere": lambda: shapes.icosphere(3)}[name]()  # fmt: skip
+    obj = make(shape)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.unwrap()
+    area = face_areas(obj.data)
+    assert (area > 0).mean() > 0.99
+    uv = read(obj.data.uv_layers[MAP].uv, "vector", np.float32, 2)
+    assert uv.min() >= 0.0
+    assert uv.max() <= 1.0
+    # Islands do not lie over each other: together they cover no more than the square.
+    assert 0.2 < area.sum() < 1.0
+
+
+def test_stretch_is_moderate(obj):
+    """Areas in the map are like those of the faces, up to one factor, for nearly all faces."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.unwrap()
+    ratio = face_areas(obj.data) / read(obj.data.polygons, "area")
+    ratio /= np.median(ratio)
+    assert np.mean((ratio > 1 / 3) & (ratio < 3)) > 0.9
+
+
+def test_nothing_else_is_touched(obj):
+    obj.data.uv_layers.new(name="Mine")
+    obj.shape_key_add(name="Basis")
+    obj.shape_key_add(name="Fat").value = 0.5
+    obj.data.polygons[3].hide = True
+    bpy.ops.reeb_parts.decompose()
+    before = snapshot()
+    bpy.ops.reeb_parts.unwrap()
+    after = snapshot()
+    mesh = after["meshes"]["Tree"]
+    assert mesh["attributes"].pop(MAP)
+    assert mesh["properties"].pop("reeb_parts_uv") == MAP
+    assert after == before
+
+
+def test_twice_is_once_and_clear_removes_it(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.unwrap()
+    once = snapshot()
+    bpy.ops.reeb_parts.unwrap()
+    assert snapshot() == once
+    bpy.ops.reeb_parts.clear()
+    assert not obj.data.uv_layers
+    assert "reeb_parts_uv" not in obj.data
+
+
+def test_the_user_s_seams_are_used(obj):
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    numbers = read(obj.data.attributes["reeb_part"].data, "value", np.int32)
+    # Around one face, which becomes an island.
+    face = obj.data.polygons[int(np.flatnonzero(numbers == 1)[0])]
+    for loop in face.loop_indices:
+        obj.data.edges[obj.data.loops[loop].edge_index].use_seam = True
+    bpy.ops.reeb_parts.unwrap()
+    torn = torn_edges(obj.data)
+    assert all(torn[obj.data.loops[loop].edge_index] for loop in face.loop_indices)
+
+
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT"])
+def test_from_every_mode(obj, mode):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.object.mode_set(mode=mode)
+    bpy.ops.reeb_parts.unwrap()
+    assert obj.mode == mode
+    assert bpy.context.view_layer.objects.active == obj
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert obj.data.uv_layers.keys() == [MAP]
+
+
+def test_a_full_mesh_is_refused_in_a_sentence(obj):
+    for _ in range(8):
+        obj.data.uv_layers.new()
+    bpy.ops.reeb_parts.decompose()
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="as many UV maps"):
+        bpy.ops.reeb_parts.unwrap()
+    assert snapshot() == before
+
+
+def test_undo(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.ed.undo_push(message="before")
+    before = snapshot()
+    bpy.ops.reeb_parts.unwrap()
+    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.ed.undo()
+    assert snapshot() == before
