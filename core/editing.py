@@ -10,6 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
 
 from .decomposition import Decomposition
 from .hierarchy import Hierarchy
@@ -118,6 +120,49 @@ def shrinkage(
         if rest.any() and pieces(decomposition, rest).max() == 0:
             return int(inner[index]), int(outer[index])
     return None
+
+
+def boundary_distance(
+    inside: np.ndarray, face_pairs: np.ndarray, pair_length: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """How far each face is from the boundary of some faces, and what lies nearest across it.
+
+    Parameters
+    ----------
+    inside : (p,) bool
+    face_pairs : (e, 2) int64
+        Faces that share an edge.
+    pair_length : (e,) float64
+        Distance of their centres, not negative.
+
+    Returns
+    -------
+    distance : (p,) float64
+        Along the surface, from the centre of the nearest face on the other side: positive outside,
+        negative inside, infinite where the boundary cannot be reached.
+    across : (p,) int64
+        That face; -1 where there is none.
+    """
+    count = len(inside)
+    sides = inside[face_pairs]
+    distance = np.full(count, np.inf)
+    across = np.full(count, -1, np.int64)
+    # A path leaves the boundary and stays on its side; 0 would mean "no edge" to a sparse graph.
+    length = np.maximum(pair_length, 1e-12 * pair_length.max(initial=1.0))
+    for side in (False, True):
+        usable = ~(sides != side).all(axis=1)
+        border = np.unique(face_pairs[sides[:, 0] != sides[:, 1]])
+        border = border[inside[border] != side]
+        if not len(border):
+            continue
+        a, b = face_pairs[usable].T
+        graph = coo_array((length[usable], (a, b)), shape=(count, count)).tocsr()
+        found, _, source = dijkstra(
+            graph, directed=False, indices=border, min_only=True, return_predecessors=True)
+        here = (inside == side) & np.isfinite(found)
+        distance[here] = -found[here] if side else found[here]
+        across[here] = source[here]
+    return distance, across
 
 
 def split_candidates(

@@ -15,8 +15,9 @@ from . import (
     outputs,
     parts,
     separate,
+    slide,
     store,
-    unwrap,
+    watch,
 )
 
 CLASSES = (
@@ -25,10 +26,10 @@ CLASSES = (
     clear.REEB_PARTS_OT_clear,
     *parts.CLASSES,
     *edit.CLASSES,
+    *slide.CLASSES,
     *handles.CLASSES,
     *separate.CLASSES,
     *outputs.CLASSES,
-    *unwrap.CLASSES,
 )
 
 
@@ -37,11 +38,13 @@ def register():
         bpy.utils.register_class(cls)
     handles.register()
     highlight.register()
+    watch.register()
 
 
 def unregister():
     if jobs.current is not None:
         jobs.current.cancel()
+    watch.unregister()
     highlight.unregister()
     handles.unregister()
     for cls in reversed(CLASSES):

@@ -372,7 +372,8 @@ def _write_materials(mesh, numbered):
     for label, part in enumerate(mesh.reeb_parts.parts):
         if part.material is None:
             part.material = bpy.data.materials.new(part.name)
-            part.material.use_nodes = True
+            if bpy.app.version < (5, 0):  # newer ones always do
+                part.material.use_nodes = True
         _color_material(part.material, numbered.parts.colors[label])
         if part.material not in mesh.materials[:]:
             mesh.materials.append(part.material)

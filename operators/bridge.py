@@ -166,16 +166,30 @@ def face_graph(obj) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     shape = read_shape(obj)
     a, b, c = shape.vertices[shape.triangles].transpose(1, 0, 2)
     area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    _, face = face_corners(obj.data)
-    edge = corner_edges(obj.data)
+    pairs, edge = face_pairs(obj.data)
+    ends = np.empty(2 * len(obj.data.edges), np.int32)
+    obj.data.edges.foreach_get("vertices", ends)
+    start, end = shape.vertices[ends.reshape(-1, 2)[edge]].transpose(1, 0, 2)
+    return np.bincount(shape.polygon, area, len(obj.data.polygons)), pairs, np.linalg.norm(end - start, axis=1)
+
+
+def face_pairs(mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Faces that share an edge, (e, 2) int32, and the edge, (e,) int32; Object Mode."""
+    _, face = face_corners(mesh)
+    edge = corner_edges(mesh)
     order = np.argsort(edge, kind="stable")
     together = np.flatnonzero(np.diff(edge[order]) == 0)
     first, second = order[together], order[together + 1]
-    ends = np.empty(2 * len(obj.data.edges), np.int32)
-    obj.data.edges.foreach_get("vertices", ends)
-    start, end = shape.vertices[ends.reshape(-1, 2)[edge[first]]].transpose(1, 0, 2)
-    return (np.bincount(shape.polygon, area, len(obj.data.polygons)),
-            np.stack([face[first], face[second]], axis=1), np.linalg.norm(end - start, axis=1))
+    return np.stack([face[first], face[second]], axis=1), edge[first]
+
+
+def face_centers(obj) -> np.ndarray:
+    """Mean of the corners of each face, (p, 3) float64, along the object's axes in units of the world."""
+    vertex, face = face_corners(obj.data)
+    corners = (shown_points(obj).astype(np.float64) @ world_stretch(obj).T)[vertex]
+    count = len(obj.data.polygons)
+    total = np.bincount(face, minlength=count)
+    return np.stack([np.bincount(face, corners[:, axis], count) / total for axis in range(3)], axis=1)
 
 
 _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
@@ -259,8 +273,9 @@ def _weights(obj, name) -> np.ndarray:
 
 def _notes(obj) -> tuple[str, ...]:
     notes = []
-    if obj.modifiers:
-        count = len(obj.modifiers)
+    # One of ours only moves the parts in the view.
+    count = sum(not modifier.name.startswith("Reeb Parts") for modifier in obj.modifiers)
+    if count:
         which = "its modifier was" if count == 1 else f"its {count} modifiers were"
         notes.append(f"{obj.name} was decomposed as it is before {which} applied.")
     if obj.data.users > 1 and (users := _users(obj.data)) > 1:

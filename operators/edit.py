@@ -212,8 +212,6 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
     new: bpy.props.BoolProperty(name="New part", description="Make a part of its own of the faces")
 
     def work(self, context, obj, stored):
-        from ..core.editing import split_candidates
-
         mesh = obj.data
         result = mesh.reeb_parts
         faces = np.empty(len(mesh.polygons), bool)
@@ -221,23 +219,48 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
         if not faces.any():
             raise SceneError("No faces are selected. Select some in Edit Mode.")
         number = free_number(mesh, stored) if self.new else result.parts[result.active].number
-        given = set(np.unique(stored.shown[stored.decomposition.candidates[faces]]).tolist()) - {number}
-        check_unlocked(obj, given | {number})
-        finer = split_candidates(stored.decomposition, faces, *bridge.face_graph(obj))
-        added = np.full(finer.n_candidates - len(stored.shown), -1)
-        origin = _origins(stored.decomposition.candidates, finer.candidates, added)
-        stored = store.Stored(finer, stored.former[origin], stored.fixed[origin], stored.shown[origin])
-        with store.quiet():
-            store.save(mesh, stored)
-        numbers = stored.shown.copy()
-        numbers[np.unique(finer.candidates[faces])] = number
-        changed = {number} | given
-        for giver in sorted(given):
-            if (numbers == giver).any():
-                changed |= _part_pieces(obj, stored, numbers, giver)
-        changed |= _part_pieces(obj, stored, numbers, number)
-        tie(context, obj, stored, numbers, changed)
+        before = stored.shown[stored.decomposition.candidates]
+        check_unlocked(obj, {number, *before[faces].tolist()})
+        assign_faces(context, obj, stored, np.where(faces, number, before))
         return f"{int(faces.sum())} faces are {_name(obj, number)} now"
+
+
+def assign_faces(context, obj, stored, face_numbers):
+    """Give faces to parts, and pin all parts concerned; what falls apart becomes several parts.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    stored : store.Stored
+    face_numbers : (p,) int64
+        The part of each face from now on.
+    """
+    from ..core.editing import split_candidates
+
+    before = stored.shown[stored.decomposition.candidates]
+    moved = face_numbers != before
+    if not moved.any():
+        return
+    concerned = set(np.unique(np.concatenate([face_numbers[moved], before[moved]])).tolist())
+    graph = bridge.face_graph(obj)
+    for number in np.unique(face_numbers[moved]).tolist():
+        stored = _finer(stored, split_candidates(stored.decomposition, moved & (face_numbers == number), *graph))
+    with store.quiet():
+        store.save(obj.data, stored)
+    numbers = stored.shown.copy()
+    numbers[stored.decomposition.candidates[moved]] = face_numbers[moved]
+    for number in sorted(concerned):
+        if (numbers == number).any():
+            concerned |= _part_pieces(obj, stored, numbers, number)
+    tie(context, obj, stored, numbers, concerned)
+
+
+def _finer(stored, decomposition):
+    """The same with finer candidates, which have the numbers of those they were cut from."""
+    added = np.full(decomposition.n_candidates - len(stored.shown), -1)
+    origin = _origins(stored.decomposition.candidates, decomposition.candidates, added)
+    return store.Stored(decomposition, stored.former[origin], stored.fixed[origin], stored.shown[origin])
 
 
 def _origins(old, new, added):

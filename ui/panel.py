@@ -64,6 +64,7 @@ def draw_part_menu(layout):
     layout.operator("reeb_parts.split", icon="MOD_EDGESPLIT")
     layout.operator("reeb_parts.grow", icon="ADD")
     layout.operator("reeb_parts.shrink", icon="REMOVE")
+    layout.operator("reeb_parts.slide", icon="ARROW_LEFTRIGHT")
     layout.separator()
     layout.operator("reeb_parts.assign", icon="FACESEL").new = False
     layout.operator("reeb_parts.assign", text="New Part of Selected Faces").new = True
@@ -174,6 +175,7 @@ class REEB_PARTS_PT_parts(ReebPanel, bpy.types.Panel):
         column.separator()
         column.operator("reeb_parts.grow", text="", icon="ADD")
         column.operator("reeb_parts.shrink", text="", icon="REMOVE")
+        column.operator("reeb_parts.slide", text="", icon="ARROW_LEFTRIGHT")
         column.separator()
         column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT")
         row = layout.row(align=True)

@@ -212,6 +212,37 @@ def test_faces_are_assigned(obj, result, new):
     check(obj)
 
 
+@pytest.mark.parametrize("offset", [0.3, -0.3])
+def test_a_boundary_slides_by_a_distance(obj, result, offset):
+    number = next(p.number for p in result.parts if len(neighbours(obj.data, p.number)) == 1)
+    choose(result, number)
+    before = numbers(obj.data) == number
+    assert bpy.ops.reeb_parts.slide(offset=offset) == {"FINISHED"}
+    after = numbers(obj.data) == number
+    smaller, larger = (before, after) if offset > 0 else (after, before)
+    assert not (smaller & ~larger).any()
+    assert larger.sum() > smaller.sum() > 0
+    centers = np.array([p.center[:] for p in obj.data.polygons])
+    # No face that changed is farther from where the boundary was than the distance.
+    rim = {v for p in obj.data.polygons if before[p.index] for v in p.vertices}
+    rim &= {v for p in obj.data.polygons if not before[p.index] for v in p.vertices}
+    points = np.array([obj.data.vertices[v].co[:] for v in rim])
+    moved = centers[before != after]
+    far = np.linalg.norm(moved[:, None] - points[None], axis=2).min(axis=1)
+    assert far.max() < abs(offset) + 0.1
+    check(obj)
+
+
+def test_a_boundary_stops_at_a_locked_part(obj, result):
+    choose(result, 1)
+    for p in result.parts:
+        if p.number != 1:
+            p.locked = True
+    before = numbers(obj.data)
+    bpy.ops.reeb_parts.slide(offset=0.5)
+    assert (numbers(obj.data) == before).all()
+
+
 def test_edits_are_undone_and_redone(obj, result):
     bpy.ops.ed.undo_push(message="before")
     before = snapshot()

@@ -4,8 +4,9 @@
 import numpy as np
 import pytest
 import shapes
+
 from core import Parameters, decompose
-from core.editing import best_split, growth, pieces, shrinkage, split_candidates
+from core.editing import best_split, boundary_distance, growth, pieces, shrinkage, split_candidates
 
 
 @pytest.fixture(scope="module")
@@ -92,6 +93,29 @@ def test_finer_candidates_change_no_parts(result, seed):
 def test_whole_candidates_need_no_splitting(result):
     chosen = result.candidates == 1
     assert split_candidates(result, chosen, np.ones(len(chosen)), np.empty((0, 2), int), np.empty(0)) is result
+
+
+def test_boundary_distance_on_a_strip_by_hand():
+    # Faces 0 - 1 - 2 - 3 - 4 in a row, one apart; 3 and 4 inside. Face 5 is by itself.
+    pairs = np.array([[0, 1], [1, 2], [2, 3], [3, 4]])
+    inside = np.array([False, False, False, True, True, False])
+    distance, across = boundary_distance(inside, pairs, np.array([1.0, 2.0, 1.0, 3.0]))
+    assert distance.tolist() == [4.0, 3.0, 1.0, -1.0, -4.0, np.inf]
+    assert across.tolist() == [3, 3, 3, 2, 2, -1]
+
+
+def test_boundary_distance_has_the_sign_of_the_side(result):
+    vertices, faces = shapes.tube_tree()
+    pairs, _ = _neighbours(vertices, faces)
+    center = vertices[faces].mean(axis=1)
+    inside = result.candidates == 1
+    length = np.linalg.norm(center[pairs[:, 0]] - center[pairs[:, 1]], axis=1)
+    distance, across = boundary_distance(inside, pairs, length)
+    assert ((distance < 0) == inside).all()
+    assert (inside[across] != inside).all()
+    # One step along the surface changes the distance by no more than its length.
+    same = inside[pairs[:, 0]] == inside[pairs[:, 1]]
+    assert (np.abs(np.diff(distance[pairs[same]], axis=1)[:, 0]) <= length[same] * (1 + 1e-9)).all()
 
 
 def _neighbours(vertices, faces):

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Notice that a decomposed mesh was edited, so that the panel can say so.
+
+A mesh is looked at once it has been left alone for a moment: while it is sculpted, nothing is computed.
+"""
+
+import time
+
+import bpy
+from bpy.app.handlers import persistent
+
+from . import bridge, store
+
+REST = 0.3  # seconds
+
+_waiting: set[int] = set()  # meshes by session_uid
+_last = 0.0
+
+
+def check(mesh):
+    """Set or take back the mark that a mesh differs from the one its result belongs to."""
+    result = mesh.reeb_parts
+    edited = bridge.fingerprint(mesh) != result.fingerprint
+    if result.edited != edited:
+        result.edited = edited
+
+
+@persistent
+def _changed(scene, depsgraph):
+    global _last
+    found = {
+        update.id.original.data.session_uid
+        for update in depsgraph.updates
+        if update.is_updated_geometry and isinstance(update.id, bpy.types.Object)
+        and update.id.type == "MESH" and store.has_result(update.id.original.data)
+    }
+    if not found:
+        return
+    _waiting.update(found)
+    _last = time.monotonic()
+    if not bpy.app.timers.is_registered(_look):
+        bpy.app.timers.register(_look, first_interval=REST)
+
+
+def _look():
+    rested = time.monotonic() - _last
+    if rested < REST:
+        return REST - rested
+    for mesh in bpy.data.meshes:
+        # In Edit Mode it is looked at when that is left.
+        if mesh.session_uid in _waiting and mesh.is_editable and not mesh.is_editmode and store.has_result(mesh):
+            check(mesh)
+    _waiting.clear()
+    return None
+
+
+def register():
+    bpy.app.handlers.depsgraph_update_post.append(_changed)
+
+
+def unregister():
+    bpy.app.handlers.depsgraph_update_post.remove(_changed)
+    if bpy.app.timers.is_registered(_look):
+        bpy.app.timers.unregister(_look)
+    _waiting.clear()
