@@ -6,12 +6,15 @@ from __future__ import annotations
 import numpy as np
 
 from .curvature import k_min
+from .cuts import move_cuts
+from .features import SCALES, curvature_across
 from .hierarchy import Hierarchy
 from .levelsets import LevelSets
 from .parameters import Parameters
 from .reeb import ReebStructure
 from .refine import search_boundaries
 from .regions import berretti_regions
+from .transfer import majority
 
 DECISION = 0.5  # the salience at which the paper's threshold cuts
 
@@ -42,8 +45,14 @@ def berretti_candidates(
     piece_part = kept[regions.piece_region]
     moved = search_boundaries(sets, structure, curvature, piece_part, parameters.alpha,
                               parameters.sigma)
-    candidate = _follow(sets, regions.piece_region, piece_part, moved)
-    return candidate[sets.element_piece], regions.hierarchy
+    candidate = _follow(sets, regions.piece_region, piece_part, moved)[sets.element_piece]
+    if parameters.follow_level_sets:
+        return candidate, regions.hierarchy
+    area = sets.element_area + 1e-12 * sets.mesh.area
+    label = majority(sets.element_face, candidate, area, sets.mesh.n_faces)
+    across = curvature_across(sets.mesh, SCALES[:1])[0]
+    label = move_cuts(sets.mesh, label, regions.hierarchy, across, parameters.alpha)
+    return label[sets.element_face], regions.hierarchy
 
 
 def _follow(sets, piece_region, piece_part, moved) -> np.ndarray:

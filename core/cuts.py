@@ -11,6 +11,7 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import breadth_first_order, dijkstra, maximum_flow
 
+from .hierarchy import Hierarchy
 from .mesh import TriMesh
 from .patches import pair_distance, pair_length
 
@@ -56,6 +57,44 @@ def refine_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, reach: f
         if on_cut.any():
             part = _cut_anew(mesh, part, first, second, on_cut, cost, ways, reach)
     return part
+
+
+def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature: np.ndarray,
+              reach: float, details: tuple[float, ...] = (0.5, 0.75)) -> np.ndarray:
+    """Candidates after the cuts of some levels of detail have moved into creases.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces, one connected component.
+    label : (m,) int64
+        Candidate of each face.
+    hierarchy : Hierarchy
+        Over the candidates.
+    curvature, reach
+        As ``refine_cuts`` takes them.
+    details : tuple of float
+        Rising; cuts that an earlier one has moved stay there.
+
+    Returns
+    -------
+    label : (m,) int64
+        Faces that changed part follow a neighbour in their new part, from the cut outwards.
+    """
+    a, b = np.concatenate([mesh.edges.pairs, mesh.edges.pairs[:, ::-1]]).T
+    coarser = None
+    for detail in details:
+        parts = hierarchy.parts(hierarchy.n_parts(detail))
+        part = parts[label]
+        moved = refine_cuts(mesh, curvature, part, reach, coarser)
+        label = np.where(moved == part, label, -1)
+        while True:
+            follows = (moved[a] == moved[b]) & (label[a] < 0) & (label[b] >= 0)
+            if not follows.any():
+                break
+            label[a[follows]] = label[b[follows]]
+        coarser = moved
+    return label
 
 
 def _cuts_by_length(part, a, b, length) -> np.ndarray:

@@ -11,12 +11,15 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
+from .levelsets import LevelSets, cut_at_levels, uniform_levels
 from .mesh import TriMesh, components, first_largest
+from .transfer import majority
 
 N_PATCHES = 220
 ROUNDS = 4  # a third of the seeds are spread by straight distance, the others in so many rounds
 TURN = 0.1  # one radian of convex turning is as far as this share of the square root of the area
 CONCAVE = 20.0  # how much more a concave turn costs
+SLABS = 24  # where patches are to follow level sets
 SMALLEST = 0.0004  # share of the area below which a patch joins a neighbour
 
 
@@ -47,6 +50,14 @@ def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
         widest = farthest[np.argsort(-distance[farthest], kind="stable")][:more]
         seeds = np.concatenate([seeds, np.setdiff1d(widest, seeds)])
     return absorb_small(mesh, _connected(mesh, cell), SMALLEST * mesh.area)
+
+
+def level_set_patches(sets: LevelSets) -> np.ndarray:
+    """Patches that end at level sets only: pieces of SLABS slabs, (m,) int64 as above."""
+    coarse = cut_at_levels(sets.mesh, sets.values, uniform_levels(SLABS))
+    area = coarse.element_area + 1e-12 * sets.mesh.area
+    piece = majority(coarse.element_face, coarse.element_piece, area, sets.mesh.n_faces)
+    return absorb_small(sets.mesh, _connected(sets.mesh, piece), SMALLEST * sets.mesh.area)
 
 
 def absorb_small(mesh: TriMesh, label: np.ndarray, least_area: float) -> np.ndarray:

@@ -6,20 +6,17 @@ from __future__ import annotations
 import numpy as np
 
 from .agd import ScalarField
-from .cuts import refine_cuts
+from .cuts import move_cuts
 from .features import BORDER, surface_measures
 from .hierarchy import Hierarchy
 from .levelsets import LevelSets
 from .merging import RegionGraph, merge_all_
-from .mesh import TriMesh
 from .parameters import Parameters
-from .patches import concave_patches
+from .patches import concave_patches, level_set_patches
 from .trees import cut_model
 
 # Share of people who must separate two regions for the cut to stay at detail 0.5.
 DECISION = 0.55
-# Levels of detail whose cuts are moved into creases, coarse to fine.
-REFINED = (0.5, 0.75)
 
 
 def perceptual_candidates(
@@ -42,15 +39,16 @@ def perceptual_candidates(
     hierarchy : Hierarchy
         Salience 0.5 is the decision learned from people.
     """
-    label = concave_patches(sets.mesh)
+    follow = parameters.follow_level_sets
+    label = level_set_patches(sets) if follow else concave_patches(sets.mesh)
     measures = surface_measures(sets, field)
     graph = RegionGraph(sets.mesh, measures, label)
     merges, share = merge_all_(graph, judge_cuts)
     hierarchy = Hierarchy.of(label.max() + 1, merges, salience_of(share))
-    length, curvature = measures.pair[:, [BORDER.length, BORDER.curvature.start]].T
-    curvature = np.divide(curvature, length, out=np.zeros_like(length), where=length > 0)
-    for detail in REFINED:
-        label = _move_cuts(sets.mesh, label, hierarchy, detail, curvature, parameters.alpha)
+    if not follow:
+        length, curvature = measures.pair[:, [BORDER.length, BORDER.curvature.start]].T
+        curvature = np.divide(curvature, length, out=np.zeros_like(length), where=length > 0)
+        label = move_cuts(sets.mesh, label, hierarchy, curvature, parameters.alpha)
     return label[sets.element_face], hierarchy
 
 
@@ -62,20 +60,3 @@ def judge_cuts(graph: RegionGraph, borders: np.ndarray) -> np.ndarray:
 def salience_of(share: np.ndarray) -> np.ndarray:
     """Stretch shares of people so that the decision falls on 0.5."""
     return np.interp(share, [0.0, DECISION, 1.0], [0.0, 0.5, 1.0])
-
-
-def _move_cuts(mesh: TriMesh, label, hierarchy, detail, curvature, reach) -> np.ndarray:
-    """Candidates after the cuts of one level of detail have moved into creases."""
-    part = hierarchy.parts(hierarchy.n_parts(detail))[label]
-    coarser = hierarchy.parts(hierarchy.n_parts(min(REFINED)))[label]
-    moved = refine_cuts(mesh, curvature, part, reach, coarser if detail > min(REFINED) else None)
-    # Faces that changed part follow a neighbour in their new part, from the cut outwards.
-    label = np.where(moved == part, label, -1)
-    a, b = np.concatenate([mesh.edges.pairs, mesh.edges.pairs[:, ::-1]]).T
-    together = moved[a] == moved[b]
-    a, b = a[together], b[together]
-    while True:
-        follows = (label[a] < 0) & (label[b] >= 0)
-        if not follows.any():
-            return label
-        label[a[follows]] = label[b[follows]]
