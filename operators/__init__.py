@@ -9,6 +9,7 @@ from . import (
     compute,
     decompose,
     edit,
+    export,
     handles,
     highlight,
     jobs,
@@ -17,6 +18,7 @@ from . import (
     separate,
     slide,
     store,
+    unwrap,
     watch,
 )
 
@@ -30,6 +32,8 @@ CLASSES = (
     *handles.CLASSES,
     *separate.CLASSES,
     *outputs.CLASSES,
+    *unwrap.CLASSES,
+    *export.CLASSES,
 )
 
 

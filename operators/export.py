@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts as files."""
+"""Parts as files, by Blender's own exporters."""
 
 import os
 import re
@@ -9,8 +9,11 @@ from pathlib import Path
 
 import bpy
 
-from . import separate, store
+from ..ui.use_properties import WhichProperties
+from . import bridge, parts, separate, store
+from .modes import object_mode
 from .problems import SceneError
+from .use import use_panel_settings, wanted
 
 EXPORTERS = {
     "obj": lambda path: bpy.ops.wm.obj_export(filepath=path, export_selected_objects=True),
@@ -96,3 +99,59 @@ def _export(obj, mesh, path, kind) -> Path:
 def _file_name(text: str) -> str:
     """The text without what a file system might not like."""
     return re.sub(r"[^\w .()+-]", "_", text).strip(" .") or "part"
+
+
+class REEB_PARTS_OT_export(bpy.types.Operator, WhichProperties):
+    """Write each part to a file of its own, in a folder; files of the same names are replaced"""
+
+    bl_idname = "reeb_parts.export"
+    bl_label = "Export Parts to Files"
+    bl_options = {"REGISTER"}
+
+    directory: bpy.props.StringProperty(
+        name="Folder", subtype="DIR_PATH", description="Where the files go; made if it is not there"
+    )
+    filter_folder: bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
+    format: bpy.props.EnumProperty(
+        name="Format", default="obj",
+        items=[("obj", "OBJ", "Wavefront, with materials"), ("ply", "PLY", "Stanford, with colours"),
+               ("stl", "STL", "For 3D printing"), ("glb", "glTF Binary", "With materials and textures")],
+        description="Kind of the files",
+    )
+    caps: bpy.props.BoolProperty(
+        name="Close holes", default=False,
+        description="Close the holes where parts were joined, so that each file holds a closed body",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return parts.has_parts(cls, context)
+
+    def invoke(self, context, event):
+        use_panel_settings(self, WhichProperties, context)
+        if not self.properties.is_property_set("caps"):
+            self.caps = context.scene.reeb_parts_use.caps
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context):
+        try:
+            if not self.directory:
+                raise SceneError("There is no folder to write to. Choose one and try again.")
+            folder = Path(bpy.path.abspath(self.directory))
+            objects = [obj for obj in bridge.targets(context) if store.has_result(obj.data)]
+            with object_mode(context):
+                folder.mkdir(parents=True, exist_ok=True)
+                paths = [path for obj in objects for path in
+                         export_parts(obj, folder, self.format, wanted(obj.data, self.which), self.caps)]
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        except (OSError, RuntimeError) as error:  # what Blender's exporters report arrives as RuntimeError
+            self.report({"ERROR"}, f"The parts could not be written: {str(error).strip()}")
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{len(paths)} files in {folder}")
+        return {"FINISHED"}
+
+
+CLASSES = (REEB_PARTS_OT_export,)

@@ -3,10 +3,9 @@
 
 import bpy
 import numpy as np
-from mathutils import Matrix
 
 from ..core.errors import ReebError
-from . import attributes, bridge, separate, store
+from . import attributes, bridge, separate
 from .parts import PartOperator
 from .problems import SceneError
 
