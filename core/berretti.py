@@ -13,7 +13,7 @@ from .levelsets import LevelSets
 from .parameters import Parameters
 from .reeb import ReebStructure
 from .refine import search_boundaries
-from .regions import berretti_regions
+from .regions import berretti_regions, rank_regions
 from .transfer import majority
 
 DECISION = 0.5  # the salience at which the paper's threshold cuts
@@ -45,7 +45,10 @@ def berretti_candidates(
     piece_part = kept[regions.piece_region]
     moved = search_boundaries(sets, structure, curvature, piece_part, parameters.alpha,
                               parameters.sigma)
-    candidate = _follow(sets, regions.piece_region, piece_part, moved)[sets.element_piece]
+    # A cut may leave little of a region: what is small is decided where the cuts have come to lie.
+    regions = rank_regions(sets, _follow(sets, regions.piece_region, piece_part, moved),
+                           parameters.small_region)
+    candidate = regions.piece_region[sets.element_piece]
     if parameters.follow_level_sets:
         return candidate, regions.hierarchy
     area = sets.element_area + 1e-12 * sets.mesh.area

@@ -27,6 +27,9 @@ from .working import MAX_EDGE, WorkingMesh, refine, repair
 # less than this many levels: ripples, not protrusions.
 MIN_LEAF_AREA = 0.0025
 MIN_LEAF_LEVELS = 1
+# Nor does it show leaves over which the AGD changes by less than this share of its maximum:
+# that is the error of the distances.
+MIN_LEAF_HEIGHT = 0.005
 # Below this share of its maximum, the variation of the AGD is the error of the distances.
 FLAT_FIELD = 0.03
 
@@ -179,7 +182,8 @@ def _decompose_component(working, mask, parameters, watch, begin, width) -> Comp
     with watch.stage("reeb graph", begin + 0.85 * width):
         levels = uniform_levels(parameters.levels) if field.values.any() else np.empty(0)
         sets = cut_at_levels(part.mesh, field.values, levels)
-        structure = simplify(sets, reeb_structure(sets), MIN_LEAF_AREA, MIN_LEAF_LEVELS)
+        structure = simplify(sets, reeb_structure(sets), MIN_LEAF_AREA, MIN_LEAF_LEVELS,
+                             _level_height(field, levels), MIN_LEAF_HEIGHT)
         graph = reeb_graph(sets, structure)
     with watch.stage("cuts", begin + width):
         if parameters.method == PERCEPTUAL:
@@ -205,6 +209,17 @@ def _field(mesh, agd, parameters) -> ScalarField:
         nothing = np.zeros(mesh.n_vertices)
         return ScalarField(nothing, nothing, field.agd)
     return field
+
+
+def _level_height(field: ScalarField, levels: np.ndarray) -> np.ndarray:
+    """(K,) how much of the AGD each level stands for, as a share of its maximum."""
+    if len(levels) == 0:
+        return np.empty(0)
+    order = np.argsort(field.values, kind="stable")
+    at = np.interp(np.append(levels, [0.0, 1.0]), field.values[order], field.agd[order])
+    *inner, low, high = at
+    ends = np.concatenate([[low], inner, [high]])
+    return (ends[2:] - ends[:-2]) / 2 / high
 
 
 def _assemble(given, working, component, large, results, parameters, seconds) -> Decomposition:

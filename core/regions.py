@@ -52,8 +52,16 @@ def berretti_regions(
     """
     count, region = fuse_intervals(sets, structure)
     count, region = fuse_equal_adjacency(sets, count, region)
-    merges, ratio = fuse_small(sets, count, region)
-    return Regions(region, count, Hierarchy.of(count, merges, ratio / (ratio + small_region)))
+    return rank_regions(sets, region, small_region)
+
+
+def rank_regions(sets: LevelSets, region: np.ndarray, small_region: float) -> Regions:
+    """The hierarchy of given regions, (P,) int64: small ones go first, as above."""
+    names, region = np.unique(region, return_inverse=True)
+    region = region.reshape(-1)
+    merges, ratio = fuse_small(sets, len(names), region)
+    salience = ratio / (ratio + small_region)
+    return Regions(region, len(names), Hierarchy.of(len(names), merges, salience))
 
 
 def fuse_intervals(sets: LevelSets, structure: ReebStructure) -> tuple[int, np.ndarray]:

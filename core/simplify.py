@@ -17,9 +17,14 @@ LOWER, UPPER = 0, 1
 
 
 def simplify(
-    sets: LevelSets, structure: ReebStructure, min_area: float, min_levels: int
+    sets: LevelSets,
+    structure: ReebStructure,
+    min_area: float,
+    min_levels: int,
+    level_height: np.ndarray | None = None,
+    min_height: float = 0.0,
 ) -> ReebStructure:
-    """Cancel leaf arcs that are small or short, smallest first.
+    """Cancel leaf arcs that are small, short or flat, smallest first.
 
     A leaf can go where its saddle keeps another arc on the same side: the pair (extremum,
     saddle) cancels, and a saddle left with one arc below and one above dissolves into an arc.
@@ -33,6 +38,11 @@ def simplify(
         Leaves of less area go; share of the surface, 0..1.
     min_levels : int
         Leaves that span fewer levels go.
+    level_height : (K,) float64, optional
+        What each level adds to the height of a leaf that crosses it. Equalised levels lie close
+        where the field hardly changes: a leaf of many levels may be flat all the same.
+    min_height : float
+        Leaves of less height go.
 
     Returns
     -------
@@ -44,7 +54,10 @@ def simplify(
     -----
     O(arcs log arcs) in Python, the rest whole arrays.
     """
-    work = _WorkGraph(sets, structure, min_area * sets.mesh.area, min_levels)
+    if level_height is None:
+        level_height = np.ones(len(sets.levels))
+    work = _WorkGraph(sets, structure, level_height)
+    work.min_area, work.min_levels, work.min_height = min_area * sets.mesh.area, min_levels, min_height
     work.cancel_leaves()
     return work.result()
 
@@ -52,14 +65,19 @@ def simplify(
 class _WorkGraph:
     """Nodes and arcs that can be removed; ids beyond the nodes' are arcs'."""
 
-    def __init__(self, sets, structure, min_area, min_levels):
-        self.structure, self.min_area, self.min_levels = structure, min_area, min_levels
+    min_area = min_height = 0.0
+    min_levels = 0
+
+    def __init__(self, sets, structure, level_height):
+        self.structure = structure
         n, q = structure.n_nodes, len(structure.arcs)
         owner = np.where(structure.piece_node >= 0, structure.piece_node, n + structure.piece_arc)
         self.piece_owner = owner
         self.area = np.bincount(owner, sets.piece_area, n + q).tolist()
         # An arc with one contour joins two slabs directly: it spans no whole slab.
-        self.span = (np.bincount(structure.contour_arc, minlength=q)).tolist()
+        self.span = np.bincount(structure.contour_arc, minlength=q).tolist()
+        height = level_height[sets.contour_level]
+        self.height = np.bincount(structure.contour_arc, height, q).tolist()
         self.arcs = structure.arcs.tolist()
         self.at_node = [(set(), set()) for _ in range(n)]  # arcs below, arcs above
         for arc, (lower, upper) in enumerate(self.arcs):
@@ -99,7 +117,8 @@ class _WorkGraph:
         if leaf < 0:
             return
         area = self._leaf_area(arc, leaf)
-        if area < self.min_area or self.span[arc] < self.min_levels:
+        short = self.span[arc] < self.min_levels or self.height[arc] < self.min_height
+        if area < self.min_area or short:
             heapq.heappush(self.heap, (area, arc))
 
     def _cancel(self, arc, leaf, node, side):
@@ -122,6 +141,7 @@ class _WorkGraph:
         lower, upper = self.arcs[below][0], self.arcs[above][1]
         self.area[n + below] += self.area[node] + self.area[n + above]
         self.span[below] += self.span[above]
+        self.height[below] += self.height[above]
         self.parent[node] = self.parent[n + above] = n + below
         self.arc_alias[self.arc_alias == above] = below
         self.arcs[below], self.arcs[above] = [lower, upper], None
