@@ -146,7 +146,7 @@ def _add_graph(graph, extent, collection, made):
 def _material(name, made, *, attribute=None, color=None):
     """A matt material of one colour or of a colour attribute."""
     material = bpy.data.materials.new(name)
-    material.use_nodes = True
+    _use_nodes(material)
     made.append(material)
     nodes, links = material.node_tree.nodes, material.node_tree.links
     shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
@@ -160,10 +160,16 @@ def _material(name, made, *, attribute=None, color=None):
     return material
 
 
+def _use_nodes(data):
+    """Give a material or a world its nodes; from Blender 5.0 it always has them."""
+    if bpy.app.version < (5, 0, 0):
+        data.use_nodes = True
+
+
 def _add_light(scene, view, made):
     """Even light from all sides and a soft sun, over the left shoulder of who looks."""
     world = bpy.data.worlds.new("sky")
-    world.use_nodes = True
+    _use_nodes(world)
     world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.75
     scene.world = world

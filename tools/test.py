@@ -36,8 +36,8 @@ SUITES = {
     "blender-4.5": (environments.BLENDER_45, "tests/blender"),
     "blender-5.2": (environments.BLENDER_52, "tests/blender"),
 }
-# Blender 4.2 as a module crashes while Python tears it down as soon as anything has registered a callback (a
-# command, a handler, an update function: each alone is enough). So it is left without being torn down.
+# Blender as a module may crash or wait for ever while it is torn down at the end of Python: 4.2 as soon as anything
+# has registered a callback (a command, a handler, an update function), 4.5 in a thread of its own. So it is left.
 PYTEST_AND_LEAVE = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
 
 

@@ -55,7 +55,7 @@ def test_one_file_for_each_part(run):
     assert len(list((folder / "parts").glob("*.obj"))) == len(report["parts"]) > 1
 
 
-def test_the_picture_shows_the_colours_of_the_parts(run):
+def test_the_picture_is_a_png_of_the_default_size(run):
     _, folder = run
     png = (folder / "spot.png").read_bytes()
     assert png.startswith(b"\x89PNG\r\n\x1a\n")

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The manifest agrees with the code, the build and the changelog."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from core import VERSION
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def manifest():
+    return tomllib.loads((ROOT / "blender_manifest.toml").read_text(encoding="utf-8"))
+
+
+def wheel_fields(wheel):
+    """Name, version, Python, ABI and platforms of a wheel."""
+    return Path(wheel).name.removesuffix(".whl").split("-")
+
+
+def test_version_is_the_one_of_the_code_and_has_an_entry_in_the_changelog(manifest):
+    assert manifest["version"] == VERSION
+    entries = re.findall(r"^## (\S+)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert entries[0] == VERSION
+
+
+def test_the_build_knows_the_digest_of_every_wheel_and_of_no_other(manifest):
+    lines = (ROOT / "tools" / "wheels.sha256").read_text(encoding="ascii").splitlines()
+    assert sorted(line.split()[1] for line in lines) == sorted(Path(wheel).name for wheel in manifest["wheels"])
+
+
+def test_scipy_alone_is_bundled(manifest):
+    # A wheel of NumPy would replace the one that Blender and every other extension use.
+    assert {wheel_fields(wheel)[0] for wheel in manifest["wheels"]} == {"scipy"}
+
+
+@pytest.mark.parametrize("python", ["cp311", "cp313"])
+def test_every_platform_has_one_wheel_for_every_official_blender(manifest, python):
+    platforms = [wheel_fields(wheel)[4] for wheel in manifest["wheels"] if wheel_fields(wheel)[2] == python]
+    assert sorted(platforms) == [
+        "macosx_10_13_x86_64", "macosx_12_0_arm64", "manylinux_2_17_x86_64.manylinux2014_x86_64", "win_amd64",
+    ]  # fmt: skip
+    assert len(platforms) == len(manifest["platforms"])
+
+
+def test_official_blenders_share_one_scipy(manifest):
+    # The one release that works with the NumPy of Blender 4.2 (1.24) and of 5.2 (2.3).
+    assert {wheel_fields(wheel)[1] for wheel in manifest["wheels"] if "cp314" not in wheel} == {"1.15.3"}
