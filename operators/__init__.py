@@ -4,6 +4,7 @@
 import bpy
 
 from . import (
+    armature,
     bridge,
     clear,
     compute,
@@ -34,6 +35,7 @@ CLASSES = (
     *outputs.CLASSES,
     *unwrap.CLASSES,
     *export.CLASSES,
+    *armature.CLASSES,
 )
 
 

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import attributes, bridge, explode, live, overlay, store, unwrap, view
+from . import armature, attributes, bridge, explode, live, overlay, store, unwrap, view
 from .modes import object_mode
 from .problems import SceneError
 
@@ -12,6 +12,7 @@ def clear(obj):
     """Remove parts, graph and stored result of an object; Object Mode."""
     for user in live.users(obj.data):
         explode.remove(user)
+        armature.remove_modifier(user)
     unwrap.remove(obj.data)
     attributes.remove_outputs(obj)
     overlay.remove(obj)

@@ -210,7 +210,7 @@ def separate(context, obj, stored, numbers, style):
     """
     kept = _remove_earlier(obj, numbers)
     meshes, left_open = part_meshes(obj.data, stored.shown_parts().face_numbers, numbers, style.caps)
-    collection = _make_collection(context, obj)
+    collection = make_collection(context, obj)
     colors = {part.number: part.color[:] for part in obj.data.reeb_parts.parts}
     made = []
     for number, mesh in meshes.items():
@@ -224,7 +224,8 @@ def separate(context, obj, stored, numbers, style):
     return made, left_open, kept
 
 
-def _make_collection(context, obj):
+def make_collection(context, obj):
+    """The collection with what is made from an object's parts; made if it is not there."""
     collection = collection_of(obj)
     if collection is None:
         collection = bpy.data.collections.new(f"Parts of {obj.name}")

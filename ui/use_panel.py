@@ -40,6 +40,7 @@ class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
             row.operator(f"reeb_parts.{name}", text=text, depress=there).remove = there
         self.layout.operator("reeb_parts.unwrap", icon="UV")
         self.layout.operator("reeb_parts.export", text="Export to Files...", icon="EXPORT")
+        self.layout.operator("reeb_parts.armature", text="Make Armature", icon="ARMATURE_DATA")
 
 
 class REEB_PARTS_PT_piece(ReebPanel, bpy.types.Panel):

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A bone for each part, from where it is joined to the body along its centre line to its end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
+
+# A bone shorter than this share of the mesh's extent would have no direction to speak of.
+_SHORTEST = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class Bones:
+    """Bone i is that of part i.
+
+    Attributes
+    ----------
+    head, tail : (count, 3) float64
+    parent : (count,) int64
+        -1 for the body, and for the first of every loose piece.
+    connected : (count,) bool
+        Whether the bone starts where its parent's ends.
+    """
+
+    head: np.ndarray
+    tail: np.ndarray
+    parent: np.ndarray
+    connected: np.ndarray
+
+
+def part_bones(
+    labels: np.ndarray, area: np.ndarray, center: np.ndarray, height: np.ndarray,
+    cut_parts: np.ndarray, cut_center: np.ndarray, cut_length: np.ndarray,
+    points: np.ndarray, point_part: np.ndarray,
+) -> Bones:  # fmt: skip
+    """Bones of parts that hang together at their cuts.
+
+    Parameters
+    ----------
+    labels : (p,) int64
+        Part of each face, 0..count-1, all in use.
+    area, height : (p,) float64
+        Of each face, its area and its value of the field: the body is lowest.
+    center : (p, 3) float64
+    cut_parts : (e, 2) int64
+        The parts on both sides of each edge on a cut, the smaller first.
+    cut_center : (e, 3) float64
+    cut_length : (e,) float64
+    points : (r, 3) float64
+        On the centre lines.
+    point_part : (r,) int64
+
+    Returns
+    -------
+    bones : Bones
+    """
+    count = int(labels.max()) + 1
+    weight = np.maximum(area, 1e-12 * max(area.sum(), 1e-300))
+    share = np.bincount(labels, weight, count)
+    middle = np.stack([np.bincount(labels, weight * axis, count) for axis in center.T], axis=1) / share[:, None]
+    pairs, joint, length = _joints(cut_parts, cut_center, cut_length)
+    parent, order = _tree(count, pairs, length, np.bincount(labels, weight * height, count) / share)
+    at = {(a, b): place for (a, b), place in zip(pairs.tolist(), joint, strict=True)}
+    head = middle.copy()
+    for part in order:
+        if parent[part] >= 0:
+            head[part] = at[min(part, parent[part]), max(part, parent[part])]
+    tail = head.copy()
+    connected = np.zeros(count, bool)
+    shortest = _SHORTEST * float(np.linalg.norm(np.ptp(center, axis=0)))
+    for part in order:
+        children = np.flatnonzero(parent == part)
+        tail[part] = _end(head[part], head[children], points[point_part == part], middle[part], parent[part] < 0)
+        if np.linalg.norm(tail[part] - head[part]) < shortest:
+            tail[part] = head[part] + (0.0, 0.0, max(shortest, 1e-6))
+        elif len(children) == 1:
+            connected[children] = True
+    return Bones(head, tail, parent, connected)
+
+
+def _joints(cut_parts, cut_center, cut_length):
+    """The pairs of parts that touch, the middle of what they have in common, and its length."""
+    pairs, which = np.unique(cut_parts, axis=0, return_inverse=True)
+    which = which.reshape(-1)
+    weight = np.maximum(cut_length, 1e-300)
+    length = np.bincount(which, weight, len(pairs))
+    joint = np.stack([np.bincount(which, weight * axis, len(pairs)) for axis in cut_center.T], axis=1)
+    return pairs, joint / np.maximum(length, 1e-300)[:, None], length
+
+
+def _tree(count, pairs, length, height):
+    """Each part's parent, by the longest cuts, from the lowest part of each piece; and parts before children."""
+    rate = (2.0 * length.max(initial=1.0)) / np.maximum(length, 1e-300)
+    graph = coo_matrix((rate, pairs.T), (count, count)).tocsr()
+    kept = minimum_spanning_tree(graph)
+    _, piece = connected_components(kept, directed=False)
+    parent = np.full(count, -1)
+    order = []
+    for index in range(piece.max() + 1):
+        members = np.flatnonzero(piece == index)
+        root = members[np.argmin(height[members])]
+        reached, before = breadth_first_order(kept, root, directed=False)
+        order += reached.tolist()
+        parent[reached[1:]] = before[reached[1:]]
+    return parent, order
+
+
+def _end(head, children, line, middle, is_root):
+    """Where a bone ends: at its only child, amid several, or at the far end of its centre line."""
+    if len(children) == 1:
+        return children[0]
+    if len(children) and not is_root:
+        return children.mean(axis=0)
+    far = children if len(children) else line
+    if not len(far):
+        return 2 * middle - head
+    return far[np.argmax(np.linalg.norm(far - head, axis=1))]

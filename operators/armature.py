@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An armature with a bone for each part, as a start for a rig; the parts' vertex groups are its weights."""
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+from . import attributes, bridge, live, separate, store
+from .parts import PartOperator
+
+NAME = "Reeb Parts Armature"
+ROLE = "reeb_parts_role"  # on the armature, "armature"
+MADE = "reeb_parts_looks"  # on the armature: what it was like when it was made
+
+
+def remove_modifier(obj):
+    """Take our modifier off an object; the armature stays."""
+    modifier = obj.modifiers.get(NAME)
+    if modifier is not None and modifier.type == "ARMATURE":
+        obj.modifiers.remove(modifier)
+
+
+def make(context, obj, stored, deform):
+    """Make an armature in place of an earlier one that nobody has worked on; Object Mode.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    stored : store.Stored
+    deform : bool
+        Give the object a modifier, so that the bones move it.
+
+    Returns
+    -------
+    rig : bpy.types.Object
+    """
+    numbered = stored.shown_parts()
+    place, bones = _bones(obj, stored.decomposition, numbered)
+    names = [store.part_name(obj.data, number) for number in numbered.numbers.tolist()]
+    _write_groups(obj, numbered)
+    collection = separate.make_collection(context, obj)
+    _remove_earlier(collection)
+    data = bpy.data.armatures.new(f"{NAME} {obj.name}")
+    rig = bpy.data.objects.new(data.name, data)
+    rig.matrix_world = place
+    rig.show_in_front = True
+    rig[ROLE] = "armature"
+    collection.objects.link(rig)
+    _add_bones(context, rig, bones, [part.group for part in obj.data.reeb_parts.parts] or names)
+    rig[MADE] = _looks(rig)
+    remove_modifier(obj)
+    if deform:
+        modifier = obj.modifiers.new(NAME, "ARMATURE")
+        modifier.object = rig
+    return rig
+
+
+def _bones(obj, decomposition, numbered):
+    """Where the armature is in the world, and the bones in its coordinates."""
+    from ..core.bones import part_bones  # imports SciPy
+
+    mesh, parts = obj.data, numbered.parts
+    world = obj.matrix_world
+    place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
+    turn = np.array(place.inverted() @ world, np.float64)
+    points = bridge.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3]
+    stretch = np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+    line = decomposition.graph.point_position @ np.linalg.pinv(stretch).T @ turn[:3, :3].T + turn[:3, 3]
+    nodes = decomposition.graph.node_position @ np.linalg.pinv(stretch).T @ turn[:3, :3].T + turn[:3, 3]
+    vertex, face = bridge.face_corners(mesh)
+    corners = np.bincount(face, minlength=len(mesh.polygons))
+    center = _sums(face, points[vertex], len(corners)) / corners[:, None]
+    height = np.bincount(face, np.nan_to_num(decomposition.field)[vertex], len(corners)) / corners
+    edges, sides = _cut_edges(mesh, parts.labels)
+    ends = points[edges]
+    bones = part_bones(
+        parts.labels, bridge.face_graph(obj)[0], center, height,
+        sides, ends.mean(axis=1), np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1),
+        np.concatenate([line, nodes]), np.concatenate([parts.point_part, parts.node_part]),
+    )  # fmt: skip
+    return place, bones
+
+
+def _sums(index, values, count):
+    return np.stack([np.bincount(index, axis, count) for axis in values.T], axis=1)
+
+
+def _cut_edges(mesh, labels):
+    """Vertices of the edges on cuts, (e, 2), and the parts on their sides, (e, 2)."""
+    edge, (_, face) = bridge.corner_edges(mesh), bridge.face_corners(mesh)
+    low, high = np.full(len(mesh.edges), len(labels)), np.full(len(mesh.edges), -1)
+    np.minimum.at(low, edge, labels[face])
+    np.maximum.at(high, edge, labels[face])
+    cut = low < high
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    return ends.reshape(-1, 2)[cut], np.stack([low, high], axis=1)[cut]
+
+
+def _write_groups(obj, numbered):
+    """The bones find their vertices by the names of groups: make these unless they are there."""
+    result = obj.data.reeb_parts
+    if not result.has_groups:
+        result.has_groups = True
+        with store.quiet():
+            attributes.update_outputs(live.users(obj.data)[0], numbered)
+
+
+def _remove_earlier(collection):
+    for rig in list(collection.objects):
+        if rig.get(ROLE) != "armature":
+            continue
+        if not rig.children and _looks(rig) == rig.get(MADE):
+            data = rig.data
+            bpy.data.objects.remove(rig)
+            if data.users == 0:
+                bpy.data.armatures.remove(data)
+        else:
+            del rig[ROLE], rig[MADE]
+
+
+def _add_bones(context, rig, bones, names):
+    """Write the bones, in the Edit Mode that they can only be written in."""
+    layer = context.view_layer
+    active, selected = layer.objects.active, list(layer.objects.selected)
+    for other in selected:
+        other.select_set(False)
+    layer.objects.active = rig
+    with context.temp_override(active_object=rig, object=rig):
+        bpy.ops.object.mode_set(mode="EDIT")
+        made = [rig.data.edit_bones.new(name) for name in names]
+        for index, bone in enumerate(made):
+            bone.head, bone.tail = Vector(bones.head[index]), Vector(bones.tail[index])
+        for index, bone in enumerate(made):
+            if bones.parent[index] >= 0:
+                bone.parent = made[bones.parent[index]]
+                bone.use_connect = bool(bones.connected[index])
+        bpy.ops.object.mode_set(mode="OBJECT")
+    for other in selected:
+        other.select_set(True)
+    layer.objects.active = active
+
+
+def _looks(rig) -> str:
+    """Differs once somebody has worked on the armature."""
+    bones = [(bone.name, bone.parent.name if bone.parent else "",
+              [round(x, 5) for x in (*bone.head_local, *bone.tail_local)]) for bone in rig.data.bones]
+    place = [round(value, 5) for row in rig.matrix_basis for value in row]
+    animated = rig.animation_data is not None
+    posed = [bone.name for bone in rig.pose.bones if len(bone.constraints) or bone.matrix_basis != Matrix()] \
+        if rig.pose else []
+    return str([rig.name, place, animated, posed, bones])
+
+
+class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
+    """Make an armature with a bone for each part, along the part's centre line, as a start for a rig"""
+
+    bl_idname = "reeb_parts.armature"
+    bl_label = "Make Armature from Parts"
+
+    deform: bpy.props.BoolProperty(
+        name="Move the mesh", default=False,
+        description="Add an Armature modifier, so that posing the bones moves the parts",
+    )
+
+    def work(self, context, obj, stored):
+        rig = make(context, obj, stored, self.deform)
+        return f"{rig.name} has {len(rig.data.bones)} bones"
+
+
+CLASSES = (REEB_PARTS_OT_armature,)
