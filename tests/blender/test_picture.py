@@ -6,7 +6,6 @@ from importlib import import_module
 import bpy
 import numpy as np
 import pytest
-
 from snapshot import snapshot
 
 SIZE = (160, 96)
