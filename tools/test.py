@@ -53,7 +53,9 @@ class Outcome:
 
 def main() -> None:
     """Run the chosen suites, then print one line each and the sum."""
-    ours, _, for_pytest = _split(sys.argv[1:])
+    words = sys.argv[1:]
+    cut = words.index("--") if "--" in words else len(words)
+    ours, for_pytest = words[:cut], words[cut + 1 :]
     parser = argparse.ArgumentParser(
         prog="./test", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -78,12 +80,6 @@ def main() -> None:
         if arguments.blender:
             outcomes += _full_blender(arguments.blender, arguments.gui, Path(scratch))
     _summary(outcomes)
-
-
-def _split(words: list[str]) -> tuple[list[str], str, list[str]]:
-    """The words before and after the first "--"."""
-    cut = words.index("--") if "--" in words else len(words)
-    return words[:cut], "--", words[cut + 1 :]
 
 
 def _lint() -> Outcome:
