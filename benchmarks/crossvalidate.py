@@ -24,24 +24,29 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from people import Subject, rand_index_error
-from train import N_MODELS, by_category, fit_many, folds_of, learn, read_subjects
+from train import N_MODELS, add_variants, by_category, fit_many, folds_of, learn, read_subjects
 
 from core import perceptual
 from core.pipeline import decompose
 from core.trees import Trees
 
 
-def models_by_fold(subjects: dict[int, Subject], kind: str, rounds: int) -> dict[int, Trees]:
+def models_by_fold(subjects: dict[int, Subject], variants: dict[int, Subject], kind: str,
+                   rounds: int) -> dict[int, Trees]:
     """A model for each mesh, trained without the fold it is in."""
     fold = folds_of(list(subjects), kind)
     models = {}
     if kind == "half":
         for half in (0, 1):
             seen = {n: s for n, s in subjects.items() if fold[n] != half}
-            runs = learn(seen, folds_of(list(seen), kind), rounds)
+            fold_inside = folds_of(list(seen), kind)
+            runs = learn(seen, fold_inside, rounds)
+            add_variants(runs, {n: variants[n] for n in seen}, fold_inside)
             models[half] = fit_many([r for of_mesh in runs.values() for r in of_mesh], N_MODELS)
     else:
-        runs = learn(subjects, folds_of(list(subjects), "groups"), rounds)
+        groups = folds_of(list(subjects), "groups")
+        runs = learn(subjects, groups, rounds)
+        add_variants(runs, variants, groups)
         for left_out in sorted(set(fold.values())):
             seen = [r for n in subjects if fold[n] != left_out for r in runs[n]]
             models[left_out] = fit_many(seen, N_MODELS)
@@ -56,9 +61,10 @@ def main():
     parser.add_argument("--out", type=Path, required=True)
     options = parser.parse_args()
     subjects = read_subjects(options.meshes)
+    variants = read_subjects(options.meshes, changed=True)
     options.out.mkdir(parents=True, exist_ok=True)
     errors, parts = {}, {}
-    for number, model in models_by_fold(subjects, options.kind, options.rounds).items():
+    for number, model in models_by_fold(subjects, variants, options.kind, options.rounds).items():
         with np.load(options.meshes / f"{number}.npz") as stored:
             vertices, faces, human = (stored[k] for k in ("vertices", "faces", "human"))
         perceptual.cut_model = lambda model=model: model  # the stages take it from here

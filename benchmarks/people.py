@@ -68,6 +68,33 @@ class Subject:
         return self.votes.sum() / self.n_people
 
 
+def varied(vertices: np.ndarray, faces: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Vertices of a mesh changed so that people's parts stay where they are.
+
+    Stretched by up to a fifth along three random axes; one in three noisy along the normals, one in
+    three smoothed.
+    """
+    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    vertices = (vertices @ axes) * np.exp(rng.uniform(-0.2, 0.2, 3)) @ axes.T
+    mesh = TriMesh(vertices, faces)
+    kind = rng.integers(3)
+    if kind == 1:
+        normal = np.stack([np.bincount(mesh.faces.ravel(), np.repeat(c, 3), mesh.n_vertices)
+                           for c in mesh.area_normals.T], axis=1)
+        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
+        step = np.median(mesh.edge_length) * rng.uniform(0.03, 0.15)
+        return vertices + step * rng.normal(size=(mesh.n_vertices, 1)) * normal
+    if kind == 2:
+        a, b = mesh.edges.vertices.T
+        degree = np.bincount(mesh.edges.vertices.ravel(), minlength=mesh.n_vertices)
+        for _ in range(rng.integers(2, 11)):
+            around = [np.bincount(a, c[b], mesh.n_vertices) + np.bincount(b, c[a], mesh.n_vertices)
+                      for c in vertices.T]
+            mean = np.stack(around, axis=1) / np.maximum(degree, 1)[:, None]
+            vertices = (vertices + mean) / 2
+    return vertices
+
+
 def prepare(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray,
             n_patches: int | None = None) -> Subject:
     """Everything that does not depend on the model."""

@@ -25,7 +25,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import lightgbm
-from people import Run, Subject, category_of, merge_and_record, mesh_numbers, prepare
+from people import Run, Subject, category_of, merge_and_record, mesh_numbers, prepare, varied
 
 from core.features import FEATURES
 from core.trees import Trees
@@ -33,7 +33,7 @@ from core.trees import Trees
 N_TREES = 250
 SETTINGS = {
     "objective": "cross_entropy", "learning_rate": 0.06, "num_leaves": 16, "min_data_in_leaf": 100,
-    "feature_fraction": 0.4, "bagging_fraction": 0.5, "bagging_freq": 1, "max_bin": 63,
+    "feature_fraction": 0.3, "bagging_fraction": 0.4, "bagging_freq": 1, "max_bin": 63,
     "lambda_l2": 5.0, "verbose": -1, "num_threads": 1, "deterministic": True, "force_row_wise": True,
     "seed": 1,
 }
@@ -59,7 +59,7 @@ def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES) -> Trees:
     rows, share = (np.concatenate([getattr(r, name) for r in runs]) for name in ("rows", "share"))
     weight = np.concatenate(weight)
     weight *= len(weight) / weight.sum()
-    kept = weight > 0.1  # the others are a third of the rows and one per cent of the weight
+    kept = weight > 0.2  # the others are half of the rows and four per cent of the weight
     data = lightgbm.Dataset(rows[kept], np.clip(share[kept], 0, 1), weight=weight[kept])
     return trees_of(lightgbm.train(SETTINGS | {"seed": seed}, data, n_trees))
 
@@ -102,14 +102,21 @@ def _add_nodes(trees: Trees, tree: int, node: dict, leaf: int, inner: int) -> tu
     return _add_nodes(trees, tree, node["right_child"], middle, free)
 
 
-def learn(subjects: dict[int, Subject], fold: dict[int, int], rounds: int, tell=print):
+def fit_folds(runs: dict[int, list[Run]], fold: dict[int, int], seed: int) -> dict[int, Trees]:
+    """A model for each fold, from the meshes of all others."""
+    return {left_out: fit([r for n in runs if fold[n] != left_out for r in runs[n]], seed)
+            for left_out in sorted(set(fold.values()))}
+
+
+def learn(subjects: dict[int, Subject], fold: dict[int, int], rounds: int,
+          tell=print) -> dict[int, list[Run]]:
     """States for training, met by models that did not know the mesh.
 
     Parameters
     ----------
     subjects : dict of Subject by mesh number
     fold : dict of int by mesh number
-        Meshes of one fold are not trained on together with it.
+        Meshes of one fold are not trained on together.
     rounds : int
     tell : callable
 
@@ -120,15 +127,20 @@ def learn(subjects: dict[int, Subject], fold: dict[int, int], rounds: int, tell=
     """
     runs = {n: [merge_and_record(s)] for n, s in subjects.items()}
     for number in range(rounds):
-        start, models = time.perf_counter(), {}
-        for left_out in sorted(set(fold.values())):
-            seen = [r for n in subjects if fold[n] != left_out for r in runs[n]]
-            models[left_out] = fit(seen, seed=number + 1)
+        start = time.perf_counter()
+        models = fit_folds(runs, fold, seed=number + 1)
         for n, subject in subjects.items():
             runs[n].append(merge_and_record(subject, models[fold[n]].predict))
         last = {n: r[-1] for n, r in runs.items()}
         tell(f"round {number}: {summary(last, subjects)}, {time.perf_counter() - start:.0f} s")
     return runs
+
+
+def add_variants(runs: dict[int, list[Run]], variants: dict[int, Subject], fold: dict[int, int]):
+    """Add the states of changed copies of the meshes, by people's help and by models."""
+    models = fit_folds(runs, fold, seed=50)
+    for n, variant in variants.items():
+        runs[n] += [merge_and_record(variant), merge_and_record(variant, models[fold[n]].predict)]
 
 
 DECISIONS = (0.4, 0.45, 0.5, 0.55, 0.6)
@@ -166,13 +178,15 @@ def folds_of(numbers: list[int], kind: str) -> dict[int, int]:
     return place if kind == "category" else {n: p % N_FOLDS for n, p in place.items()}
 
 
-def read_subjects(folder: Path, tell=print) -> dict[int, Subject]:
-    """Measure every mesh of the benchmark."""
+def read_subjects(folder: Path, changed: bool = False, tell=print) -> dict[int, Subject]:
+    """Measure every mesh of the benchmark, as it is or changed by ``varied``."""
     subjects, start = {}, time.perf_counter()
     for number in mesh_numbers(folder):
         with np.load(folder / f"{number}.npz") as stored:
-            subjects[number] = prepare(stored["vertices"].astype(float), stored["faces"],
-                                       stored["human"])
+            vertices, faces, human = (stored[k] for k in ("vertices", "faces", "human"))
+        if changed:
+            vertices = varied(vertices.astype(float), faces, np.random.default_rng(number))
+        subjects[number] = prepare(vertices, faces, human)
     count = np.mean([s.label.max() + 1 for s in subjects.values()])
     tell(f"{len(subjects)} meshes of {len({category_of(n) for n in subjects})} categories, "
          f"{count:.0f} candidates each, {time.perf_counter() - start:.0f} s")
@@ -184,10 +198,13 @@ def main():
     parser.add_argument("meshes", type=Path)
     parser.add_argument("--out", type=Path,
                         default=Path(__file__).resolve().parents[1] / "core" / "data" / "cuts.npz")
-    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--rounds", type=int, default=2)
     options = parser.parse_args()
     subjects = read_subjects(options.meshes)
-    runs = learn(subjects, folds_of(list(subjects), "half"), options.rounds)
+    variants = read_subjects(options.meshes, changed=True)
+    fold = folds_of(list(subjects), "groups")
+    runs = learn(subjects, fold, options.rounds)
+    add_variants(runs, variants, fold)
     model = fit_many([r for of_mesh in runs.values() for r in of_mesh], N_MODELS)
     model.write(options.out)
     print(f"{options.out}: {len(model.leaf)} trees on {len(FEATURES)} features of "

@@ -13,7 +13,6 @@ from scipy.sparse.csgraph import breadth_first_order, dijkstra, maximum_flow
 
 from .hierarchy import Hierarchy
 from .mesh import TriMesh
-from .patches import pair_distance, pair_length
 
 WIDEST = 0.05  # half the width of the band, at most, over the square root of the area
 CREASE = 12.0  # curvature, times the square root of the area, that changes the cost by e
@@ -46,10 +45,10 @@ def refine_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, reach: f
     if reach <= 0:
         return part
     a, b = mesh.edges.pairs.T
-    length = pair_length(mesh)
+    length = mesh.pair_length
     cost = length * np.clip(np.exp(curvature / CREASE), CHEAPEST, DEAREST)
     both = (np.concatenate([a, b]), np.concatenate([b, a]))
-    way = np.maximum(pair_distance(mesh), 1e-9 * np.sqrt(mesh.area))
+    way = np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
     ways = coo_array((np.tile(way, 2), both), shape=(mesh.n_faces,) * 2).tocsr()
     free = np.ones(len(a), bool) if within is None else within[a] == within[b]
     for first, second in _cuts_by_length(part, a[free], b[free], length[free]):
@@ -111,7 +110,7 @@ def _cut_anew(mesh, part, first, second, on_cut, cost, ways, reach) -> np.ndarra
     """One minimum cut between two parts, in a band around their border."""
     a, b = mesh.edges.pairs.T
     unit = np.sqrt(mesh.area)
-    border = pair_length(mesh)[on_cut].sum()
+    border = mesh.pair_length[on_cut].sum()
     half = min(reach * border / (2 * np.pi), WIDEST * unit)
     sources = np.unique(mesh.edges.pairs[on_cut])
     distance = dijkstra(ways, directed=True, indices=sources, min_only=True, limit=half)

@@ -17,11 +17,11 @@ from scipy.sparse import coo_array, diags_array
 from .agd import ScalarField, equalise
 from .levelsets import LevelSets
 from .mesh import TriMesh
-from .patches import pair_distance, pair_length
 from .thickness import LARGEST, thickness
 
 SCALES = (0.01, 0.02, 0.04)  # widths over which normals are smoothed
 MAX_CURVATURE = 60.0  # one over the radius; sharper is as sharp
+SOLVER_STEPS = 60
 MAX_CONDUCTANCE = 20.0  # edge length over the way across; an equilateral pair has 1.7
 CREASE = -3.0  # below this curvature a cut counts as creased
 THICKNESS_BINS = 8
@@ -98,7 +98,7 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
         *(curvature < CREASE), np.minimum(mesh.dihedral, 0.0),
         *((x[a] + x[b]) / 2 for x in (level, agd, inside, outside, contour)),
         middle, (middle**2).sum(axis=1),
-    ]) * (pair_length(mesh) / unit)[:, None]
+    ]) * (mesh.pair_length / unit)[:, None]
     return SurfaceMeasures(face, pair, level, agd)
 
 
@@ -121,9 +121,9 @@ def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.nd
     way = mesh.face_centroids[b] - mesh.face_centroids[a]
     square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-12 * mesh.area)
     exchange = _exchange(mesh)
-    curvature = []
+    normal, curvature = mesh.face_normals, []
     for scale in scales:
-        normal = _diffuse(mesh, exchange, (scale * unit) ** 2)
+        normal = _diffuse(mesh, exchange, (scale * unit) ** 2, normal)
         change = np.einsum("ij,ij->i", normal[b] - normal[a], way) / square * unit
         curvature.append(np.clip(change, -MAX_CURVATURE, MAX_CURVATURE))
     return np.array(curvature)
@@ -132,33 +132,34 @@ def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.nd
 def _exchange(mesh: TriMesh):
     """Symmetric (m, m) conductances between faces: edge length over way."""
     a, b = mesh.edges.pairs.T
-    flow = pair_length(mesh) / np.maximum(pair_distance(mesh), 1e-9 * np.sqrt(mesh.area))
+    flow = mesh.pair_length / np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
     # A sliver exchanges with its neighbours in no time; bounded, or the solver would stall.
     flow = np.minimum(flow, MAX_CONDUCTANCE)
     both = (np.concatenate([a, b]), np.concatenate([b, a]))
     return coo_array((np.concatenate([flow, flow]), both), shape=(mesh.n_faces,) * 2).tocsr()
 
 
-def _diffuse(mesh: TriMesh, exchange, time: float, steps: int = 40) -> np.ndarray:
+def _diffuse(mesh: TriMesh, exchange, time: float, guess: np.ndarray) -> np.ndarray:
     """Unit normals after one implicit step of heat flow from face to face."""
     mass = mesh.face_area + 1e-9 * mesh.area / mesh.n_faces
     diagonal = mass + time * exchange.sum(axis=1)
     system = diags_array(diagonal).tocsr() - time * exchange
-    x = mesh.face_normals
-    residual = mass[:, None] * x - system @ x
-    goal = 1e-3 * np.linalg.norm(mass[:, None] * x)
+    start, x = mass[:, None] * mesh.face_normals, guess
+    residual = start - system @ x
+    goal = 2e-3 * np.linalg.norm(start)
     step = gradient = residual / diagonal[:, None]
-    power = np.einsum("ij,ij->j", residual, gradient)
-    for _ in range(steps):  # conjugate gradients, three right sides at once
+    power = np.vdot(residual, gradient)
+    # Conjugate gradients; the three coordinates as one unknown, so that turning changes nothing.
+    for _ in range(SOLVER_STEPS):
         if np.linalg.norm(residual) <= goal:
             break
         image = system @ step
-        length = power / np.maximum(np.einsum("ij,ij->j", step, image), 1e-300)
+        length = power / max(np.vdot(step, image), 1e-300)
         x = x + length * step
         residual = residual - length * image
         gradient = residual / diagonal[:, None]
-        last, power = power, np.einsum("ij,ij->j", residual, gradient)
-        step = gradient + step * (power / np.maximum(last, 1e-300))
+        last, power = power, np.vdot(residual, gradient)
+        step = gradient + step * (power / max(last, 1e-300))
     return x / np.maximum(np.linalg.norm(x, axis=1, keepdims=True), 1e-300)
 
 

@@ -133,6 +133,19 @@ class TriMesh:
         return np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1)
 
     @cached_property
+    def pair_length(self) -> np.ndarray:
+        """(pairs,) float64, length of the edge between each pair of faces."""
+        return self.edge_length[self.edges.pair_edge]
+
+    @cached_property
+    def pair_distance(self) -> np.ndarray:
+        """(pairs,) float64, way from face to face over the middle of their edge."""
+        a, b = self.edges.vertices[self.edges.pair_edge].T
+        middle = (self.vertices[a] + self.vertices[b]) / 2
+        left, right = (self.face_centroids[face] - middle for face in self.edges.pairs.T)
+        return np.sqrt(np.einsum("ij,ij->i", left, left)) + np.sqrt(np.einsum("ij,ij->i", right, right))
+
+    @cached_property
     def dihedral(self) -> np.ndarray:
         """(pairs,) float64 angle in radians between the normals of each face pair.
 

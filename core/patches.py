@@ -16,7 +16,7 @@ from .mesh import TriMesh, components, first_largest
 from .transfer import majority
 
 N_PATCHES = 220
-ROUNDS = 4  # a third of the seeds are spread by straight distance, the others in so many rounds
+ROUNDS = 3  # a third of the seeds are spread by straight distance, the others in so many rounds
 TURN = 0.1  # one radian of convex turning is as far as this share of the square root of the area
 CONCAVE = 20.0  # how much more a concave turn costs
 SLABS = 24  # where patches are to follow level sets
@@ -95,7 +95,7 @@ def _best_neighbour(mesh: TriMesh, label: np.ndarray, area: np.ndarray) -> np.nd
     n = len(area)
     key = np.concatenate([a * np.int64(n) + b, b * np.int64(n) + a])[np.tile(apart, 2)]
     cell, where = np.unique(key, return_inverse=True)
-    length = np.bincount(where.reshape(-1), np.tile(pair_length(mesh)[apart], 2), len(cell))
+    length = np.bincount(where.reshape(-1), np.tile(mesh.pair_length[apart], 2), len(cell))
     of, neighbour = np.divmod(cell, n)
     order = np.lexsort((-neighbour, length, of))
     goal = np.arange(n)
@@ -103,22 +103,10 @@ def _best_neighbour(mesh: TriMesh, label: np.ndarray, area: np.ndarray) -> np.nd
     return goal
 
 
-def pair_length(mesh: TriMesh) -> np.ndarray:
-    """(pairs,) float64, length of the edge between each pair of faces."""
-    return mesh.edge_length[mesh.edges.pair_edge]
-
-
-def pair_distance(mesh: TriMesh) -> np.ndarray:
-    """(pairs,) float64, way from face to face over the middle of their edge."""
-    middle = mesh.vertices[mesh.edges.vertices[mesh.edges.pair_edge]].mean(axis=1)
-    left, right = mesh.face_centroids[mesh.edges.pairs.T]
-    return np.linalg.norm(left - middle, axis=1) + np.linalg.norm(right - middle, axis=1)
-
-
 def _crease_graph(mesh: TriMesh):
     """Symmetric (m, m) lengths between faces: way plus turning, which add up along any path."""
     turn = mesh.dihedral
-    length = pair_distance(mesh) / np.sqrt(mesh.area) + TURN * np.where(turn < 0, -CONCAVE * turn, turn)
+    length = mesh.pair_distance / np.sqrt(mesh.area) + TURN * np.where(turn < 0, -CONCAVE * turn, turn)
     a, b = mesh.edges.pairs.T
     both = (np.concatenate([a, b]), np.concatenate([b, a]))
     shape = (mesh.n_faces, mesh.n_faces)
