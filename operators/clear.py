@@ -11,7 +11,7 @@ from .problems import SceneError
 def clear(obj):
     """Remove parts, graph and stored result of an object; Object Mode."""
     for user in live.users(obj.data):
-        explode.remove(user)
+        explode.forget(user)
         armature.remove_modifier(user)
     unwrap.remove(obj.data)
     attributes.remove_outputs(obj)

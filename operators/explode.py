@@ -32,10 +32,10 @@ def changed(made, context):
         _remove_modifier(obj)
 
 
-def remove(obj):
-    """Take the modifier away and put the slider back to 0."""
+def forget(obj):
+    """Take the modifier away and forget what was made of the object; pieces are the user's from now on."""
     _remove_modifier(obj)
-    obj.reeb_parts_made.property_unset("explode")
+    obj.property_unset("reeb_parts_made")
 
 
 def _remove_modifier(obj):

@@ -264,8 +264,7 @@ def _looks(piece) -> str:
 def _piece(obj, mesh, name, style):
     """An object like the given one with another mesh."""
     piece = obj.copy()
-    explode.remove(piece)
-    piece.property_unset("reeb_parts_made")
+    explode.forget(piece)
     piece.name = mesh.name = name
     piece.data = mesh
     piece.hide_viewport = piece.hide_render = False
