@@ -5,7 +5,9 @@ import bpy
 
 from . import panel, properties, use_panel, use_properties
 
-CLASSES = (*panel.CLASSES, *use_panel.CLASSES)
+# Sub-panels stand in the order of their registration: what is used often comes before the settings.
+_PLACE = panel.CLASSES.index(panel.REEB_PARTS_PT_parts) + 1
+CLASSES = (*panel.CLASSES[:_PLACE], *use_panel.CLASSES, *panel.CLASSES[_PLACE:])
 
 
 def register_properties():
