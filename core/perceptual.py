@@ -6,17 +6,22 @@ from __future__ import annotations
 import numpy as np
 
 from .agd import ScalarField
+from .coarse import Coarsening, coarsen
 from .cuts import move_cuts
-from .features import BORDER, surface_measures
+from .features import BORDER, MAX_CURVATURE, surface_measures
 from .hierarchy import Hierarchy
-from .levelsets import LevelSets
+from .levelsets import LevelSets, cut_at_levels
 from .merging import RegionGraph, merge_all_
+from .mesh import TriMesh
 from .parameters import Parameters
 from .patches import concave_patches, level_set_patches
+from .transfer import FaceGraph, connect, fill_unlabelled, majority
 from .trees import cut_model
 
 # Share of people who must separate two regions for the cut to stay at detail 0.5.
 DECISION = 0.55
+# Denser meshes are cut on a coarse copy: parts are much larger than its faces.
+MAX_FACES = 100_000
 
 
 def perceptual_candidates(
@@ -39,17 +44,69 @@ def perceptual_candidates(
     hierarchy : Hierarchy
         Salience 0.5 is the decision learned from people.
     """
-    follow = parameters.follow_level_sets
-    label = level_set_patches(sets) if follow else concave_patches(sets.mesh)
+    if parameters.follow_level_sets:
+        label = level_set_patches(sets)
+        hierarchy, _ = _merge(sets, field, label)
+    elif sets.mesh.n_faces > MAX_FACES:
+        label, hierarchy = _on_coarse_copy(sets, field, parameters.alpha)
+    else:
+        label, hierarchy = _cut_in_creases(sets, field, parameters.alpha)
+    return label[sets.element_face], hierarchy
+
+
+def _merge(sets: LevelSets, field: ScalarField, label) -> tuple[Hierarchy, np.ndarray]:
+    """The hierarchy over some patches, and the curvature across each pair of faces."""
     measures = surface_measures(sets, field)
     graph = RegionGraph(sets.mesh, measures, label)
     merges, share = merge_all_(graph, judge_cuts)
-    hierarchy = Hierarchy.of(label.max() + 1, merges, salience_of(share))
-    if not follow:
-        length, curvature = measures.pair[:, [BORDER.length, BORDER.curvature.start]].T
-        curvature = np.divide(curvature, length, out=np.zeros_like(length), where=length > 0)
-        label = move_cuts(sets.mesh, label, hierarchy, curvature, parameters.alpha)
-    return label[sets.element_face], hierarchy
+    length, curvature = measures.pair[:, [BORDER.length, BORDER.curvature.start]].T
+    curvature = np.divide(curvature, length, out=np.zeros_like(length), where=length > 0)
+    return Hierarchy.of(label.max() + 1, merges, salience_of(share)), curvature
+
+
+def _cut_in_creases(sets: LevelSets, field: ScalarField, reach) -> tuple[np.ndarray, Hierarchy]:
+    """Candidate of each face, and the hierarchy over them."""
+    label = concave_patches(sets.mesh)
+    hierarchy, curvature = _merge(sets, field, label)
+    return move_cuts(sets.mesh, label, hierarchy, curvature, reach), hierarchy
+
+
+def _on_coarse_copy(sets: LevelSets, field: ScalarField, reach) -> tuple[np.ndarray, Hierarchy]:
+    """The same for a dense mesh; only the cuts of detail 0.5 are moved on the mesh itself."""
+    mesh = sets.mesh
+    owner, copy = np.arange(mesh.n_vertices), mesh
+    while copy.n_faces > MAX_FACES:
+        step = coarsen(copy, np.bincount(owner, mesh.vertex_area, copy.n_vertices))
+        if not _covers(step, copy):
+            break
+        owner, copy = step.owner[owner], step.mesh
+    values = _restrict(field, owner, mesh.vertex_area, copy.n_vertices)
+    label, hierarchy = _cut_in_creases(
+        cut_at_levels(copy, values.values, sets.levels), values, reach)
+    graph = FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
+    of_vertex = majority(copy.faces.ravel(), np.repeat(label, 3), np.repeat(copy.face_area, 3),
+                         copy.n_vertices)[owner]
+    corners = of_vertex[mesh.faces]
+    known = corners >= 0
+    rows = np.repeat(np.arange(mesh.n_faces), 3)[known.ravel()]
+    label = majority(rows, corners[known], np.ones(len(rows)), mesh.n_faces)
+    label = connect(graph, fill_unlabelled(graph, label))
+    bend = mesh.dihedral / np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
+    bend = np.clip(bend * np.sqrt(mesh.area), -MAX_CURVATURE, MAX_CURVATURE)
+    return move_cuts(mesh, label, hierarchy, bend, reach, (0.5,)), hierarchy
+
+
+def _covers(step: Coarsening, mesh: TriMesh) -> bool:
+    """Whether a coarse copy is one surface nearly as large as the mesh."""
+    whole = step.mesh.n_faces > 0 and len(np.unique(step.mesh.faces)) == step.mesh.n_vertices
+    return whole and step.mesh.face_components[0] == 1 and step.mesh.area > 0.9 * mesh.area
+
+
+def _restrict(field: ScalarField, owner, weight, n) -> ScalarField:
+    """A field on a coarse copy: the mean of each cell."""
+    total = np.bincount(owner, weight, n)
+    return ScalarField(*(np.bincount(owner, weight * f, n) / total
+                         for f in (field.values, field.normalised, field.agd)))
 
 
 def judge_cuts(graph: RegionGraph, borders: np.ndarray) -> np.ndarray:

@@ -11,7 +11,6 @@ from core.levelsets import cut_at_levels, uniform_levels
 from core.merging import RegionGraph, merge_all_
 from core.mesh import TriMesh, components
 from core.patches import absorb_small, concave_patches
-from core.perceptual import DECISION, salience_of
 
 
 def measured(mesh):
@@ -147,8 +146,3 @@ def test_every_feature_is_finite_on_awkward_meshes():
         mesh = TriMesh(*shape)
         graph = RegionGraph(mesh, measured(mesh), np.arange(mesh.n_faces))
         assert np.isfinite(graph.features(np.arange(len(graph.ends)))).all()
-
-
-def test_salience_stretches_the_decision_to_one_half():
-    assert salience_of(np.array([0.0, DECISION, 1.0])).tolist() == [0.0, 0.5, 1.0]
-    assert (np.diff(salience_of(np.linspace(0, 1, 50))) > 0).all()
