@@ -118,14 +118,15 @@ def _list_parts(obj, numbered):
 # Vertex groups
 
 
-def part_vertices(mesh, numbers: np.ndarray, which) -> dict[int, np.ndarray]:
+def part_vertices(vertex: np.ndarray, numbers: np.ndarray, which) -> dict[int, np.ndarray]:
     """The vertices of some parts: all corners of their faces, so that parts share those on cuts.
 
     Parameters
     ----------
-    mesh : bpy.types.Mesh
-    numbers : (p,) int64
-        Of each face.
+    vertex : (c,) int32
+        Of each corner.
+    numbers : (c,) int64
+        Of the part that the corner's face is in.
     which : iterable of int
         The parts asked for.
 
@@ -133,16 +134,16 @@ def part_vertices(mesh, numbers: np.ndarray, which) -> dict[int, np.ndarray]:
     -------
     vertices : dict of number -> (k,) int64, rising
     """
-    vertex, face = bridge.face_corners(mesh)
-    corner = numbers.astype(np.int32)[face]
-    order = np.argsort(corner.astype(np.int16) if corner.max(initial=0) < 2**15 else corner, kind="stable")
-    bounds = np.searchsorted(corner[order], np.arange(max(which, default=0) + 2))
-    member = np.zeros(len(mesh.vertices), bool)
+    # Small whole numbers are sorted much faster.
+    order = np.argsort(numbers.astype(np.int16) if numbers.max(initial=0) < 2**15 else numbers, kind="stable")
+    bounds = np.searchsorted(numbers[order], np.arange(max(which, default=0) + 2))
+    member = np.zeros(int(vertex.max(initial=-1)) + 1, bool)
     vertices = {}
     for number in which:
-        member[:] = False
-        member[vertex[order[bounds[number] : bounds[number + 1]]]] = True
+        own = vertex[order[bounds[number] : bounds[number + 1]]]
+        member[own] = True
         vertices[number] = np.flatnonzero(member)
+        member[own] = False
     return vertices
 
 
@@ -152,22 +153,25 @@ def _plan_groups(obj):
 
 def _write_groups(obj, numbers, before):
     """Make each part's group hold the part's vertices."""
+    vertex, face = bridge.face_corners(obj.data)
     parts = {part.number: part for part in obj.data.reeb_parts.parts}
-    fresh = [n for n, part in parts.items() if part.group not in obj.vertex_groups]
-    if before is None:
-        changed = sorted(parts)
+    fresh = [number for number, part in parts.items() if part.group not in obj.vertex_groups]
+    if before is None or np.isin(before, fresh).any():
+        changed, old = sorted(parts), {}
+        new = part_vertices(vertex, numbers[face], changed)
     else:
         differ = numbers != before
         touched = np.flatnonzero(np.bincount(np.concatenate([numbers[differ], before[differ]])))
-        changed = sorted({*fresh, *touched.tolist()} & set(parts))
-    new = part_vertices(obj.data, numbers, changed)
-    old = part_vertices(obj.data, before, changed) if before is not None else {}
+        changed = sorted(set(touched.tolist()) & set(parts))
+        # Only at the corners of faces that changed can a vertex have come or gone.
+        near = np.zeros(len(obj.data.vertices), bool)
+        near[vertex[differ[face]]] = True
+        near = near[vertex]
+        new, old = (part_vertices(vertex[near], of_face[face[near]], changed) for of_face in (numbers, before))
     active = obj.vertex_groups.active_index
     for number in changed:
-        if number in fresh:
+        if parts[number].group not in obj.vertex_groups:
             parts[number].group = obj.vertex_groups.new(name=parts[number].name).name
-            _assign(obj.vertex_groups[parts[number].group], new[number])
-            continue
         group = obj.vertex_groups[parts[number].group]
         former = old.get(number, np.empty(0, np.int64))
         group.remove(_without(former, new[number]).tolist())
