@@ -9,7 +9,7 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from . import attributes, bridge, parts, store
+from . import attributes, bridge, explode, parts, store
 from .problems import SceneError
 
 COLOR = (1.0, 1.0, 1.0, 0.9)
@@ -56,7 +56,8 @@ def _draw():
     obj = context.object
     if (obj is None or obj.type != "MESH" or obj.mode != "OBJECT" or not obj.select_get()
             or not context.scene.reeb_parts.highlight or not context.space_data.overlay.show_overlays
-            or not store.has_result(obj.data) or store.is_edited(obj.data)):
+            or not store.has_result(obj.data) or store.is_edited(obj.data)
+            or explode.find(obj)):  # the parts are elsewhere then
         return
     result = obj.data.reeb_parts
     numbers = parts.chosen_numbers(obj.data)
