@@ -78,6 +78,10 @@ def check_object(obj):
                 "Relations > Make Local) and try again."
             )
     check_mode(obj)
+    if obj.data.is_editmode and obj.mode != "EDIT":
+        raise SceneError(
+            f"The mesh of {obj.name} is being edited through another object. Leave Edit Mode there first."
+        )
 
 
 def read_shape(obj) -> Shape:

@@ -95,6 +95,8 @@ def load(mesh) -> Stored:
     """
     if not has_result(mesh):
         raise SceneError(f"{mesh.name} has no parts yet. Decompose it first.")
+    if mesh.is_editmode:
+        raise SceneError(f"{mesh.name} is being edited. Leave Edit Mode first.")
     result = mesh.reeb_parts
     if bridge.fingerprint(mesh) != result.fingerprint:
         raise SceneError(f"{mesh.name} was edited since it was decomposed. Decompose it again.")

@@ -94,6 +94,16 @@ def test_in_edit_mode(make):
     refused("only 1")
 
 
+def test_a_mesh_edited_through_another_object(obj):
+    other = bpy.data.objects.new("Other", obj.data)
+    bpy.context.scene.collection.objects.link(other)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.context.view_layer.objects.active = other
+    refused("through another object")
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
 def test_clear_without_parts(obj):
     with pytest.raises(RuntimeError):
         bpy.ops.reeb_parts.clear()
