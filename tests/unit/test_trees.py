@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Trees in whole arrays against trees walked by hand."""
 
+from pathlib import Path
+
 import numpy as np
 
 from core.features import FEATURES
@@ -24,6 +26,14 @@ def by_hand(x, y):
 def test_every_leaf_by_hand():
     rows = np.array([(x, y) for x in (0, 1, 1.5) for y in (-1, 0, 1, 2, 3)], float)
     np.testing.assert_allclose(two_trees().predict(rows), [by_hand(*r) for r in rows], rtol=1e-12)
+
+
+def test_answers_are_those_of_the_trainer():
+    """Rows on and beside thresholds; tests/data/trees_by_trainer.py made the file."""
+    path = Path(__file__).resolve().parents[1] / "data" / "trees_by_trainer.npz"
+    with np.load(path, allow_pickle=False) as stored:
+        rows, expected = stored["rows"], stored["expected"]
+    np.testing.assert_allclose(Trees.read(path).predict(rows), expected, rtol=1e-9)
 
 
 def test_many_rows_are_each_row_alone():
