@@ -21,7 +21,7 @@ from .trees import cut_model
 # Share of people who must separate two regions for the cut to stay at detail 0.5.
 DECISION = 0.55
 # Denser meshes are cut on a coarse copy: parts are much larger than its faces.
-MAX_FACES = 100_000
+MAX_FACES = 60_000
 
 
 def perceptual_candidates(
