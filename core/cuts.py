@@ -86,12 +86,15 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
         parts = hierarchy.parts(hierarchy.n_parts(detail))
         part = parts[label]
         moved = refine_cuts(mesh, curvature, part, reach, coarser)
-        label = np.where(moved == part, label, -1)
+        before, label = label, np.where(moved == part, label, -1)
+        beside = np.flatnonzero((label[a] < 0) & (moved[a] == moved[b]))
+        mover, guide = a[beside], b[beside]  # few: only faces that changed part
         while True:
-            follows = (moved[a] == moved[b]) & (label[a] < 0) & (label[b] >= 0)
+            follows = (label[mover] < 0) & (label[guide] >= 0)
             if not follows.any():
                 break
-            label[a[follows]] = label[b[follows]]
+            label[mover[follows]] = label[guide[follows]]
+        label = np.where(label < 0, before, label)  # an island with no such neighbour stays
         coarser = moved
     return label
 
