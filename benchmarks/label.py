@@ -25,7 +25,15 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import numpy as np
-from tqdm import tqdm
+
+try:
+    from tqdm import tqdm
+except ImportError:  # the labels do not need it
+
+    def tqdm(items, **_):
+        """No progress bar."""
+        return items
+
 
 from core import PRESETS, Parameters, decompose
 
