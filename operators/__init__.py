@@ -9,6 +9,7 @@ from . import (
     clear,
     compute,
     decompose,
+    defaults,
     edit,
     export,
     handles,
@@ -27,6 +28,7 @@ CLASSES = (
     decompose.REEB_PARTS_OT_decompose,
     decompose.REEB_PARTS_OT_cancel,
     clear.REEB_PARTS_OT_clear,
+    *defaults.CLASSES,
     *parts.CLASSES,
     *edit.CLASSES,
     *slide.CLASSES,
@@ -42,6 +44,7 @@ CLASSES = (
 def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
+    defaults.register()
     handles.register()
     highlight.register()
     watch.register()
@@ -53,6 +56,7 @@ def unregister():
     watch.unregister()
     highlight.unregister()
     handles.unregister()
+    defaults.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
     bridge.forget()

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import bpy
 
 from ..core.errors import Cancelled, ReebError
-from ..ui.properties import OUTPUTS, OVERLAY, OutputProperties, OverlayProperties, ParameterProperties
-from . import attributes, bridge, compute, jobs, overlay, store, view
+from ..ui.properties import OUTPUTS, OVERLAY, PARAMETERS, OutputProperties, OverlayProperties, ParameterProperties
+from . import attributes, bridge, compute, defaults, jobs, overlay, store, view
 from .bridge import Shape
 from .modes import object_mode
 from .problems import SceneError, load_core
@@ -109,14 +109,16 @@ class REEB_PARTS_OT_decompose(
 
     def invoke(self, context, event):
         """From the panel: with the panel's settings, in a thread, so that the window stays alive."""
+        defaults.adopt(context.scene)
         settings = context.scene.reeb_parts
-        for name in (*ParameterProperties.__annotations__, *OUTPUTS, *OVERLAY):
+        for name in (*PARAMETERS, *OUTPUTS, *OVERLAY):
             if not self.properties.is_property_set(name):
                 setattr(self, name, getattr(settings, name))
         return self._start(context)
 
     def execute(self, context):
-        """From scripts and the redo panel: all at once."""
+        """From scripts and the redo panel: all at once; what a script leaves out is as in the preferences."""
+        defaults.complete(self)
         try:
             parameters, shapes = self._read(context)
             outcomes = compute_all(shapes, parameters, lambda stage, share: None)
@@ -128,7 +130,7 @@ class REEB_PARTS_OT_decompose(
     def draw(self, context):
         """The redo panel: what changes the parts first."""
         self.layout.use_property_split = True
-        for names in (ParameterProperties.__annotations__, OUTPUTS, OVERLAY):
+        for names in (PARAMETERS, OUTPUTS, OVERLAY):
             column = self.layout.column(align=True)
             for name in names:
                 column.prop(self, name)

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import panel, properties, use_panel, use_properties
+from . import panel, preferences, properties, use_panel, use_properties
 
 # Sub-panels stand in the order of their registration: what is used often comes before the settings.
 _PLACE = panel.CLASSES.index(panel.REEB_PARTS_PT_parts) + 1
@@ -13,11 +13,13 @@ CLASSES = (*panel.CLASSES[:_PLACE], *use_panel.CLASSES, *panel.CLASSES[_PLACE:])
 def register_properties():
     """Before the operators, which inherit from the properties."""
     properties.register()
+    preferences.register()
     use_properties.register()
 
 
 def unregister_properties():
     use_properties.unregister()
+    preferences.unregister()
     properties.unregister()
 
 

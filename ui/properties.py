@@ -58,6 +58,9 @@ class ParameterProperties:
             setattr(self, name, value)
 
 
+PARAMETERS = tuple(ParameterProperties.__annotations__)
+
+
 class OutputProperties:
     """What is written to the object; for operators and property groups to inherit."""
 
@@ -100,9 +103,10 @@ OUTPUTS = tuple(OutputProperties.__annotations__)
 
 
 def _redraw_graph(self, context):
-    from ..operators import overlay
+    from ..operators import overlay, store
 
-    overlay.restyle(context.object, self)
+    if not store.is_quiet():
+        overlay.restyle(context.object, self)
 
 
 class OverlayProperties:
@@ -130,7 +134,7 @@ def _use_preset(self, context):
         self.use_parameters(PRESETS[self.preset])
 
 
-_PRESET_ITEMS = [(name, name, "") for name in PRESETS]
+PRESET_ITEMS = [(name, name, "") for name in PRESETS]
 
 
 class ReebPartsSettings(bpy.types.PropertyGroup, ParameterProperties, OutputProperties, OverlayProperties):
@@ -141,9 +145,10 @@ class ReebPartsSettings(bpy.types.PropertyGroup, ParameterProperties, OutputProp
         description="Draw a line around the parts that are chosen in the list",
     )
     preset: EnumProperty(
-        name="Preset", items=_PRESET_ITEMS, update=_use_preset,
+        name="Preset", items=PRESET_ITEMS, update=_use_preset,
         description="Set all parameters at once",
     )
+    adopted: BoolProperty(description="The preferences were taken over")
 
 
 def _rename(self, context):

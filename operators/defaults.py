@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the preferences say, taken over by new scenes and by scripts.
+
+A scene takes it over once, when it is first seen, at the latest with its first object. What somebody sets
+in it later is the scene's own, and a file looks the same whatever the preferences are where it is opened.
+"""
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..core.parameters import PRESETS
+from ..ui import preferences
+from ..ui.properties import OUTPUTS, OVERLAY, PARAMETERS
+from . import store
+
+
+def adopt(scene):
+    """Set a scene up as the preferences say, the first time it is seen."""
+    if scene.is_editable and not scene.reeb_parts.adopted:
+        use(scene.reeb_parts)
+
+
+def use(settings):
+    """Take over everything from the preferences."""
+    chosen = preferences.get()
+    if chosen is None:
+        return
+    # No graph is drawn anew by this.
+    with store.quiet():
+        settings.adopted = True
+        for name in ("preset", *OUTPUTS, *OVERLAY):
+            if getattr(settings, name) != getattr(chosen, name):
+                setattr(settings, name, getattr(chosen, name))
+
+
+def complete(operator):
+    """Give an operator the preferences' value of every property that its caller left out."""
+    chosen = preferences.get()
+    if chosen is None:
+        return
+    for source, names in ((PRESETS[chosen.preset], PARAMETERS), (chosen, (*OUTPUTS, *OVERLAY))):
+        for name in names:
+            if not operator.properties.is_property_set(name):
+                setattr(operator, name, getattr(source, name))
+
+
+class REEB_PARTS_OT_use_preferences(bpy.types.Operator):
+    """Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons"""
+
+    bl_idname = "reeb_parts.use_preferences"
+    bl_label = "Use Preferences in This Scene"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.scene.is_editable
+
+    def execute(self, context):
+        settings = context.scene.reeb_parts
+        use(settings)
+        # Also what was changed after the preset was chosen.
+        settings.preset = settings.preset
+        return {"FINISHED"}
+
+
+CLASSES = (REEB_PARTS_OT_use_preferences,)
+
+
+@persistent
+def _adopt_all(*_):
+    for scene in bpy.data.scenes:
+        adopt(scene)
+
+
+@persistent
+def _adopt_one(scene, depsgraph):
+    adopt(scene)
+
+
+def register():
+    bpy.app.handlers.load_post.append(_adopt_all)
+    bpy.app.handlers.depsgraph_update_post.append(_adopt_one)
+    # While an extension is switched on, Blender's data may be out of reach.
+    bpy.app.timers.register(_adopt_all, first_interval=0.0)
+
+
+def unregister():
+    if bpy.app.timers.is_registered(_adopt_all):
+        bpy.app.timers.unregister(_adopt_all)
+    bpy.app.handlers.depsgraph_update_post.remove(_adopt_one)
+    bpy.app.handlers.load_post.remove(_adopt_all)
