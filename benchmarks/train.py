@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Learn from people which cuts to keep; writes core/data/cuts.npz.
 
-    python benchmarks/train.py MESHES [--out core/data/cuts.npz] [--rounds 3]
+    python benchmarks/train.py MESHES [--out core/data/cuts.npz] [--rounds 2]
 
 MESHES holds N.npz with ``vertices`` (n, 3), ``faces`` (m, 3) and ``human`` (people, m): the layout
 of the Princeton Segmentation Benchmark as converted for this project. Cuts are learned without
