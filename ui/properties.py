@@ -113,7 +113,7 @@ class OverlayProperties:
     """How the graph is drawn; for operators and property groups to inherit."""
 
     node_size: FloatProperty(
-        name="Node size", default=0.02, min=0.001, max=0.5, precision=3, step=0.1, update=_redraw_graph,
+        name="Node size", default=0.01, min=0.001, max=0.5, precision=3, step=0.1, update=_redraw_graph,
         description="Size of the empties, as a share of the object's",
     )
     line_thickness: FloatProperty(

@@ -291,6 +291,9 @@ def test_graph_is_made_of_empties_and_a_curve(obj):
     assert {o.parent for o in collection.objects} == {obj}
     assert {e["kind"] for e in empties} == {"minimum", "saddle", "maximum"}
     assert len({e.empty_display_type for e in empties}) == 3
+    # Small beside the object, in all three shapes.
+    diagonal = np.linalg.norm(np.ptp(np.array([corner[:] for corner in obj.bound_box]), axis=0))
+    assert [e.empty_display_size for e in empties] == pytest.approx([0.01 * diagonal] * len(empties))
     numbers = {part.number for part in result.parts}
     for empty in empties:
         assert 0.0 <= empty["value"] <= 1.0
