@@ -66,6 +66,57 @@ def best_split(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray | N
     return last if area[last].sum() <= area[other].sum() else other
 
 
+def node_split(decomposition: Decomposition, mask: np.ndarray, node: int) -> np.ndarray | None:
+    """The two sides of the best cut within a part that lies along the arcs of a node in it.
+
+    Of all cuts between the node's candidate and those that its arcs reach inside the part, the last to be
+    merged; where the arcs reach no other, between it and the rest of the part.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+    mask : (c,) bool
+        Candidates of one connected part, with that of the node.
+    node : int
+        Of the graph.
+
+    Returns
+    -------
+    side : (c,) bool or None
+        The node's side; None for a part of a single candidate.
+    """
+    start = decomposition.node_candidate[node]
+    graph = decomposition.graph
+    ours = (graph.arcs == node).any(axis=1)
+    reached = np.zeros(len(mask), bool)
+    reached[decomposition.point_candidate[ours[graph.point_arc]]] = True
+    reached[decomposition.node_candidate[graph.arcs[ours].ravel()]] = True
+    rest = mask & (np.arange(len(mask)) != start)
+    return _strongest_cut(decomposition, mask, start, rest & reached if (rest & reached).any() else rest)
+
+
+def _strongest_cut(decomposition, mask, start, targets) -> np.ndarray | None:
+    """The side of a candidate at the last merge that joins it with one of some others in a part."""
+    pairs = _inside(decomposition, mask)
+    pairs = pairs[np.argsort(_merge_time(decomposition, pairs), kind="stable")]
+    part = np.arange(decomposition.n_candidates)
+    joins, cut = [], None
+    for a, b in pairs.tolist():
+        if part[a] == part[b]:
+            continue
+        other = {part[a]: part[b], part[b]: part[a]}.get(part[start])
+        if other is not None and targets[part == other].any():
+            cut = len(joins)
+        joins.append((a, b))
+        part[part == part[b]] = part[a]
+    if cut is None:
+        return None
+    # All joins but that one leave two sides.
+    kept = np.array(joins[:cut] + joins[cut + 1 :], np.int64).reshape(-1, 2)
+    label = components(decomposition.n_candidates, *kept.T)[1]
+    return label == label[start]
+
+
 def growth(decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray) -> int | None:
     """The candidate that a part takes next: the one beyond the weakest piece of its boundary.
 

@@ -2,9 +2,11 @@
 """The graph as a handle: select a node, and the list chooses its part."""
 
 import bpy
+import numpy as np
 from bpy.app.handlers import persistent
 
-from . import overlay, parts, store
+from . import edit, overlay, parts, store
+from .problems import SceneError
 
 
 def part_of(item):
@@ -80,7 +82,73 @@ class REEB_PARTS_OT_to_nodes(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (REEB_PARTS_OT_from_nodes, REEB_PARTS_OT_to_nodes)
+class REEB_PARTS_OT_split_at_node(bpy.types.Operator):
+    """Split the part that holds the selected node, at the best cut along the node's arcs"""
+
+    bl_idname = "reeb_parts.split_at_node"
+    bl_label = "Split at Graph Node"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        item = context.view_layer.objects.active
+        if part_of(item) is None:
+            cls.poll_message_set("Select a node of a graph")
+            return False
+        if item.parent.mode != "OBJECT":
+            cls.poll_message_set("Leave the object's mode first")
+            return False
+        return True
+
+    def execute(self, context):
+        item = context.view_layer.objects.active
+        try:
+            number, new = split_at_node(context, item.parent, item["node"])
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        # The node's part is the one to go on with.
+        choose(item.parent, [item["part"]])
+        name = store.part_name
+        self.report({"INFO"}, f"{name(item.parent.data, new)} was cut from {name(item.parent.data, number)}")
+        return {"FINISHED"}
+
+
+def split_at_node(context, obj, node):
+    """Split the part that holds a node; the smaller side becomes a new part.
+
+    Returns
+    -------
+    number, new : int
+        The part that was split, and the new one.
+
+    Raises
+    ------
+    SceneError
+        The part is locked, cannot be split, or the mesh was edited.
+    """
+    from ..core.editing import node_split
+
+    stored = store.load(obj.data)
+    decomposition = stored.decomposition
+    number = int(stored.shown[decomposition.node_candidate[node]])
+    edit.check_unlocked(obj, [number])
+    mask = stored.shown == number
+    side = node_split(decomposition, mask, node)
+    if side is None:
+        raise SceneError(
+            f"No cut was found inside {store.part_name(obj.data, number)}. Select faces in Edit Mode and "
+            "assign them to another part instead."
+        )
+    area = decomposition.candidate_area
+    if area[side].sum() > area[mask & ~side].sum():
+        side = mask & ~side
+    new = edit.free_number(obj.data, stored)
+    edit.tie(context, obj, stored, np.where(side, new, stored.shown), [number, new])
+    return number, new
+
+
+CLASSES = (REEB_PARTS_OT_from_nodes, REEB_PARTS_OT_to_nodes, REEB_PARTS_OT_split_at_node)
 
 _owner = object()
 

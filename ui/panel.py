@@ -110,6 +110,7 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
             source, number = handles.part_of(context.object)
             layout.label(text=f"{store.part_name(source.data, number)} of {source.name}", icon="EMPTY_AXIS")
             layout.operator("reeb_parts.from_nodes")
+            layout.operator("reeb_parts.split_at_node", icon="MOD_EDGESPLIT")
         elif result is None:
             layout.use_property_split = True
             layout.use_property_decorate = False

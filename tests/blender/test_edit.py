@@ -291,6 +291,47 @@ def test_nodes_are_handles_of_their_parts(obj, result):
     assert {item["part"] for item in nodes if item.select_get()} == {tip["part"]}
 
 
+def node_of_kind(kind):
+    nodes = bpy.data.collections["Reeb Graph Tree"].objects
+    return next(item for item in nodes if item.get("kind") == kind)
+
+
+def test_a_part_splits_at_a_node(obj, result):
+    tip = node_of_kind("maximum")
+    result.n_parts = 1
+    before = numbers(obj.data)
+    activate(tip)
+    assert bpy.ops.reeb_parts.split_at_node() == {"FINISHED"}
+    after = numbers(obj.data)
+    assert len(result.parts) == 2
+    assert all(p.pinned for p in result.parts)
+    assert set(before.tolist()) < set(after.tolist())
+    # The tip's side is the limb: the face beside the tip is in the node's part, which is chosen.
+    centers = np.array([p.center[:] for p in obj.data.polygons])
+    nearest = np.linalg.norm(centers - np.array(tip.location), axis=1).argmin()
+    assert after[nearest] == tip["part"] == result.parts[result.active].number
+    assert (after == tip["part"]).sum() < len(after) / 2
+    check(obj)
+    result.detail = 0.0
+    assert (numbers(obj.data) == after).all()
+
+
+def test_a_node_of_a_locked_part_or_a_grain_splits_nothing(obj, result):
+    tip = node_of_kind("maximum")
+    part(result, tip["part"]).locked = True
+    activate(tip)
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="is locked"):
+        bpy.ops.reeb_parts.split_at_node()
+    assert snapshot() == before
+    part(result, tip["part"]).locked = False
+    result.detail = 1.0
+    with pytest.raises(RuntimeError, match="No cut"):
+        bpy.ops.reeb_parts.split_at_node()
+    activate(obj)
+    assert not bpy.ops.reeb_parts.split_at_node.poll()
+
+
 @pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT"])
 def test_in_other_modes(obj, result, mode):
     bpy.ops.object.mode_set(mode=mode)

@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
-from core.editing import best_split, boundary_distance, growth, pieces, shrinkage, split_candidates
+from core.editing import best_split, boundary_distance, growth, node_split, pieces, shrinkage, split_candidates
 
 
 @pytest.fixture(scope="module")
@@ -27,6 +27,33 @@ def test_a_split_is_the_next_cut_of_the_hierarchy(result):
 
 def test_a_single_candidate_does_not_split(result):
     assert best_split(result, np.arange(result.n_candidates) == 0) is None
+
+
+def test_a_node_is_split_from_what_its_arcs_reach(result):
+    everything = np.ones(result.n_candidates, bool)
+    graph = result.graph
+    strongest = best_split(result, everything)
+    sides = set()
+    for node in range(graph.n_nodes):
+        side = node_split(result, everything, node)
+        start = result.node_candidate[node]
+        assert side[start]
+        assert pieces(result, side).max() == pieces(result, ~side).max() == 0
+        ours = np.flatnonzero((graph.arcs == node).any(axis=1))
+        reached = result.point_candidate[np.isin(graph.point_arc, ours)]
+        beyond = np.append(reached, result.node_candidate[graph.arcs[ours].ravel()])
+        if (beyond != start).any():
+            assert not side[beyond].all()
+        else:
+            assert (side == strongest).all() or (side == ~strongest).all()
+        sides.add(side.tobytes())
+    # Nodes tell cuts apart: it is not always the part's best.
+    assert len(sides) > 2
+
+
+def test_a_node_of_a_single_candidate_does_not_split(result):
+    mask = np.arange(result.n_candidates) == result.node_candidate[0]
+    assert node_split(result, mask, 0) is None
 
 
 def test_pieces_are_numbered_by_area(result):
