@@ -20,13 +20,13 @@ class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
     def draw(self, context):
         column, _ = self._column(context)
         settings = context.scene.reeb_parts_use
-        column.prop(context.object.reeb_parts_made, "explode", slider=True)
-        column.separator()
+        # Separate stands above its options, so that no one has to scroll for it in a small window.
         column.row().prop(settings, "which", expand=True)
-        column.separator()
+        column.operator("reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
         for name in ("caps", "center", "modifiers", "parent", "hide"):
             column.prop(settings, name)
-        column.operator("reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
+        column.separator()
+        column.prop(context.object.reeb_parts_made, "explode", slider=True)
         self._draw_outputs(context.object.data.reeb_parts)
 
     def _draw_outputs(self, result):

@@ -29,7 +29,7 @@ def seen():
 
 
 def test_escape_cancels_soon_and_leaves_nothing(seen):
-    assert seen["cancelled after"] < 1.0  # half a second, and room for a busy machine
+    assert seen["cancelled after"] < 0.5
     assert seen["cancelled"]["shares"] == {}
     assert seen["cancelled"]["groups"] == []
     assert seen["cancelled"]["objects"] == ["spot"]

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The newcomer's path in Blender's real window, with the real pointer; newcomer.py says how.
+
+The pictures stay in out/newcomer, to be looked at.
+"""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+OUT = HERE.parents[1] / "out" / "newcomer"
+SHAPE = ("points", "faces", "matrix")
+
+
+@pytest.fixture(scope="module")
+def seen():
+    """What the driver saw after each step."""
+    OUT.mkdir(parents=True, exist_ok=True)
+    for old in OUT.iterdir():
+        old.unlink()
+    command = [os.environ["BLENDER_GUI"], "--size", "1280x800", "--driver", str(HERE / "newcomer.py")]
+    variables = {**os.environ, "GUI_OUT": str(OUT)}
+    done = subprocess.run(command, env=variables, stdin=subprocess.DEVNULL, check=False)
+    assert done.returncode == 0
+    return json.loads((OUT / "newcomer.json").read_text())
+
+
+def test_suzanne_is_selected_and_not_decomposed_yet(seen):
+    assert seen["added"]["selected"] == ["Suzanne"]
+    assert seen["added"]["parts"] == []
+    assert seen["added"]["pieces"] == {}
+
+
+def test_four_clicks_are_enough(seen):
+    assert seen["tab"] == "Reeb Parts"
+    assert len(seen["decomposed"]["parts"]) > 1
+    assert len(seen["separated"]["pieces"]) > 1
+    assert seen["clicks"] == ["the tab", "Decompose", "Use Parts", "Separate"]
+
+
+def test_every_part_is_an_object_that_is_seen(seen):
+    separated = seen["separated"]
+    assert sorted(separated["pieces"]) == separated["shown"] == sorted(seen["decomposed"]["parts"])
+    assert sum(separated["pieces"].values()) == len(seen["added"]["faces"])
+
+
+def test_the_original_is_hidden_and_as_it_was(seen):
+    assert not seen["added"]["hidden"]
+    assert seen["separated"]["hidden"]
+    assert [seen["separated"][key] for key in SHAPE] == [seen["added"][key] for key in SHAPE]
+
+
+def test_pictures_are_left(seen):
+    assert [path.name for path in sorted(OUT.glob("*.png"))] == [
+        "1_add.png", "2_added.png", "3_tab.png", "4_decomposed.png", "5_use.png", "6_separated.png",
+    ]  # fmt: skip
