@@ -219,6 +219,7 @@ class REEB_PARTS_PT_boundaries(ReebPanel, bpy.types.Panel):
         column.prop(settings, "follow_level_sets")
         column.prop(settings, "alpha")
         column.prop(settings, "sigma")
+        column.prop(settings, "smoothing")
 
 
 class REEB_PARTS_PT_output(ReebPanel, bpy.types.Panel):

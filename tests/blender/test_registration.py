@@ -66,3 +66,24 @@ def test_switched_off_leaves_nothing_and_on_again_works(package, obj):
         addon_utils.enable(package)
     assert _ours() == before
     assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+
+
+def drawn_names():
+    """Every string in the code of the panels' draw functions."""
+    found = set()
+    for name in dir(bpy.types):
+        if name.startswith("REEB_PARTS_PT_"):
+            todo = list(getattr(bpy.types, name).draw.__code__.co_consts)
+            while todo:
+                item = todo.pop()
+                if isinstance(item, tuple):
+                    todo.extend(item)
+                elif isinstance(item, str):
+                    found.add(item)
+    return found
+
+
+def test_every_parameter_stands_in_a_panel():
+    names = set(bpy.ops.reeb_parts.decompose.get_rna_type().properties.keys()) - {"rna_type"}
+    assert {"detail", "alpha", "smoothing", "node_size", "seams"} <= names
+    assert names - drawn_names() == set()
