@@ -17,18 +17,23 @@ from . import store
 def adopt(scene):
     """Set a scene up as the preferences say, the first time it is seen."""
     if scene.is_editable and not scene.reeb_parts.adopted:
-        use(scene.reeb_parts)
+        settings = scene.reeb_parts
+        names = [name for name in (*OUTPUTS, *OVERLAY) if not settings.is_property_set(name)]
+        # In an empty scene somebody may have been faster.
+        if not any(settings.is_property_set(name) for name in ("preset", *PARAMETERS)):
+            names.append("preset")
+        use(settings, names)
 
 
-def use(settings):
-    """Take over everything from the preferences."""
+def use(settings, names):
+    """Take over some settings from the preferences."""
     chosen = preferences.get()
     if chosen is None:
         return
     # No graph is drawn anew by this.
     with store.quiet():
         settings.adopted = True
-        for name in ("preset", *OUTPUTS, *OVERLAY):
+        for name in names:
             if getattr(settings, name) != getattr(chosen, name):
                 setattr(settings, name, getattr(chosen, name))
 
@@ -57,7 +62,7 @@ class REEB_PARTS_OT_use_preferences(bpy.types.Operator):
 
     def execute(self, context):
         settings = context.scene.reeb_parts
-        use(settings)
+        use(settings, ("preset", *OUTPUTS, *OVERLAY))
         # Also what was changed after the preset was chosen.
         settings.preset = settings.preset
         return {"FINISHED"}

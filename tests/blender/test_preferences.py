@@ -67,6 +67,17 @@ def test_a_new_scene_takes_them_and_the_others_stay(preferences, presets):
     check_changed(old.reeb_parts, presets)
 
 
+def test_what_was_set_in_an_empty_scene_stays(preferences):
+    change(preferences)
+    new = bpy.data.scenes.new("New")
+    new.reeb_parts.levels, new.reeb_parts.colors = 50, True
+    bpy.context.window.scene = new
+    new.collection.objects.link(bpy.data.objects.new("First", None))
+    bpy.context.view_layer.update()
+    settings = new.reeb_parts
+    assert (settings.levels, settings.preset, settings.colors, settings.seams) == (50, "Perceptual", True, True)
+
+
 def test_a_saved_file_keeps_its_own(preferences, tmp_path):
     bpy.context.scene.reeb_parts.levels = 50
     path = str(tmp_path / "own.blend")
