@@ -73,6 +73,29 @@ def subdivided(mesh: TriMesh) -> TriMesh:
     return TriMesh(*trimesh.remesh.subdivide(mesh.vertices, mesh.faces))
 
 
+def as_quads(mesh: TriMesh) -> tuple[TriMesh, np.ndarray, np.ndarray]:
+    """Triangles paired to quadrangles, flattest pairs first, and cut along the other diagonal.
+
+    Returns the mesh, the polygon of each of its faces, and the polygon of each given face.
+    """
+    pairs = mesh.edges.pairs[np.argsort(np.abs(mesh.dihedral), kind="stable")]
+    edge = mesh.edges.pair_edge[np.argsort(np.abs(mesh.dihedral), kind="stable")]
+    free, chosen = np.ones(mesh.n_faces, bool), []
+    for row, (one, other) in enumerate(pairs.tolist()):
+        if free[one] and free[other]:
+            free[one] = free[other] = False
+            chosen.append(row)
+    one, other = pairs[chosen].T
+    faces, polygon = mesh.faces.copy(), np.arange(mesh.n_faces)
+    corner = (mesh.edges.face_edges[one] == edge[chosen][:, None]).argmax(axis=1)
+    a, b, c = (mesh.faces[one, (corner + k) % 3] for k in range(3))
+    d = mesh.faces[other].sum(axis=1) - a - b
+    faces[one], faces[other] = np.stack([c, a, d], axis=1), np.stack([d, b, c], axis=1)
+    polygon[other] = one
+    polygon = np.unique(polygon, return_inverse=True)[1].reshape(-1)
+    return TriMesh(mesh.vertices, faces), polygon, polygon
+
+
 def bent(angle: float):
     """The mesh wound around an axis: along its longest direction it turns by so many degrees."""
 
@@ -110,6 +133,7 @@ CHANGES = {
     "decimated to half": decimated(0.5),
     "decimated to 10 %": decimated(0.1),
     "subdivided": subdivided,
+    "quads instead of triangles": as_quads,
     "bent by 45 degrees": bent(45.0),
     "bent by 90 degrees": bent(90.0),
     "twisted by 60 degrees": twisted(60.0),
@@ -141,9 +165,13 @@ def _overlap(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 def compare(mesh: TriMesh, labels: np.ndarray, change, parameters: Parameters) -> tuple[float, float, float]:
     """Rand index, agreement and ratio of the numbers of parts of a mesh and its changed copy."""
-    changed = change(mesh)
-    parts = decompose(changed.vertices, changed.faces, parameters).parts()
-    if changed.n_faces == mesh.n_faces:
+    changed, polygon, place = change(mesh), None, None
+    if isinstance(changed, tuple):
+        changed, polygon, place = changed
+    parts = decompose(changed.vertices, changed.faces, parameters, polygon=polygon).parts()
+    if place is not None:
+        back = parts.labels[place]
+    elif changed.n_faces == mesh.n_faces:
         back = parts.labels
     else:
         back = parts.labels[cKDTree(changed.face_centroids).query(mesh.face_centroids)[1]]
