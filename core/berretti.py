@@ -14,7 +14,7 @@ from .parameters import Parameters
 from .reeb import ReebStructure
 from .refine import search_boundaries
 from .regions import berretti_regions, rank_regions
-from .transfer import majority
+from .transfer import majority, spread
 
 DECISION = 0.5  # the salience at which the paper's threshold cuts
 
@@ -62,10 +62,6 @@ def _follow(sets, piece_region, piece_part, moved) -> np.ndarray:
     """Give pieces that changed part a region of their new part, that of a neighbour in it."""
     region = np.where(moved == piece_part, piece_region, -1)
     a, b = np.concatenate([sets.contour_pieces, sets.contour_pieces[:, ::-1]]).T
-    same_part = moved[a] == moved[b]
-    while True:
-        reach = same_part & (region[a] < 0) & (region[b] >= 0)
-        if not reach.any():
-            break
-        region[a[reach]] = region[b[reach]]
+    together = moved[a] == moved[b]
+    region = spread(region, a[together], b[together])
     return np.where(region < 0, piece_region, region)

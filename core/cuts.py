@@ -13,6 +13,7 @@ from scipy.sparse.csgraph import breadth_first_order, dijkstra, maximum_flow
 
 from .hierarchy import Hierarchy
 from .mesh import TriMesh
+from .transfer import label_boundaries, spread
 
 WIDEST = 0.05  # half the width of the band, at most, over the square root of the area
 CREASE = 12.0  # curvature, times the square root of the area, that changes the cost by e
@@ -87,13 +88,8 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
         part = parts[label]
         moved = refine_cuts(mesh, curvature, part, reach, coarser)
         before, label = label, np.where(moved == part, label, -1)
-        beside = np.flatnonzero((label[a] < 0) & (moved[a] == moved[b]))
-        mover, guide = a[beside], b[beside]  # few: only faces that changed part
-        while True:
-            follows = (label[mover] < 0) & (label[guide] >= 0)
-            if not follows.any():
-                break
-            label[mover[follows]] = label[guide[follows]]
+        together = moved[a] == moved[b]
+        label = spread(label, a[together], b[together])
         label = np.where(label < 0, before, label)  # an island with no such neighbour stays
         coarser = moved
     return label
@@ -101,12 +97,8 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
 
 def _cuts_by_length(part, a, b, length) -> np.ndarray:
     """(k, 2) pairs of parts that touch, the longest border first."""
-    low, high = np.minimum(part[a], part[b]), np.maximum(part[a], part[b])
-    apart = low != high
-    n = int(part.max()) + 1
-    key, where = np.unique(low[apart] * np.int64(n) + high[apart], return_inverse=True)
-    total = np.bincount(where.reshape(-1), length[apart], len(key))
-    return np.stack(np.divmod(key, n), axis=1)[np.argsort(-total, kind="stable")]
+    touching, total = label_boundaries(part, np.stack([a, b], axis=1), length)
+    return touching[np.argsort(-total, kind="stable")]
 
 
 def _cut_anew(mesh, part, first, second, on_cut, cost, ways, reach) -> np.ndarray:

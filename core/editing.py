@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import dijkstra
 from .decomposition import Decomposition
 from .hierarchy import Hierarchy
 from .mesh import components
+from .transfer import label_boundaries
 
 
 def pieces(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
@@ -255,7 +256,7 @@ def split_candidates(
     new_index[cut] = decomposition.n_candidates + np.arange(len(cut))
     candidates = np.where(faces, new_index[old], old)
     count = decomposition.n_candidates + len(cut)
-    pairs, length = _boundaries(candidates, face_pairs, pair_length)
+    pairs, length = label_boundaries(candidates, face_pairs, pair_length)
     area = np.bincount(candidates, face_area, count)
     area *= decomposition.candidate_area.sum() / area.sum()
     hierarchy = decomposition.hierarchy
@@ -264,14 +265,6 @@ def split_candidates(
     return replace(
         decomposition, candidates=candidates, candidate_area=area, candidate_pairs=pairs,
         candidate_pair_length=length, hierarchy=Hierarchy.of(count, merges, salience))
-
-
-def _boundaries(candidates, face_pairs, pair_length):
-    """Pairs of candidates that touch, smaller first, and the length of their boundary."""
-    ends = np.sort(candidates[face_pairs], axis=1).reshape(-1, 2)
-    apart = ends[:, 0] != ends[:, 1]
-    pairs, where = np.unique(ends[apart], axis=0, return_inverse=True)
-    return pairs, np.bincount(where.reshape(-1), pair_length[apart], len(pairs))
 
 
 def _inside(decomposition, mask) -> np.ndarray:

@@ -54,13 +54,59 @@ class FaceGraph:
     area: np.ndarray
 
     def boundaries(self, label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Pairs of labels that touch, (c, 2) with the smaller first, and (c,) the length."""
-        low, high = np.sort(label[self.pairs], axis=1).T
-        apart = (low != high) & (low >= 0)
-        n = int(label.max(initial=0)) + 1
-        cell, where = np.unique(low[apart] * np.int64(n) + high[apart], return_inverse=True)
-        length = np.bincount(where.reshape(-1), self.length[apart], len(cell))
-        return np.stack(np.divmod(cell, n), axis=1), length
+        """Pairs of labels that touch, and along what length; see ``label_boundaries``."""
+        return label_boundaries(label, self.pairs, self.length)
+
+
+def label_boundaries(
+    label: np.ndarray, pairs: np.ndarray, length: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Which labels touch, and along what length.
+
+    Parameters
+    ----------
+    label : (n,) int64
+        -1 for none.
+    pairs : (e, 2) int64
+        Elements that touch.
+    length : (e,) float64
+
+    Returns
+    -------
+    touching : (c, 2) int64
+        The smaller label first, in lexicographic order.
+    total : (c,) float64
+    """
+    low, high = np.sort(label[pairs], axis=1).reshape(-1, 2).T
+    apart = (low != high) & (low >= 0)
+    n = int(label.max(initial=0)) + 1
+    cell, where = np.unique(low[apart] * np.int64(n) + high[apart], return_inverse=True)
+    total = np.bincount(where.reshape(-1), length[apart], len(cell))
+    return np.stack(np.divmod(cell, n), axis=1), total
+
+
+def spread(label: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Give elements labelled -1 the label of an element beside them, outwards from the labelled.
+
+    Parameters
+    ----------
+    label : (n,) int64
+    a, b : (e,) int64
+        Element a may take the label of element b.
+
+    Returns
+    -------
+    label : (n,) int64
+        Still -1 where no label comes.
+    """
+    label = label.copy()
+    beside = label[a] < 0  # the others keep what they have
+    a, b = a[beside], b[beside]
+    while True:
+        reach = (label[a] < 0) & (label[b] >= 0)
+        if not reach.any():
+            return label
+        label[a[reach]] = label[b[reach]]
 
 
 def fill_unlabelled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
@@ -68,13 +114,7 @@ def fill_unlabelled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
 
     What touches no labelled face gets label 0.
     """
-    label = label.copy()
-    a, b = np.concatenate([graph.pairs, graph.pairs[:, ::-1]]).T
-    while True:
-        reach = (label[a] < 0) & (label[b] >= 0)
-        if not reach.any():
-            break
-        label[a[reach]] = label[b[reach]]
+    label = spread(label, *np.concatenate([graph.pairs, graph.pairs[:, ::-1]]).T)
     label[label < 0] = 0
     return label
 
