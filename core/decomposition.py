@@ -15,6 +15,7 @@ from .errors import ReebError
 from .hierarchy import Hierarchy
 from .parameters import Parameters
 from .reeb import ReebGraph
+from .sentence import Sentence
 from .transfer import majority
 
 VERSION = "0.1.0"
@@ -95,7 +96,7 @@ class Decomposition:
         The candidate in which each node and centre point of the graph lies.
     parameters : Parameters
     notes : tuple of str
-        What is odd about the mesh, one sentence each.
+        What is odd about the mesh, one ``Sentence`` each; plain text after ``from_bytes``.
     seconds : dict
         Time of each stage.
     version : str
@@ -233,7 +234,8 @@ class Decomposition:
             arrays = {name: stored[name] for name in stored.files}
         head = json.loads(arrays.pop("head").tobytes())
         if head["format"] != _FORMAT:
-            raise ReebError("The stored parts were written by another version. Decompose again.")
+            raise ReebError(
+                Sentence("The stored parts were written by another version. Decompose again."))
         graph = {f.name: arrays[f"graph.{f.name}"] for f in fields(ReebGraph)}
         graph["n_components"] = int(graph["n_components"])
         hierarchy = Hierarchy.of(len(arrays["candidate_area"]), arrays["hierarchy.merges"],

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What can go wrong, as exceptions whose message is the sentence the user reads.
 
-The message says what is wrong, how much of it, and what to do; the indices of the
-offending elements ride on the exception, so that an operator can select them.
+The message says what is wrong, how much of it, and what to do; it is a ``Sentence``, so that an
+operator can translate it. The indices of the offending elements ride on the exception, so that an
+operator can select them.
 """
 
 from __future__ import annotations

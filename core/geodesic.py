@@ -9,6 +9,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from .errors import DisconnectedMeshError
 from .mesh import TriMesh
+from .sentence import Sentence
 
 
 class GeodesicSolver:
@@ -57,7 +58,8 @@ class GeodesicSolver:
         lost = np.flatnonzero(np.isinf(distance))
         if len(lost):
             raise DisconnectedMeshError(
-                f"{len(lost)} vertices cannot be reached from vertex {source}.", vertices=lost)
+                Sentence("{n} vertices cannot be reached from vertex {source}.",
+                         n=len(lost), source=source), vertices=lost)
         return distance
 
 

@@ -12,6 +12,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from .errors import EmptyMeshError, MeshError
+from .sentence import Sentence
 
 MIN_FACES = 4  # a closed surface has at least the four faces of a tetrahedron
 
@@ -48,13 +49,16 @@ class TriMesh:
         vertices = np.asarray(self.vertices)
         faces = np.asarray(self.faces)
         if vertices.ndim != 2 or vertices.shape[1] != 3:
-            raise MeshError(f"Vertices must have shape (n, 3), not {vertices.shape}.")
+            raise MeshError(
+                Sentence("Vertices must have shape (n, 3), not {shape}.", shape=vertices.shape))
         if faces.size == 0:
             faces = np.empty((0, 3), np.int64)
         if faces.ndim != 2 or faces.shape[1] != 3:
-            raise MeshError(f"Triangles must have shape (m, 3), not {faces.shape}.")
+            raise MeshError(
+                Sentence("Triangles must have shape (m, 3), not {shape}.", shape=faces.shape))
         if not np.issubdtype(faces.dtype, np.integer):
-            raise MeshError(f"Face indices must be whole numbers, not {faces.dtype}.")
+            raise MeshError(
+                Sentence("Face indices must be whole numbers, not {type}.", type=faces.dtype))
         object.__setattr__(self, "vertices", frozen(vertices, np.float64))
         object.__setattr__(self, "faces", frozen(faces, np.int64))
         self._check_values()
@@ -63,16 +67,20 @@ class TriMesh:
         bad = np.flatnonzero(~np.isfinite(self.vertices).all(axis=1))
         if len(bad):
             raise MeshError(
-                f"{len(bad)} of {self.n_vertices} vertices have a coordinate that is not a finite "
-                f"number (first: vertex {bad[0]}). Delete or move them.",
+                Sentence(
+                    "{n} of {total} vertices have a coordinate that is not a finite number (first: "
+                    "vertex {first}). Delete or move them.",
+                    n=len(bad), total=self.n_vertices, first=int(bad[0])),
                 vertices=bad,
             )
         outside = ((self.faces < 0) | (self.faces >= self.n_vertices)).any(axis=1)
         if outside.any():
             bad = np.flatnonzero(outside)
             raise MeshError(
-                f"{len(bad)} of {self.n_faces} faces name a vertex that does not exist "
-                f"(first: face {bad[0]}; there are {self.n_vertices} vertices).",
+                Sentence(
+                    "{n} of {total} faces name a vertex that does not exist (first: face {first}; "
+                    "there are {n_vertices} vertices).",
+                    n=len(bad), total=self.n_faces, first=int(bad[0]), n_vertices=self.n_vertices),
                 faces=bad,
             )
 
@@ -307,12 +315,13 @@ class PolygonMesh:
             faces = np.asarray(faces)
             polygon = frozen(polygon, np.int64)
             if polygon.shape != (len(faces),) or (polygon < 0).any():
-                raise MeshError(
-                    f"Polygon numbers must be {len(faces)} whole numbers from 0, one per triangle."
-                )
+                raise MeshError(Sentence(
+                    "Polygon numbers must be {n} whole numbers from 0, one per triangle.",
+                    n=len(faces)))
             n_polygons = int(polygon.max(initial=-1)) + 1
         if n_polygons == 0:
-            raise EmptyMeshError("The mesh has no faces. Add some, or choose another object.")
+            raise EmptyMeshError(
+                Sentence("The mesh has no faces. Add some, or choose another object."))
         mesh = cls(TriMesh(vertices, faces), frozen(polygon, np.int64), n_polygons)
         mesh._check_size()
         return mesh
@@ -320,8 +329,10 @@ class PolygonMesh:
     def _check_size(self):
         if self.n_polygons < MIN_FACES:
             raise EmptyMeshError(
-                f"The mesh has only {self.n_polygons} of the {MIN_FACES} faces that the smallest "
-                "solid has. Choose a larger mesh.",
+                Sentence(
+                    "The mesh has only {n} of the {least} faces that the smallest solid has. "
+                    "Choose a larger mesh.",
+                    n=self.n_polygons, least=MIN_FACES),
                 faces=np.arange(self.n_polygons),
             )
         used = np.zeros(self.triangles.n_vertices, bool)
@@ -329,9 +340,8 @@ class PolygonMesh:
         extent = np.ptp(self.triangles.vertices[used], axis=0).max()
         # Below the rounding error of the coordinates an area is noise.
         if not self.triangles.area > 1e-14 * extent**2:
-            raise EmptyMeshError(
-                f"All {self.n_polygons} faces have zero area. Check the scale of the object."
-            )
+            raise EmptyMeshError(Sentence(
+                "All {n} faces have zero area. Check the scale of the object.", n=self.n_polygons))
 
 
 def _fan(faces) -> tuple[np.ndarray, np.ndarray, int]:
@@ -344,12 +354,14 @@ def _fan(faces) -> tuple[np.ndarray, np.ndarray, int]:
         if faces.size == 0:
             return np.empty((0, 3), np.int64), np.empty(0, np.int64), 0
         if faces.ndim != 2:
-            raise MeshError(f"Faces must have shape (m, corners), not {faces.shape}.")
+            raise MeshError(
+                Sentence("Faces must have shape (m, corners), not {shape}.", shape=faces.shape))
         sizes = np.full(len(faces), faces.shape[1], np.int64)
         flat = faces.ravel()
     if (sizes < 3).any():
         bad = np.flatnonzero(sizes < 3)
-        raise MeshError(f"{len(bad)} faces have fewer than three corners.", faces=bad)
+        raise MeshError(
+            Sentence("{n} faces have fewer than three corners.", n=len(bad)), faces=bad)
     start = np.cumsum(sizes) - sizes
     polygon = np.repeat(np.arange(len(sizes)), sizes - 2)
     step = np.arange(len(polygon)) - np.repeat(np.cumsum(sizes - 2) - (sizes - 2), sizes - 2)

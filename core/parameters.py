@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass, field, fields, replace
 
 from .errors import ParameterError
+from .sentence import Sentence
 
 PERCEPTUAL, BERRETTI = "perceptual", "berretti"
 METHODS = (PERCEPTUAL, BERRETTI)
@@ -79,25 +80,31 @@ class Parameters:
             elif "choices" in item.metadata and value not in item.metadata["choices"]:
                 choices = ", ".join(item.metadata["choices"])
                 raise ParameterError(
-                    f"{item.name} must be one of {choices}, not {value!r}.", item.name)
+                    Sentence("{name} must be one of {choices}, not {value!r}.",
+                             name=item.name, choices=choices, value=value), item.name)
 
     @staticmethod
     def _check_number(name, value, low, high, whole):
         try:
             number = float(value)
         except (TypeError, ValueError):
-            raise ParameterError(f"{name} must be a number, not {value!r}.", name) from None
+            raise ParameterError(Sentence("{name} must be a number, not {value!r}.",
+                                          name=name, value=value), name) from None
         if not math.isfinite(number) or not low <= number <= high or (whole and number % 1):
-            kind = "a whole number" if whole else "a number"
+            limits = {"name": name, "low": low, "high": high, "value": value}
             raise ParameterError(
-                f"{name} must be {kind} from {low} to {high}, not {value!r}.", name)
+                Sentence("{name} must be a whole number from {low} to {high}, not {value!r}.", **limits)
+                if whole else
+                Sentence("{name} must be a number from {low} to {high}, not {value!r}.", **limits),
+                name)
 
     @classmethod
     def preset(cls, name: str, **changes) -> Parameters:
         """The parameters of a preset of PRESETS, with some of them changed."""
         if name not in PRESETS:
             raise ParameterError(
-                f"There is no preset {name!r}. Choose one of: {', '.join(PRESETS)}.", "preset")
+                Sentence("There is no preset {name!r}. Choose one of: {presets}.",
+                         name=name, presets=", ".join(PRESETS)), "preset")
         return replace(PRESETS[name], **changes)
 
 

@@ -19,6 +19,7 @@ from .mesh import MIN_FACES, PolygonMesh, TriMesh
 from .parameters import PERCEPTUAL, Parameters
 from .perceptual import perceptual_candidates
 from .reeb import ReebGraph, ReebStructure, reeb_graph, reeb_structure
+from .sentence import Sentence
 from .simplify import simplify
 from .transfer import FaceGraph, connect, fill_unlabelled, majority, settle, straighten
 from .working import MAX_EDGE, WorkingMesh, refine, repair
@@ -306,16 +307,22 @@ def _vertex_field(given, component, large, results) -> tuple[np.ndarray, tuple[s
         kept = r.component.vertex_source >= 0
         values[r.component.vertex_source[kept]] = r.field.normalised[kept]
     n_loose = int(component.max()) + 1
-    notes = []
-    if n_loose > 1:
-        text = f"{n_loose} loose parts are decomposed each on its own"
-        small = n_loose - len(large)
-        notes.append(text + (f"; {small} small ones are one part each." if small else "."))
     n_flat = sum(not r.field.values.any() for r in results)
-    if n_flat:
-        notes.append(f"{n_flat} of the loose parts are so even that nothing protrudes: one part "
-                     "each." if n_loose > 1 else "Nothing protrudes: the mesh is one part.")
-    return values, tuple(notes)
+    return values, tuple(_component_notes(n_loose, n_loose - len(large), n_flat))
+
+
+def _component_notes(n_loose, n_small, n_flat):
+    """Sentences about loose parts: how many, how many of these too small, or too even, to be cut."""
+    if n_loose > 1 and n_small:
+        yield Sentence("{n} loose parts are decomposed each on its own; {small} small ones are one part "
+                       "each.", n=n_loose, small=n_small)
+    elif n_loose > 1:
+        yield Sentence("{n} loose parts are decomposed each on its own.", n=n_loose)
+    if n_flat and n_loose > 1:
+        yield Sentence("{n} of the loose parts are so even that nothing protrudes: one part each.",
+                       n=n_flat)
+    elif n_flat:
+        yield Sentence("Nothing protrudes: the mesh is one part.")
 
 
 def _graph_candidates(results, label) -> tuple[np.ndarray, np.ndarray]:

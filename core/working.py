@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .mesh import PolygonMesh, TriMesh, components, frozen
+from .sentence import Sentence
 
 # No edge of the copy is longer than this share of the square root of the component's area:
 # half the radius of a base vertex's disc, so that a field of its own fits into every disc.
@@ -137,7 +138,8 @@ def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]
     n_joined = int((joined != np.arange(len(joined))).sum())
     if not n_joined:
         return joined, ()
-    return joined, (f"{n_joined} coincident border vertices are treated as joined.",)
+    return joined, (
+        Sentence("{n} coincident border vertices are treated as joined.", n=n_joined),)
 
 
 def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
@@ -189,7 +191,7 @@ def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
     if not flip.any():
         return mesh, ()
     faces = np.where(flip[:, None], mesh.faces[:, ::-1], mesh.faces)
-    note = f"{int(flip.sum())} triangles face inwards or against their neighbours."
+    note = Sentence("{n} triangles face inwards or against their neighbours.", n=int(flip.sum()))
     return TriMesh(mesh.vertices, faces), (note,)
 
 
@@ -207,10 +209,11 @@ def _notes(given: PolygonMesh) -> tuple[str, ...]:
     longest = mesh.edge_length[mesh.edges.face_edges].max(axis=1)
     # Three corners on a line rarely have an area of exactly 0.
     flat[given.polygon[mesh.face_area > 1e-12 * longest**2]] = False
-    counts = (
-        (int((mesh.edges.n_faces > 2).sum()), "edges join more than two faces (non-manifold)."),
-        (int((mesh.edges.n_faces == 1).sum()), "border edges: the surface is open there."),
-        (n_lost, "vertices belong to no face; they get no part."),
-        (int(flat.sum()), "faces have zero area; they follow their neighbours."),
+    notes = (
+        Sentence("{n} edges join more than two faces (non-manifold).",
+                 n=int((mesh.edges.n_faces > 2).sum())),
+        Sentence("{n} border edges: the surface is open there.", n=int((mesh.edges.n_faces == 1).sum())),
+        Sentence("{n} vertices belong to no face; they get no part.", n=n_lost),
+        Sentence("{n} faces have zero area; they follow their neighbours.", n=int(flat.sum())),
     )
-    return tuple(f"{count} {text}" for count, text in counts if count)
+    return tuple(note for note in notes if note.values["n"])
