@@ -109,7 +109,10 @@ def _prepare(twin, points, seams):
     """Give a copy the shape that is seen, our seams, one UV map, and all selected."""
     mesh = twin.data
     if mesh.shape_keys:
+        name = mesh.shape_keys.name
         twin.shape_key_clear()
+        if left := bpy.data.shape_keys.get(name):  # before Blender 5, those of a copy stay, with a user too many
+            bpy.data.batch_remove([left])
     mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
     mesh.edges.foreach_set("use_seam", seams)
     for items in (mesh.vertices, mesh.edges, mesh.polygons):
