@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
-from snapshot import activate, snapshot
+from snapshot import activate, check_undo, snapshot
 
 EVERYTHING = {"face_sets": True, "materials": True, "seams": True, "field": True}
 
@@ -136,15 +136,7 @@ def test_positions_and_topology_stay(obj):
 
 
 def test_undo_and_redo(obj):
-    bpy.ops.ed.undo_push(message="before")
-    before = snapshot()
-    bpy.ops.reeb_parts.decompose(**EVERYTHING)
-    bpy.ops.ed.undo_push(message="after")
-    after = snapshot()
-    bpy.ops.ed.undo()
-    assert snapshot() == before
-    bpy.ops.ed.redo()
-    assert snapshot() == after
+    check_undo(lambda: bpy.ops.reeb_parts.decompose(**EVERYTHING))
     bpy.context.object.data.reeb_parts.detail = 0.1
     assert not bpy.context.object.data.reeb_parts.edited
 

@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from snapshot import activate, snapshot
+from snapshot import activate, check_undo, snapshot
 
 
 def numbers(mesh):
@@ -244,16 +244,8 @@ def test_a_boundary_stops_at_a_locked_part(obj, result):
 
 
 def test_edits_are_undone_and_redone(obj, result):
-    bpy.ops.ed.undo_push(message="before")
-    before = snapshot()
-    choose(obj.data.reeb_parts, 1)
-    bpy.ops.reeb_parts.split()
-    bpy.ops.ed.undo_push(message="after")
-    after = snapshot()
-    bpy.ops.ed.undo()
-    assert snapshot() == before
-    bpy.ops.ed.redo()
-    assert snapshot() == after
+    choose(result, 1)
+    check_undo(bpy.ops.reeb_parts.split)
     bpy.data.objects["Tree"].data.reeb_parts.detail = 0.1
     check(bpy.data.objects["Tree"])
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapes
 from mathutils import Euler
-from snapshot import activate, snapshot
+from snapshot import check_undo, snapshot
 
 
 def rig_of(obj):
@@ -129,13 +129,4 @@ def test_from_every_mode(obj, mode):
 
 def test_undo(obj):
     bpy.ops.reeb_parts.decompose()
-    bpy.ops.ed.undo_push(message="before")
-    before = snapshot()
-    bpy.ops.reeb_parts.armature(deform=True)
-    bpy.ops.ed.undo_push(message="after")
-    after = snapshot()
-    bpy.ops.ed.undo()
-    assert snapshot() == before
-    bpy.ops.ed.redo()
-    assert snapshot() == after
-    activate(bpy.data.objects["Tree"])
+    check_undo(lambda: bpy.ops.reeb_parts.armature(deform=True))

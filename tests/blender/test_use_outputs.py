@@ -3,7 +3,7 @@
 
 import bpy
 import pytest
-from snapshot import snapshot
+from snapshot import check_undo, snapshot
 
 OPERATORS = {"seams": "seams", "face_sets": "face_sets", "materials": "materials"}
 
@@ -90,9 +90,4 @@ def test_from_every_mode(owned, name, mode):
 @pytest.mark.parametrize("name", OPERATORS)
 def test_undo(owned, name):
     bpy.ops.reeb_parts.decompose()
-    bpy.ops.ed.undo_push(message="before")
-    before = snapshot()
-    run(name)
-    bpy.ops.ed.undo_push(message="after")
-    bpy.ops.ed.undo()
-    assert snapshot() == before
+    check_undo(lambda: run(name))
