@@ -6,7 +6,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -240,9 +240,17 @@ def _assemble(given, working, component, large, results, parameters, seconds) ->
         candidates=label, vertex_candidates=vertex,
         candidate_area=np.bincount(label, face_graph.area), candidate_pairs=pairs,
         candidate_pair_length=length, hierarchy=hierarchy, field=values,
-        graph=ReebGraph.join([r.graph for r in results]), node_candidate=nodes,
+        graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
         point_candidate=points, parameters=parameters, notes=working.notes + notes,
         seconds=seconds)
+
+
+def _in_field(graph: ReebGraph, field: ScalarField) -> ReebGraph:
+    """A graph whose values are those of the normalised field, whatever its levels were taken of."""
+    order = np.argsort(field.values, kind="stable")
+    known = field.values[order], field.normalised[order]
+    return replace(graph, node_value=np.interp(graph.node_value, *known),
+                   point_value=np.interp(graph.point_value, *known))
 
 
 def _face_graph(given: PolygonMesh, working: WorkingMesh) -> FaceGraph:

@@ -30,7 +30,7 @@ class ReebGraph:
     node_kind : (k,) int8
         MINIMUM, SADDLE or MAXIMUM (core.critical.KINDS names them).
     node_value : (k,) float64
-        Of the field, 0..1.
+        Of the field whose levels were taken, 0..1; in a Decomposition, of the normalised field.
     node_position : (k, 3) float64
         Tips lie on the surface, saddles inside.
     arcs : (q, 2) int64

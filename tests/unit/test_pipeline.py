@@ -524,3 +524,24 @@ def test_small_region_keeps_fingers():
     counts = [known("tree", Parameters.preset(PAPER, small_region=s)).parts().count for s in (0.5, 0.05, 0.01)]
     assert counts == sorted(counts)
     assert counts[0] < counts[-1]
+
+
+@pytest.mark.parametrize("equalise", [True, False])
+def test_values_of_the_graph_are_those_of_the_field(equalise):
+    vertices, faces = shapes.tube_tree()
+    result = decompose(vertices, faces, Parameters(equalise=equalise))
+    graph = result.graph
+    tips = graph.node_kind == 2
+    at = np.linalg.norm(vertices[None] - graph.node_position[tips][:, None], axis=2).argmin(axis=1)
+    # A tip may be a vertex of the finer working copy, between the caller's.
+    np.testing.assert_allclose(graph.node_value[tips], result.field[at], atol=0.015)
+    # Along the branches, before their round ends, the centre points lie as high as the surface around them.
+    length = np.linalg.norm(graph.point_position, axis=1)
+    along = graph.point_position @ (shapes.TREE_TIPS / np.linalg.norm(shapes.TREE_TIPS, axis=1)[:, None]).T
+    reach = np.linalg.norm(shapes.TREE_TIPS, axis=1)[along.argmax(axis=1)]
+    out = (length > 0.8) & (length < 0.9 * reach)
+    assert out.sum() > 100
+    near = np.linalg.norm(vertices[None] - graph.point_position[out][:, None], axis=2).argsort(axis=1)[:, :12]
+    np.testing.assert_allclose(graph.point_value[out], result.field[near].mean(axis=1), atol=0.03)
+    low, high = graph.node_value[graph.arcs].T
+    assert (low <= high).all()
