@@ -9,9 +9,10 @@ from dataclasses import replace
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.numbering import numbered_parts
-from . import bridge, live, store
+from . import attributes, bridge, live, store
 from .parts import PartOperator, chosen_numbers
 from .problems import SceneError
 
@@ -51,7 +52,7 @@ def check_unlocked(obj, numbers):
     """Raise SceneError if one of some parts is locked."""
     for part in obj.data.reeb_parts.parts:
         if part.locked and part.number in numbers:
-            raise SceneError(f"{part.name} is locked. Unlock it in the list first.")
+            raise SceneError(rpt_("{name} is locked. Unlock it in the list first.").format(name=part.name))
 
 
 def merge(context, obj, stored, numbers, into):
@@ -61,7 +62,7 @@ def merge(context, obj, stored, numbers, into):
     check_unlocked(obj, numbers)
     mask = np.isin(stored.shown, numbers)
     if pieces(stored.decomposition, mask).max() > 0:
-        raise SceneError("These parts do not touch each other. Choose parts that do.")
+        raise SceneError(rpt_("These parts do not touch each other. Choose parts that do."))
     tie(context, obj, stored, np.where(mask, into, stored.shown), [into])
 
 
@@ -81,12 +82,12 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
         active = result.parts[result.active].number
         into = active if active in numbers else numbers[0]
         if len(numbers) < 2:
-            raise SceneError("Mark the parts to merge in the list, two or more.")
+            raise SceneError(rpt_("Mark the parts to merge in the list, two or more."))
         merge(context, obj, stored, numbers, into)
         with store.quiet():
             for part in result.parts:
                 part.selected = False
-        return f"{len(numbers)} parts are {_name(obj, into)} now"
+        return rpt_("{n} parts are {name} now").format(n=len(numbers), name=_name(obj, into))
 
 
 class REEB_PARTS_OT_merge_neighbour(PartOperator, bpy.types.Operator):
@@ -108,7 +109,7 @@ def _weakest_neighbour(obj, stored, number):
     cuts = numbered.numbers[numbered.parts.cuts]
     own = (cuts == number).any(axis=1)
     if not own.any():
-        raise SceneError(f"{_name(obj, number)} touches no other part.")
+        raise SceneError(rpt_("{name} touches no other part.").format(name=_name(obj, number)))
     order = np.lexsort((-numbered.parts.cut_length[own], numbered.parts.cut_salience[own]))
     ends = cuts[own][order[0]]
     return int(ends[0] if ends[1] == number else ends[1])
@@ -128,8 +129,8 @@ class REEB_PARTS_OT_split(PartOperator, bpy.types.Operator):
             side = best_split(stored.decomposition, stored.shown == number)
             if side is None:
                 raise SceneError(
-                    f"No cut was found inside {_name(obj, number)}. Select faces in Edit Mode and assign "
-                    "them to another part instead."
+                    rpt_("No cut was found inside {name}. Select faces in Edit Mode and assign them to another "
+                         "part instead.").format(name=_name(obj, number))
                 )
             new = free_number(obj.data, stored)
             tie(context, obj, stored, np.where(side, new, stored.shown), [number, new])
@@ -150,7 +151,8 @@ class REEB_PARTS_OT_grow(PartOperator, bpy.types.Operator):
             mask = stored.shown == number
             taken = growth(stored.decomposition, mask, _not_locked(obj, stored, number))
             if taken is None:
-                raise SceneError(f"Nothing is left around {_name(obj, number)} that is not locked.")
+                raise SceneError(
+                    rpt_("Nothing is left around {name} that is not locked.").format(name=_name(obj, number)))
             _move(context, obj, stored, taken, number)
             stored = store.load(obj.data)
 
@@ -169,7 +171,7 @@ class REEB_PARTS_OT_shrink(PartOperator, bpy.types.Operator):
             mask = stored.shown == number
             step = shrinkage(stored.decomposition, mask, _not_locked(obj, stored, number))
             if step is None:
-                raise SceneError(f"{_name(obj, number)} cannot give away anything more.")
+                raise SceneError(rpt_("{name} cannot give away anything more.").format(name=_name(obj, number)))
             given, receiver = step
             _move(context, obj, stored, given, int(stored.shown[receiver]))
             stored = store.load(obj.data)
@@ -217,12 +219,40 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
         faces = np.empty(len(mesh.polygons), bool)
         mesh.polygons.foreach_get("select", faces)
         if not faces.any():
-            raise SceneError("No faces are selected. Select some in Edit Mode.")
+            raise SceneError(rpt_("No faces are selected. Select some in Edit Mode."))
         number = free_number(mesh, stored) if self.new else result.parts[result.active].number
         before = stored.shown[stored.decomposition.candidates]
         check_unlocked(obj, {number, *before[faces].tolist()})
         assign_faces(context, obj, stored, np.where(faces, number, before))
-        return f"{int(faces.sum())} faces are {_name(obj, number)} now"
+        return rpt_("{n} faces are {name} now").format(n=int(faces.sum()), name=_name(obj, number))
+
+
+class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):
+    """Take over what you have painted with face sets in Sculpt Mode: each face goes to the part of its face set"""
+
+    bl_idname = "reeb_parts.from_face_sets"
+    bl_label = "Parts from Face Sets"
+
+    def work(self, context, obj, stored):
+        mesh = obj.data
+        sets = mesh.attributes.get(attributes.FACE_SETS)
+        if not mesh.reeb_parts.has_face_sets or sets is None:
+            raise SceneError(rpt_("The parts are not face sets yet. Press Face Sets, then paint them in Sculpt Mode."))
+        painted = np.empty(len(mesh.polygons), np.int32)
+        sets.data.foreach_get("value", painted)
+        before = stored.shown[stored.decomposition.candidates]
+        after = before.copy()
+        known = stored
+        for value in np.unique(painted).tolist():
+            number = value
+            if value not in before:  # a face set that somebody has made
+                number = free_number(mesh, known)
+                known = replace(known, shown=np.append(known.shown, number))
+            after[painted == value] = number
+        changed = after != before
+        check_unlocked(obj, {*after[changed].tolist(), *before[changed].tolist()})
+        assign_faces(context, obj, stored, after)
+        return rpt_("{count} faces are in other parts now").format(count=int(changed.sum()))
 
 
 def assign_faces(context, obj, stored, face_numbers):
@@ -298,4 +328,5 @@ CLASSES = (
     REEB_PARTS_OT_grow,
     REEB_PARTS_OT_shrink,
     REEB_PARTS_OT_assign,
+    REEB_PARTS_OT_from_face_sets,
 )

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The graph as a handle: select a node, and the list chooses its part."""
+"""The graph as a handle: select a node or an arc, and the list chooses its part."""
 
 import bpy
 import numpy as np
 from bpy.app.handlers import persistent
+from mathutils import Vector
 
-from . import edit, overlay, parts, store
+from . import edit, overlay, parts, pointing, store
+from .parts import choose
 from .problems import SceneError
 
 
@@ -19,14 +21,11 @@ def part_of(item):
     return source, item["part"]
 
 
-def choose(source, numbers):
-    """Mark parts in the list of an object; the first becomes the active one."""
-    result = source.data.reeb_parts
-    with store.quiet():
-        for index, part in enumerate(result.parts):
-            part.selected = part.number in numbers and len(numbers) > 1
-            if part.number == numbers[0]:
-                result.active = index
+def source_of_arcs(item):
+    """The decomposed object that a curve of arcs stands for, or None."""
+    if item is None or item.get(overlay.ROLE) != "arcs" or item.parent is None or item.parent.type != "MESH":
+        return None
+    return item.parent if store.has_result(item.parent.data) else None
 
 
 class REEB_PARTS_OT_from_nodes(bpy.types.Operator):
@@ -53,6 +52,56 @@ class REEB_PARTS_OT_from_nodes(bpy.types.Operator):
         choose(source, list(chosen))
         for item in list(context.view_layer.objects.selected):
             item.select_set(False)
+        source.select_set(True)
+        context.view_layer.objects.active = source
+        return {"FINISHED"}
+
+
+class REEB_PARTS_OT_from_arc(bpy.types.Operator):
+    """Choose the part in which an arc was clicked, and make its object active"""
+
+    bl_idname = "reeb_parts.from_arc"
+    bl_label = "Part of Arc"
+    bl_options = {"REGISTER", "UNDO"}
+
+    location: bpy.props.FloatVectorProperty(
+        name="Location", size=3, subtype="XYZ", description="A place on or beside the arc, in the world",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        if source_of_arcs(context.view_layer.objects.active) is None or context.mode != "OBJECT":
+            cls.poll_message_set("Select the arcs of a graph")
+            return False
+        return True
+
+    def invoke(self, context, event):
+        """Blender has just selected the curve, by a click that is still where the pointer is."""
+        source = source_of_arcs(context.view_layer.objects.active)
+        place = pointing.view_region(context.area, event) if context.area else None
+        if place is None:  # it was selected elsewhere, in the outliner
+            return {"CANCELLED"}
+        try:
+            target = pointing.Model(source).under(context, source, *place, surface=False)
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if target is None:
+            return {"CANCELLED"}
+        self.location = source.matrix_world @ Vector(target.location)
+        return self.execute(context)
+
+    def execute(self, context):
+        item = context.view_layer.objects.active
+        source = source_of_arcs(item)
+        try:
+            model = pointing.Model(source)
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        place = source.matrix_world.inverted_safe() @ Vector(self.location)
+        choose(source, [model.number(model.at(place, True))])
+        item.select_set(False)
         source.select_set(True)
         context.view_layer.objects.active = source
         return {"FINISHED"}
@@ -148,17 +197,39 @@ def split_at_node(context, obj, node):
     return number, new
 
 
-CLASSES = (REEB_PARTS_OT_from_nodes, REEB_PARTS_OT_to_nodes, REEB_PARTS_OT_split_at_node)
+CLASSES = (
+    REEB_PARTS_OT_from_nodes,
+    REEB_PARTS_OT_from_arc,
+    REEB_PARTS_OT_to_nodes,
+    REEB_PARTS_OT_split_at_node,
+)
 
 _owner = object()
 
 
 def _follow_active():
-    """The active object changed: if it is a node, the list of its object follows."""
+    """The active object changed: if it belongs to a graph, the list of its object follows."""
     item = bpy.context.view_layer.objects.active if bpy.context.view_layer else None
     found = part_of(item)
     if found is not None and item.select_get():
         choose(found[0], [found[1]])
+    elif source_of_arcs(item) is not None and item.select_get() and not bpy.app.background:
+        # Not within Blender's own click, which has yet to become a step of undo.
+        bpy.app.timers.register(_ask_pointer, first_interval=0.0)
+
+
+def _ask_pointer():
+    """Which arc it was, only the pointer knows: it is still there."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type != "VIEW_3D":
+                continue
+            region = next(region for region in area.regions if region.type == "WINDOW")
+            with bpy.context.temp_override(window=window, area=area, region=region):
+                operator = bpy.ops.reeb_parts.from_arc
+                if operator.poll() and "FINISHED" in operator("INVOKE_DEFAULT", True):
+                    return None
+    return None
 
 
 @persistent
@@ -177,3 +248,5 @@ def register():
 def unregister():
     bpy.app.handlers.load_post.remove(_subscribe)
     bpy.msgbus.clear_by_owner(_owner)
+    if bpy.app.timers.is_registered(_ask_pointer):
+        bpy.app.timers.unregister(_ask_pointer)

@@ -22,6 +22,13 @@ def find(obj):
     return None
 
 
+def arcs(obj):
+    """The curve with the arcs of an object's graph, or None."""
+    collection = find(obj)
+    items = collection.objects if collection else ()
+    return next((item for item in items if item.get(ROLE) == "arcs"), None)
+
+
 def draw_graph(context, obj, graph, stretch, style):
     """Draw a graph in place of an earlier one.
 

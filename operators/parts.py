@@ -4,17 +4,23 @@
 import bmesh
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import store
+from . import bridge, store
 from .modes import object_mode
 from .problems import SceneError
 
 
-def has_parts(cls, context):
-    """Whether the active object's parts can be worked on; explains itself."""
-    obj = context.view_layer.objects.active
+def has_parts(cls, context, obj=None):
+    """Whether an object's parts, else the active one's, can be worked on; explains itself."""
+    obj = obj or context.view_layer.objects.active
     if obj is None or obj.type != "MESH" or not store.has_result(obj.data):
-        cls.poll_message_set("Decompose the mesh first")
+        cls.poll_message_set(rpt_("Decompose the mesh first"))
+        return False
+    try:
+        bridge.check_object(obj)
+    except SceneError as error:
+        cls.poll_message_set(str(error))
         return False
     return True
 
@@ -24,6 +30,28 @@ def chosen_numbers(mesh) -> list[int]:
     result = mesh.reeb_parts
     marked = [part.number for part in result.parts if part.selected]
     return marked or [part.number for part in result.parts[result.active : result.active + 1]]
+
+
+def choose(source, numbers):
+    """Mark parts in the list of an object; the first becomes the active one."""
+    result = source.data.reeb_parts
+    with store.quiet():
+        for index, part in enumerate(result.parts):
+            part.selected = part.number in numbers and len(numbers) > 1
+            if part.number == numbers[0]:
+                result.active = index
+
+
+def toggle(source, number):
+    """Mark one part more, or one part less; it becomes the active one."""
+    result = source.data.reeb_parts
+    with store.quiet():
+        if not any(part.selected for part in result.parts):
+            result.parts[result.active].selected = True
+        for index, part in enumerate(result.parts):
+            if part.number == number:
+                part.selected = not part.selected
+                result.active = index
 
 
 def select_faces(mesh, mask, mode="SET"):

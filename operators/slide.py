@@ -3,12 +3,14 @@
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import bridge, edit, store
 from .parts import PartOperator
 from .problems import SceneError
 
-HINT = "Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel"
+HINT = n_("Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel")
 
 
 class Boundary:
@@ -61,34 +63,32 @@ class REEB_PARTS_OT_slide(PartOperator, bpy.types.Operator):
     )
 
     def work(self, context, obj, stored):
-        boundary = Boundary(obj, stored, _active_number(obj))
+        boundary = Boundary(obj, stored, active_number(obj))
         numbers = boundary.slid(self.offset)
         if (numbers == boundary.number).sum() == 0:
-            raise SceneError("Nothing would be left of the part. Slide the boundary less far.")
+            raise SceneError(rpt_("Nothing would be left of the part. Slide the boundary less far."))
         edit.assign_faces(context, obj, stored, numbers)
 
     def invoke(self, context, event):
         """Read everything once; each move of the mouse is a comparison of distances then."""
         obj = context.view_layer.objects.active
         if obj.mode != "OBJECT":
-            self.report({"ERROR"}, "Slide boundaries in Object Mode, where the parts can be seen.")
+            self.report({"ERROR"}, rpt_("Slide boundaries in Object Mode, where the parts can be seen."))
             return {"CANCELLED"}
         try:
             stored = store.load(obj.data)
-            edit.check_unlocked(obj, [_active_number(obj)])
-            self._boundary = Boundary(obj, stored, _active_number(obj))
+            edit.check_unlocked(obj, [active_number(obj)])
+            self._boundary = Boundary(obj, stored, active_number(obj))
         except SceneError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        numbered = stored.shown_parts()
-        self._colors = np.ones((int(numbered.numbers.max()) + 1, 4), np.float32)
-        self._colors[numbered.numbers, :3] = numbered.parts.colors
+        self._colors = number_colors(obj, stored)
         self._name = obj.name
         self._start = event.mouse_x
         # The whole width of the view is half the size of the object.
         size = float(np.linalg.norm(np.array(obj.dimensions)))
         self._unit = 0.5 * size / max(context.area.width if context.area else 1000, 1)
-        context.workspace.status_text_set(HINT)
+        context.workspace.status_text_set(rpt_(HINT))
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
@@ -113,16 +113,31 @@ class REEB_PARTS_OT_slide(PartOperator, bpy.types.Operator):
         context.workspace.status_text_set(None)
 
     def _preview(self, numbers):
-        """Colours alone; all else is written when the mouse is released."""
-        mesh = bpy.data.objects[self._name].data
-        attribute = mesh.attributes.get(mesh.reeb_parts.color_attribute)
-        if attribute is not None:
-            _, face = bridge.face_corners(mesh)
-            attribute.data.foreach_set("color_srgb", self._colors[numbers][face].ravel())
-            mesh.update()
+        preview(bpy.data.objects[self._name].data, numbers, self._colors)
 
 
-def _active_number(obj):
+def preview(mesh, numbers, colors):
+    """Show parts by their colours alone; all else is written when the mouse is released.
+
+    numbers : (p,) int64, the part of each face. colors : from ``number_colors``.
+    """
+    attribute = mesh.attributes.get(mesh.reeb_parts.color_attribute)
+    if attribute is not None:
+        _, face = bridge.face_corners(mesh)
+        attribute.data.foreach_set("color_srgb", colors[numbers][face].ravel())
+        mesh.update()
+
+
+def number_colors(obj, stored) -> np.ndarray:
+    """The colour of each part by its number, (largest number + 1, 4) float32, sRGB and alpha."""
+    numbered = stored.shown_parts()
+    colors = np.ones((int(numbered.numbers.max()) + 1, 4), np.float32)
+    colors[numbered.numbers, :3] = numbered.parts.colors
+    return colors
+
+
+def active_number(obj) -> int:
+    """The part that is active in the list."""
     result = obj.data.reeb_parts
     return result.parts[result.active].number
 

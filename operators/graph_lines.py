@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The arcs of a graph as lines to draw and to point at."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class GraphLines:
+    """Every arc as a chain of points, from its lower node to its upper node.
+
+    With m points and s segments:
+
+    Attributes
+    ----------
+    position : (m, 3) float64
+        In the coordinates of the mesh.
+    value : (m,) float64
+        Of the field.
+    candidate : (m,) int64
+        The candidate part that the point lies in.
+    segments : (s, 2) int64
+        Points that follow each other.
+    """
+
+    position: np.ndarray
+    value: np.ndarray
+    candidate: np.ndarray
+    segments: np.ndarray
+
+    @classmethod
+    def of(cls, decomposition, stretch):
+        """Lines of a decomposition's graph. stretch : (3, 3), of the mesh when it was decomposed."""
+        graph = decomposition.graph
+        back = np.linalg.pinv(stretch).T
+        ends = [np.concatenate([node, point]) @ back if node.ndim > 1 else np.concatenate([node, point])
+                for node, point in (
+                    (graph.node_position, graph.point_position), (graph.node_value, graph.point_value),
+                    (decomposition.node_candidate, decomposition.point_candidate))]
+        return cls(*ends, _segments(graph))
+
+
+def _segments(graph) -> np.ndarray:
+    """Nodes come first, then the centre points of the arcs in order."""
+    points = graph.n_nodes + np.arange(len(graph.point_value))
+    following = np.flatnonzero(graph.point_arc[1:] == graph.point_arc[:-1])
+    inner = np.stack([points[following], points[following + 1]], axis=1)
+    full = np.flatnonzero(np.diff(graph.arc_points))
+    first, last = points[graph.arc_points[full]], points[graph.arc_points[full + 1] - 1]
+    bare = graph.arcs[np.diff(graph.arc_points) == 0]
+    return np.concatenate([
+        inner, bare, np.stack([graph.arcs[full, 0], first], axis=1), np.stack([last, graph.arcs[full, 1]], axis=1),
+    ]).astype(np.int64)  # fmt: skip
+
+
+def nearest(points: np.ndarray, segments: np.ndarray, target) -> tuple[int, float, float]:
+    """The segment nearest to a point of the plane.
+
+    Parameters
+    ----------
+    points : (m, 2) float64
+        nan for those that cannot be seen.
+    segments : (s, 2) int64
+    target : (2,) float64
+
+    Returns
+    -------
+    segment : int
+        -1 if none can be seen.
+    share : float
+        How far along it, 0..1.
+    distance : float
+    """
+    start, end = points[segments[:, 0]], points[segments[:, 1]]
+    way = end - start
+    square = np.maximum((way**2).sum(axis=1), 1e-12)
+    share = np.clip(((np.asarray(target) - start) * way).sum(axis=1) / square, 0.0, 1.0)
+    distance = np.linalg.norm(start + share[:, None] * way - target, axis=1)
+    distance[np.isnan(distance)] = np.inf
+    if not len(distance) or np.isinf(distance).all():
+        return -1, 0.0, np.inf
+    best = int(distance.argmin())
+    return best, float(share[best]), float(distance[best])

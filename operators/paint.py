@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Paint faces into the active part with a round brush, over the surface."""
+
+import bpy
+import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
+from mathutils import Vector
+
+from . import bridge, edit, pointing, slide, store
+from .parts import PartOperator
+from .problems import SceneError
+from .view_tool import ViewTool
+
+START_SIZE = 0.04  # radius of the brush, as a share of the object's size
+
+
+class Brush:
+    """Which faces a dab of the brush covers; read once.
+
+    Attributes
+    ----------
+    number : int
+        The part that is painted.
+    chosen : (p,) bool
+        Faces painted so far.
+    """
+
+    def __init__(self, obj, model, number):
+        self.model, self.number = model, number
+        self.pairs, _ = bridge.face_pairs(obj.data)
+        self.chosen = np.zeros(len(model.face_value), bool)
+        locked = [part.number for part in obj.data.reeb_parts.parts if part.locked and part.number != number]
+        self.free = ~np.isin(model.numbers, locked)
+
+    def dab(self, location, radius):
+        """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there."""
+        from ..core.mesh import components
+
+        _, first = self.model.tree.query(location)
+        near = np.array(self.model.tree.query_ball_point(location, radius), np.int64)
+        if first not in near:  # faces larger than the brush are painted one by one
+            near = np.append(near, first)
+        place = np.full(len(self.chosen), -1)
+        place[near] = np.arange(len(near))
+        pairs = place[self.pairs[(place[self.pairs] >= 0).all(axis=1)]]
+        _, piece = components(len(near), *pairs.T)
+        hit = near[piece == piece[place[first]]]
+        self.chosen[hit[self.free[hit]]] = True
+
+    def numbers(self) -> np.ndarray:
+        """The part of each face once it is painted, (p,) int64."""
+        return np.where(self.chosen, self.number, self.model.numbers)
+
+
+class ReebDab(bpy.types.PropertyGroup):
+    """A dab of the brush, in coordinates of the mesh."""
+
+    location: bpy.props.FloatVectorProperty(name="Location", size=3, subtype="XYZ")
+    radius: bpy.props.FloatProperty(name="Radius", min=0.0, subtype="DISTANCE")
+
+
+class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
+    """Paint faces of other parts into the active part, with the pointer; locked parts stay"""
+
+    bl_idname = "reeb_parts.paint"
+    bl_label = "Paint into Part"
+    cursor = "PAINT_BRUSH"
+    uses_graph = False
+
+    stroke: bpy.props.CollectionProperty(type=ReebDab, options={"SKIP_SAVE"})
+    radius: bpy.props.FloatProperty(
+        name="Radius", min=0.0, subtype="DISTANCE", description="Of the brush, in the units of the mesh",
+    )
+
+    def work(self, context, obj, stored):
+        brush = Brush(obj, pointing.Model(obj), slide.active_number(obj))
+        for dab in self.stroke:
+            brush.dab(dab.location[:], dab.radius)
+        return _paint(context, obj, brush)
+
+    def hint(self):
+        return rpt_("Drag over the model to paint    Ctrl and wheel, [ ]: size    Enter: confirm    Esc: cancel")
+
+    def begin(self, context, obj):
+        if not self.radius:
+            self.radius = START_SIZE * float(np.linalg.norm(np.ptp(self.model.face_center, axis=0)))
+        edit.check_unlocked(obj, [slide.active_number(obj)])
+        self.stroke.clear()
+        self.brush = Brush(obj, self.model, slide.active_number(obj))
+        self.painting = False
+        self.colors = slide.number_colors(obj, self.model.stored)
+
+    def hover(self, context, target, event):
+        self._show_brush(target)
+        if self.painting and target is not None:
+            self._dab(context, target)
+
+    def press(self, context, target, event):
+        self.painting = True
+        self._dab(context, target)
+
+    def other(self, context, target, event):
+        if event.type == "LEFTMOUSE":
+            self.painting = False
+            return True
+        larger = {"RIGHT_BRACKET": True, "LEFT_BRACKET": False}
+        if event.ctrl:
+            larger |= {"WHEELUPMOUSE": True, "WHEELDOWNMOUSE": False}
+        if event.type not in larger or event.value != "PRESS":
+            return False
+        self.radius *= 1.2 if larger[event.type] else 1 / 1.2
+        self._show_brush(target)
+        return True
+
+    def confirm(self, context):
+        obj = self._restore(context)
+        try:
+            message = _paint(context, obj, self.brush)
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, message)
+        return {"FINISHED"}
+
+    def give_up(self, context):
+        self._restore(context)
+        return {"CANCELLED"}
+
+    def cancel(self, context):
+        self._restore(context)
+        super().cancel(context)
+
+    def _dab(self, context, target):
+        self.brush.dab(target.location, self.radius)
+        dab = self.stroke.add()
+        dab.location, dab.radius = target.location.tolist(), self.radius
+        slide.preview(context.view_layer.objects.active.data, self.brush.numbers(), self.colors)
+
+    def _restore(self, context):
+        """Show the parts as they are; the object."""
+        obj = bpy.data.objects[self.model.name]
+        slide.preview(obj.data, self.model.numbers, self.colors)
+        return obj
+
+    def _show_brush(self, target):
+        """A circle as large as the brush, lying on the surface."""
+        if target is None:
+            self.preview.lines = None
+            return
+        angle = np.linspace(0.0, 2 * np.pi, 49)
+        normal = Vector(self._normal(target.face))
+        first = normal.orthogonal().normalized()
+        axes = np.array([first, normal.cross(first)])
+        ring = target.location + self.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1) @ axes
+        self.preview.lines = np.stack([ring[:-1], ring[1:]], axis=1)
+
+    def _normal(self, face):
+        return bpy.data.objects[self.model.name].data.polygons[face].normal
+
+
+def _paint(context, obj, brush) -> str:
+    """Give the painted faces to the part; what happened, in a sentence."""
+    moved = int((brush.numbers() != brush.model.numbers).sum())
+    if not moved:
+        raise SceneError(rpt_("No faces were painted."))
+    edit.assign_faces(context, obj, brush.model.stored, brush.numbers())
+    return rpt_("{count} faces are {name} now").format(
+        count=moved, name=store.part_name(obj.data, brush.number))
+
+
+CLASSES = (ReebDab, REEB_PARTS_OT_paint,)

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Choose parts by clicking on the model or on the graph."""
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from mathutils import Vector
+
+from . import pointing, store
+from .parts import PartOperator, choose, toggle
+from .view_tool import ViewTool
+
+
+class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):
+    """Choose parts by clicking on the model or its graph; Shift chooses several"""
+
+    bl_idname = "reeb_parts.pick"
+    bl_label = "Pick Parts"
+
+    location: bpy.props.FloatVectorProperty(
+        name="Location", size=3, subtype="XYZ", description="A place on or beside the part, in the world",
+    )
+    extend: bpy.props.BoolProperty(
+        name="Extend", description="Add the part to those that are chosen, or take it away again",
+    )
+
+    def work(self, context, obj, stored):
+        model = pointing.Model(obj)
+        place = obj.matrix_world.inverted_safe() @ Vector(self.location)
+        self._choose(obj, model.number(model.at(place, False)), self.extend)
+
+    def hint(self):
+        return rpt_("Click a part or the graph to choose it    Shift: several    Enter, Esc: end")
+
+    def hover(self, context, target, event):
+        text = self.hint()
+        if target is not None:
+            mesh = context.view_layer.objects.active.data
+            text = f"{store.part_name(mesh, self.model.number(target))}    {text}"
+        context.workspace.status_text_set(text)
+
+    def press(self, context, target, event):
+        obj = context.view_layer.objects.active
+        self.location, self.extend = obj.matrix_world @ Vector(target.location), event.shift
+        self._choose(obj, self.model.number(target), event.shift)
+        for area in context.screen.areas:
+            area.tag_redraw()
+
+    def give_up(self, context):
+        # What was chosen is chosen, and can be undone.
+        return {"FINISHED"}
+
+    def _choose(self, obj, number, extend):
+        if extend:
+            toggle(obj, number)
+        else:
+            choose(obj, [number])
+
+
+CLASSES = (REEB_PARTS_OT_pick,)

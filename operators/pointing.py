@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What lies under the pointer: a point of the graph, or a face of the mesh."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from bpy_extras import view3d_utils
+
+from . import bridge, overlay, store
+from .graph_lines import GraphLines, nearest
+
+REACH = 10.0  # pixels around an arc, of a screen without scaling
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """A place on the model.
+
+    Attributes
+    ----------
+    candidate : int
+        The candidate part there.
+    location : (3,) float64
+        In the coordinates of the mesh.
+    level : float
+        Value of the field there.
+    face : int
+        Of the mesh; -1 on the graph.
+    """
+
+    candidate: int
+    location: np.ndarray
+    level: float
+    face: int
+
+    @property
+    def on_graph(self) -> bool:
+        return self.face < 0
+
+
+class Model:
+    """A decomposed object as the pointer meets it, read once; holds no Blender data.
+
+    Raises
+    ------
+    SceneError
+        There are no parts, or they are out of date.
+    """
+
+    def __init__(self, obj):
+        self.name = obj.name
+        self.stored = store.load(obj.data)
+        self.stretch = np.array(obj.data.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+        self.lines = GraphLines.of(self.stored.decomposition, self.stretch)
+        vertex, face = bridge.face_corners(obj.data)
+        count = len(obj.data.polygons)
+        corners = np.bincount(face, minlength=count)
+        field = np.nan_to_num(self.stored.decomposition.field)
+        self.face_value = np.bincount(face, field[vertex], count) / corners
+        points = bridge.shown_points(obj).astype(np.float64)
+        self.face_center = np.stack(
+            [np.bincount(face, axis, count) / corners for axis in points[vertex].T], axis=1)
+        self._tree = None
+
+    @property
+    def numbers(self) -> np.ndarray:
+        """(p,) int64, the part of each face."""
+        return self.stored.shown[self.stored.decomposition.candidates]
+
+    @property
+    def tree(self):
+        """Finds face centres; made when it is needed first."""
+        from scipy.spatial import cKDTree
+
+        if self._tree is None:
+            self._tree = cKDTree(self.face_center)
+        return self._tree
+
+    def number(self, target) -> int:
+        """The part that a target lies in."""
+        return int(self.stored.shown[target.candidate])
+
+    def at(self, location, on_graph) -> Target:
+        """The place of the graph, or of the surface, nearest to a (3,) location in mesh coordinates."""
+        location = np.asarray(location, np.float64)
+        if not on_graph:
+            return self._on_face(int(self.tree.query(location)[1]), location)
+        start, end = self.lines.position[self.lines.segments].transpose(1, 0, 2)
+        way = end - start
+        square = np.maximum((way**2).sum(axis=1), 1e-300)
+        share = np.clip(((location - start) * way).sum(axis=1) / square, 0.0, 1.0)
+        distance = np.linalg.norm(start + share[:, None] * way - location, axis=1)
+        best = int(distance.argmin())
+        return self._on_line(best, float(share[best]))
+
+    def under(self, context, obj, region, mouse, graph=True, surface=True) -> Target | None:
+        """What is at a (2,) place of a region, in its pixels: of the graph first; None beside the model."""
+        view = context.area.spaces.active.region_3d
+        target = self._graph_under(context, obj, region, view, mouse) if graph else None
+        return target or (self._face_under(context, obj, region, view, mouse) if surface else None)
+
+    def _graph_under(self, context, obj, region, view, mouse):
+        arcs = overlay.arcs(obj)
+        if arcs is None or not arcs.visible_get():
+            return None
+        points = on_screen(self.lines.position, obj.matrix_world, region, view)
+        segment, share, distance = nearest(points, self.lines.segments, mouse)
+        if segment < 0 or distance > REACH * context.preferences.system.ui_scale:
+            return None
+        return self._on_line(segment, share)
+
+    def _on_line(self, segment, share):
+        low, high = self.lines.segments[segment]
+        end = high if share > 0.5 else low
+        blend = np.array([1.0 - share, share])
+        return Target(int(self.lines.candidate[end]), blend @ self.lines.position[[low, high]],
+                      float(blend @ self.lines.value[[low, high]]), -1)
+
+    def _face_under(self, context, obj, region, view, mouse):
+        seen = obj.evaluated_get(context.evaluated_depsgraph_get())
+        back = obj.matrix_world.inverted_safe()
+        start = back @ view3d_utils.region_2d_to_origin_3d(region, view, mouse)
+        ahead = back.to_3x3() @ view3d_utils.region_2d_to_vector_3d(region, view, mouse)
+        if not ahead.length:
+            return None
+        hit, location, _, face = seen.ray_cast(start, ahead)
+        if not hit:
+            return None
+        location = np.array(location)
+        if len(seen.data.polygons) != len(self.face_value):  # a modifier has made other faces
+            face = int(self.tree.query(location)[1])
+        return self._on_face(face, location)
+
+    def _on_face(self, face, location):
+        return Target(int(self.stored.decomposition.candidates[face]), location, float(self.face_value[face]), face)
+
+
+def on_screen(positions, matrix, region, view) -> np.ndarray:
+    """Where points are seen, (m, 2) float64 in pixels of the region; nan behind the viewer."""
+    whole = np.array(view.perspective_matrix, np.float64) @ np.array(matrix, np.float64)
+    seen = np.concatenate([positions, np.ones((len(positions), 1))], axis=1) @ whole.T
+    depth = np.where(seen[:, 3:] > 1e-9, seen[:, 3:], np.nan)
+    return (seen[:, :2] / depth + 1.0) * 0.5 * (region.width, region.height)
+
+
+def view_region(area, event):
+    """The region of a viewport that the pointer is in: (region, place in it), or None over a panel."""
+    window = None
+    for region in area.regions:
+        x, y = event.mouse_x - region.x, event.mouse_y - region.y
+        if 0 <= x < region.width and 0 <= y < region.height:
+            if region.type != "WINDOW":
+                return None
+            window = region, (x, y)
+    return window

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tools that are used with the pointer over the model until they are confirmed or cancelled."""
+
+import bpy
+import gpu
+from bpy.app.translations import pgettext_rpt as rpt_
+from gpu_extras.batch import batch_for_shader
+
+from . import pointing
+from .problems import SceneError
+
+_CONFIRM = {"RET", "NUMPAD_ENTER"}
+_CANCEL = {"ESC", "RIGHTMOUSE"}
+
+
+class Preview:
+    """Lines that are drawn over the view while a tool is at work; outlives nothing of Blender's."""
+
+    def __init__(self):
+        self.lines = None  # (k, 2, 3) float, in coordinates of the mesh
+        self.matrix = None  # of the object, in the world
+        self.color = (1.0, 1.0, 1.0, 1.0)
+        self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
+
+    def remove(self):
+        bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
+
+    def _draw(self):
+        if self.lines is None or not len(self.lines):
+            return
+        shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+        batch = batch_for_shader(shader, "LINES", {"pos": self.lines.reshape(-1, 3).astype("float32")})
+        shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+        shader.uniform_float("lineWidth", 3.0)
+        shader.uniform_float("color", self.color)
+        with gpu.matrix.push_pop():
+            gpu.matrix.multiply_matrix(self.matrix)
+            batch.draw(shader)
+
+
+class ViewTool:
+    """For operators that look at what is under the pointer; the active object is the model.
+
+    A class that inherits gives ``hint()`` and any of ``hover``, ``press``, ``other`` and ``confirm``. Events
+    that it does not use go their usual way, so that the view can be turned meanwhile.
+    """
+
+    cursor = "EYEDROPPER"
+    uses_graph = True  # or only the surface
+
+    def hint(self) -> str:
+        """What the status bar says."""
+        raise NotImplementedError
+
+    def begin(self, context, obj):
+        """Read what more is needed; raises SceneError."""
+
+    def hover(self, context, target, event):
+        """The pointer moved; target is None beside the model."""
+
+    def press(self, context, target, event):
+        """The left button went down on the model; the operator's result, or None to go on."""
+
+    def other(self, context, target, event):
+        """Any other event over the view; True if it was used."""
+        return False
+
+    def confirm(self, context):
+        """Enter was pressed; the operator's result."""
+        return {"FINISHED"}
+
+    def give_up(self, context):
+        """Esc was pressed; the operator's result."""
+        return {"CANCELLED"}
+
+    def invoke(self, context, event):
+        obj = context.view_layer.objects.active
+        try:
+            if context.area is None or context.area.type != "VIEW_3D":
+                raise SceneError(rpt_("This works over a 3D viewport."))
+            if obj.mode != "OBJECT":
+                raise SceneError(rpt_("This works in Object Mode, where the parts can be seen."))
+            self._read(context, obj)
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.preview = Preview()
+        context.window.cursor_modal_set(self.cursor)
+        context.workspace.status_text_set(self.hint())
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        result = self._answer(context, event)
+        if result & {"FINISHED", "CANCELLED"}:
+            self._end(context)
+        return result
+
+    def cancel(self, context):
+        self._end(context)
+
+    def _answer(self, context, event):
+        place = pointing.view_region(context.area, event)
+        if event.type in _CANCEL and event.value == "PRESS":
+            return self.give_up(context)
+        if event.type in _CONFIRM and event.value == "PRESS":
+            return self.confirm(context)
+        if place is None:
+            return {"PASS_THROUGH"}
+        try:
+            target = self._target(context, *place)
+            return self._use(context, target, event)
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return self.give_up(context)
+
+    def _use(self, context, target, event):
+        if event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}:
+            self.hover(context, target, event)
+            self._redraw(context)
+            return {"RUNNING_MODAL"}
+        if event.type == "LEFTMOUSE" and event.value == "PRESS" and target is not None:
+            return self.press(context, target, event) or {"RUNNING_MODAL"}
+        used = self.other(context, target, event)
+        self._redraw(context)
+        return {"RUNNING_MODAL"} if used else {"PASS_THROUGH"}
+
+    def _target(self, context, region, mouse):
+        """What is under the pointer; everything is read again if parts or object have changed."""
+        obj = context.view_layer.objects.active
+        if obj is None or obj.type != "MESH" or obj.mode != "OBJECT":
+            raise SceneError(rpt_("The object was changed meanwhile."))
+        if self._key != _key(obj):
+            self._read(context, obj)
+        self.preview.matrix = obj.matrix_world.copy()
+        return self.model.under(context, obj, region, mouse, graph=self.uses_graph)
+
+    def _read(self, context, obj):
+        self.model = pointing.Model(obj)
+        self._key = _key(obj)
+        self.begin(context, obj)
+
+    def _redraw(self, context):
+        context.area.tag_redraw()
+
+    def _end(self, context):
+        self.preview.remove()
+        context.window.cursor_modal_restore()
+        context.workspace.status_text_set(None)
+        if context.area is not None:
+            context.area.tag_redraw()
+
+
+def _key(obj):
+    """Changes with the object, its mesh and its parts."""
+    result = obj.data.reeb_parts
+    return obj.name, obj.data.session_uid, result.fingerprint, result.numbers

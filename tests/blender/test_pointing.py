@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts chosen, cut and painted where somebody points; by location here, with the pointer in tests/window."""
+
+import bpy
+import numpy as np
+import pytest
+import shapes
+from mathutils import Matrix, Vector
+from snapshot import activate, check_undo, snapshot
+
+
+@pytest.fixture
+def result(obj):
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    return obj.data.reeb_parts
+
+
+def numbers(mesh):
+    values = np.zeros(len(mesh.polygons), np.int32)
+    mesh.attributes["reeb_part"].data.foreach_get("value", values)
+    return values
+
+
+def centers(obj):
+    values = np.zeros(3 * len(obj.data.polygons), np.float32)
+    obj.data.polygons.foreach_get("center", values)
+    return values.reshape(-1, 3)
+
+
+def arcs(obj):
+    return next(item for item in obj.children if item.get("reeb_parts_role") == "arcs")
+
+
+def branch(obj, tip):
+    """Faces nearer to one tip of the tree than to the others, as far as they are out on its branch."""
+    center = centers(obj)
+    ways = shapes.TREE_TIPS / np.linalg.norm(shapes.TREE_TIPS, axis=1)[:, None]
+    along = center @ ways.T
+    return (along.argmax(axis=1) == tip), along[:, tip]
+
+
+@pytest.mark.parametrize("tip", range(4))
+def test_a_place_on_the_surface_picks_its_part(obj, result, tip):
+    tip_face = np.linalg.norm(centers(obj) - shapes.TREE_TIPS[tip], axis=1).argmin()
+    bpy.ops.reeb_parts.pick(location=centers(obj)[tip_face])
+    assert result.parts[result.active].number == numbers(obj.data)[tip_face]
+    assert not any(part.selected for part in result.parts)
+
+
+def test_extending_adds_and_takes_away(obj, result):
+    faces = [np.linalg.norm(centers(obj) - tip, axis=1).argmin() for tip in shapes.TREE_TIPS]
+    wanted = [int(numbers(obj.data)[face]) for face in faces]
+    bpy.ops.reeb_parts.pick(location=centers(obj)[faces[0]])
+    for face in faces[1:]:
+        bpy.ops.reeb_parts.pick(location=centers(obj)[face], extend=True)
+    assert {part.number for part in result.parts if part.selected} == set(wanted)
+    bpy.ops.reeb_parts.pick(location=centers(obj)[faces[1]], extend=True)
+    assert {part.number for part in result.parts if part.selected} == set(wanted) - {wanted[1]}
+
+
+@pytest.mark.parametrize("matrix", [
+    Matrix(), Matrix.Translation((3, -1, 2)) @ Matrix.Rotation(0.7, 4, "X") @ Matrix.Diagonal((2, 0.5, 1, 1)),
+    Matrix.Diagonal((-1, 1, 1, 1)),
+])
+@pytest.mark.parametrize("on_graph", [True, False])
+def test_a_cut_goes_around_the_branch_where_it_was_pointed_at(obj, matrix, on_graph):
+    obj.matrix_world = matrix
+    bpy.context.view_layer.update()
+    bpy.ops.reeb_parts.decompose(method="berretti", n_parts=1)
+    mesh = obj.data
+    tip = 0
+    own, along = branch(obj, tip)
+    way = shapes.TREE_TIPS[tip] / np.linalg.norm(shapes.TREE_TIPS[tip])
+    place = Vector(1.4 * way)
+    if not on_graph:
+        place = Vector(centers(obj)[np.flatnonzero(own)[np.abs(along[own] - 1.4).argmin()]])
+    bpy.ops.reeb_parts.cut(location=obj.matrix_world @ place, on_graph=on_graph)
+    found = numbers(mesh)
+    (new,) = set(found.tolist()) - {1}
+    assert (found[own & (along > 1.65)] == new).all()
+    assert (found[~own | (along < 1.15)] == 1).all()
+    assert all(part.pinned for part in mesh.reeb_parts.parts)
+
+
+def test_a_cut_stays_at_every_detail(obj, result):
+    result.n_parts = 1
+    bpy.ops.reeb_parts.cut(location=1.4 * Vector(shapes.TREE_TIPS[0]).normalized())
+    cut = numbers(obj.data)
+    new = int(cut.max())
+    for detail in (0.9, 0.1, 0.5):
+        result.detail = detail
+        assert ((numbers(obj.data) == new) == (cut == new)).all()
+
+
+@pytest.mark.parametrize("name", ["pick", "cut", "paint", "from_face_sets"])
+def test_each_is_one_step_of_undo(obj, result, name):
+    result.n_parts = 2
+    bpy.ops.reeb_parts.face_sets()
+    face = int(np.flatnonzero(numbers(obj.data) != result.parts[0].number)[0])
+    sets = obj.data.attributes[".sculpt_face_set"].data
+    sets[face].value = result.parts[0].number
+    result.active = 0
+    work = {
+        "pick": lambda: bpy.ops.reeb_parts.pick(location=centers(obj)[face]),
+        "cut": lambda: bpy.ops.reeb_parts.cut(location=1.4 * Vector(shapes.TREE_TIPS[0]).normalized()),
+        "paint": lambda: bpy.ops.reeb_parts.paint(stroke=dabs(centers(obj)[face], size=0.1)),
+        "from_face_sets": bpy.ops.reeb_parts.from_face_sets,
+    }[name]
+    check_undo(work)
+
+
+def test_nothing_is_cut_off_beyond_a_tip(obj, result):
+    result.n_parts = 1
+    tip = Vector(shapes.TREE_TIPS[0]) * 1.5
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="Nothing of Part 01 would be cut off"):
+        bpy.ops.reeb_parts.cut(location=tip, on_graph=True)
+    assert snapshot() == before
+
+
+def test_a_locked_part_is_not_cut(obj, result):
+    result.n_parts = 1
+    result.parts[0].locked = True
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="locked"):
+        bpy.ops.reeb_parts.cut(location=shapes.TREE_TIPS[0])
+    assert snapshot() == before
+
+
+def test_an_arc_is_a_handle(obj, result):
+    curve = arcs(obj)
+    for index, tip in enumerate(shapes.TREE_TIPS):
+        activate(curve)
+        bpy.ops.reeb_parts.from_arc(location=1.2 * tip)
+        assert bpy.context.view_layer.objects.active == obj
+        assert bpy.context.view_layer.objects.selected[:] == [obj]
+        tip_face = np.linalg.norm(centers(obj) - tip, axis=1).argmin()
+        assert result.parts[result.active].number == numbers(obj.data)[tip_face], index
+
+
+def dabs(*places, size):
+    return [{"name": "", "location": tuple(place), "radius": size} for place in places]
+
+
+def test_painting_takes_the_faces_under_the_brush_and_no_others(obj, result):
+    result.n_parts = 1
+    bpy.ops.reeb_parts.cut(location=1.4 * Vector(shapes.TREE_TIPS[0]).normalized())
+    before, center = numbers(obj.data), centers(obj)
+    new = int(before.max())
+    result.active = [part.number for part in result.parts].index(new)
+    edge = center[np.linalg.norm(center - center[before == new].mean(axis=0), axis=1).argmin()]
+    border = center[(before == 1)][np.linalg.norm(center[before == 1] - edge, axis=1).argmin()]
+    bpy.ops.reeb_parts.paint(stroke=dabs(border, size=0.2))
+    after = numbers(obj.data)
+    moved = after != before
+    assert moved.any()
+    assert (after[moved] == new).all()
+    assert (np.linalg.norm(center[moved] - border, axis=1) <= 0.2).all()
+    near = np.linalg.norm(center - border, axis=1) <= 0.1
+    assert (after[near] == new).all()
+
+
+def test_painting_leaves_locked_parts_alone(obj, result):
+    other = next(part for part in result.parts if part.number != result.parts[result.active].number)
+    other.locked = True
+    before = snapshot()
+    face = np.flatnonzero(numbers(obj.data) == other.number)[0]
+    with pytest.raises(RuntimeError, match="No faces were painted"):
+        bpy.ops.reeb_parts.paint(stroke=dabs(centers(obj)[face], size=0.01))
+    assert snapshot() == before
+
+
+def test_a_brush_does_not_reach_through_a_thin_body(make):
+    # Two plates back to back, so near that the brush is much larger than the gap.
+    plate = shapes.flat_grid(20, 20)
+    obj = make(shapes.together(plate, shapes.moved(plate, (0, 0, 0.01))))
+    bpy.ops.reeb_parts.decompose()
+    mesh = obj.data
+    center = centers(obj)
+    before = numbers(mesh)
+    upper = center[:, 2] > 0.005
+    mesh.reeb_parts.active = [part.number for part in mesh.reeb_parts.parts].index(int(before[upper][0]))
+    lower_face = np.flatnonzero(~upper)[0]
+    bpy.ops.reeb_parts.paint(stroke=dabs(center[lower_face], size=0.3))
+    moved = numbers(mesh) != before
+    assert moved.any()
+    assert not moved[upper].any()
+
+
+def test_face_sets_painted_by_hand_become_parts(obj, result):
+    mesh = obj.data
+    with pytest.raises(RuntimeError, match="not face sets yet"):
+        bpy.ops.reeb_parts.from_face_sets()
+    bpy.ops.reeb_parts.face_sets()
+    before = numbers(mesh)
+    sets = mesh.attributes[".sculpt_face_set"].data
+    # A ball of faces into part 1, another into a face set of its own.
+    center = centers(obj)
+    ball = np.linalg.norm(center - shapes.TREE_TIPS[1], axis=1) < 0.5
+    fresh = np.linalg.norm(center - shapes.TREE_TIPS[0], axis=1) < 0.5
+    for face in np.flatnonzero(ball):
+        sets[face].value = 1
+    for face in np.flatnonzero(fresh):
+        sets[face].value = 77
+    bpy.ops.object.mode_set(mode="SCULPT")
+    bpy.ops.reeb_parts.from_face_sets()
+    assert obj.mode == "SCULPT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    after = numbers(mesh)
+    (new,) = set(after[fresh].tolist())
+    assert new not in before
+    assert (after[~ball & ~fresh] == before[~ball & ~fresh]).all()
+    assert ball.any()
+    assert fresh.any()
+    # The ball is not connected with the rest of part 1: it is a part of its own.
+    (other,) = set(after[ball].tolist())
+    assert other not in (before[ball][0], new)
