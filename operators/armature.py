@@ -3,6 +3,7 @@
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from . import attributes, bridge, live, separate, store
@@ -166,7 +167,7 @@ class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
 
     def work(self, context, obj, stored):
         rig = make(context, obj, stored, self.deform)
-        return f"{rig.name} has {len(rig.data.bones)} bones"
+        return rpt_("{name} has {n} bones").format(name=rig.name, n=len(rig.data.bones))
 
 
 CLASSES = (REEB_PARTS_OT_armature,)

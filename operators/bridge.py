@@ -10,7 +10,10 @@ from dataclasses import dataclass
 import bmesh
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_iface as iface_
+from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Sentence
 from .modes import check_mode
 from .problems import SceneError
 
@@ -30,7 +33,7 @@ class Shape:
         Symmetric; takes the mesh's coordinates to ``vertices``.
     digest : str
         Equal for equal arrays.
-    notes : tuple of str
+    notes : tuple of Sentence
     """
 
     vertices: np.ndarray
@@ -38,7 +41,7 @@ class Shape:
     polygon: np.ndarray
     stretch: np.ndarray
     digest: str
-    notes: tuple[str, ...]
+    notes: tuple[Sentence, ...]
 
 
 def targets(context):
@@ -61,27 +64,37 @@ def targets(context):
 def check_object(obj):
     """Raise SceneError unless the object is a mesh that can be read and written."""
     if obj is None:
-        raise SceneError("There is no active object. Select a mesh and try again.")
+        raise SceneError(rpt_("There is no active object. Select a mesh and try again."))
     if obj.type != "MESH":
-        kind = obj.bl_rna.properties["type"].enum_items[obj.type].name.lower()
-        raise SceneError(f"{obj.name} is not a mesh but of the type {kind}. Select a mesh and try again.")
+        raise SceneError(rpt_("{name} is not a mesh but of the type {kind}. Select a mesh and try again.").format(
+            name=obj.name, kind=_kind(obj)))
     for data in (obj, obj.data):
         if data.override_library:
             raise SceneError(
-                f"{data.name} is a library override and its mesh cannot be written. Make it local (Object > "
-                "Library Override > Make Local) and try again."
+                rpt_("{name} is a library override and its mesh cannot be written. Make it local (Object > "
+                     "Library Override > Make Local) and try again.").format(name=data.name)
             )
         if data.library or not data.is_editable:
-            source = data.library.filepath if data.library else "another file"
+            source = data.library.filepath if data.library else rpt_("another file")
             raise SceneError(
-                f"{data.name} is linked from {source} and cannot be written. Make it local (Object > "
-                "Relations > Make Local) and try again."
+                rpt_("{name} is linked from {source} and cannot be written. Make it local (Object > "
+                     "Relations > Make Local) and try again.").format(name=data.name, source=source)
             )
     check_mode(obj)
     if obj.data.is_editmode and obj.mode != "EDIT":
         raise SceneError(
-            f"The mesh of {obj.name} is being edited through another object. Leave Edit Mode there first."
+            rpt_("The mesh of {name} is being edited through another object. Leave Edit Mode there first.").format(
+                name=obj.name)
         )
+
+
+def _kind(obj) -> str:
+    """What sort of object it is, in Blender's own word."""
+    prop = obj.bl_rna.properties["type"]
+    word = prop.enum_items[obj.type].name
+    local = iface_(word, prop.translation_context)
+    # Other languages may write nouns with a capital.
+    return word.lower() if local == word else local
 
 
 def read_shape(obj) -> Shape:
@@ -275,15 +288,17 @@ def _weights(obj, name) -> np.ndarray:
     return weights
 
 
-def _notes(obj) -> tuple[str, ...]:
+def _notes(obj) -> tuple[Sentence, ...]:
     notes = []
     # One of ours only moves the parts in the view.
     count = sum(not modifier.name.startswith("Reeb Parts") for modifier in obj.modifiers)
-    if count:
-        which = "its modifier was" if count == 1 else f"its {count} modifiers were"
-        notes.append(f"{obj.name} was decomposed as it is before {which} applied.")
+    if count == 1:
+        notes.append(Sentence("{name} was decomposed as it is before its modifier was applied.", name=obj.name))
+    elif count:
+        notes.append(Sentence("{name} was decomposed as it is before its {n} modifiers were applied.",
+                              name=obj.name, n=count))
     if obj.data.users > 1 and (users := _users(obj.data)) > 1:
-        notes.append(f"{users} objects share this mesh; all of them show its parts.")
+        notes.append(Sentence("{n} objects share this mesh; all of them show its parts.", n=users))
     return tuple(notes)
 
 

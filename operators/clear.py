@@ -2,6 +2,7 @@
 """Clear: remove exactly what was made."""
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import armature, attributes, bridge, explode, live, overlay, store, unwrap, view
 from .modes import object_mode
@@ -30,7 +31,7 @@ class REEB_PARTS_OT_clear(bpy.types.Operator):
     def poll(cls, context):
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH" or not (store.has_result(obj.data) or overlay.find(obj)):
-            cls.poll_message_set("The active object has no parts")
+            cls.poll_message_set(rpt_("The active object has no parts"))
             return False
         return True
 

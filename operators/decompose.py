@@ -4,13 +4,14 @@
 from dataclasses import dataclass
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import Cancelled, ReebError
 from ..ui.properties import OUTPUTS, OVERLAY, PARAMETERS, OutputProperties, OverlayProperties, ParameterProperties
-from . import attributes, bridge, compute, defaults, jobs, overlay, store, view
+from . import attributes, bridge, compute, defaults, jobs, notes, overlay, store, view
 from .bridge import Shape
 from .modes import object_mode
-from .problems import SceneError, load_core
+from .problems import SceneError, load_core, translated
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,7 +21,7 @@ class Outcome:
     object_name: str
     shape: Shape
     decomposition: object = None
-    problem: str = ""
+    problem: str = ""  # a Sentence
     seconds: float = 0.0
 
 
@@ -31,22 +32,22 @@ def compute_all(shapes, parameters, progress) -> list[Outcome]:
     ----------
     shapes : list of (object name, Shape)
     parameters : core.Parameters
-    progress : callable(stage, share)
+    progress : callable(stage, share, name of the object if there are several)
         What it raises ends everything.
     """
     outcomes = []
     for index, (name, shape) in enumerate(shapes):
-        several = f"{name}: " if len(shapes) > 1 else ""
+        of = (name,) if len(shapes) > 1 else ()
 
-        def step(stage, share, index=index, several=several):
-            progress(several + stage, (index + share) / len(shapes))
+        def step(stage, share, index=index, of=of):
+            progress(stage, (index + share) / len(shapes), *of)
 
         try:
             result = compute.decomposition(shape, parameters, step)
         except Cancelled:
             raise
         except ReebError as error:
-            outcomes.append(Outcome(name, shape, problem=str(error)))
+            outcomes.append(Outcome(name, shape, problem=error.args[0]))
         else:
             outcomes.append(Outcome(name, shape, result, seconds=sum(result.seconds.values())))
     return outcomes
@@ -75,7 +76,7 @@ def write_result(context, obj, outcome: Outcome, settings):
         result.object_name = obj.name
         result.stretch = outcome.shape.stretch.ravel().tolist()
         result.seconds = outcome.seconds
-        result.notes = "\n".join(decomposition.notes + outcome.shape.notes)
+        notes.keep(result, decomposition.notes + outcome.shape.notes)
         result.detail, result.by_number = parameters.detail, parameters.n_parts > 0
         attributes.write_outputs(obj, numbered, decomposition.field, settings)
     store.mark_pins(mesh, stored)
@@ -99,11 +100,11 @@ class REEB_PARTS_OT_decompose(
     def poll(cls, context):
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH":
-            cls.poll_message_set("Select a mesh first")
+            cls.poll_message_set(rpt_("Select a mesh first"))
             # Scripts are let through, to be told what is wrong in a sentence.
             return bpy.app.background
         if jobs.current is not None:
-            cls.poll_message_set("Reeb Parts is still computing")
+            cls.poll_message_set(rpt_("Reeb Parts is still computing"))
             return False
         return True
 
@@ -121,9 +122,9 @@ class REEB_PARTS_OT_decompose(
         defaults.complete(self)
         try:
             parameters, shapes = self._read(context)
-            outcomes = compute_all(shapes, parameters, lambda stage, share: None)
+            outcomes = compute_all(shapes, parameters, lambda stage, share, of="": None)
         except (SceneError, ReebError) as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, translated(error))
             return {"CANCELLED"}
         return self._write(context, outcomes)
 
@@ -145,7 +146,7 @@ class REEB_PARTS_OT_decompose(
         """Write what was computed and report on it."""
         done = [outcome for outcome in outcomes if outcome.decomposition is not None]
         if not done:
-            self.report({"ERROR"}, outcomes[0].problem)
+            self.report({"ERROR"}, translated(outcomes[0].problem))
             return {"CANCELLED"}
         with object_mode(context):
             for outcome in done:
@@ -157,12 +158,13 @@ class REEB_PARTS_OT_decompose(
     def _report(self, outcome, several):
         name = f"{outcome.object_name}: " if several else ""
         if outcome.decomposition is None:
-            self.report({"WARNING"}, name + outcome.problem)
+            self.report({"WARNING"}, name + translated(outcome.problem))
             return
         for note in outcome.decomposition.notes + outcome.shape.notes:
-            self.report({"INFO"}, name + note)
+            self.report({"INFO"}, name + translated(note))
         result = bpy.data.objects[outcome.object_name].data.reeb_parts
-        self.report({"INFO"}, f"{name}{len(result.parts)} parts in {outcome.seconds:.1f} s")
+        self.report({"INFO"}, name + rpt_("{n} parts in {seconds:.1f} s").format(
+            n=len(result.parts), seconds=outcome.seconds))
 
     # In the window
 
@@ -171,7 +173,7 @@ class REEB_PARTS_OT_decompose(
             parameters, shapes = self._read(context)
             self._job = jobs.Job(lambda progress: compute_all(shapes, parameters, progress))
         except (SceneError, ReebError) as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, translated(error))
             return {"CANCELLED"}
         jobs.current = self._job
         self._shown = ""
@@ -193,7 +195,7 @@ class REEB_PARTS_OT_decompose(
         # A cancelled thread ends by itself at its next step, and nobody looks at what it leaves.
         self._stop_watching(context)
         if self._job.cancelled:
-            self.report({"INFO"}, "Cancelled; nothing was changed")
+            self.report({"INFO"}, rpt_("Cancelled; nothing was changed"))
             return {"CANCELLED"}
         return self._finish(context)
 
@@ -205,7 +207,7 @@ class REEB_PARTS_OT_decompose(
     def _finish(self, context):
         error = self._job.error
         if isinstance(error, (SceneError, ReebError)):
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, translated(error))
             return {"CANCELLED"}
         if error is not None:
             raise error
@@ -223,13 +225,15 @@ class REEB_PARTS_OT_decompose(
         for name, digest in self._digests.items():
             obj = bpy.data.objects.get(name)
             if obj is None or obj.type != "MESH":
-                raise SceneError(f"{name} is gone; its parts were computed in vain.")
+                raise SceneError(rpt_("{name} is gone; its parts were computed in vain.").format(name=name))
             bridge.check_object(obj)
             if bridge.read_shape(obj).digest != digest:
-                raise SceneError(f"{name} was changed while its parts were computed. Decompose it again.")
+                raise SceneError(
+                    rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=name))
 
     def _show_progress(self, context):
-        text = f"Reeb Parts: {self._job.stage} ({self._job.share:.0%})    Esc: cancel"
+        text = rpt_("Reeb Parts: {stage} ({share:.0%})    Esc: cancel").format(
+            stage=self._job.text, share=self._job.share)
         if text != self._shown:
             self._shown = text
             context.window_manager.progress_update(round(100 * self._job.share))

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..ui.use_properties import WhichProperties
 from . import bridge, parts, separate, store
@@ -53,7 +54,8 @@ def export_parts(obj, folder: Path, kind: str, numbers=None, close=False) -> lis
     numbers = sorted(set(face_numbers.tolist()) if numbers is None else numbers)
     names = [_file_name(f"{obj.name} {store.part_name(obj.data, number)}") for number in numbers]
     if len({name.lower() for name in names}) < len(names):
-        raise SceneError("Two parts have the same name; give them different ones to write them as files.")
+        raise SceneError(
+            rpt_("Two parts have the same name; give them different ones to write them as files."))
     meshes, _ = separate.part_meshes(obj.data, face_numbers, numbers, close)
     try:
         with _own_selection():
@@ -137,7 +139,7 @@ class REEB_PARTS_OT_export(bpy.types.Operator, WhichProperties):
     def execute(self, context):
         try:
             if not self.directory:
-                raise SceneError("There is no folder to write to. Choose one and try again.")
+                raise SceneError(rpt_("There is no folder to write to. Choose one and try again."))
             folder = Path(bpy.path.abspath(self.directory))
             objects = [obj for obj in bridge.targets(context) if store.has_result(obj.data)]
             with object_mode(context):
@@ -148,9 +150,9 @@ class REEB_PARTS_OT_export(bpy.types.Operator, WhichProperties):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         except (OSError, RuntimeError) as error:  # what Blender's exporters report arrives as RuntimeError
-            self.report({"ERROR"}, f"The parts could not be written: {str(error).strip()}")
+            self.report({"ERROR"}, rpt_("The parts could not be written: {reason}").format(reason=str(error).strip()))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"{len(paths)} files in {folder}")
+        self.report({"INFO"}, rpt_("{n} files in {folder}").format(n=len(paths), folder=folder))
         return {"FINISHED"}
 
 

@@ -6,6 +6,8 @@ The thread works on arrays and never touches Blender's data; Blender's thread as
 
 import threading
 
+from bpy.app.translations import pgettext_rpt as rpt_
+
 from .problems import load_core
 
 
@@ -15,6 +17,9 @@ class Job:
     Attributes
     ----------
     stage : str
+        What core calls what it is doing.
+    of : str
+        Name of the object it is doing it to, "" if there is only one.
     share : float
         How far it is, 0..1.
     result
@@ -24,7 +29,7 @@ class Job:
     """
 
     def __init__(self, work):
-        self.stage, self.share = "", 0.0
+        self.stage, self.of, self.share = "", "", 0.0
         self.result = self.error = None
         self._cancelled_error = load_core().Cancelled
         self._stop = threading.Event()
@@ -45,14 +50,20 @@ class Job:
     def running(self) -> bool:
         return self._thread.is_alive()
 
+    @property
+    def text(self) -> str:
+        """What it is doing, in the language of the interface; for Blender's thread."""
+        stage = rpt_(self.stage)
+        return f"{self.of}: {stage}" if self.of else stage
+
     def _run(self, work):
         try:
             self.result = work(self._progress)
         except BaseException as error:  # noqa: BLE001 - carried to the thread that asked, raised there
             self.error = error
 
-    def _progress(self, stage, share):
-        self.stage, self.share = stage, share
+    def _progress(self, stage, share, of=""):
+        self.stage, self.share, self.of = stage, share, of
         if self._stop.is_set():
             raise self._cancelled_error
 

@@ -4,6 +4,7 @@
 from contextlib import contextmanager
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from .problems import SceneError
 
@@ -12,8 +13,8 @@ def check_mode(obj):
     """Raise SceneError in a mode that cannot be left without a loss."""
     if obj.mode == "SCULPT" and obj.use_dynamic_topology_sculpting:
         raise SceneError(
-            f"{obj.name} is being sculpted with dynamic topology, which keeps its own mesh. Switch Dyntopo "
-            "off, or leave Sculpt Mode, and try again."
+            rpt_("{name} is being sculpted with dynamic topology, which keeps its own mesh. Switch Dyntopo "
+                 "off, or leave Sculpt Mode, and try again.").format(name=obj.name)
         )
 
 

@@ -2,6 +2,8 @@
 """Seams, face sets and materials of the parts, each with one click, and taken back with another."""
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import attributes, live, store
 from .parts import PartOperator
@@ -24,7 +26,7 @@ class OutputOperator(PartOperator):
                 numbered = stored.shown_parts()
                 attributes.update_outputs(obj, numbered, numbered.face_numbers)
         obj.data.update()
-        return undone if self.remove else done.format(n=len(obj.data.reeb_parts.parts))
+        return rpt_(undone) if self.remove else rpt_(done).format(n=len(obj.data.reeb_parts.parts))
 
 
 class REEB_PARTS_OT_seams(OutputOperator, bpy.types.Operator):
@@ -33,7 +35,7 @@ class REEB_PARTS_OT_seams(OutputOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.seams"
     bl_label = "Mark Seams between Parts"
     steps = (attributes.add_seams, attributes.remove_seams,
-             "Seams around {n} parts", "The seams are yours alone again")
+             n_("Seams around {n} parts"), n_("The seams are yours alone again"))
 
 
 class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
@@ -42,7 +44,7 @@ class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.face_sets"
     bl_label = "Make Face Sets of Parts"
     steps = (attributes.add_face_sets, attributes.remove_face_sets,
-             "{n} parts are face sets", "The face sets are yours alone again")
+             n_("{n} parts are face sets"), n_("The face sets are yours alone again"))
 
 
 class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
@@ -51,7 +53,7 @@ class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.materials"
     bl_label = "Give Each Part a Material"
     steps = (attributes.add_materials, attributes.remove_materials,
-             "{n} parts have materials", "The materials are yours alone again")
+             n_("{n} parts have materials"), n_("The materials are yours alone again"))
 
 
 CLASSES = (REEB_PARTS_OT_seams, REEB_PARTS_OT_face_sets, REEB_PARTS_OT_materials)

@@ -1,11 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the scene can get wrong, and the way into core."""
+"""What the scene can get wrong, what users are told of it, and the way into core."""
 
 import importlib
 
+from bpy.app.translations import pgettext_rpt as rpt_
+
 
 class SceneError(Exception):
-    """The scene does not allow what was asked; the message is the sentence the user reads."""
+    """The scene does not allow what was asked; the message is the sentence the user reads, translated."""
+
+
+def translated(words) -> str:
+    """A sentence of core, or an error that carries one, in the language of the interface.
+
+    What is in that language already, like a SceneError, stays as it is.
+    """
+    sentence = words.args[0] if isinstance(words, Exception) else words
+    # By what it has, not by its type: Blender may have loaded the extension anew in the meantime.
+    if not hasattr(sentence, "message"):
+        return str(sentence)
+    return rpt_(sentence.message).format(**sentence.values)
 
 
 def load_core():
@@ -24,7 +38,8 @@ def load_core():
         importlib.import_module("..core.pipeline", __package__)
     except ImportError as error:
         raise SceneError(
-            f"SciPy, which Reeb Parts computes with, could not be imported ({error}). Install Reeb Parts "
-            "again; if that does not help, another extension brings a SciPy that does not fit this Blender."
+            rpt_("SciPy, which Reeb Parts computes with, could not be imported ({error}). Install Reeb Parts "
+                 "again; if that does not help, another extension brings a SciPy that does not fit this "
+                 "Blender.").format(error=error)
         ) from error
     return importlib.import_module("..core", __package__)

@@ -9,13 +9,14 @@ to it but the materials of the parts, if these were asked for.
 import bmesh
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from ..core.errors import ReebError
 from ..ui.use_properties import SeparateProperties
 from . import attributes, bridge, caps, explode, parts, store
 from .modes import object_mode
-from .problems import SceneError
+from .problems import SceneError, translated
 from .use import use_panel_settings, wanted
 
 SOURCE = "reeb_parts_pieces_of"  # on the collection: name of the object that the pieces come from
@@ -324,7 +325,7 @@ class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
                 made = [(obj, *separate(context, obj, stored, wanted(obj.data, self.which), self))
                         for obj, stored in found]
         except (SceneError, ReebError) as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, translated(error))
             return {"CANCELLED"}
         self._show(context, made)
         for obj, separated, left_open, kept in made:
@@ -354,11 +355,13 @@ class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
                 context.view_layer.objects.active = made[0][1][0]
 
     def _report(self, obj, separated, left_open, kept):
-        self.report({"INFO"}, f"{obj.name}: {len(separated)} parts are objects now")
+        self.report({"INFO"}, rpt_("{name}: {n} parts are objects now").format(name=obj.name, n=len(separated)))
         if kept:
-            self.report({"INFO"}, f"{kept} earlier pieces that were edited since are left as they are")
+            self.report(
+                {"INFO"}, rpt_("{n} earlier pieces that were edited since are left as they are").format(n=kept))
         if left_open:
-            self.report({"WARNING"}, f"{left_open} edges stay open: more than two faces meet beside them")
+            self.report(
+                {"WARNING"}, rpt_("{n} edges stay open: more than two faces meet beside them").format(n=left_open))
 
 
 class REEB_PARTS_OT_show_original(bpy.types.Operator):
@@ -372,10 +375,10 @@ class REEB_PARTS_OT_show_original(bpy.types.Operator):
     def poll(cls, context):
         piece = context.view_layer.objects.active
         if piece is None or original(piece) is None:
-            cls.poll_message_set("The active object is not a part that was separated from another one")
+            cls.poll_message_set(rpt_("The active object is not a part that was separated from another one"))
             return False
         if context.mode != "OBJECT":
-            cls.poll_message_set("Go to Object Mode first")
+            cls.poll_message_set(rpt_("Go to Object Mode first"))
             return False
         return True
 

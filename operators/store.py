@@ -10,10 +10,11 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.numbering import NumberedParts, default_name, in_number_order, numbered_parts, transfer
 from . import bridge
-from .problems import SceneError, load_core
+from .problems import SceneError, load_core, translated
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
 _read: dict[bytes, object] = {}
@@ -94,12 +95,13 @@ def load(mesh) -> Stored:
         There is none, or the mesh was edited since.
     """
     if not has_result(mesh):
-        raise SceneError(f"{mesh.name} has no parts yet. Decompose it first.")
+        raise SceneError(rpt_("{name} has no parts yet. Decompose it first.").format(name=mesh.name))
     if mesh.is_editmode:
-        raise SceneError(f"{mesh.name} is being edited. Leave Edit Mode first.")
+        raise SceneError(rpt_("{name} is being edited. Leave Edit Mode first.").format(name=mesh.name))
     result = mesh.reeb_parts
     if bridge.fingerprint(mesh) != result.fingerprint:
-        raise SceneError(f"{mesh.name} was edited since it was decomposed. Decompose it again.")
+        raise SceneError(
+            rpt_("{name} was edited since it was decomposed. Decompose it again.").format(name=mesh.name))
     decomposition = _decomposition(result.data)
     numbers = np.frombuffer(result.numbers, np.int32).astype(np.int64)
     return Stored(decomposition, *numbers.reshape(3, -1))
@@ -188,7 +190,7 @@ def _decomposition(data: bytes):
         try:
             _remember(data, core.Decomposition.from_bytes(data))
         except core.ReebError as error:
-            raise SceneError(str(error)) from error
+            raise SceneError(translated(error)) from error
     return _read[data]
 
 

@@ -3,11 +3,12 @@
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
 from . import attributes, bridge, separate
 from .parts import PartOperator
-from .problems import SceneError
+from .problems import SceneError, translated
 
 UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
@@ -47,7 +48,8 @@ def unwrap(context, obj, face_numbers, open_parts, method):
     if layer is None:
         layer = mesh.uv_layers.new(name=UV_MAP, do_init=False)
         if layer is None:
-            raise SceneError(f"{mesh.name} has as many UV maps as Blender allows. Remove one and try again.")
+            raise SceneError(
+                rpt_("{name} has as many UV maps as Blender allows. Remove one and try again.").format(name=mesh.name))
         mesh[MADE] = layer.name
         mesh.uv_layers.active = layer
     layer.uv.foreach_set("vector", coordinates)
@@ -145,8 +147,8 @@ class REEB_PARTS_OT_unwrap(PartOperator, bpy.types.Operator):
         try:
             unwrap(context, obj, stored.shown_parts().face_numbers, self.open_parts, self.method)
         except ReebError as error:
-            raise SceneError(str(error)) from error
-        return f"Unwrapped into the UV map {find(obj.data).name}"
+            raise SceneError(translated(error)) from error
+        return rpt_("Unwrapped into the UV map {name}").format(name=find(obj.data).name)
 
 
 CLASSES = (REEB_PARTS_OT_unwrap,)

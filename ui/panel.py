@@ -4,8 +4,10 @@
 import textwrap
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
+from bpy.app.translations import pgettext_n as n_
 
-from ..operators import handles, jobs, store
+from ..operators import handles, jobs, notes, store
 
 
 def _result(context):
@@ -108,7 +110,8 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
         result = _result(context)
         if result is None and handles.part_of(context.object) is not None:
             source, number = handles.part_of(context.object)
-            layout.label(text=f"{store.part_name(source.data, number)} of {source.name}", icon="EMPTY_AXIS")
+            text = iface_("{part} of {name}").format(part=store.part_name(source.data, number), name=source.name)
+            layout.label(text=text, icon="EMPTY_AXIS")
             layout.operator("reeb_parts.from_nodes")
             layout.operator("reeb_parts.split_at_node", icon="MOD_EDGESPLIT")
         elif result is None:
@@ -126,7 +129,7 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
 def _draw_progress(layout, job):
     row = layout.row(align=True)
     row.scale_y = 1.5
-    row.progress(factor=job.share, text=job.stage.capitalize())
+    row.progress(factor=job.share, text=job.text[:1].upper() + job.text[1:])
     row.operator("reeb_parts.cancel", text="", icon="X")
 
 
@@ -138,10 +141,9 @@ def _draw_result(layout, mesh, result, width):
         box.label(text="Decompose it again.", icon="BLANK1")
     column = layout.column(align=True)
     column.scale_y = 0.8
-    column.label(text=f"{_count(len(result.parts), 'part')} in {result.seconds:.2f} s")
-    column.label(text=f"{_count(result.n_nodes, 'node')}, {_count(result.n_arcs, 'arc')}, "
-                      f"{_count(result.n_loops, 'loop')}")
-    for note in result.notes.splitlines():
+    for line in facts(result):
+        column.label(text=line)
+    for note in notes.spoken(result):
         for index, line in enumerate(textwrap.wrap(note, width)):
             column.label(text=line, icon="BLANK1" if index else "INFO")
     column = layout.column(align=True)
@@ -153,8 +155,19 @@ def _draw_result(layout, mesh, result, width):
     layout.operator("reeb_parts.clear", icon="TRASH")
 
 
-def _count(number, noun):
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+def facts(result) -> list[str]:
+    """What came out, in two lines."""
+    parts = _count(len(result.parts), n_("{n} part"), n_("{n} parts"))
+    graph = (
+        _count(result.n_nodes, n_("{n} node"), n_("{n} nodes")),
+        _count(result.n_arcs, n_("{n} arc"), n_("{n} arcs")),
+        _count(result.n_loops, n_("{n} loop"), n_("{n} loops")),
+    )
+    return [iface_("{parts} in {seconds:.2f} s").format(parts=parts, seconds=result.seconds), ", ".join(graph)]
+
+
+def _count(number, one, several):
+    return iface_(one if number == 1 else several).format(n=number)
 
 
 class REEB_PARTS_PT_parts(ReebPanel, bpy.types.Panel):

@@ -226,6 +226,7 @@ class ReebPartsResult(bpy.types.PropertyGroup):
     n_vertices: IntProperty()
     n_faces: IntProperty()
     notes: StringProperty()
+    note_words: StringProperty()
     edited: BoolProperty(description="The mesh was edited since")
 
     # What can be changed

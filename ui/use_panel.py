@@ -2,6 +2,8 @@
 """The sub-panel "Use Parts": what parts can become."""
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
+from bpy.app.translations import pgettext_n as n_
 
 from ..operators import separate, store
 from .panel import ReebPanel
@@ -33,9 +35,9 @@ class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
         """Buttons that stay pressed for as long as there is what they make."""
         row = self.layout.row(align=True)
         for name, text, there in (
-            ("seams", "Seams", result.has_seams),
-            ("face_sets", "Face Sets", result.has_face_sets),
-            ("materials", "Materials", result.has_materials),
+            ("seams", n_("Seams", "Operator"), result.has_seams),
+            ("face_sets", n_("Face Sets", "Operator"), result.has_face_sets),
+            ("materials", n_("Materials", "Operator"), result.has_materials),
         ):
             row.operator(f"reeb_parts.{name}", text=text, depress=there).remove = there
         self.layout.operator("reeb_parts.unwrap", icon="UV")
@@ -53,8 +55,9 @@ class REEB_PARTS_PT_piece(ReebPanel, bpy.types.Panel):
 
     def draw(self, context):
         obj = separate.original(context.object)
-        self.layout.label(text=f"A part of {obj.name}", icon="MESH_DATA")
-        self.layout.operator("reeb_parts.show_original", text=f"Show {obj.name}", icon="HIDE_OFF")
+        self.layout.label(text=iface_("A part of {name}").format(name=obj.name), icon="MESH_DATA")
+        show = iface_("Show {name}").format(name=obj.name)
+        self.layout.operator("reeb_parts.show_original", text=show, icon="HIDE_OFF")
 
 
 CLASSES = (REEB_PARTS_PT_use, REEB_PARTS_PT_piece)
