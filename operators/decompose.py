@@ -257,7 +257,10 @@ class REEB_PARTS_OT_cancel(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return jobs.current is not None
+        if jobs.current is None:
+            cls.poll_message_set(rpt_("Nothing is being computed"))
+            return False
+        return True
 
     def execute(self, context):
         jobs.current.cancel()

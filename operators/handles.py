@@ -4,6 +4,7 @@
 import bpy
 import numpy as np
 from bpy.app.handlers import persistent
+from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
 from . import edit, overlay, parts, pointing, store
@@ -37,10 +38,11 @@ class REEB_PARTS_OT_from_nodes(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if part_of(context.view_layer.objects.active) is None:
-            cls.poll_message_set("Select a node of a graph")
+        found = part_of(context.view_layer.objects.active)
+        if found is None:
+            cls.poll_message_set(rpt_("Select a node of a graph"))
             return False
-        return True
+        return parts.has_parts(cls, context, found[0])
 
     def execute(self, context):
         source, number = part_of(context.view_layer.objects.active)
@@ -70,10 +72,11 @@ class REEB_PARTS_OT_from_arc(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if source_of_arcs(context.view_layer.objects.active) is None or context.mode != "OBJECT":
-            cls.poll_message_set("Select the arcs of a graph")
+        source = source_of_arcs(context.view_layer.objects.active)
+        if source is None or context.mode != "OBJECT":
+            cls.poll_message_set(rpt_("Select the arcs of a graph"))
             return False
-        return True
+        return parts.has_parts(cls, context, source)
 
     def invoke(self, context, event):
         """Blender has just selected the curve, by a click that is still where the pointer is."""
@@ -117,8 +120,13 @@ class REEB_PARTS_OT_to_nodes(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         obj = context.view_layer.objects.active
-        if obj is None or obj.mode != "OBJECT" or overlay.find(obj) is None:
-            cls.poll_message_set("The active object shows no graph")
+        if not parts.has_parts(cls, context):
+            return False
+        if obj.mode != "OBJECT":
+            cls.poll_message_set(rpt_("Go to Object Mode first"))
+            return False
+        if overlay.find(obj) is None:
+            cls.poll_message_set(rpt_("The active object shows no graph"))
             return False
         return True
 
@@ -142,12 +150,12 @@ class REEB_PARTS_OT_split_at_node(bpy.types.Operator):
     def poll(cls, context):
         item = context.view_layer.objects.active
         if part_of(item) is None:
-            cls.poll_message_set("Select a node of a graph")
+            cls.poll_message_set(rpt_("Select a node of a graph"))
             return False
         if item.parent.mode != "OBJECT":
-            cls.poll_message_set("Leave the object's mode first")
+            cls.poll_message_set(rpt_("Leave the object's mode first"))
             return False
-        return True
+        return parts.has_parts(cls, context, item.parent)
 
     def execute(self, context):
         item = context.view_layer.objects.active
@@ -211,7 +219,7 @@ def _follow_active():
     """The active object changed: if it belongs to a graph, the list of its object follows."""
     item = bpy.context.view_layer.objects.active if bpy.context.view_layer else None
     found = part_of(item)
-    if found is not None and item.select_get():
+    if found is not None and item.select_get() and found[0].data.is_editable:
         choose(found[0], [found[1]])
     elif source_of_arcs(item) is not None and item.select_get() and not bpy.app.background:
         # Not within Blender's own click, which has yet to become a step of undo.
@@ -228,8 +236,7 @@ def _ask_pointer():
             with bpy.context.temp_override(window=window, area=area, region=region):
                 operator = bpy.ops.reeb_parts.from_arc
                 if operator.poll() and "FINISHED" in operator("INVOKE_DEFAULT", True):
-                    return None
-    return None
+                    return
 
 
 @persistent
