@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Reeb Parts says in other languages than English: a file for each, named by Blender's code for it.
+
+Such a file has two dictionaries from English to that language: OPERATORS for the names of operators and
+what stands on buttons, TEXTS for all else. Values in braces stay as they are; they may change places.
+tests/blender/test_translations.py lists what a language still lacks and what it no longer needs.
+"""
+
+import bpy
+
+from ... import __package__ as base_package
+from . import de
+
+LANGUAGES = {"de": de}
+
+
+def dictionary() -> dict:
+    """All languages as Blender takes them: a text by its context and its English, for each language."""
+    return {
+        code: {("Operator", english): text for english, text in language.OPERATORS.items()}
+        | {("*", english): text for english, text in language.TEXTS.items()}
+        for code, language in LANGUAGES.items()
+    }
+
+
+def register():
+    bpy.app.translations.register(base_package, dictionary())
+
+
+def unregister():
+    bpy.app.translations.unregister(base_package)

@@ -1,0 +1,530 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Deutsch.
+
+Wörter: part Teil, cut Schnitt, boundary Grenze, crease Falte, node Knoten, arc Bogen, loop Schleife, empty
+Leerobjekt, vertex Punkt, face Fläche, border Rand, seam Naht, armature Skelett, piece Stück; wo Blenders
+deutsche Oberfläche selbst beim Englischen bleibt (Face Set, Geometry Nodes, Dyntopo), bleibt es auch hier.
+"""
+
+OPERATORS = {
+    # Der Reiter
+    "Decompose": "Zerlegen",
+    "Decompose into Parts": "In Teile zerlegen",
+    "Cancel": "Abbrechen",
+    "Clear Parts": "Zerlegung entfernen",
+    "Use Preferences in This Scene": "Einstellungen in dieser Szene verwenden",
+    # Die Liste der Teile
+    "Select": "Auswählen",
+    "Select Faces of Parts": "Flächen der Teile auswählen",
+    "Isolate": "Isolieren",
+    "Isolate Parts": "Teile isolieren",
+    "Show All": "Alle zeigen",
+    "Mark Parts": "Teile ankreuzen",
+    "Pick Parts": "Teile anklicken",
+    # Teile von Hand
+    "Merge Parts": "Teile zusammenführen",
+    "Merge into Neighbour": "Mit Nachbarn zusammenführen",
+    "Split Parts": "Teile teilen",
+    "Split at Graph Node": "Am Graphknoten teilen",
+    "Cut Part at Point": "Teil am Punkt schneiden",
+    "Grow Parts": "Teile vergrößern",
+    "Shrink Parts": "Teile verkleinern",
+    "Slide Boundary": "Grenze verschieben",
+    "Paint into Part": "In Teil malen",
+    "Assign Faces to Part": "Flächen dem Teil zuweisen",
+    "New Part of Selected Faces": "Neues Teil aus Auswahl",
+    "Parts from Face Sets": "Teile aus Face Sets",
+    "Release Parts": "Teile freigeben",
+    "Release All Parts": "Alle Teile freigeben",
+    # Der Graph
+    "Nodes of Chosen Parts": "Knoten der gewählten Teile",
+    "Parts of Selected Nodes": "Teile der ausgewählten Knoten",
+    "Part of Arc": "Teil des Bogens",
+    # Teile verwenden
+    "Separate": "Trennen",
+    "Separate Parts into Objects": "Teile in Objekte trennen",
+    "Show Original of Part": "Original des Teils zeigen",
+    "Seams": "Nähte",
+    "Mark Seams between Parts": "Nähte zwischen Teilen markieren",
+    "Face Sets": "Face Sets",
+    "Make Face Sets of Parts": "Face Sets aus Teilen erstellen",
+    "Materials": "Materialien",
+    "Give Each Part a Material": "Jedem Teil ein Material geben",
+    "Unwrap along Cuts": "Entlang der Schnitte abwickeln",
+    "Export to Files...": "In Dateien exportieren...",
+    "Export Parts to Files": "Teile in Dateien exportieren",
+    "Make Armature": "Skelett erstellen",
+    "Make Armature from Parts": "Skelett aus Teilen erstellen",
+}
+
+TEXTS = {
+    # Der Reiter und seine Felder
+    "Reeb Parts": "Reeb Parts",
+    "Parts": "Teile",
+    "Use Parts": "Teile verwenden",
+    "Separated Part": "Abgetrenntes Teil",
+    "Field": "Feld",
+    "Graph": "Graph",
+    "Boundaries": "Grenzen",
+    "Output": "Ausgabe",
+    "Overlay": "Überlagerung",
+    "{n} part": "{n} Teil",
+    "{n} parts": "{n} Teile",
+    "{parts} in {seconds:.2f} s": "{parts} in {seconds:.2f} s",
+    "{n} node": "{n} Knoten",
+    "{n} nodes": "{n} Knoten",
+    "{n} arc": "{n} Bogen",
+    "{n} arcs": "{n} Bögen",
+    "{n} loop": "{n} Schleife",
+    "{n} loops": "{n} Schleifen",
+    "The mesh was edited since.": "Das Mesh wurde seither bearbeitet.",
+    "Decompose it again.": "Bitte erneut zerlegen.",
+    "{part} of {name}": "{part} von {name}",
+    "A part of {name}": "Ein Teil von {name}",
+    "Show {name}": "{name} zeigen",
+    "New scenes start with these settings.": "Neue Szenen beginnen mit diesen Einstellungen.",
+    # Wie weit die Berechnung ist
+    "Reeb Parts: {stage} ({share:.0%})    Esc: cancel": "Reeb Parts: {stage} ({share:.0%})    Esc: abbrechen",
+    "mesh": "Mesh",
+    "distances": "Abstände",
+    "reeb graph": "Reeb-Graph",
+    "cuts": "Schnitte",
+    "parts": "Teile",
+    "done": "fertig",
+    # Parameter
+    "Preset": "Vorgabe",
+    "Set all parameters at once": "Alle Parameter auf einmal setzen",
+    "Perceptual": "Wahrnehmung",
+    "Berretti": "Berretti",
+    "Berretti 2009": "Berretti 2009",
+    "Method": "Methode",
+    "How cuts are chosen: as people would, or by the paper's rules":
+        "Wie Schnitte gewählt werden: so, wie Menschen schneiden würden, oder nach den Regeln des Artikels",
+    "Detail": "Detail",
+    "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate":
+        "Wie bereitwillig die Oberfläche zerschnitten wird: 0 ergibt so wenige Teile wie möglich, 1 alle, die "
+        "in Frage kommen",
+    "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate. Nothing is computed again":
+        "Wie bereitwillig die Oberfläche zerschnitten wird: 0 ergibt so wenige Teile wie möglich, 1 alle, die "
+        "in Frage kommen. Nichts wird neu berechnet",
+    "Number of parts": "Anzahl der Teile",
+    "Exactly this many parts instead of a level of detail; 0 lets Detail decide":
+        "Genau so viele Teile statt eines Detailgrads; bei 0 entscheidet Detail",
+    "Exactly this many parts, whatever the detail. Nothing is computed again":
+        "Genau so viele Teile, unabhängig vom Detail. Nichts wird neu berechnet",
+    "Base vertex spacing": "Abstand der Basispunkte",
+    "Share of the area around each point that distances are measured from; smaller is slower and finer (the "
+    "paper's 0.005 S)":
+        "Anteil der Oberfläche um jeden Punkt, von dem aus Abstände gemessen werden; kleiner ist langsamer und "
+        "feiner (0.005 S im Artikel)",
+    "Equalise": "Ausgleichen",
+    "Give every range of distances the same area, so that long limbs do not hide short ones (the paper's s(p))":
+        "Jedem Bereich von Abständen gleich viel Fläche geben, damit lange Gliedmaßen kurze nicht verdecken (s(p) "
+        "im Artikel)",
+    "Levels": "Stufen",
+    "Number of slabs the surface is cut into before parts are formed (1 / epsilon)":
+        "Anzahl der Scheiben, in die die Oberfläche geschnitten wird, bevor Teile entstehen (1 / Epsilon)",
+    "Small region": "Kleine Region",
+    "Parts smaller than this share of the largest one join a neighbour; 0.01 keeps fingers":
+        "Teile, die kleiner als dieser Anteil des größten sind, gehen in einem Nachbarn auf; 0.01 erhält Finger",
+    "Concavity": "Konkavität",
+    "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)":
+        "Wie weit ein Schnitt rutschen darf, um in einer Falte zu liegen: 0 lässt ihn, wo er ist (Alpha im Artikel)",
+    "Crease length": "Faltenlänge",
+    "How much of a cut's length must be concave to count (the paper's sigma)":
+        "Wie viel von der Länge eines Schnitts konkav sein muss, um zu zählen (Sigma im Artikel)",
+    "Smoothing": "Glättung",
+    "Rounds that take saw teeth off the cuts, a face at a time; 0 leaves them as they fall":
+        "Durchgänge, die den Schnitten Fläche für Fläche die Sägezähne nehmen; 0 lässt sie, wie sie sind",
+    "Follow level sets": "Niveaulinien folgen",
+    "Keep cuts on level sets of the distance, as the paper does; off, they follow creases":
+        "Schnitte wie im Artikel auf Linien gleichen Abstands belassen; ausgeschaltet folgen sie Falten",
+    "Small loose part": "Kleines loses Teil",
+    "Loose parts with less than this share of the whole area are one part each":
+        "Lose Teile mit weniger als diesem Anteil der ganzen Oberfläche sind je ein einziges Teil",
+    # Ausgabe
+    "Vertex groups": "Punktgruppen",
+    "A vertex group for each part; vertices on a cut belong to every part that meets there":
+        "Eine Punktgruppe für jedes Teil; Punkte auf einem Schnitt gehören zu allen Teilen, die dort aneinandergrenzen",
+    "Face attribute": "Flächenattribut",
+    "The number of each face's part as the attribute reeb_part, for Geometry Nodes":
+        "Für jede Fläche die Nummer ihres Teils als Attribut reeb_part, für Geometry Nodes",
+    "Colours": "Farben",
+    "The parts' colours as the active colour attribute Reeb Parts":
+        "Die Farben der Teile als aktives Farbattribut Reeb Parts",
+    "Face sets": "Face Sets",
+    "A face set for each part, for Sculpt Mode; Clear brings your own back":
+        "Ein Face Set für jedes Teil, für den Skulpturmodus; „Zerlegung entfernen“ stellt die eigenen wieder her",
+    "A material for each part; Clear brings your own back":
+        "Ein Material für jedes Teil; „Zerlegung entfernen“ stellt die eigenen wieder her",
+    "Seams along cuts": "Nähte an Schnitten",
+    "UV seams where parts meet, beside your own; Clear removes only these":
+        "UV-Nähte, wo Teile aneinandergrenzen, neben den eigenen; „Zerlegung entfernen“ entfernt nur diese",
+    "Distance field": "Abstandsfeld",
+    "The normalised average geodesic distance that the parts come from, as the vertex attribute reeb_agd: 0 in the "
+    "middle of the body, 1 at the farthest tip":
+        "Der normierte mittlere geodätische Abstand, aus dem die Teile hervorgehen, als Punktattribut reeb_agd: 0 in "
+        "der Mitte des Körpers, 1 an der entferntesten Spitze",
+    "The Reeb graph as objects: an empty for each node, a curve for the arcs":
+        "Der Reeb-Graph als Objekte: ein Leerobjekt für jeden Knoten, eine Kurve für die Bögen",
+    # Überlagerung
+    "Show graph": "Graph zeigen",
+    "Node size": "Knotengröße",
+    "Size of the empties, as a share of the object's": "Größe der Leerobjekte, als Anteil der Größe des Objekts",
+    "Line thickness": "Linienstärke",
+    "Thickness of the arcs, as a share of the radius of the body around them":
+        "Stärke der Bögen, als Anteil des Radius des Körpers um sie herum",
+    "In front": "Im Vordergrund",
+    "Draw the graph over the model instead of hidden inside it":
+        "Den Graphen über das Modell zeichnen, statt in ihm verborgen",
+    "Outline chosen parts": "Gewählte Teile umranden",
+    "Draw a line around the parts that are chosen in the list":
+        "Eine Linie um die Teile zeichnen, die in der Liste gewählt sind",
+    "The parameters that new scenes start with": "Die Parameter, mit denen neue Szenen beginnen",
+    "The preferences were taken over": "Die Einstellungen wurden übernommen",
+    # Die Liste der Teile
+    "Name": "Name",
+    "Name of the part and of its vertex group; double click to change it":
+        "Name des Teils und seiner Punktgruppe; zum Ändern doppelt klicken",
+    "Number": "Nummer",
+    "What the part is known by; the value of reeb_part": "Woran das Teil erkannt wird; der Wert von reeb_part",
+    "Colour": "Farbe",
+    "Share": "Anteil",
+    "Share of the surface's area": "Anteil an der Oberfläche",
+    "Locked": "Gesperrt",
+    "The part stays as it is, whatever the detail and whatever is done to its neighbours":
+        "Das Teil bleibt, wie es ist, unabhängig vom Detail und davon, was mit seinen Nachbarn geschieht",
+    "Pinned": "Angeheftet",
+    "The part was changed by hand and stays whatever the detail":
+        "Das Teil wurde von Hand geändert und bleibt, unabhängig vom Detail",
+    "Selected": "Ausgewählt",
+    "Included in what is done to the selected parts": "Gehört zu dem, was mit den ausgewählten Teilen geschieht",
+    "The vertex group made for the part": "Die Punktgruppe, die für das Teil erstellt wurde",
+    "The material made for the part": "Das Material, das für das Teil erstellt wurde",
+    "The mesh was edited since": "Das Mesh wurde seither bearbeitet",
+    "The number of parts decides, not the detail": "Die Anzahl der Teile entscheidet, nicht das Detail",
+    "Active part": "Aktives Teil",
+    # Teile verwenden
+    "Which parts to use": "Welche Teile verwendet werden",
+    "All": "Alle",
+    "All parts of the mesh": "Alle Teile des Meshs",
+    "Chosen": "Gewählte",
+    "The parts ticked in the list, or else the active one":
+        "Die in der Liste angekreuzten Teile, sonst das aktive",
+    "Close holes": "Löcher schließen",
+    "Close the holes where parts were joined, so that each piece is closed; borders that the mesh had before stay "
+    "open. The faces are marked by the attribute reeb_cap":
+        "Die Löcher schließen, wo Teile verbunden waren, sodass jedes Stück geschlossen ist; Ränder, die das Mesh "
+        "vorher hatte, bleiben offen. Das Attribut reeb_cap kennzeichnet die neuen Flächen",
+    "Close the holes where parts were joined, so that each file holds a closed body":
+        "Die Löcher schließen, wo Teile verbunden waren, sodass jede Datei einen geschlossenen Körper enthält",
+    "Origin in the middle": "Ursprung in die Mitte",
+    "Put the origin of each piece to the middle of its surface; without it, all keep the origin of the object":
+        "Den Ursprung jedes Stücks in die Mitte seiner Oberfläche setzen; sonst behalten alle den Ursprung des Objekts",
+    "Keep modifiers": "Modifikatoren behalten",
+    "Copy the object's modifiers to each piece": "Die Modifikatoren des Objekts auf jedes Stück kopieren",
+    "Parent to original": "Original als Eltern",
+    "Make the pieces children of the object, so that they follow it; without it, they have the parent that the object "
+    "has":
+        "Die Stücke zu Kindern des Objekts machen, sodass sie ihm folgen; sonst haben sie das Elternobjekt des Objekts",
+    "Hide original": "Original verbergen",
+    "Hide the object, which stays as it is, in the viewport and in renders":
+        "Das Objekt, das unverändert bleibt, im Ansichtsfenster und beim Rendern verbergen",
+    "Where the separated parts are": "Wo die abgetrennten Teile sind",
+    "Explode": "Explosion",
+    "How far the parts drift apart, as a multiple of their distance from the middle. Only looks so: at 0 the mesh is "
+    "as it was. Can be animated":
+        "Wie weit die Teile auseinanderrücken, als Vielfaches ihres Abstands von der Mitte. Das sieht nur so aus: bei "
+        "0 ist das Mesh wie zuvor. Kann animiert werden",
+    # Tooltips der Operatoren
+    "Cut the selected mesh into the parts a person would name, and show its Reeb graph":
+        "Das ausgewählte Mesh in die Teile zerlegen, die ein Mensch benennen würde, und seinen Reeb-Graphen zeigen",
+    "Stop computing; the scene is as it was before": "Die Berechnung beenden; die Szene ist wie zuvor",
+    "Remove everything that Reeb Parts has added to the selected meshes; what was there before is back":
+        "Alles entfernen, was Reeb Parts den ausgewählten Meshs hinzugefügt hat; was vorher da war, ist wieder da",
+    "Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons":
+        "Vorgabe, Ausgabe und Überlagerung dieser Szene wie in neuen Szenen setzen; siehe Einstellungen, Add-ons",
+    "Select the faces of the parts chosen in the list, for Edit Mode":
+        "Die Flächen der in der Liste gewählten Teile auswählen, für den Bearbeitungsmodus",
+    "Action": "Aktion",
+    "Set": "Setzen",
+    "Select these faces and no others": "Diese Flächen und keine anderen auswählen",
+    "Extend": "Erweitern",
+    "Add these faces to the selection": "Diese Flächen der Auswahl hinzufügen",
+    "Subtract": "Abziehen",
+    "Take these faces from the selection": "Diese Flächen aus der Auswahl nehmen",
+    "Part": "Teil",
+    "Number of the part; 0 for those chosen in the list": "Nummer des Teils; 0 für die in der Liste gewählten",
+    "Hide all faces but those of the chosen parts, or show all again":
+        "Alle Flächen außer denen der gewählten Teile verbergen oder alle wieder zeigen",
+    "Show all": "Alle zeigen",
+    "Show every face again": "Alle Flächen wieder zeigen",
+    "Mark parts in the list": "Teile in der Liste ankreuzen",
+    "Mark every part": "Jedes Teil ankreuzen",
+    "None": "Keine",
+    "Mark no part": "Kein Teil ankreuzen",
+    "Invert": "Invertieren",
+    "Mark the parts that are not marked": "Die Teile ankreuzen, die nicht angekreuzt sind",
+    "Smaller": "Kleinere",
+    "Mark the parts smaller than the active one": "Die Teile ankreuzen, die kleiner als das aktive sind",
+    "Of selected faces": "Ausgewählter Flächen",
+    "Mark the parts that have selected faces": "Die Teile ankreuzen, die ausgewählte Flächen haben",
+    "Choose parts by clicking on the model or its graph; Shift chooses several":
+        "Teile durch Klicken auf das Modell oder seinen Graphen wählen; Umschalt wählt mehrere",
+    "A place on or beside the part, in the world": "Eine Stelle auf oder neben dem Teil, in der Welt",
+    "On the graph": "Auf dem Graphen",
+    "The location is on an arc of the graph; without it, on the surface":
+        "Die Stelle liegt auf einem Bogen des Graphen; sonst auf der Oberfläche",
+    "Add the part to those that are chosen, or take it away again":
+        "Das Teil zu den gewählten hinzunehmen oder wieder herausnehmen",
+    "Location": "Position",
+    "Make one part of the parts marked in the list; it takes the name of the active one":
+        "Aus den in der Liste angekreuzten Teilen eines machen; es erhält den Namen des aktiven",
+    "Merge each chosen part into the neighbour that it is least clearly cut from":
+        "Jedes gewählte Teil mit dem Nachbarn zusammenführen, von dem es am wenigsten deutlich abgesetzt ist",
+    "Split each chosen part in two, where its own best cut is":
+        "Jedes gewählte Teil an seinem besten Schnitt in zwei teilen",
+    "Cut a part where you click, on the graph or on the surface; a ring shows where the cut will be":
+        "Ein Teil dort schneiden, wo geklickt wird, auf dem Graphen oder der Oberfläche; ein Ring zeigt, wo der "
+        "Schnitt verlaufen wird",
+    "Where to cut, in the world": "Wo geschnitten wird, in der Welt",
+    "Move the boundary of each chosen part outwards, to the next crease beyond its weakest stretch":
+        "Die Grenze jedes gewählten Teils nach außen verschieben, bis zur nächsten Falte jenseits ihrer schwächsten "
+        "Stelle",
+    "Move the boundary of each chosen part inwards, to the next crease":
+        "Die Grenze jedes gewählten Teils nach innen verschieben, bis zur nächsten Falte",
+    "Slide the boundary of the active part over the surface with the mouse":
+        "Die Grenze des aktiven Teils mit der Maus über die Oberfläche schieben",
+    "Distance": "Abstand",
+    "How far along the surface; negative inwards": "Wie weit entlang der Oberfläche; negativ nach innen",
+    "Paint faces of other parts into the active part, with the pointer; locked parts stay":
+        "Flächen anderer Teile mit dem Zeiger in das aktive Teil malen; gesperrte Teile bleiben",
+    "Radius": "Radius",
+    "Of the brush, in the units of the mesh": "Des Pinsels, in den Einheiten des Meshs",
+    "Give the faces selected in Edit Mode to the active part":
+        "Die im Bearbeitungsmodus ausgewählten Flächen dem aktiven Teil geben",
+    "New part": "Neues Teil",
+    "Make a part of its own of the faces": "Aus den Flächen ein eigenes Teil machen",
+    "Take over what you have painted with face sets in Sculpt Mode: each face goes to the part of its face set":
+        "Übernehmen, was im Skulpturmodus mit Face Sets gemalt wurde: jede Fläche kommt zum Teil ihres Face Sets",
+    "Let the detail decide about the chosen parts again, which were changed by hand":
+        "Das Detail wieder über die gewählten Teile entscheiden lassen, die von Hand geändert wurden",
+    "Release every part that is not locked": "Jedes Teil freigeben, das nicht gesperrt ist",
+    "Choose the parts of the selected nodes in the list, and make their object active":
+        "Die Teile der ausgewählten Knoten in der Liste wählen und ihr Objekt aktiv machen",
+    "Choose the part in which an arc was clicked, and make its object active":
+        "Das Teil wählen, in dem ein Bogen angeklickt wurde, und sein Objekt aktiv machen",
+    "A place on or beside the arc, in the world": "Eine Stelle auf oder neben dem Bogen, in der Welt",
+    "Select the nodes of the chosen parts": "Die Knoten der gewählten Teile auswählen",
+    "Split the part that holds the selected node, at the best cut along the node's arcs":
+        "Das Teil mit dem ausgewählten Knoten am besten Schnitt entlang der Bögen des Knotens teilen",
+    "Make separate objects of the parts, with all that the mesh carries; the original stays as it is":
+        "Aus den Teilen eigene Objekte machen, mit allem, was das Mesh trägt; das Original bleibt, wie es ist",
+    "Show and select the object that this piece was separated from":
+        "Das Objekt zeigen und auswählen, von dem dieses Stück abgetrennt wurde",
+    "Take back": "Zurücknehmen",
+    "Take them away again; what was there before is back":
+        "Sie wieder wegnehmen; was vorher da war, ist wieder da",
+    "Mark UV seams where parts meet, beside your own; they follow the parts":
+        "UV-Nähte markieren, wo Teile aneinandergrenzen, neben den eigenen; sie folgen den Teilen",
+    "Make a face set of each part, for Sculpt Mode; they follow the parts":
+        "Aus jedem Teil ein Face Set machen, für den Skulpturmodus; sie folgen den Teilen",
+    "Give each part a material of its own, in the part's colour; they follow the parts":
+        "Jedem Teil ein eigenes Material in seiner Farbe geben; sie folgen den Teilen",
+    "Unwrap the mesh along the cuts between parts and your own seams, into a UV map of its own":
+        "Das Mesh entlang der Schnitte zwischen Teilen und der eigenen Nähte in eine eigene UV-Map abwickeln",
+    "Open tubes": "Röhren öffnen",
+    "Also cut tubes along and closed parts open, by the shortest way, so that they lie flat; these seams are not "
+    "marked on the mesh":
+        "Auch Röhren der Länge nach und geschlossene Teile auf kürzestem Weg aufschneiden, sodass sie flach liegen; "
+        "diese Nähte werden im Mesh nicht markiert",
+    "How faces are laid flat": "Wie Flächen flach gelegt werden",
+    "Angle based": "Winkelbasiert",
+    "Good for organic shapes": "Gut für organische Formen",
+    "Conformal": "Konform",
+    "Faster, less even": "Schneller, weniger gleichmäßig",
+    "Write each part to a file of its own, in a folder; files of the same names are replaced":
+        "Jedes Teil in eine eigene Datei in einem Ordner schreiben; Dateien gleichen Namens werden ersetzt",
+    "Folder": "Ordner",
+    "Where the files go; made if it is not there": "Wohin die Dateien kommen; wird bei Bedarf angelegt",
+    "Format": "Format",
+    "Kind of the files": "Art der Dateien",
+    "OBJ": "OBJ",
+    "Wavefront, with materials": "Wavefront, mit Materialien",
+    "PLY": "PLY",
+    "Stanford, with colours": "Stanford, mit Farben",
+    "STL": "STL",
+    "For 3D printing": "Für den 3D-Druck",
+    "glTF Binary": "glTF Binär",
+    "With materials and textures": "Mit Materialien und Texturen",
+    "Make an armature with a bone for each part, along the part's centre line, as a start for a rig":
+        "Ein Skelett mit einem Knochen für jedes Teil erstellen, entlang seiner Mittellinie, als Anfang für ein Rig",
+    "Move the mesh": "Mesh bewegen",
+    "Add an Armature modifier, so that posing the bones moves the parts":
+        "Einen Skelett-Modifikator hinzufügen, sodass die Posen der Knochen die Teile bewegen",
+    # Was über ein Mesh zu sagen ist
+    "{n} edges join more than two faces (non-manifold).":
+        "Kanten mit mehr als zwei Flächen (nicht mannigfaltig): {n}.",
+    "{n} border edges: the surface is open there.": "Randkanten: {n}; dort ist die Oberfläche offen.",
+    "{n} vertices belong to no face; they get no part.": "Punkte ohne Fläche: {n}; sie kommen in kein Teil.",
+    "{n} faces have zero area; they follow their neighbours.":
+        "Flächen ohne Flächeninhalt: {n}; sie folgen ihren Nachbarn.",
+    "{n} coincident border vertices are treated as joined.":
+        "Zusammenfallende Randpunkte: {n}; sie gelten als verbunden.",
+    "{n} triangles face inwards or against their neighbours.":
+        "Dreiecke, die nach innen oder gegen ihre Nachbarn zeigen: {n}.",
+    "{n} loose parts are decomposed each on its own.": "{n} lose Teile werden jedes für sich zerlegt.",
+    "{n} loose parts are decomposed each on its own; {small} small ones are one part each.":
+        "{n} lose Teile werden jedes für sich zerlegt; davon sind klein und je ein einziges Teil: {small}.",
+    "{n} of the loose parts are so even that nothing protrudes: one part each.":
+        "Lose Teile, die so gleichmäßig sind, dass nichts vorsteht: {n}; sie sind je ein einziges Teil.",
+    "Nothing protrudes: the mesh is one part.": "Nichts steht vor: das Mesh ist ein einziges Teil.",
+    "{name} was decomposed as it is before its modifier was applied.":
+        "{name} wurde zerlegt, wie es vor Anwendung seines Modifikators ist.",
+    "{name} was decomposed as it is before its {n} modifiers were applied.":
+        "{name} wurde zerlegt, wie es vor Anwendung seiner {n} Modifikatoren ist.",
+    "{n} objects share this mesh; all of them show its parts.":
+        "{n} Objekte teilen sich dieses Mesh; alle zeigen seine Teile.",
+    # Was nicht zerlegt werden kann
+    "Select a mesh first": "Zuerst ein Mesh auswählen",
+    "There is no active object. Select a mesh and try again.":
+        "Es gibt kein aktives Objekt. Bitte ein Mesh auswählen und erneut versuchen.",
+    "{name} is not a mesh but of the type {kind}. Select a mesh and try again.":
+        "{name} ist kein Mesh, sondern vom Typ {kind}. Bitte ein Mesh auswählen und erneut versuchen.",
+    "{name} is a library override and its mesh cannot be written. Make it local (Object > Library Override > Make "
+    "Local) and try again.":
+        "{name} ist eine Bibliotheksüberschreibung, ihr Mesh kann nicht geändert werden. Bitte lokal machen (Objekt > "
+        "Bibliotheksüberschreibung > Lokal machen) und erneut versuchen.",
+    "{name} is linked from {source} and cannot be written. Make it local (Object > Relations > Make Local) and try "
+    "again.":
+        "{name} ist aus {source} verknüpft und kann nicht geändert werden. Bitte lokal machen (Objekt > Beziehungen > "
+        "Lokal machen) und erneut versuchen.",
+    "another file": "einer anderen Datei",
+    "The mesh of {name} is being edited through another object. Leave Edit Mode there first.":
+        "Das Mesh von {name} wird über ein anderes Objekt bearbeitet. Bitte dort zuerst den Bearbeitungsmodus "
+        "verlassen.",
+    "{name} is being sculpted with dynamic topology, which keeps its own mesh. Switch Dyntopo off, or leave Sculpt "
+    "Mode, and try again.":
+        "{name} wird mit dynamischer Topologie geformt, die ihr eigenes Mesh hat. Bitte Dyntopo ausschalten oder den "
+        "Skulpturmodus verlassen und erneut versuchen.",
+    "The mesh has no faces. Add some, or choose another object.":
+        "Das Mesh hat keine Flächen. Bitte welche hinzufügen oder ein anderes Objekt wählen.",
+    "The mesh has only {n} of the {least} faces that the smallest solid has. Choose a larger mesh.":
+        "Das Mesh hat nur {n} der {least} Flächen, die der kleinste Körper hat. Bitte ein größeres Mesh wählen.",
+    "All {n} faces have zero area. Check the scale of the object.":
+        "Alle {n} Flächen haben den Flächeninhalt null. Bitte die Skalierung des Objekts prüfen.",
+    "{n} of {total} vertices have a coordinate that is not a finite number (first: vertex {first}). Delete or move "
+    "them.":
+        "{n} von {total} Punkten haben eine Koordinate, die keine endliche Zahl ist (zuerst Punkt {first}). Bitte "
+        "löschen oder verschieben.",
+    "{n} of {total} faces name a vertex that does not exist (first: face {first}; there are {n_vertices} vertices).":
+        "{n} von {total} Flächen nennen einen Punkt, den es nicht gibt (zuerst Fläche {first}; es gibt {n_vertices} "
+        "Punkte).",
+    "{n} faces have fewer than three corners.": "{n} Flächen haben weniger als drei Ecken.",
+    "{n} vertices cannot be reached from vertex {source}.": "{n} Punkte sind von Punkt {source} aus nicht erreichbar.",
+    "Vertices must have shape (n, 3), not {shape}.": "Punkte müssen die Form (n, 3) haben, nicht {shape}.",
+    "Triangles must have shape (m, 3), not {shape}.": "Dreiecke müssen die Form (m, 3) haben, nicht {shape}.",
+    "Faces must have shape (m, corners), not {shape}.": "Flächen müssen die Form (m, Ecken) haben, nicht {shape}.",
+    "Face indices must be whole numbers, not {type}.": "Flächenindizes müssen ganze Zahlen sein, nicht {type}.",
+    "Polygon numbers must be {n} whole numbers from 0, one per triangle.":
+        "Polygonnummern müssen {n} ganze Zahlen ab 0 sein, eine je Dreieck.",
+    "{name} must be one of {choices}, not {value!r}.": "{name} muss eines von {choices} sein, nicht {value!r}.",
+    "{name} must be a number, not {value!r}.": "{name} muss eine Zahl sein, nicht {value!r}.",
+    "{name} must be a number from {low} to {high}, not {value!r}.":
+        "{name} muss eine Zahl von {low} bis {high} sein, nicht {value!r}.",
+    "{name} must be a whole number from {low} to {high}, not {value!r}.":
+        "{name} muss eine ganze Zahl von {low} bis {high} sein, nicht {value!r}.",
+    "There is no preset {name!r}. Choose one of: {presets}.":
+        "Es gibt keine Vorgabe {name!r}. Bitte eine von diesen wählen: {presets}.",
+    "SciPy, which Reeb Parts computes with, could not be imported ({error}). Install Reeb Parts again; if that does "
+    "not help, another extension brings a SciPy that does not fit this Blender.":
+        "SciPy, womit Reeb Parts rechnet, konnte nicht importiert werden ({error}). Bitte Reeb Parts neu installieren; "
+        "hilft das nicht, bringt eine andere Erweiterung ein SciPy mit, das nicht zu diesem Blender passt.",
+    # Was aus dem Zerlegen wurde
+    "Reeb Parts is still computing": "Reeb Parts rechnet noch",
+    "{n} parts in {seconds:.1f} s": "{n} Teile in {seconds:.1f} s",
+    "Cancelled; nothing was changed": "Abgebrochen; nichts wurde geändert",
+    "{name} is gone; its parts were computed in vain.":
+        "{name} ist nicht mehr da; seine Teile wurden vergeblich berechnet.",
+    "{name} was changed while its parts were computed. Decompose it again.":
+        "{name} wurde geändert, während seine Teile berechnet wurden. Bitte erneut zerlegen.",
+    "The active object has no parts": "Das aktive Objekt hat keine Teile",
+    "Decompose the mesh first": "Das Mesh zuerst zerlegen",
+    "{name} has no parts yet. Decompose it first.": "{name} hat noch keine Teile. Bitte zuerst zerlegen.",
+    "{name} is being edited. Leave Edit Mode first.":
+        "{name} wird gerade bearbeitet. Bitte zuerst den Bearbeitungsmodus verlassen.",
+    "{name} was edited since it was decomposed. Decompose it again.":
+        "{name} wurde seit dem Zerlegen bearbeitet. Bitte erneut zerlegen.",
+    "The stored parts were written by another version. Decompose again.":
+        "Die gespeicherten Teile stammen von einer anderen Version. Bitte erneut zerlegen.",
+    # Was die Werkzeuge melden
+    "There is no part with the number {number}.": "Es gibt kein Teil mit der Nummer {number}.",
+    "{name} is locked. Unlock it in the list first.": "{name} ist gesperrt. Bitte zuerst in der Liste entsperren.",
+    "Mark the parts to merge in the list, two or more.":
+        "Bitte die Teile in der Liste ankreuzen, die zusammengeführt werden sollen, mindestens zwei.",
+    "These parts do not touch each other. Choose parts that do.":
+        "Diese Teile berühren einander nicht. Bitte Teile wählen, die es tun.",
+    "{n} parts are {name} now": "{n} Teile sind jetzt {name}",
+    "{name} touches no other part.": "{name} berührt kein anderes Teil.",
+    "No cut was found inside {name}. Select faces in Edit Mode and assign them to another part instead.":
+        "In {name} wurde kein Schnitt gefunden. Stattdessen können im Bearbeitungsmodus Flächen ausgewählt und einem "
+        "anderen Teil zugewiesen werden.",
+    "{new} was cut from {name}": "{new} wurde von {name} abgeschnitten",
+    "Nothing of {name} would be cut off there. Point at another place.":
+        "Dort würde von {name} nichts abgeschnitten. Bitte auf eine andere Stelle zeigen.",
+    "Nothing is left around {name} that is not locked.": "Um {name} ist nichts mehr, was nicht gesperrt ist.",
+    "{name} cannot give away anything more.": "{name} kann nichts mehr abgeben.",
+    "Nothing would be left of the part. Slide the boundary less far.":
+        "Von dem Teil bliebe nichts übrig. Bitte die Grenze weniger weit verschieben.",
+    "Slide boundaries in Object Mode, where the parts can be seen.":
+        "Grenzen werden im Objektmodus verschoben, wo die Teile zu sehen sind.",
+    "Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel":
+        "Maus nach links und rechts bewegen, um die Grenze zu verschieben    Eingabe: bestätigen    Esc: abbrechen",
+    "Drag over the model to paint    Ctrl and wheel, [ ]: size    Enter: confirm    Esc: cancel":
+        "Zum Malen über das Modell ziehen    Strg und Mausrad, [ ]: Größe    Eingabe: bestätigen    Esc: abbrechen",
+    "Click the graph or the surface to cut the part there    Enter, Esc: end":
+        "Auf den Graphen oder die Oberfläche klicken, um das Teil dort zu schneiden    Eingabe, Esc: beenden",
+    "Click a part or the graph to choose it    Shift: several    Enter, Esc: end":
+        "Auf ein Teil oder den Graphen klicken, um es zu wählen    Umschalt: mehrere    Eingabe, Esc: beenden",
+    "This works in Object Mode, where the parts can be seen.":
+        "Das geht im Objektmodus, wo die Teile zu sehen sind.",
+    "This works over a 3D viewport.": "Das geht über einem 3D-Ansichtsfenster.",
+    "The object was changed meanwhile.": "Das Objekt wurde inzwischen geändert.",
+    "No faces were painted.": "Es wurden keine Flächen gemalt.",
+    "No faces are selected. Select some in Edit Mode.":
+        "Es sind keine Flächen ausgewählt. Bitte im Bearbeitungsmodus welche auswählen.",
+    "{n} faces are {name} now": "{n} Flächen sind jetzt {name}",
+    "{count} faces are {name} now": "{count} Flächen sind jetzt {name}",
+    "{count} faces are in other parts now": "{count} Flächen sind jetzt in anderen Teilen",
+    "The parts are not face sets yet. Press Face Sets, then paint them in Sculpt Mode.":
+        "Die Teile sind noch keine Face Sets. Bitte auf Face Sets drücken, dann im Skulpturmodus malen.",
+    "Select a node of a graph": "Einen Knoten eines Graphen auswählen",
+    "Select the arcs of a graph": "Die Bögen eines Graphen auswählen",
+    "The active object shows no graph": "Das aktive Objekt zeigt keinen Graphen",
+    "Leave the object's mode first": "Zuerst den Modus des Objekts verlassen",
+    "Nothing is being computed": "Es wird nichts berechnet",
+    "Go to Object Mode first": "Zuerst in den Objektmodus wechseln",
+    "{name}: {n} parts are objects now": "{name}: {n} Teile sind jetzt Objekte",
+    "{n} earlier pieces that were edited since are left as they are":
+        "{n} frühere Stücke, die seither bearbeitet wurden, bleiben, wie sie sind",
+    "{n} edges stay open: more than two faces meet beside them":
+        "{n} Kanten bleiben offen: neben ihnen treffen mehr als zwei Flächen zusammen",
+    "The active object is not a part that was separated from another one":
+        "Das aktive Objekt ist kein Teil, das von einem anderen abgetrennt wurde",
+    "Seams around {n} parts": "Nähte um {n} Teile",
+    "The seams are yours alone again": "Es sind wieder nur die eigenen Nähte da",
+    "{n} parts are face sets": "{n} Teile sind Face Sets",
+    "The face sets are yours alone again": "Es sind wieder nur die eigenen Face Sets da",
+    "{n} parts have materials": "{n} Teile haben Materialien",
+    "The materials are yours alone again": "Es sind wieder nur die eigenen Materialien da",
+    "{name} has as many UV maps as Blender allows. Remove one and try again.":
+        "{name} hat so viele UV-Maps, wie Blender erlaubt. Bitte eine entfernen und erneut versuchen.",
+    "Unwrapped into the UV map {name}": "In die UV-Map {name} abgewickelt",
+    "There is no folder to write to. Choose one and try again.":
+        "Es ist kein Ordner angegeben. Bitte einen wählen und erneut versuchen.",
+    "Two parts have the same name; give them different ones to write them as files.":
+        "Zwei Teile haben denselben Namen; als Dateien brauchen sie verschiedene.",
+    "The parts could not be written: {reason}": "Die Teile konnten nicht geschrieben werden: {reason}",
+    "{n} files in {folder}": "{n} Dateien in {folder}",
+    "{name} has {n} bones": "{name} hat {n} Knochen",
+}
