@@ -167,7 +167,8 @@ class REEB_PARTS_OT_split_at_node(bpy.types.Operator):
         # The node's part is the one to go on with.
         choose(item.parent, [item["part"]])
         name = store.part_name
-        self.report({"INFO"}, f"{name(item.parent.data, new)} was cut from {name(item.parent.data, number)}")
+        self.report({"INFO"}, rpt_("{new} was cut from {name}").format(
+            new=name(item.parent.data, new), name=name(item.parent.data, number)))
         return {"FINISHED"}
 
 
@@ -194,8 +195,8 @@ def split_at_node(context, obj, node):
     side = node_split(decomposition, mask, node)
     if side is None:
         raise SceneError(
-            f"No cut was found inside {store.part_name(obj.data, number)}. Select faces in Edit Mode and "
-            "assign them to another part instead."
+            rpt_("No cut was found inside {name}. Select faces in Edit Mode and assign them to another "
+                 "part instead.").format(name=store.part_name(obj.data, number))
         )
     area = decomposition.candidate_area
     if area[side].sum() > area[mask & ~side].sum():

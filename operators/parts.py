@@ -121,7 +121,7 @@ class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
         numbers = [self.number] if self.number else chosen_numbers(obj.data)
         mask = np.isin(stored.shown[stored.decomposition.candidates], numbers)
         if not mask.any():
-            raise SceneError(f"There is no part with the number {self.number}.")
+            raise SceneError(rpt_("There is no part with the number {number}.").format(number=self.number))
         if context.mode == "OBJECT":
             select_faces(obj.data, mask, self.action)
 
