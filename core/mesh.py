@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from .errors import EmptyMeshError, MeshError
 from .sentence import Sentence
@@ -263,6 +261,10 @@ def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
         0..count-1, numbered by each component's lowest element, so that the numbering does
         not depend on the library.
     """
+    # Not above: Blender's panel reads stored parts also where SciPy is missing, to say that it is.
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     graph = coo_array((np.ones(len(a), np.int8), (a, b)), shape=(n, n))
     count, label = connected_components(graph, directed=False)
     first = np.full(count, n, np.int64)

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The manifest agrees with the code, the build and the changelog."""
 
+import ast
 import re
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -50,3 +53,21 @@ def test_every_platform_has_one_wheel_for_every_official_blender(manifest, pytho
 def test_official_blenders_share_one_scipy(manifest):
     # The one release that works with the NumPy of Blender 4.2 (1.24) and of 5.2 (2.3).
     assert {wheel_fields(wheel)[1] for wheel in manifest["wheels"] if "cp314" not in wheel} == {"1.15.3"}
+
+
+def test_the_panel_comes_up_without_scipy():
+    """Another extension may have replaced SciPy by one that does not load; the panel has to say so.
+
+    What the modules of Blender's side import from core at their top has to do without it.
+    """
+    names = set()
+    for folder in ("operators", "ui", "batch"):
+        for path in (ROOT / folder).glob("*.py"):
+            for node in ast.parse(path.read_text(encoding="utf-8")).body:
+                if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("core."):
+                    names.add(node.module)
+    names.discard("core.report")  # of operators/facts.py, which the command imports once SciPy is there
+    assert "core.numbering" in names
+    code = "import sys; sys.modules['scipy'] = None\n" + "\n".join(f"import {name}" for name in sorted(names))
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
