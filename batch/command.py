@@ -80,9 +80,12 @@ def parser() -> argparse.ArgumentParser:
     _add_parameters(made.add_argument_group("parameters"))
     outputs = made.add_argument_group("what is written to the objects")
     for name, prop in (OutputProperties.__annotations__ | OverlayProperties.__annotations__).items():
-        words = {"default": prop.keywords["default"], "help": prop.keywords["description"].replace("%", "%%")}
+        words = {"default": prop.keywords.get("default"), "help": prop.keywords["description"].replace("%", "%%")}
         if isinstance(words["default"], bool):
             words["action"] = argparse.BooleanOptionalAction
+        elif "items" in prop.keywords:
+            words["choices"] = [item[0] for item in prop.keywords["items"]]
+            words["default"] = words["choices"][0]
         else:
             words |= {"type": float, "metavar": "N"}
         outputs.add_argument(f"--{_dashed(name)}", **words)

@@ -14,6 +14,21 @@ PALETTE = np.array([
     (204, 102, 119),
 ]) / 255.0
 
+# Kelly (1965), colours of maximum contrast, without black, white and grey; bright, but not all of
+# them are told apart by colour-blind people.
+_KELLY = np.array([
+    (0, 103, 165), (243, 195, 0), (190, 0, 50), (141, 182, 0), (135, 86, 146), (243, 132, 0),
+    (161, 202, 241), (0, 136, 86), (230, 143, 172), (136, 45, 23), (220, 211, 0), (96, 78, 151),
+    (249, 147, 121), (179, 68, 108), (101, 69, 34), (194, 178, 128),
+]) / 255.0
+
+#: What parts can be coloured with: a name, and (c, 3) sRGB, 0..1.
+PALETTES = {
+    "Colour-blind safe": PALETTE,
+    "Pastel": 0.5 + 0.5 * PALETTE,
+    "Bright": _KELLY,
+}
+
 # Viewing with a missing cone type (Vienot et al. 1999), on linear RGB.
 _DEFICIENCIES = np.array([
     [[0.11238, 0.88762, 0.0], [0.11238, 0.88762, 0.0], [0.00401, -0.00401, 1.0]],
@@ -29,7 +44,7 @@ def distance_matrix(colors: np.ndarray = PALETTE) -> np.ndarray:
     return np.min([np.linalg.norm(v[:, None] - v[None], axis=2) for v in views], axis=0)
 
 
-def part_colors(count: int, neighbours: np.ndarray) -> np.ndarray:
+def part_colors(count: int, neighbours: np.ndarray, palette: np.ndarray = PALETTE) -> np.ndarray:
     """One colour per part; each new part takes what differs most from its neighbours.
 
     Parameters
@@ -37,24 +52,26 @@ def part_colors(count: int, neighbours: np.ndarray) -> np.ndarray:
     count : int
     neighbours : (e, 2) int64
         Pairs of parts that touch.
+    palette : (c, 3) float64
+        Colours to choose from.
 
     Returns
     -------
     colors : (count, 3) float64
-        sRGB, 0..1. Parts 0..15 differ all; later ones repeat, but not beside each other.
+        sRGB, 0..1. The first c parts differ all; later ones repeat, but not beside each other.
     """
-    apart = distance_matrix()
+    apart = distance_matrix(palette)
     chosen = np.full(count, -1)
-    used = np.zeros(len(PALETTE), np.int64)
+    used = np.zeros(len(palette), np.int64)
     around = [[] for _ in range(count)]
     for a, b in neighbours.tolist():
         around[a].append(b)
         around[b].append(a)
     for part in range(count):
         beside = [chosen[other] for other in around[part] if chosen[other] >= 0]
-        room = apart[beside].min(axis=0) if beside else np.ones(len(PALETTE))
+        room = apart[beside].min(axis=0) if beside else np.ones(len(palette))
         # Least used first, then clearly unlike the neighbours, then palette order.
-        rank = np.lexsort((np.arange(len(PALETTE)), -np.minimum(room, 0.25), used + 99 * (room == 0)))
+        rank = np.lexsort((np.arange(len(palette)), -np.minimum(room, 0.25), used + 99 * (room == 0)))
         chosen[part] = rank[0]
         used[rank[0]] += 1
-    return PALETTE[chosen] if count else np.zeros((0, 3))
+    return palette[chosen] if count else np.zeros((0, 3))

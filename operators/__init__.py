@@ -16,6 +16,7 @@ from . import (
     handles,
     highlight,
     jobs,
+    markers,
     outputs,
     paint,
     parts,
@@ -53,6 +54,7 @@ def register():
     defaults.register()
     handles.register()
     highlight.register()
+    markers.register()
     watch.register()
 
 
@@ -60,6 +62,7 @@ def unregister():
     if jobs.current is not None:
         jobs.current.cancel()
     watch.unregister()
+    markers.unregister()
     highlight.unregister()
     handles.unregister()
     defaults.unregister()

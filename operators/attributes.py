@@ -9,6 +9,7 @@ before is kept in attributes whose names start with a dot, which Blender hides a
 import bpy
 import numpy as np
 
+from ..core.colors import PALETTE, PALETTES, part_colors
 from ..core.numbering import NumberedParts
 from . import bridge, store
 
@@ -46,6 +47,7 @@ def write_outputs(obj, numbered: NumberedParts, field: np.ndarray, outputs):
         (outputs.seams, add_seams, remove_seams),
     ):
         (add if wanted else remove)(obj)
+    mesh.reeb_parts.palette = outputs.palette
     if outputs.field:
         attribute = mesh.attributes[mesh.reeb_parts.field_attribute]
         attribute.data.foreach_set("value", np.nan_to_num(field).astype(np.float32))
@@ -71,14 +73,21 @@ def update_outputs(obj, numbered: NumberedParts, before: np.ndarray | None = Non
         _write_groups(obj, numbers, before)
     if attribute := mesh.attributes.get(result.face_attribute):
         attribute.data.foreach_set("value", numbers.astype(np.int32))
-    if attribute := mesh.attributes.get(result.color_attribute):
-        attribute.data.foreach_set("color_srgb", _corner_colors(mesh, numbered))
+    update_colors(mesh, numbered)
     if result.has_face_sets:
         mesh.attributes[FACE_SETS].data.foreach_set("value", numbers.astype(np.int32))
-    if result.has_materials:
-        _write_materials(mesh, numbered)
     if result.has_seams:
         _write_seams(mesh, numbers)
+    mesh.update()
+
+
+def update_colors(mesh, numbered: NumberedParts):
+    """Bring the colour attribute and the materials up to date with the colours of the list."""
+    result = mesh.reeb_parts
+    if attribute := mesh.attributes.get(result.color_attribute):
+        attribute.data.foreach_set("color_srgb", _corner_colors(mesh, numbered))
+    if result.has_materials:
+        _write_materials(mesh, numbered)
     mesh.update()
 
 
@@ -97,6 +106,7 @@ def _list_parts(obj, numbered):
     keys = ("locked", "selected", "group", "material")
     known = {part.number: [getattr(part, key) for key in keys] for part in result.parts}
     wanted = numbered.numbers.tolist()
+    colors = _colors(obj.data, numbered)
     for number, (_, _, group, material) in known.items():
         if number not in wanted:
             _remove_group(obj, group)
@@ -107,12 +117,21 @@ def _list_parts(obj, numbered):
             part = result.parts.add()
             part.number = number
             part.name = store.part_name(obj.data, number)
-            part.color = numbered.parts.colors[label]
+            part.color = colors[label]
             part.share = numbered.parts.share[label]
             for key, value in zip(keys, known.get(number, ()), strict=False):
                 setattr(part, key, value)
         result.active = wanted.index(active) if active in wanted else 0
         result.n_parts = len(wanted)
+
+
+def _colors(mesh, numbered) -> np.ndarray:
+    """The colour of each part, (count, 3) float64 sRGB: somebody's choice, or from the palette."""
+    palette = PALETTES.get(mesh.reeb_parts.palette, PALETTE)
+    colors = part_colors(numbered.parts.count, numbered.parts.cuts, palette)
+    for number, color in store.kept_colors(mesh).items():
+        colors[numbered.numbers == number] = color
+    return colors
 
 
 # Vertex groups
@@ -294,8 +313,7 @@ def remove_colors(obj):
 
 def _corner_colors(mesh, numbered):
     """sRGB and alpha of each corner, flat float32."""
-    colors = np.ones((numbered.parts.count, 4), np.float32)
-    colors[:, :3] = numbered.parts.colors
+    colors = store.number_colors(mesh)[numbered.numbers]
     _, face = bridge.face_corners(mesh)
     return colors[numbered.parts.labels[face]].ravel()
 
@@ -378,7 +396,7 @@ def _write_materials(mesh, numbered):
             part.material = bpy.data.materials.new(part.name)
             if bpy.app.version < (5, 0):  # newer ones always do
                 part.material.use_nodes = True
-        _color_material(part.material, numbered.parts.colors[label])
+        _color_material(part.material, linear(part.color))
         if part.material not in mesh.materials[:]:
             mesh.materials.append(part.material)
         slots[label] = mesh.materials.find(part.material.name)
@@ -386,11 +404,15 @@ def _write_materials(mesh, numbered):
 
 
 def _color_material(material, color):
-    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color.tolist()]
-    material.diffuse_color = (*linear, 1.0)
+    material.diffuse_color = (*color, 1.0)
     for node in material.node_tree.nodes:
         if node.type == "BSDF_PRINCIPLED":
-            node.inputs["Base Color"].default_value = (*linear, 1.0)
+            node.inputs["Base Color"].default_value = (*color, 1.0)
+
+
+def linear(color) -> list:
+    """sRGB, which lists and vertex colours use, as what objects and materials are coloured with."""
+    return [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color]
 
 
 # Seams

@@ -68,7 +68,26 @@ class REEB_PARTS_OT_use_preferences(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (REEB_PARTS_OT_use_preferences,)
+class REEB_PARTS_OT_reset_parameters(bpy.types.Operator):
+    """Set the parameters back to those of the preset; some of them were changed"""
+
+    bl_idname = "reeb_parts.reset_parameters"
+    bl_label = "Reset Parameters to Preset"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.scene.is_editable
+
+    def execute(self, context):
+        settings = context.scene.reeb_parts
+        detail, n_parts = settings.detail, settings.n_parts
+        settings.use_parameters(PRESETS[settings.preset])
+        settings.detail, settings.n_parts = detail, n_parts
+        return {"FINISHED"}
+
+
+CLASSES = (REEB_PARTS_OT_use_preferences, REEB_PARTS_OT_reset_parameters)
 
 
 @persistent

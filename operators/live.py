@@ -43,6 +43,53 @@ def rename(part, context):
             _anchor(mesh, part.number)
 
 
+def show_graph(obj, shown, context):
+    """Hide the graph of an object, or show it; it is drawn if there is none yet."""
+    if store.is_quiet() or not store.has_result(obj.data):
+        return
+    if overlay.set_hidden(context, obj, not shown) or not shown:
+        return
+    try:
+        with object_mode(context):
+            stored = store.load(obj.data)
+            stretch = np.array(obj.data.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+            overlay.draw_graph(context, obj, stored.decomposition.graph, stretch, context.scene.reeb_parts)
+            overlay.update_parts(obj, stored.shown_parts())
+    except SceneError:
+        obj.data.reeb_parts.edited = True
+
+
+def use_palette(mesh, palette, context):
+    """Colour the parts of a mesh from another palette."""
+    if store.is_quiet() or not store.has_result(mesh) or mesh.reeb_parts.palette == palette:
+        return
+    try:
+        with object_mode(context):
+            stored = store.load(mesh)
+            mesh.reeb_parts.palette = palette
+            refresh(context, mesh, stored, stored.shown_parts())
+    except SceneError:
+        mesh.reeb_parts.edited = True
+
+
+def recolor(part, context):
+    """A part was given another colour: all that is coloured by it takes it, and it stays."""
+    if store.is_quiet():
+        return
+    mesh = part.id_data
+    store.keep_color(mesh, part.number, part.color)
+    try:
+        with object_mode(context):
+            numbered = store.load(mesh).shown_parts()
+            # The list stays as it is: somebody has a hand on one of its colours.
+            attributes.update_colors(mesh, numbered)
+            for obj in users(mesh):
+                overlay.update_parts(obj, numbered)
+            _anchor(mesh, part.number)
+    except SceneError:
+        mesh.reeb_parts.edited = True
+
+
 def lock(part, context):
     """A part was locked or unlocked in the list."""
     if store.is_quiet():

@@ -8,6 +8,8 @@ carries them along. They are recognised by custom properties, never by name.
 import bpy
 import numpy as np
 
+from . import attributes, store
+
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 ROLE = "reeb_parts_role"  # on our objects: "node" or "arcs"
 KINDS = ("minimum", "saddle", "maximum")
@@ -27,6 +29,20 @@ def arcs(obj):
     collection = find(obj)
     items = collection.objects if collection else ()
     return next((item for item in items if item.get(ROLE) == "arcs"), None)
+
+
+def set_hidden(context, obj, hidden) -> bool:
+    """Hide the graph of an object in the view layer, or show it again; whether there is one."""
+    collection = find(obj)
+    if collection is None:
+        return False
+    waiting = [context.view_layer.layer_collection]
+    while waiting:
+        layer = waiting.pop()
+        if layer.collection == collection:
+            layer.hide_viewport = hidden
+        waiting.extend(layer.children)
+    return True
 
 
 def draw_graph(context, obj, graph, stretch, style):
@@ -93,11 +109,11 @@ def update_parts(obj, numbered):
     if collection is None:
         return
     numbers = numbered.numbers[numbered.parts.node_part].tolist()
-    colors = numbered.parts.colors[numbered.parts.node_part].tolist()
+    colors = store.number_colors(obj.data)
     for item in collection.objects:
         if item.get(ROLE) == "node":
             item["part"] = numbers[item["node"]]
-            item.color = (*colors[item["node"]], 1.0)
+            item.color = (*attributes.linear(colors[item["part"], :3].tolist()), 1.0)
 
 
 def restyle(obj, style):

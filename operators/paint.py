@@ -88,7 +88,7 @@ class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
         self.stroke.clear()
         self.brush = Brush(obj, self.model, slide.active_number(obj))
         self.painting = False
-        self.colors = slide.number_colors(obj, self.model.stored)
+        self.colors = store.number_colors(obj.data)
 
     def hover(self, context, target, event):
         self._show_brush(target)

@@ -14,7 +14,7 @@ from mathutils import Matrix, Vector
 
 from ..core.errors import ReebError
 from ..ui.use_properties import SeparateProperties
-from . import attributes, bridge, caps, explode, parts, store
+from . import attributes, bridge, caps, explode, overlay, parts, store, view
 from .modes import object_mode
 from .problems import SceneError, translated
 from .use import use_panel_settings, wanted
@@ -216,7 +216,7 @@ def separate(context, obj, stored, numbers, style):
     made = []
     for number, mesh in meshes.items():
         piece = _piece(obj, mesh, store.part_name(obj.data, number), style)
-        piece.color = (*colors[number], 1.0)
+        piece.color = (*attributes.linear(colors[number]), 1.0)
         piece[NUMBER] = number
         collection.objects.link(piece)
         made.append(piece)
@@ -340,6 +340,8 @@ class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
             for obj, *_ in made:
                 obj.hide_set(True)
                 obj.hide_render = True
+                overlay.set_hidden(context, obj, True)
+            view.show_pieces(context)
         space = context.space_data
         if space is not None and space.type == "VIEW_3D" and space.local_view:
             for _, separated, *_ in made:
@@ -380,12 +382,19 @@ class REEB_PARTS_OT_show_original(bpy.types.Operator):
         if context.mode != "OBJECT":
             cls.poll_message_set(rpt_("Go to Object Mode first"))
             return False
+        try:
+            bridge.check_object(original(piece))
+        except SceneError as error:
+            cls.poll_message_set(str(error))
+            return False
         return True
 
     def execute(self, context):
         obj = original(context.view_layer.objects.active)
         obj.hide_set(False)
         obj.hide_render = False
+        overlay.set_hidden(context, obj, not context.scene.reeb_parts.graph)
+        view.show_colors(context)
         for other in context.view_layer.objects.selected:
             other.select_set(False)
         obj.select_set(True)

@@ -82,7 +82,7 @@ class REEB_PARTS_OT_slide(PartOperator, bpy.types.Operator):
         except SceneError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self._colors = number_colors(obj, stored)
+        self._colors = store.number_colors(obj.data)
         self._name = obj.name
         self._start = event.mouse_x
         # The whole width of the view is half the size of the object.
@@ -126,14 +126,6 @@ def preview(mesh, numbers, colors):
         _, face = bridge.face_corners(mesh)
         attribute.data.foreach_set("color_srgb", colors[numbers][face].ravel())
         mesh.update()
-
-
-def number_colors(obj, stored) -> np.ndarray:
-    """The colour of each part by its number, (largest number + 1, 4) float32, sRGB and alpha."""
-    numbered = stored.shown_parts()
-    colors = np.ones((int(numbered.numbers.max()) + 1, 4), np.float32)
-    colors[numbered.numbers, :3] = numbered.parts.colors
-    return colors
 
 
 def active_number(obj) -> int:

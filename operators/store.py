@@ -163,25 +163,55 @@ def _face_numbers(mesh) -> tuple[np.ndarray, np.ndarray]:
 
 def part_name(mesh, number) -> str:
     """The name somebody gave to a number, or its own."""
-    for entry in mesh.reeb_parts.names:
-        if entry.number == number:
-            return entry.name
-    return default_name(number)
+    entry = _kept(mesh, number)
+    return entry.name if entry is not None and entry.name else default_name(number)
 
 
 def keep_name(mesh, number, name):
     """Remember a name, also while its part is not shown."""
+    if entry := _keep(mesh, number, name != default_name(number)):
+        entry.name = "" if name == default_name(number) else name
+        _drop_empty(mesh)
+
+
+def keep_color(mesh, number, color):
+    """Remember a colour, also while its part is not shown. color : three values, sRGB."""
+    entry = _keep(mesh, number, True)
+    entry.color, entry.has_color = color, True
+
+
+def kept_colors(mesh) -> dict:
+    """The colours that somebody gave to parts, by number."""
+    return {entry.number: entry.color[:] for entry in mesh.reeb_parts.names if entry.has_color}
+
+
+def number_colors(mesh) -> np.ndarray:
+    """The colour of each part of the list by its number, (largest number + 1, 4) float32, sRGB and alpha."""
+    parts = mesh.reeb_parts.parts
+    colors = np.ones((max((part.number for part in parts), default=0) + 1, 4), np.float32)
+    for part in parts:
+        colors[part.number, :3] = part.color
+    return colors
+
+
+def _kept(mesh, number):
+    return next((entry for entry in mesh.reeb_parts.names if entry.number == number), None)
+
+
+def _keep(mesh, number, make):
+    """The entry of a number; made if it is not there and asked for."""
+    entry = _kept(mesh, number)
+    if entry is None and make:
+        entry = mesh.reeb_parts.names.add()
+        entry.number = number
+    return entry
+
+
+def _drop_empty(mesh):
     names = mesh.reeb_parts.names
-    for index, entry in enumerate(names):
-        if entry.number == number:
-            if name == default_name(number):
-                names.remove(index)
-            else:
-                entry.name = name
-            return
-    if name != default_name(number):
-        entry = names.add()
-        entry.name, entry.number = name, number
+    for index in reversed(range(len(names))):
+        if not names[index].name and not names[index].has_color:
+            names.remove(index)
 
 
 def _decomposition(data: bytes):

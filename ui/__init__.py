@@ -3,11 +3,11 @@
 
 import bpy
 
-from . import panel, preferences, properties, use_panel, use_properties
+from . import menus, panel, preferences, properties, translations, use_panel, use_properties
 
 # Sub-panels stand in the order of their registration: what is used often comes before the settings.
 _PLACE = panel.CLASSES.index(panel.REEB_PARTS_PT_parts) + 1
-CLASSES = (*panel.CLASSES[:_PLACE], *use_panel.CLASSES, *panel.CLASSES[_PLACE:])
+CLASSES = (*menus.CLASSES, *panel.CLASSES[:_PLACE], *use_panel.CLASSES, *panel.CLASSES[_PLACE:])
 
 
 def register_properties():
@@ -24,12 +24,14 @@ def unregister_properties():
 
 
 def register():
+    translations.register()
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    panel.register_menus()
+    menus.register()
 
 
 def unregister():
-    panel.unregister_menus()
+    menus.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
+    translations.unregister()

@@ -49,50 +49,6 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
                  icon="CHECKBOX_HLT" if item.selected else "CHECKBOX_DEHLT")
 
 
-class REEB_PARTS_MT_parts(bpy.types.Menu):
-    bl_idname = "REEB_PARTS_MT_parts"
-    bl_label = "Parts"
-
-    def draw(self, context):
-        draw_part_menu(self.layout)
-
-
-def draw_part_menu(layout):
-    """All that can be done with the chosen parts; also in the list's context menu."""
-    layout.operator_menu_enum("reeb_parts.mark", "action", icon="CHECKBOX_HLT")
-    layout.separator()
-    layout.operator("reeb_parts.merge", icon="AUTOMERGE_ON")
-    layout.operator("reeb_parts.merge_neighbour")
-    layout.operator("reeb_parts.split", icon="MOD_EDGESPLIT")
-    layout.operator("reeb_parts.grow", icon="ADD")
-    layout.operator("reeb_parts.shrink", icon="REMOVE")
-    layout.operator("reeb_parts.slide", icon="ARROW_LEFTRIGHT")
-    layout.separator()
-    layout.operator("reeb_parts.assign", icon="FACESEL").new = False
-    layout.operator("reeb_parts.assign", text="New Part of Selected Faces").new = True
-    layout.separator()
-    layout.operator("reeb_parts.release", icon="UNPINNED").everything = False
-    layout.operator("reeb_parts.release", text="Release All Parts").everything = True
-    layout.separator()
-    layout.operator("reeb_parts.to_nodes", icon="EMPTY_AXIS")
-
-
-def _draw_list_menu(self, context):
-    """Under what Blender itself offers for an entry of a list."""
-    ui_list = getattr(context, "ui_list", None)
-    if ui_list is not None and ui_list.bl_idname == "REEB_PARTS_UL_parts":
-        self.layout.separator()
-        draw_part_menu(self.layout)
-
-
-def register_menus():
-    bpy.types.UI_MT_list_item_context_menu.append(_draw_list_menu)
-
-
-def unregister_menus():
-    bpy.types.UI_MT_list_item_context_menu.remove(_draw_list_menu)
-
-
 class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
     bl_idname = "REEB_PARTS_PT_main"
     bl_label = "Reeb Parts"
@@ -100,7 +56,10 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         settings = context.scene.reeb_parts
-        layout.prop(settings, "preset", text="")
+        row = layout.row(align=True)
+        row.prop(settings, "preset", text="")
+        if settings.differs_from_preset():
+            row.operator("reeb_parts.reset_parameters", text="", icon="LOOP_BACK")
         if jobs.current is not None:
             _draw_progress(layout, jobs.current)
         else:
@@ -182,14 +141,18 @@ class REEB_PARTS_PT_parts(ReebPanel, bpy.types.Panel):
         layout = self.layout
         result = _result(context)
         row = layout.row()
-        row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=7)
+        row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=10)
         column = row.column(align=True)
+        column.operator("reeb_parts.pick", text="", icon="EYEDROPPER")
+        column.separator()
         column.operator("reeb_parts.merge", text="", icon="AUTOMERGE_ON")
         column.operator("reeb_parts.split", text="", icon="MOD_EDGESPLIT")
+        column.operator("reeb_parts.cut", text="", icon="MOD_BOOLEAN")
         column.separator()
         column.operator("reeb_parts.grow", text="", icon="ADD")
         column.operator("reeb_parts.shrink", text="", icon="REMOVE")
         column.operator("reeb_parts.slide", text="", icon="ARROW_LEFTRIGHT")
+        column.operator("reeb_parts.paint", text="", icon="BRUSH_DATA")
         column.separator()
         column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT")
         row = layout.row(align=True)
@@ -242,7 +205,9 @@ class REEB_PARTS_PT_output(ReebPanel, bpy.types.Panel):
 
     def draw(self, context):
         column, settings = self._column(context)
-        for name in ("vertex_groups", "face_attribute", "colors", "face_sets", "materials", "seams", "field"):
+        for name in ("vertex_groups", "face_attribute", "colors", "palette"):
+            column.prop(settings, name)
+        for name in ("face_sets", "materials", "seams", "field"):
             column.prop(settings, name)
 
 
@@ -265,7 +230,6 @@ class REEB_PARTS_PT_overlay(ReebPanel, bpy.types.Panel):
 
 CLASSES = (
     REEB_PARTS_UL_parts,
-    REEB_PARTS_MT_parts,
     REEB_PARTS_PT_main,
     REEB_PARTS_PT_parts,
     REEB_PARTS_PT_field,

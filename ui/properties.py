@@ -19,6 +19,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from ..core.colors import PALETTES
 from ..core.parameters import PRESETS, Parameters
 
 
@@ -75,6 +76,11 @@ class OutputProperties:
     colors: BoolProperty(
         name="Colours", default=True,
         description="The parts' colours as the active colour attribute Reeb Parts",
+    )
+    palette: EnumProperty(
+        name="Palette", items=[(name, name, "") for name in PALETTES],
+        description="What the parts' colours are chosen from. A colour that you give to a part in the list "
+        "stays the part's own",
     )
     face_sets: BoolProperty(
         name="Face sets", default=False,
@@ -137,8 +143,33 @@ def _use_preset(self, context):
 PRESET_ITEMS = [(name, name, "") for name in PRESETS]
 
 
+def _repaint(self, context):
+    from ..operators import live
+
+    if context.object is not None and context.object.type == "MESH":
+        live.use_palette(context.object.data, self.palette, context)
+
+
+def _show_graph(self, context):
+    from ..operators import live
+
+    if context.object is not None and context.object.type == "MESH":
+        live.show_graph(context.object, self.graph, context)
+
+
 class ReebPartsSettings(bpy.types.PropertyGroup, ParameterProperties, OutputProperties, OverlayProperties):
     """What the next run will do; on the scene."""
+
+    # Here, and only here, they are seen at once.
+    graph: BoolProperty(**OutputProperties.__annotations__["graph"].keywords, update=_show_graph)
+    palette: EnumProperty(**OutputProperties.__annotations__["palette"].keywords, update=_repaint)
+
+    def differs_from_preset(self) -> bool:
+        """Whether a parameter was changed since the preset was chosen; how many parts there are does not count."""
+        preset = PRESETS[self.preset]
+        return any(abs(getattr(self, name) - getattr(preset, name)) > 1e-6 * abs(getattr(preset, name))
+                   if isinstance(getattr(preset, name), float) else getattr(self, name) != getattr(preset, name)
+                   for name in PARAMETERS if name not in {"detail", "n_parts"})
 
     highlight: BoolProperty(
         name="Outline chosen parts", default=True,
@@ -155,6 +186,12 @@ def _rename(self, context):
     from ..operators import live
 
     live.rename(self, context)
+
+
+def _recolor(self, context):
+    from ..operators import live
+
+    live.recolor(self, context)
 
 
 def _lock(self, context):
@@ -189,7 +226,10 @@ class ReebPart(bpy.types.PropertyGroup):
         description="Name of the part and of its vertex group; double click to change it",
     )
     number: IntProperty(name="Number", description="What the part is known by; the value of reeb_part")
-    color: FloatVectorProperty(name="Colour", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0)
+    color: FloatVectorProperty(
+        name="Colour", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0, update=_recolor,
+        description="Colour of the part; one that you choose stays with it",
+    )
     share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")
     locked: BoolProperty(
         name="Locked", update=_lock,
@@ -202,10 +242,12 @@ class ReebPart(bpy.types.PropertyGroup):
 
 
 class ReebName(bpy.types.PropertyGroup):
-    """A name that somebody gave to a part, kept while the part is not shown."""
+    """A name or a colour that somebody gave to a part, kept while the part is not shown."""
 
-    name: StringProperty()
+    name: StringProperty(description="Empty: the part's own")
     number: IntProperty()
+    has_color: BoolProperty()
+    color: FloatVectorProperty(subtype="COLOR_GAMMA", size=3)
 
 
 class ReebPartsResult(bpy.types.PropertyGroup):
@@ -247,6 +289,7 @@ class ReebPartsResult(bpy.types.PropertyGroup):
     # What was written, under which name, and what was there before
     face_attribute: StringProperty()
     color_attribute: StringProperty()
+    palette: StringProperty()
     field_attribute: StringProperty()
     has_groups: BoolProperty()
     has_face_sets: BoolProperty()

@@ -19,6 +19,29 @@ def result(obj):
     return obj.data.reeb_parts
 
 
+def corner_colors(mesh):
+    values = np.zeros(4 * len(mesh.loops), np.float32)
+    mesh.color_attributes["Reeb Parts"].data.foreach_get("color_srgb", values)
+    return values.reshape(-1, 4)[:, :3]
+
+
+def node_colors(obj):
+    return [(item["part"], item.color[:3]) for item in obj.children if item.get("reeb_parts_role") == "node"]
+
+
+def check_colors(obj):
+    """Faces, materials and nodes are coloured as the list says."""
+    mesh = obj.data
+    colors = {part.number: np.array(part.color) for part in mesh.reeb_parts.parts}
+    corner_numbers = np.repeat(numbers(mesh), [face.loop_total for face in mesh.polygons])
+    expected = np.array([colors[number] for number in corner_numbers.tolist()])
+    assert np.abs(corner_colors(mesh) - expected).max() < 1.5 / 255
+    for number, color in node_colors(obj):
+        srgb = np.where(np.array(color) <= 0.0031308, 12.92 * np.array(color),
+                        1.055 * np.maximum(color, 1e-9) ** (1 / 2.4) - 0.055)
+        assert np.allclose(srgb, colors[number], atol=1e-3)
+
+
 def check_outputs(obj):
     """Attribute, groups, list, colours and overlay all tell of the same parts."""
     result, mesh = obj.data.reeb_parts, obj.data
@@ -29,15 +52,11 @@ def check_outputs(obj):
         index = obj.vertex_groups[part.group].index
         group = {v.index for v in mesh.vertices if any(g.group == index for g in v.groups)}
         assert group == {v for p in mesh.polygons if faces[p.index] == part.number for v in p.vertices}
-    shown = np.zeros(4 * len(mesh.loops), np.float32)
-    mesh.attributes["Reeb Parts"].data.foreach_get("color_srgb", shown)
-    color = {part.number: tuple(part.color) for part in result.parts}
-    expected = [color[faces[p.index]] for p in mesh.polygons for _ in p.vertices]
-    assert shown.reshape(-1, 4)[:, :3] == pytest.approx(np.array(expected), abs=1 / 255)
+    color = {part.number for part in result.parts}
     for item in bpy.data.collections[f"Reeb Graph {obj.name}"].objects:
         if item.type == "EMPTY":
             assert item["part"] in color
-            assert tuple(item.color)[:3] == pytest.approx(color[item["part"]])
+    check_colors(obj)
 
 
 @pytest.mark.parametrize("detail", [0.0, 0.3, 0.7, 1.0])
@@ -101,6 +120,45 @@ def test_names_stay_beside_the_users_own(obj, result):
     assert result.parts[1].group == "Arm.001"
     result.parts[1].name = "  "
     assert result.parts[1].name == "Arm"
+
+
+def test_a_colour_that_is_chosen_stays_with_the_part(obj, result):
+    result.detail = 0.6
+    chosen = result.parts[1]
+    number, group = chosen.number, chosen.group
+    chosen.color = (1.0, 0.0, 0.5)
+    check_colors(obj)
+    assert result.parts[1].group == group
+    result.detail = 0.0
+    result.detail = 0.6
+    bpy.ops.reeb_parts.decompose(method="berretti", detail=0.6)
+    (found,) = [part for part in result.parts if part.number == number]
+    assert found.color[:] == (1.0, 0.0, 0.5)
+    assert sum(part.color[:] == (1.0, 0.0, 0.5) for part in result.parts) == 1
+    check_colors(obj)
+
+
+def test_a_palette_is_seen_at_once_and_spares_chosen_colours(obj, result):
+    result.parts[0].color = (0.1, 0.2, 0.3)
+    before = [part.color[:] for part in result.parts]
+    bpy.context.scene.reeb_parts.palette = "Pastel"
+    check_colors(obj)
+    after = [part.color[:] for part in result.parts]
+    assert after[0] == pytest.approx((0.1, 0.2, 0.3))
+    assert all(a != b for a, b in zip(after[1:], before[1:], strict=True))
+    assert all(min(color) >= 0.5 for color in after[1:])
+    bpy.context.scene.reeb_parts.palette = "Colour-blind safe"
+    assert [part.color[:] for part in result.parts] == before
+
+
+def test_a_colour_outlives_a_name_that_is_taken_back(obj, result):
+    part = result.parts[0]
+    part.color = (0.25, 0.5, 0.75)
+    part.name = "Body"
+    part.name = "Part 01"
+    result.detail = 0.9
+    assert result.parts[0].color[:] == (0.25, 0.5, 0.75)
+    assert result.parts[0].name == "Part 01"
 
 
 def test_numbers_of_parts_survive_a_coarser_run(obj, result):

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from core.colors import PALETTE, distance_matrix, part_colors
+from core.colors import PALETTE, PALETTES, distance_matrix, part_colors
 
 
 def test_first_sixteen_are_distinct():
@@ -14,13 +14,14 @@ def test_first_sixteen_are_distinct():
     assert ((colors >= 0) & (colors <= 1)).all()
 
 
+@pytest.mark.parametrize("name", PALETTES)
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("count", [2, 16, 17, 60, 300])
-def test_neighbours_differ(count, seed):
+def test_neighbours_differ(count, seed, name):
     rng = np.random.default_rng(seed)
     pairs = np.sort(rng.integers(0, count, (3 * count, 2)), axis=1)
     pairs = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
-    colors = part_colors(count, pairs)
+    colors = part_colors(count, pairs, PALETTES[name])
     a, b = pairs.T
     assert (colors[a] != colors[b]).any(axis=1).all()
     if count <= 16:

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The graph in the colours of its parts, drawn over the empties and curves that it consists of.
+
+Blender draws empties and their kinds in one colour. The marks here say which part a node is in and what
+kind it is: a disc for a minimum, a square for a saddle, a triangle for a maximum. Nothing is written anywhere;
+what is hidden, or was taken away, is not drawn.
+"""
+
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+from . import overlay, store
+from .graph_lines import GraphLines
+from .problems import SceneError
+
+SIZE = 6.0  # radius of a mark in pixels, of a screen without scaling
+RIM = 1.35  # of the dark rim, in radii
+WIDTH = 4.0  # of the lines
+_RIM_COLOR = (0.05, 0.05, 0.05, 1.0)
+
+_handle = None
+_lines = {}  # of each graph, with what they were built of
+
+
+def _corners(count, start):
+    angle = start + 2 * np.pi * np.arange(count) / count
+    return np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+# Outlines around the middle, of about the same area.
+SHAPES = {
+    "minimum": _corners(20, 0.0),
+    "saddle": 1.2 * _corners(4, 0.25 * np.pi),
+    "maximum": 1.4 * _corners(3, 0.5 * np.pi),
+}
+
+
+def register():
+    global _handle
+    if not bpy.app.background:  # there is nothing to draw on
+        _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
+
+
+def unregister():
+    global _handle
+    if _handle is not None:
+        bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
+    _handle = None
+    _lines.clear()
+
+
+def marks(places, kinds, colors, right, up, radii):
+    """Triangles of the marks of some nodes, each with its rim behind it.
+
+    Parameters
+    ----------
+    places : (k, 3) float64
+    kinds : list of str
+    colors : (k, 4) float64
+    right, up : (3,) float64
+        The axes of the view.
+    radii : (k,) float64
+
+    Returns
+    -------
+    points : (3 t, 3) float32
+    point_colors : (3 t, 4) float32
+    """
+    points, shades = [], []
+    for place, kind, color, radius in zip(places, kinds, colors, radii, strict=True):
+        outline = SHAPES[kind] @ np.stack([right, up]) * radius
+        for size, shade in ((RIM, _RIM_COLOR), (1.0, color)):
+            rim = place + size * outline
+            fan = np.stack([np.broadcast_to(place, rim.shape), rim, np.roll(rim, -1, axis=0)], axis=1)
+            points.append(fan.reshape(-1, 3))
+            shades.append(np.broadcast_to(shade, (3 * len(rim), 4)))
+    return np.concatenate(points).astype(np.float32), np.concatenate(shades).astype(np.float32)
+
+
+def _draw():
+    context = bpy.context
+    if not context.space_data.overlay.show_overlays:
+        return
+    layer = context.view_layer
+    seen = set()
+    for collection in bpy.data.collections:
+        source = collection.get(overlay.SOURCE)
+        if source is None:
+            continue
+        items = [item for item in collection.objects if item.name in layer.objects and item.visible_get()]
+        if items:
+            seen.add(source.session_uid)
+            _draw_graph(context, source, items)
+    for gone in set(_lines) - seen:
+        del _lines[gone]
+
+
+def _draw_graph(context, source, items):
+    gpu.state.depth_test_set("NONE" if items[0].show_in_front else "LESS_EQUAL")
+    gpu.state.blend_set("ALPHA")
+    if any(item.get(overlay.ROLE) == "arcs" for item in items):
+        _draw_arcs(source)
+    nodes = [item for item in items if item.get(overlay.ROLE) == "node"]
+    if nodes:
+        _draw_nodes(context, nodes)
+    gpu.state.blend_set("NONE")
+    gpu.state.depth_test_set("NONE")
+
+
+def _draw_arcs(source):
+    result = source.data.reeb_parts
+    key = (result.fingerprint, result.numbers, [part.color[:] for part in result.parts])
+    if _lines.get(source.session_uid, (None,))[0] != key:
+        _lines[source.session_uid] = key, _arc_batch(source)
+    batch = _lines[source.session_uid][1]
+    if batch is None:
+        return
+    shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
+    shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+    shader.uniform_float("lineWidth", WIDTH * bpy.context.preferences.system.ui_scale)
+    with gpu.matrix.push_pop():
+        gpu.matrix.multiply_matrix(source.matrix_world)
+        batch.draw(shader)
+
+
+def _arc_batch(source):
+    """The arcs for the card, None if the parts are out of date."""
+    try:
+        stored = store.load(source.data)
+    except SceneError:
+        return None
+    stretch = np.array(source.data.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+    lines = GraphLines.of(stored.decomposition, stretch)
+    if not len(lines.segments):
+        return None
+    colors = store.number_colors(source.data)[stored.shown[lines.candidate]]
+    ends = lines.segments
+    middle = lines.position[ends].mean(axis=1)
+    # Each half of a segment is in the part that its end is in.
+    points = np.stack([lines.position[ends[:, 0]], middle, middle, lines.position[ends[:, 1]]], axis=1)
+    shades = np.repeat(colors[ends], 2, axis=1)
+    shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
+    return batch_for_shader(shader, "LINES", {
+        "pos": points.reshape(-1, 3).astype(np.float32), "color": shades.reshape(-1, 4).astype(np.float32)})
+
+
+def _draw_nodes(context, nodes):
+    region, view = context.region, context.region_data
+    places = np.array([node.matrix_world.translation for node in nodes])
+    colors = np.array([store.number_colors(nodes[0].parent.data)[node["part"]] for node in nodes])
+    matrix = np.array(view.view_matrix, np.float64)
+    whole = np.array(view.perspective_matrix, np.float64)
+    depth = np.concatenate([places, np.ones((len(places), 1))], axis=1) @ whole[3]
+    # A pixel is so large where each node is.
+    pixel = 2.0 * np.abs(depth) / (region.width * abs(view.window_matrix[0][0]))
+    radii = SIZE * context.preferences.system.ui_scale * pixel
+    points, shades = marks(places, [node["kind"] for node in nodes], colors, matrix[0, :3], matrix[1, :3], radii)
+    shader = gpu.shader.from_builtin("FLAT_COLOR")
+    batch_for_shader(shader, "TRIS", {"pos": points, "color": shades}).draw(shader)

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Menus: of the parts in the list, and "Reeb Parts" in the header, where search (F3) finds every operator."""
+
+import bpy
+
+
+class REEB_PARTS_MT_parts(bpy.types.Menu):
+    bl_idname = "REEB_PARTS_MT_parts"
+    bl_label = "Parts"
+
+    def draw(self, context):
+        draw_part_menu(self.layout)
+
+
+def draw_part_menu(layout):
+    """All that can be done with the chosen parts; also in the list's context menu."""
+    layout.operator_menu_enum("reeb_parts.mark", "action", icon="CHECKBOX_HLT")
+    layout.separator()
+    layout.operator("reeb_parts.merge", icon="AUTOMERGE_ON")
+    layout.operator("reeb_parts.merge_neighbour")
+    layout.operator("reeb_parts.split", icon="MOD_EDGESPLIT")
+    layout.operator("reeb_parts.cut", icon="MOD_BOOLEAN")
+    layout.operator("reeb_parts.grow", icon="ADD")
+    layout.operator("reeb_parts.shrink", icon="REMOVE")
+    layout.operator("reeb_parts.slide", icon="ARROW_LEFTRIGHT")
+    layout.operator("reeb_parts.paint", icon="BRUSH_DATA")
+    layout.separator()
+    layout.operator("reeb_parts.assign", icon="FACESEL").new = False
+    layout.operator("reeb_parts.assign", text="New Part of Selected Faces").new = True
+    layout.operator("reeb_parts.from_face_sets")
+    layout.separator()
+    layout.operator("reeb_parts.release", icon="UNPINNED").everything = False
+    layout.operator("reeb_parts.release", text="Release All Parts").everything = True
+    layout.separator()
+    layout.operator("reeb_parts.to_nodes", icon="EMPTY_AXIS")
+
+
+def _draw_list_menu(self, context):
+    """Under what Blender itself offers for an entry of a list."""
+    ui_list = getattr(context, "ui_list", None)
+    if ui_list is not None and ui_list.bl_idname == "REEB_PARTS_UL_parts":
+        self.layout.separator()
+        draw_part_menu(self.layout)
+
+
+class REEB_PARTS_MT_main(bpy.types.Menu):
+    bl_idname = "REEB_PARTS_MT_main"
+    bl_label = "Reeb Parts"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.operator("reeb_parts.decompose", icon="MOD_EXPLODE")
+        layout.operator("reeb_parts.clear", icon="TRASH")
+        layout.separator()
+        layout.operator("reeb_parts.pick", icon="EYEDROPPER")
+        layout.operator("reeb_parts.select", icon="RESTRICT_SELECT_OFF")
+        layout.operator("reeb_parts.isolate", icon="HIDE_OFF").show_all = False
+        layout.operator("reeb_parts.isolate", text="Show All Parts").show_all = True
+        draw_part_menu(layout)
+        layout.separator()
+        layout.operator("reeb_parts.from_nodes")
+        layout.operator("reeb_parts.split_at_node")
+        layout.separator()
+        layout.operator("reeb_parts.separate", icon="OUTLINER_OB_GROUP_INSTANCE")
+        layout.operator("reeb_parts.show_original")
+        for name in ("seams", "face_sets", "materials"):
+            layout.operator(f"reeb_parts.{name}")
+        layout.operator("reeb_parts.unwrap", icon="UV")
+        layout.operator("reeb_parts.export", icon="EXPORT")
+        layout.operator("reeb_parts.armature", icon="ARMATURE_DATA")
+        layout.separator()
+        layout.operator("reeb_parts.use_preferences", icon="PREFERENCES")
+
+
+# The menu of each mode that operators work in.
+PLACES = (
+    "VIEW3D_MT_object",
+    "VIEW3D_MT_edit_mesh",
+    "VIEW3D_MT_sculpt",
+    "VIEW3D_MT_paint_weight",
+    "VIEW3D_MT_paint_vertex",
+)
+
+CLASSES = (REEB_PARTS_MT_parts, REEB_PARTS_MT_main)
+
+
+def _draw(self, context):
+    self.layout.separator()
+    self.layout.menu("REEB_PARTS_MT_main")
+
+
+def register():
+    bpy.types.UI_MT_list_item_context_menu.append(_draw_list_menu)
+    for name in PLACES:
+        getattr(bpy.types, name).append(_draw)
+
+
+def unregister():
+    for name in PLACES:
+        getattr(bpy.types, name).remove(_draw)
+    bpy.types.UI_MT_list_item_context_menu.remove(_draw_list_menu)
