@@ -36,7 +36,7 @@ def snapshot() -> dict:
         "scene": _collection(bpy.context.scene.collection),
         "layer": _layer(layer.layer_collection),
         "settings": [_group(bpy.context.scene, name) for name in ("reeb_parts", "reeb_parts_use")],
-        "materials": {m.name: (m.users, tuple(m.diffuse_color)) for m in bpy.data.materials},
+        "materials": {m.name: {"users": m.users, "color": tuple(m.diffuse_color)} for m in bpy.data.materials},
         "active": getattr(layer.objects.active, "name", None),
         "selected": sorted(obj.name for obj in layer.objects.selected),
     }  # fmt: skip
@@ -115,7 +115,6 @@ def _geometry(mesh, user) -> dict:
         "flags": {f"{name} {flag}": _hash(_read(getattr(mesh, name), flag, bool, 1))
                   for name in ("vertices", "edges", "polygons") for flag in ("select", "hide")},
         "seams": _hash(_read(mesh.edges, "use_seam", bool, 1)),
-        "normals": _hash(np.round(_read(mesh.corner_normals, "vector", np.float32, 3), 4) + 0.0),
         "attributes": {a.name: _attribute(a) for a in mesh.attributes},
         "active attribute": mesh.attributes.active.name if mesh.attributes.active else None,
         "active color": mesh.attributes.active_color_name,
