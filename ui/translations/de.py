@@ -12,13 +12,15 @@ OPERATORS = {
     "Decompose into Parts": "In Teile zerlegen",
     "Cancel": "Abbrechen",
     "Clear Parts": "Zerlegung entfernen",
+    "Reset Parameters to Preset": "Parameter auf Vorgabe zurücksetzen",
     "Use Preferences in This Scene": "Einstellungen in dieser Szene verwenden",
     # Die Liste der Teile
     "Select": "Auswählen",
     "Select Faces of Parts": "Flächen der Teile auswählen",
     "Isolate": "Isolieren",
     "Isolate Parts": "Teile isolieren",
-    "Show All": "Alle zeigen",
+    "Show All": "Alles zeigen",
+    "Show All Parts": "Alle Teile zeigen",
     "Mark Parts": "Teile ankreuzen",
     "Pick Parts": "Teile anklicken",
     # Teile von Hand
@@ -112,7 +114,7 @@ TEXTS = {
         "Genau so viele Teile statt eines Detailgrads; bei 0 entscheidet Detail",
     "Exactly this many parts, whatever the detail. Nothing is computed again":
         "Genau so viele Teile, unabhängig vom Detail. Nichts wird neu berechnet",
-    "Base vertex spacing": "Abstand der Basispunkte",
+    "Base vertex spacing": "Basisabstand",
     "Share of the area around each point that distances are measured from; smaller is slower and finer (the "
     "paper's 0.005 S)":
         "Anteil der Oberfläche um jeden Punkt, von dem aus Abstände gemessen werden; kleiner ist langsamer und "
@@ -139,7 +141,7 @@ TEXTS = {
     "Follow level sets": "Niveaulinien folgen",
     "Keep cuts on level sets of the distance, as the paper does; off, they follow creases":
         "Schnitte wie im Artikel auf Linien gleichen Abstands belassen; ausgeschaltet folgen sie Falten",
-    "Small loose part": "Kleines loses Teil",
+    "Small loose part": "Lose Teile ab",
     "Loose parts with less than this share of the whole area are one part each":
         "Lose Teile mit weniger als diesem Anteil der ganzen Oberfläche sind je ein einziges Teil",
     # Ausgabe
@@ -152,9 +154,16 @@ TEXTS = {
     "Colours": "Farben",
     "The parts' colours as the active colour attribute Reeb Parts":
         "Die Farben der Teile als aktives Farbattribut Reeb Parts",
+    "Palette": "Palette",
+    "What the parts' colours are chosen from. A colour that you give to a part in the list stays the part's own":
+        "Woraus die Farben der Teile gewählt werden. Eine Farbe, die ein Teil in der Liste erhält, behält es",
+    "Colour-blind safe": "Für Farbenblinde",
+    "Bright": "Kräftig",
+    "Pastel": "Pastell",
     "Face sets": "Face Sets",
     "A face set for each part, for Sculpt Mode; Clear brings your own back":
         "Ein Face Set für jedes Teil, für den Skulpturmodus; „Zerlegung entfernen“ stellt die eigenen wieder her",
+    "Materials": "Materialien",
     "A material for each part; Clear brings your own back":
         "Ein Material für jedes Teil; „Zerlegung entfernen“ stellt die eigenen wieder her",
     "Seams along cuts": "Nähte an Schnitten",
@@ -189,6 +198,9 @@ TEXTS = {
     "Number": "Nummer",
     "What the part is known by; the value of reeb_part": "Woran das Teil erkannt wird; der Wert von reeb_part",
     "Colour": "Farbe",
+    "Colour of the part; one that you choose stays with it":
+        "Farbe des Teils; eine selbst gewählte bleibt bei ihm",
+    "Empty: the part's own": "Leer: der eigene Name des Teils",
     "Share": "Anteil",
     "Share of the surface's area": "Anteil an der Oberfläche",
     "Locked": "Gesperrt",
@@ -221,7 +233,7 @@ TEXTS = {
     "Origin in the middle": "Ursprung in die Mitte",
     "Put the origin of each piece to the middle of its surface; without it, all keep the origin of the object":
         "Den Ursprung jedes Stücks in die Mitte seiner Oberfläche setzen; sonst behalten alle den Ursprung des Objekts",
-    "Keep modifiers": "Modifikatoren behalten",
+    "Keep modifiers": "Mit Modifikatoren",
     "Copy the object's modifiers to each piece": "Die Modifikatoren des Objekts auf jedes Stück kopieren",
     "Parent to original": "Original als Eltern",
     "Make the pieces children of the object, so that they follow it; without it, they have the parent that the object "
@@ -244,6 +256,8 @@ TEXTS = {
         "Alles entfernen, was Reeb Parts den ausgewählten Meshs hinzugefügt hat; was vorher da war, ist wieder da",
     "Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons":
         "Vorgabe, Ausgabe und Überlagerung dieser Szene wie in neuen Szenen setzen; siehe Einstellungen, Add-ons",
+    "Set the parameters back to those of the preset; some of them were changed":
+        "Die Parameter auf die der Vorgabe zurücksetzen; einige davon wurden geändert",
     "Select the faces of the parts chosen in the list, for Edit Mode":
         "Die Flächen der in der Liste gewählten Teile auswählen, für den Bearbeitungsmodus",
     "Action": "Aktion",
@@ -251,7 +265,7 @@ TEXTS = {
     "Select these faces and no others": "Diese Flächen und keine anderen auswählen",
     "Extend": "Erweitern",
     "Add these faces to the selection": "Diese Flächen der Auswahl hinzufügen",
-    "Subtract": "Abziehen",
+    "Subtract": "Subtrahieren",
     "Take these faces from the selection": "Diese Flächen aus der Auswahl nehmen",
     "Part": "Teil",
     "Number of the part; 0 for those chosen in the list": "Nummer des Teils; 0 für die in der Liste gewählten",

@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything can be said in other languages, and every language we have says it all.
+
+Blender as a module knows no languages; what Blender really says is tried in a full one.
+"""
+
+import importlib
+import re
+import string
+from collections import Counter
+from pathlib import Path
+
+import addon_utils
+import bpy
+import messages
+import pytest
+from bpy.app.translations import pgettext_iface as iface_
+
+ENGLISH = {
+    "no object": "There is no active object. Select a mesh and try again.",
+    "too few faces": "The mesh has only 1 of the 4 faces that the smallest solid has. Choose a larger mesh.",
+    "report": r"Info: 5 parts in \d+\.\d s",
+    "note": "Tree was decomposed as it is before its modifier was applied.",
+    "facts": [r"5 parts in \d+\.\d\d s", "10 nodes, 9 arcs, 0 loops"],
+    "locked": "Part 01 is locked. Unlock it in the list first.",
+    "button": "Merge Parts",
+    "tooltip": "Close holes",
+}
+GERMAN = {
+    "no object": "Es gibt kein aktives Objekt. Bitte ein Mesh auswählen und erneut versuchen.",
+    "too few faces": "Das Mesh hat nur 1 der 4 Flächen, die der kleinste Körper hat. Bitte ein größeres Mesh wählen.",
+    "report": r"Info: 5 Teile in \d+\.\d s",
+    "note": "Tree wurde zerlegt, wie es vor Anwendung seines Modifikators ist.",
+    "facts": [r"5 Teile in \d+\.\d\d s", "10 Knoten, 9 Bögen, 0 Schleifen"],
+    "locked": "Part 01 ist gesperrt. Bitte zuerst in der Liste entsperren.",
+    "button": "Teile zusammenführen",
+    "tooltip": "Löcher schließen",
+}
+SAID = {"en_US": ENGLISH, "de_DE": GERMAN} if bpy.app.build_options.international else {"DEFAULT": ENGLISH}
+
+
+@pytest.fixture
+def languages(package):
+    """The dictionaries by language, as Blender gets them."""
+    return importlib.import_module(f"{package}.ui.translations").dictionary()
+
+
+@pytest.fixture
+def wanted(package):
+    """Every message that is looked up, as (context, English text)."""
+    return messages.registered_messages(package) | messages.written_messages(messages.sources(package))
+
+
+def test_messages_are_found_where_they_are(wanted):
+    some = {
+        ("Operator", "Merge Parts"), ("*", "Clear brings your own back"), ("*", "Close holes"), ("*", "Boundaries"),
+        ("*", "{n} border edges: the surface is open there."), ("*", "distances"), ("*", "{n} parts are {name} now"),
+        ("Operator", "Seams"), ("*", "Which parts to use"), ("*", "Nothing is computed again"), ("*", "OBJ"),
+    }  # fmt: skip
+    texts = "\n".join(f"{context}|{text}" for context, text in wanted)
+    for context, text in some:
+        assert re.search(rf"^{re.escape(context)}\|.*{re.escape(text)}", texts, re.MULTILINE), text
+
+
+def test_every_language_says_everything_and_nothing_else(languages, wanted):
+    assert "de" in languages
+    for code, dictionary in languages.items():
+        missing = sorted(wanted - dictionary.keys())
+        stale = sorted(dictionary.keys() - wanted)
+        assert (code, missing, stale) == (code, [], [])
+        assert all(text.strip() for text in dictionary.values())
+
+
+def test_values_have_their_places_in_every_language(languages):
+    def places(text):
+        return Counter(field[1:] for field in string.Formatter().parse(text) if field[1] is not None)
+
+    assert places("{n} of {total}, {share:.1f}") == places("{share:.1f}: {n}/{total}") != places("{n} of {total}")
+    for dictionary in languages.values():
+        for (_, english), text in dictionary.items():
+            assert places(english) == places(text)
+            assert english.count("    ") == text.count("    ")  # between the keys in the status bar
+
+
+def test_no_text_is_made_where_nobody_can_translate_it(package):
+    trees = messages.sources(package)
+    assert {"core/mesh.py", "operators/decompose.py", "ui/panel.py"} <= trees.keys()
+    assert messages.made_here(trees) == []
+
+
+@pytest.mark.parametrize(("code", "found"), [
+    ('def f(self):\n    self.report({"INFO"}, f"{n} parts")', 1),
+    ('def f(self):\n    self.report({"INFO"}, "parts")', 1),
+    ('def f(self):\n    text = f"{n} parts"\n    layout.label(text=text)', 1),
+    ('def f(self):\n    layout.operator("x", text=iface_(f"{n} parts"))', 1),
+    ('def f(self):\n    raise SceneError("No parts of {name}.".format(name=name))', 1),
+    ('def work(self):\n    return f"{n} parts"', 1),
+    ('def f(self):\n    raise MeshError(f"{n} parts")', 1),
+    ('def f(self):\n    self.report({"INFO"}, rpt_("{n} parts").format(n=3))', 0),
+    ('def f(self):\n    layout.label(text="parts")', 0),
+    ('def f(self):\n    layout.label(text=f"{share:.1f} %")', 0),
+    ('def f(self):\n    raise MeshError(Sentence("{n} parts", n=3))', 0),
+])  # fmt: skip
+def test_text_that_nobody_can_translate_is_found(code, found):
+    assert len(messages.made_here({"ui/x.py": messages.ast.parse(code)})) == found
+
+
+@pytest.fixture(params=SAID)
+def said(request):
+    """What is said in a language, which Blender speaks for the time of the test."""
+    view = bpy.context.preferences.view
+    switches = ("use_translate_interface", "use_translate_tooltips", "use_translate_reports")
+    before = view.language, *(getattr(view, name) for name in switches)
+    view.language = request.param
+    for name in switches:
+        setattr(view, name, True)
+    yield SAID[request.param]
+    view.language = before[0]
+    for name, value in zip(switches, before[1:], strict=True):
+        setattr(view, name, value)
+
+
+def test_errors_of_the_scene(said):
+    with pytest.raises(RuntimeError, match=re.escape(said["no object"])):
+        bpy.ops.reeb_parts.decompose()
+
+
+def test_errors_of_core(said, make):
+    make(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
+    with pytest.raises(RuntimeError, match=re.escape(said["too few faces"])):
+        bpy.ops.reeb_parts.decompose()
+
+
+def test_reports(said, obj, capfd):
+    bpy.ops.reeb_parts.decompose()
+    assert re.search(said["report"], capfd.readouterr().out)
+    obj.data.reeb_parts.parts[0].locked = True
+    with pytest.raises(RuntimeError, match=re.escape(said["locked"])):
+        bpy.ops.reeb_parts.split()
+
+
+def test_the_panel_also_in_a_file_that_was_opened_again(said, obj, package, tmp_path):
+    obj.modifiers.new("Bevel", "BEVEL")
+    bpy.ops.reeb_parts.decompose()
+    path = str(tmp_path / "tree.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    result = bpy.data.objects["Tree"].data.reeb_parts
+    assert said["note"] in importlib.import_module(f"{package}.operators.notes").spoken(result)
+    lines = importlib.import_module(f"{package}.ui.panel").facts(result)
+    for line, expected in zip(lines, said["facts"], strict=True):
+        assert re.fullmatch(expected, line)
+
+
+def test_json_is_english_in_every_language(said, obj, package):
+    obj.modifiers.new("Bevel", "BEVEL")
+    bpy.ops.reeb_parts.decompose()
+    report = importlib.import_module(f"{package}.operators.facts").object_report(obj)
+    assert ENGLISH["note"] in report["notes"]
+    assert report["parts"][0]["name"] == "Part 01"
+    assert "distances" in report["seconds"]
+
+
+def test_notes_of_a_file_from_before_there_were_translations(obj, package):
+    obj.modifiers.new("Bevel", "BEVEL")
+    bpy.ops.reeb_parts.decompose()
+    obj.data.reeb_parts.property_unset("note_words")
+    assert ENGLISH["note"] in importlib.import_module(f"{package}.operators.notes").spoken(obj.data.reeb_parts)
+
+
+def test_switched_off_leaves_no_translations(said, package):
+    assert iface_("Merge Parts", "Operator") == said["button"]
+    assert iface_("Close holes") == said["tooltip"]
+    addon_utils.disable(package)
+    try:
+        assert iface_("Merge Parts", "Operator") == ENGLISH["button"]
+        assert iface_("Close holes") == ENGLISH["tooltip"]
+    finally:
+        addon_utils.enable(package)
+    assert iface_("Close holes") == said["tooltip"]
+
+
+def test_translations_are_shipped(package):
+    translations = importlib.import_module(f"{package}.ui.translations")
+    files = {path.stem for path in Path(translations.__file__).parent.glob("*.py")} - {"__init__"}
+    assert files == translations.LANGUAGES.keys()
