@@ -252,7 +252,7 @@ class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):
         changed = after != before
         check_unlocked(obj, {*after[changed].tolist(), *before[changed].tolist()})
         assign_faces(context, obj, stored, after)
-        return rpt_("{count} faces are in other parts now").format(count=int(changed.sum()))
+        return rpt_("{n} faces are in other parts now").format(n=int(changed.sum()))
 
 
 def assign_faces(context, obj, stored, face_numbers):

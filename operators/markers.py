@@ -18,7 +18,9 @@ from .problems import SceneError
 SIZE = 6.0  # radius of a mark in pixels, of a screen without scaling
 RIM = 1.35  # of the dark rim, in radii
 WIDTH = 4.0  # of the lines
-_RIM_COLOR = (0.05, 0.05, 0.05, 1.0)
+_DARK, _LIGHT = (0.05, 0.05, 0.05, 1.0), (0.9, 0.9, 0.9, 1.0)  # of the rim, around light and dark marks
+
+_LUMINANCE = np.array([0.2126, 0.7152, 0.0722, 0.0])
 
 _handle = None
 _lines = {}  # of each graph, with what they were built of
@@ -71,12 +73,14 @@ def marks(places, kinds, colors, right, up, radii):
     points, shades = [], []
     for place, kind, color, radius in zip(places, kinds, colors, radii, strict=True):
         outline = SHAPES[kind] @ np.stack([right, up]) * radius
-        for size, shade in ((RIM, _RIM_COLOR), (1.0, color)):
+        rim_color = _DARK if color @ _LUMINANCE > 0.3 else _LIGHT
+        for size, shade in ((RIM, rim_color), (1.0, color)):
             rim = place + size * outline
             fan = np.stack([np.broadcast_to(place, rim.shape), rim, np.roll(rim, -1, axis=0)], axis=1)
             points.append(fan.reshape(-1, 3))
             shades.append(np.broadcast_to(shade, (3 * len(rim), 4)))
-    return np.concatenate(points).astype(np.float32), np.concatenate(shades).astype(np.float32)
+    # The card reads them row by row, which concatenated broadcasts need not be in memory.
+    return tuple(np.ascontiguousarray(np.concatenate(rows), np.float32) for rows in (points, shades))
 
 
 def _draw():
@@ -87,7 +91,7 @@ def _draw():
     seen = set()
     for collection in bpy.data.collections:
         source = collection.get(overlay.SOURCE)
-        if source is None:
+        if source is None or source.type != "MESH" or not store.has_result(source.data):
             continue
         items = [item for item in collection.objects if item.name in layer.objects and item.visible_get()]
         if items:
@@ -104,14 +108,14 @@ def _draw_graph(context, source, items):
         _draw_arcs(source)
     nodes = [item for item in items if item.get(overlay.ROLE) == "node"]
     if nodes:
-        _draw_nodes(context, nodes)
+        _draw_nodes(context, source, nodes)
     gpu.state.blend_set("NONE")
     gpu.state.depth_test_set("NONE")
 
 
 def _draw_arcs(source):
     result = source.data.reeb_parts
-    key = (result.fingerprint, result.numbers, [part.color[:] for part in result.parts])
+    key = (source.data.is_editmode, result.fingerprint, result.numbers, [part.color[:] for part in result.parts])
     if _lines.get(source.session_uid, (None,))[0] != key:
         _lines[source.session_uid] = key, _arc_batch(source)
     batch = _lines[source.session_uid][1]
@@ -146,10 +150,11 @@ def _arc_batch(source):
         "pos": points.reshape(-1, 3).astype(np.float32), "color": shades.reshape(-1, 4).astype(np.float32)})
 
 
-def _draw_nodes(context, nodes):
+def _draw_nodes(context, source, nodes):
     region, view = context.region, context.region_data
     places = np.array([node.matrix_world.translation for node in nodes])
-    colors = np.array([store.number_colors(nodes[0].parent.data)[node["part"]] for node in nodes])
+    shown = store.number_colors(source.data)
+    colors = shown[np.clip([node["part"] for node in nodes], 0, len(shown) - 1)]
     matrix = np.array(view.view_matrix, np.float64)
     whole = np.array(view.perspective_matrix, np.float64)
     depth = np.concatenate([places, np.ones((len(places), 1))], axis=1) @ whole[3]

@@ -160,12 +160,17 @@ class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
 
 def _paint(context, obj, brush) -> str:
     """Give the painted faces to the part; what happened, in a sentence."""
-    moved = int((brush.numbers() != brush.model.numbers).sum())
-    if not moved:
+    moved = brush.numbers() != brush.model.numbers
+    if not moved.any():
         raise SceneError(rpt_("No faces were painted."))
     edit.assign_faces(context, obj, brush.model.stored, brush.numbers())
-    return rpt_("{count} faces are {name} now").format(
-        count=moved, name=store.part_name(obj.data, brush.number))
+    stored = store.load(obj.data)
+    joined = int((stored.shown[stored.decomposition.candidates[moved]] == brush.number).sum())
+    name = store.part_name(obj.data, brush.number)
+    if joined < moved.sum():
+        text = rpt_("{n} of {total} faces are {name} now; the others do not touch it and are parts of their own")
+        return text.format(n=joined, total=int(moved.sum()), name=name)
+    return rpt_("{n} faces are {name} now").format(n=joined, name=name)
 
 
 CLASSES = (ReebDab, REEB_PARTS_OT_paint,)
