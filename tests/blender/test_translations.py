@@ -7,6 +7,7 @@ Blender as a module knows no languages; what Blender really says is tried in a f
 import importlib
 import re
 import string
+import time
 from collections import Counter
 from pathlib import Path
 
@@ -23,6 +24,7 @@ ENGLISH = {
     "note": "Tree was decomposed as it is before its modifier was applied.",
     "facts": [r"5 parts in \d+\.\d\d s", "10 nodes, 9 arcs, 0 loops"],
     "locked": "Part 01 is locked. Unlock it in the list first.",
+    "progress": "BODY: reeb graph",
     "button": "Merge Parts",
     "tooltip": "Close holes",
 }
@@ -33,6 +35,7 @@ GERMAN = {
     "note": "Tree wurde zerlegt, wie es vor Anwendung seines Modifikators ist.",
     "facts": [r"5 Teile in \d+\.\d\d s", "10 Knoten, 9 Bögen, 0 Schleifen"],
     "locked": "Part 01 ist gesperrt. Bitte zuerst in der Liste entsperren.",
+    "progress": "BODY: Reeb-Graph",
     "button": "Teile zusammenführen",
     "tooltip": "Löcher schließen",
 }
@@ -137,6 +140,15 @@ def test_reports(said, obj, capfd):
     obj.data.reeb_parts.parts[0].locked = True
     with pytest.raises(RuntimeError, match=re.escape(said["locked"])):
         bpy.ops.reeb_parts.split()
+
+
+def test_progress(said, package):
+    jobs = importlib.import_module(f"{package}.operators.jobs")
+    job = jobs.Job(lambda progress: progress("reeb graph", 0.5, "BODY"))
+    job.start()
+    while job.running:
+        time.sleep(0.01)
+    assert (job.text, job.share) == (said["progress"], 0.5)
 
 
 def test_the_panel_also_in_a_file_that_was_opened_again(said, obj, package, tmp_path):

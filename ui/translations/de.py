@@ -508,8 +508,9 @@ TEXTS = {
     "No faces are selected. Select some in Edit Mode.":
         "Es sind keine Flächen ausgewählt. Bitte im Bearbeitungsmodus welche auswählen.",
     "{n} faces are {name} now": "{n} Flächen sind jetzt {name}",
-    "{count} faces are {name} now": "{count} Flächen sind jetzt {name}",
-    "{count} faces are in other parts now": "{count} Flächen sind jetzt in anderen Teilen",
+    "{n} faces are in other parts now": "{n} Flächen sind jetzt in anderen Teilen",
+    "{n} of {total} faces are {name} now; the others do not touch it and are parts of their own":
+        "{n} von {total} Flächen sind jetzt {name}; die anderen berühren es nicht und sind eigene Teile",
     "The parts are not face sets yet. Press Face Sets, then paint them in Sculpt Mode.":
         "Die Teile sind noch keine Face Sets. Bitte auf Face Sets drücken, dann im Skulpturmodus malen.",
     "Select a node of a graph": "Einen Knoten eines Graphen auswählen",
