@@ -6,32 +6,18 @@ In Blender as a module the checkout is the package; in a full Blender the instal
 
 import os
 import sys
-from pathlib import Path
 
 import bpy
+import checkout
 import pytest
 import shapes
 from snapshot import activate
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(scope="session")
 def package(tmp_path_factory):
     """The name under which the extension is enabled."""
-    for name in sys.modules:
-        if name.startswith("bl_ext.") and name.endswith(".reeb_parts"):
-            return name
-    import addon_utils
-
-    folder = tmp_path_factory.mktemp("extensions")
-    (folder / "reeb_parts").symlink_to(ROOT)
-    bpy.context.preferences.extensions.repos.new(
-        name="development", module="development", custom_directory=str(folder)
-    )
-    name = "bl_ext.development.reeb_parts"
-    assert addon_utils.enable(name, default_set=True) is not None
-    return name
+    return checkout.enable(tmp_path_factory.mktemp("extensions"))
 
 
 @pytest.fixture(autouse=True)

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Separate models into closed pieces, and check that nothing is lost.
+
+    blender --background --python-exit-code 1 --python benchmarks/separate.py -- [MODELS ...] [--preset NAME]
+    python3 benchmarks/separate.py [MODELS ...] [--preset NAME]      with Blender as a module
+
+MODELS are .obj files or folders with such. Spot, Suzanne as she is and subdivided twice, and the jug with two
+handles of tests/shapes.py are always done. Each mesh gets a UV map, two colour attributes, an attribute of
+faces, a vertex group, two shape keys, custom normals, seams, creases, sharp edges and two materials, is
+decomposed and separated with caps. The exit status is 1 if
+
+- a piece has a border, or an edge of three or more faces, that the mesh did not have;
+- a face is lost or doubled, or the area without caps differs by more than one part in 100,000;
+- anything that an element carries differs by more than 0.001 from what it was, normals by more than 0.014:
+  Blender keeps custom normals as two angles relative to the faces around, and takes one that is smaller than
+  that for none.
+
+Voids are what lies between the caps of neighbours, and are only shown.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+import time
+from dataclasses import asdict
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "tests")]
+
+import bpy
+import checkout
+import pieces
+import shapes
+from snapshot import activate
+
+AREA, CARRIED, NORMALS = 1e-5, 1e-3, 0.014
+
+
+def main() -> int:
+    """Check all models; returns the exit status."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("models", nargs="*", type=Path, metavar="MODELS")
+    parser.add_argument("--preset", default="Perceptual", metavar="NAME")
+    parser.add_argument("--detail", type=float, metavar="D", help="0..1, instead of the preset's")
+    after = sys.argv.index("--") + 1 if "--" in sys.argv else 1
+    arguments = parser.parse_args(sys.argv[after:])
+    with tempfile.TemporaryDirectory() as folder:
+        checkout.enable(Path(folder))
+        print("| model | faces | parts | caps | new borders | edges of 3 faces | lost | area | normals | all else |"
+              " volume | voids | s |\n" + "| --- " * 13 + "|")
+        wrong = [name for name, make in models(arguments.models)
+                 if not check(name, make, arguments.preset, arguments.detail)]
+    if wrong:
+        print(f"These do not hold what is claimed: {', '.join(wrong)}", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+def models(paths):
+    """Name and maker of each model."""
+    paths = [ROOT / "models" / "spot.obj", *paths]
+    files = [file for path in paths for file in (sorted(path.glob("*.obj")) if path.is_dir() else [path])]
+    for file in {file.stem: file for file in reversed(files)}.values():
+        yield file.stem, lambda file=file: bpy.ops.wm.obj_import(filepath=str(file))
+    yield "Suzanne", bpy.ops.mesh.primitive_monkey_add
+    yield "Suzanne, subdivided", subdivided_monkey
+    yield "Jug of genus 2", jug
+
+
+def subdivided_monkey():
+    """Suzanne with sixteen times as many faces."""
+    bpy.ops.mesh.primitive_monkey_add()
+    bpy.context.object.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    bpy.ops.object.modifier_apply(modifier="Subdivision")
+
+
+def jug():
+    """The one of tests/shapes.py."""
+    vertices, faces = shapes.genus_two()
+    mesh = bpy.data.meshes.new("Jug")
+    mesh.from_pydata(vertices.tolist(), [], faces.tolist())
+    obj = bpy.data.objects.new("Jug", mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    activate(obj)
+
+
+def check(name, make, preset, detail) -> bool:
+    """Separate one model and print how it went; whether all that is claimed holds."""
+    bpy.ops.wm.read_homefile(use_empty=True)
+    make()
+    obj = bpy.context.selected_objects[0]
+    activate(obj)
+    pieces.furnish(obj)
+    bpy.context.scene.reeb_parts.preset = preset
+    values = asdict(bpy.context.scene.reeb_parts.parameters())
+    bpy.ops.reeb_parts.decompose(**values if detail is None else {**values, "detail": detail})
+    start = time.perf_counter()
+    bpy.ops.reeb_parts.separate(caps=True, hide=False, center=False)
+    seconds = time.perf_counter() - start
+    made = [piece for piece in bpy.data.objects if "reeb_parts_number" in piece]
+    found = pieces.compare(obj, made)
+    normals = found.differences.pop("normals")
+    other = max(found.differences.values())
+    print(f"| {name} | {found.faces:,} | {len(made)} | {found.caps} | {found.new_borders} | {found.new_branches} | "
+          f"{found.lost} | {found.area:.0e} | {normals:.1e} | {other:.0e} | {found.volume:.1e} | "
+          f"{found.voids:.1e} | {seconds:.1f} |", flush=True)
+    return (not found.new_borders and not found.new_branches and not found.lost and abs(found.area) < AREA
+            and normals < NORMALS and other < CARRIED)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
