@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .coarse import coarsen, prolong
+from .coarse import Coarsening, coarsen, prolong
 from .geodesic import GeodesicSolver
 from .mesh import TriMesh, first_largest, frozen
 
@@ -161,7 +161,9 @@ def equalise(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return np.interp(values, edges, cumulative)
 
 
-def coarse_agd(mesh: TriMesh, radius: float, progress=None) -> np.ndarray:
+def coarse_agd(
+    mesh: TriMesh, radius: float, progress=None, first: Coarsening | None = None
+) -> np.ndarray:
     """AGD by paths on a coarse copy where the mesh is dense.
 
     Parameters
@@ -172,6 +174,8 @@ def coarse_agd(mesh: TriMesh, radius: float, progress=None) -> np.ndarray:
         Of the discs that base vertices stand for, in the unit of the vertices.
     progress : callable, optional
         Called with the share done, 0..1.
+    first : Coarsening, optional
+        Of the mesh, if it is known already.
 
     Returns
     -------
@@ -184,7 +188,7 @@ def coarse_agd(mesh: TriMesh, radius: float, progress=None) -> np.ndarray:
     """
     levels, fine, area, links = [], mesh, mesh.vertex_area, None
     while fine.n_vertices > FIELD_VERTICES:
-        coarsening = coarsen(fine, area, links)
+        coarsening = first if first and fine is mesh else coarsen(fine, area, links)
         levels.append((fine, coarsening))
         fine, area, links = coarsening.mesh, coarsening.area, coarsening.links
     base = spread_base_vertices(fine, GeodesicSolver(fine, links), area, radius, progress)

@@ -25,7 +25,7 @@ MAX_FACES = 60_000
 
 
 def perceptual_candidates(
-    sets: LevelSets, field: ScalarField, parameters: Parameters
+    sets: LevelSets, field: ScalarField, parameters: Parameters, progress=None, first: Coarsening | None = None
 ) -> tuple[np.ndarray, Hierarchy]:
     """Patches between creases, merged weakest cut first as a model of people's cuts tells.
 
@@ -36,6 +36,10 @@ def perceptual_candidates(
     field : ScalarField
         Its AGD.
     parameters : Parameters
+    progress : callable, optional
+        Called with the share done, 0..1.
+    first : Coarsening, optional
+        Of the mesh, if it is known already.
 
     Returns
     -------
@@ -44,13 +48,14 @@ def perceptual_candidates(
     hierarchy : Hierarchy
         Salience 0.5 is the decision learned from people.
     """
+    progress = progress or (lambda share: None)
     if parameters.follow_level_sets:
         label = level_set_patches(sets)
         hierarchy, _ = _merge(sets, field, label)
     elif sets.mesh.n_faces > MAX_FACES:
-        label, hierarchy = _on_coarse_copy(sets, field, parameters.alpha)
+        label, hierarchy = _on_coarse_copy(sets, field, parameters.alpha, progress, first)
     else:
-        label, hierarchy = _cut_in_creases(sets, field, parameters.alpha)
+        label, hierarchy = _cut_in_creases(sets, field, parameters.alpha, progress)
     return label[sets.element_face], hierarchy
 
 
@@ -64,25 +69,31 @@ def _merge(sets: LevelSets, field: ScalarField, label) -> tuple[Hierarchy, np.nd
     return Hierarchy.of(label.max() + 1, merges, salience_of(share)), curvature
 
 
-def _cut_in_creases(sets: LevelSets, field: ScalarField, reach) -> tuple[np.ndarray, Hierarchy]:
+def _cut_in_creases(sets: LevelSets, field: ScalarField, reach, progress) -> tuple[np.ndarray, Hierarchy]:
     """Candidate of each face, and the hierarchy over them."""
     label = concave_patches(sets.mesh)
+    progress(0.2)
     hierarchy, curvature = _merge(sets, field, label)
+    progress(0.7)
     return move_cuts(sets.mesh, label, hierarchy, curvature, reach), hierarchy
 
 
-def _on_coarse_copy(sets: LevelSets, field: ScalarField, reach) -> tuple[np.ndarray, Hierarchy]:
+def _on_coarse_copy(sets: LevelSets, field: ScalarField, reach, progress, first) -> tuple[np.ndarray, Hierarchy]:
     """The same for a dense mesh; only the cuts of detail 0.5 are moved on the mesh itself."""
     mesh = sets.mesh
     owner, copy = np.arange(mesh.n_vertices), mesh
     while copy.n_faces > MAX_FACES:
-        step = coarsen(copy, np.bincount(owner, mesh.vertex_area, copy.n_vertices))
+        area = np.bincount(owner, mesh.vertex_area, copy.n_vertices)
+        step = first if first and copy is mesh else coarsen(copy, area)
         if not _covers(step, copy):
             break
         owner, copy = step.owner[owner], step.mesh
+    progress(0.1)
     values = _restrict(field, owner, mesh.vertex_area, copy.n_vertices)
     label, hierarchy = _cut_in_creases(
-        cut_at_levels(copy, values.values, sets.levels), values, reach)
+        cut_at_levels(copy, values.values, sets.levels), values, reach,
+        lambda share: progress(0.1 + 0.4 * share))
+    progress(0.5)
     graph = FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
     of_vertex = majority(copy.faces.ravel(), np.repeat(label, 3), np.repeat(copy.face_area, 3),
                          copy.n_vertices)[owner]
@@ -91,6 +102,7 @@ def _on_coarse_copy(sets: LevelSets, field: ScalarField, reach) -> tuple[np.ndar
     rows = np.repeat(np.arange(mesh.n_faces), 3)[known.ravel()]
     label = majority(rows, corners[known], np.ones(len(rows)), mesh.n_faces)
     label = connect(graph, fill_unlabelled(graph, label))
+    progress(0.6)
     bend = mesh.dihedral / np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
     bend = np.clip(bend * np.sqrt(mesh.area), -MAX_CURVATURE, MAX_CURVATURE)
     return move_cuts(mesh, label, hierarchy, bend, reach, (0.5,)), hierarchy

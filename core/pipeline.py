@@ -7,11 +7,13 @@ import time
 from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from .agd import ScalarField, agd_field, coarse_agd
+from .agd import FIELD_VERTICES, ScalarField, agd_field, coarse_agd
 from .berretti import berretti_candidates
+from .coarse import Coarsening, coarsen
 from .decomposition import Decomposition
 from .hierarchy import Hierarchy
 from .levelsets import LevelSets, cut_at_levels, uniform_levels
@@ -33,6 +35,8 @@ MIN_LEAF_LEVELS = 1
 MIN_LEAF_HEIGHT = 0.005
 # Below this share of its maximum, the variation of the AGD is the error of the distances.
 FLAT_FIELD = 0.03
+# Where the component stages begin and end, as shares of the time on a mesh of some 100,000 vertices.
+MESH_SHARE, PARTS_SHARE = 0.14, 0.9
 
 Progress = Callable[[str, float], None]
 
@@ -54,6 +58,12 @@ class Component:
     mesh: TriMesh
     polygon: np.ndarray
     vertex_source: np.ndarray
+
+    @cached_property
+    def coarsening(self) -> Coarsening | None:
+        """The first step to a coarse copy, which distances and cuts share; None where it is not needed."""
+        dense = self.mesh.n_vertices > FIELD_VERTICES
+        return coarsen(self.mesh, self.mesh.vertex_area) if dense else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,18 +142,19 @@ def decompose(
     """
     parameters = parameters or Parameters()
     watch = Stopwatch(progress)
-    with watch.stage("mesh", 0.04):
+    with watch.stage("mesh", MESH_SHARE):
         given = PolygonMesh.of(vertices, faces, polygon)
         working = repair(given)
         count, component = working.mesh.face_components
         large = _large_components(working, count, component, parameters.loose_part)
     results = []
     for done, label in enumerate(large):
-        begin = 0.04 + 0.92 * done / len(large)
+        width = (PARTS_SHARE - MESH_SHARE) / len(large)
+        begin = MESH_SHARE + done * width
         watch.share = begin
         mask = component == label
         results.append(_decompose_component(
-            working, mask, parameters, watch, begin, 0.92 / len(large)))
+            working, mask, parameters, watch, begin, width))
     with watch.stage("parts", 1.0):
         result = _assemble(given, working, component, large, results, parameters, watch.seconds)
     watch.progress("done", 1.0)
@@ -177,18 +188,19 @@ def _decompose_component(working, mask, parameters, watch, begin, width) -> Comp
     """All stages on one connected component."""
     with watch.stage("mesh", begin + 0.05 * width):
         part = _component(working, mask)
-    with watch.stage("distances", begin + 0.75 * width) as progress:
+    with watch.stage("distances", begin + 0.4 * width) as progress:
         radius = np.sqrt(parameters.base_spacing * part.mesh.area)
-        field = _field(part.mesh, coarse_agd(part.mesh, radius, progress), parameters)
-    with watch.stage("reeb graph", begin + 0.85 * width):
+        agd = coarse_agd(part.mesh, radius, progress, part.coarsening)
+        field = _field(part.mesh, agd, parameters)
+    with watch.stage("reeb graph", begin + 0.5 * width):
         levels = uniform_levels(parameters.levels) if field.values.any() else np.empty(0)
         sets = cut_at_levels(part.mesh, field.values, levels)
         structure = simplify(sets, reeb_structure(sets), MIN_LEAF_AREA, MIN_LEAF_LEVELS,
                              _level_height(field, levels), MIN_LEAF_HEIGHT)
         graph = reeb_graph(sets, structure)
-    with watch.stage("cuts", begin + width):
+    with watch.stage("cuts", begin + width) as progress:
         if parameters.method == PERCEPTUAL:
-            found = perceptual_candidates(sets, field, parameters)
+            found = perceptual_candidates(sets, field, parameters, progress, part.coarsening)
         else:
             found = berretti_candidates(sets, structure, parameters)
         candidates = Candidates(*found)
