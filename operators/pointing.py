@@ -95,7 +95,7 @@ class Model:
 
     def under(self, context, obj, region, mouse, graph=True, surface=True) -> Target | None:
         """What is at a (2,) place of a region, in its pixels: of the graph first; None beside the model."""
-        view = context.area.spaces.active.region_3d
+        view = region.data  # each region of a quad view has its own
         target = self._graph_under(context, obj, region, view, mouse) if graph else None
         return target or (self._face_under(context, obj, region, view, mouse) if surface else None)
 

@@ -119,8 +119,9 @@ class ViewTool:
             self.hover(context, target, event)
             self._redraw(context)
             return {"RUNNING_MODAL"}
-        if event.type == "LEFTMOUSE" and event.value == "PRESS" and target is not None:
-            return self.press(context, target, event) or {"RUNNING_MODAL"}
+        if event.type == "LEFTMOUSE" and event.value == "PRESS" and not event.alt:  # Alt turns the view
+            # Beside the model a click would deselect it.
+            return (self.press(context, target, event) if target else None) or {"RUNNING_MODAL"}
         used = self.other(context, target, event)
         self._redraw(context)
         return {"RUNNING_MODAL"} if used else {"PASS_THROUGH"}
