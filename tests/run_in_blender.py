@@ -40,6 +40,8 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as scratch:
         resources = (arguments.resources or Path(scratch) / "resources").resolve()
         os.environ["BLENDER_USER_RESOURCES"] = str(resources)
+        # Blender speaks the language of the system, but tests compare English sentences.
+        os.environ["LC_ALL"] = "C.UTF-8"
         if not resources.exists():
             resources.mkdir(parents=True)
             install(arguments.blender, resources)
