@@ -4,14 +4,19 @@
 Taken like those of driver.py, in a window of 1100x560.
 """
 
+import os
+import sys
+
 import bpy
+
+sys.path.append(os.path.dirname(__file__))
+import pointer
 
 
 def steps():
     """Make the whole window the preferences; open the menu, then the entry of the extension."""
     window = bpy.context.window
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    with bpy.context.temp_override(area=area):
+    with bpy.context.temp_override(area=pointer.view_area()):
         bpy.ops.screen.screen_full_area()
     yield 0.5
     preferences = bpy.context.preferences
@@ -19,14 +24,8 @@ def steps():
     window.screen.areas[0].type = "PREFERENCES"
     bpy.context.window_manager.addon_search = "Reeb"
     yield 1.0
-    yield from press(188, 108)
-    yield from press(window.width - 19, 72)
-    shot("install.png")
-
-
-def press(x, y):
-    """A click that a button notices."""
-    move(x, y)
-    yield 0.3
-    click(x, y)
-    yield 1.0
+    yield from pointer.press(188, 108)
+    yield 0.8
+    yield from pointer.press(window.width - 19, 72)
+    yield 0.8
+    pointer.shot("install.png")

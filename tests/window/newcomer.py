@@ -1,22 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The newcomer's path, in a real window: from Blender's default scene to separate parts of Suzanne.
 
-Executed inside Blender as driver.py is, which says how; what was seen goes to newcomer.json. The pictures are
-those of docs/user.md, cropped there: each is taken while the pointer rests where the next click goes.
+Executed inside Blender as driver.py is, which says how. Each picture is taken while the pointer rests where the
+next click goes; tools/window_pictures.py makes those of docs/user.md of them.
 """
 
 import json
 import os
-import time
-from pathlib import Path
+import sys
 
 import bpy
 from mathutils import Euler, Vector
 
-OUT = Path(os.environ["GUI_OUT"])
-PATIENCE = 60.0  # seconds for a decomposition
+sys.path.append(os.path.dirname(__file__))
+import pointer
+
 # Rows below the top of the sidebar.
-DECOMPOSE, TAB, USE_PARTS, SEPARATE = 3.7, 12.0, 24.7, 27.3
+DECOMPOSE, TAB, USE_PARTS, SEPARATE = 3.7, 12.0, 28.2, 30.8
 CLICKS = []  # what was clicked since Suzanne was selected
 
 
@@ -25,47 +25,43 @@ def steps():
     seen = {}
     yield from add_suzanne()
     seen["added"] = facts()
-    shot("2_added.png")
-    key("n")
-    yield 1.0
-    yield from click_on("the tab", *in_sidebar(TAB, 0.96))
-    seen["tab"] = region("UI").active_panel_category
-    yield from rest_on(*in_sidebar(DECOMPOSE))
-    shot("3_tab.png")
-    yield from click_on("Decompose", *in_sidebar(DECOMPOSE))
-    start = time.monotonic()
-    while "reeb_part" not in suzanne().data.attributes and time.monotonic() - start < PATIENCE:
-        yield 0.1
+    pointer.shot("2_added.png")
+    yield from pointer.tap("n")
+    yield 0.8
+    yield from click_on("the tab", *pointer.in_sidebar(TAB, 0.96))
+    seen["tab"] = pointer.region("UI").active_panel_category
+    yield from pointer.rest(*pointer.in_sidebar(DECOMPOSE))
+    pointer.shot("3_tab.png")
+    yield from click_on("Decompose", *pointer.in_sidebar(DECOMPOSE))
+    yield from pointer.until(lambda: "reeb_part" in suzanne().data.attributes, pointer.PATIENCE)
     yield 1.0
     seen["decomposed"] = facts()
-    yield from rest_on(*in_sidebar(USE_PARTS))
-    shot("4_decomposed.png")
-    yield from click_on("Use Parts", *in_sidebar(USE_PARTS))
-    yield from rest_on(*in_sidebar(SEPARATE))
-    shot("5_use.png")
-    yield from click_on("Separate", *in_sidebar(SEPARATE))
-    yield from rest_on(*middle_of_view())
+    yield from pointer.rest(*pointer.in_sidebar(USE_PARTS))
+    pointer.shot("4_decomposed.png")
+    yield from click_on("Use Parts", *pointer.in_sidebar(USE_PARTS))
+    yield from pointer.rest(*pointer.in_sidebar(SEPARATE))
+    pointer.shot("5_use.png")
+    yield from click_on("Separate", *pointer.in_sidebar(SEPARATE))
+    yield from pointer.rest(*pointer.in_view(0.3, 0.75))
     seen["separated"] = facts()
     seen["clicks"] = CLICKS
-    shot("6_separated.png")
-    (OUT / "newcomer.json").write_text(json.dumps(seen, indent=2))
+    pointer.shot("6_separated.png")
+    (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
 
 def add_suzanne():
     """Delete the default cube; Shift+A, and type what to add; look at its face from near."""
-    yield from rest_on(*middle_of_view())
-    key("Delete")
+    yield from pointer.rest(*pointer.in_view(0.3, 0.6))
+    yield from pointer.tap("Delete")
+    yield 0.3
+    yield from pointer.tap("shift+a")
+    yield 0.3
+    yield from pointer.write("monkey")
     yield 0.5
-    key("shift+a")
-    yield 0.5
-    for letter in "monkey":
-        key(letter)
-        yield 0.1
-    yield 0.5
-    shot("1_add.png")
-    key("Return")
-    yield 1.0
-    view = view_area().spaces.active.region_3d
+    pointer.shot("1_add.png")
+    yield from pointer.tap("Return")
+    yield 0.8
+    view = pointer.view_area().spaces.active.region_3d
     view.view_rotation = Euler((1.25, 0.0, 0.4)).to_quaternion()
     view.view_location = view.view_rotation @ Vector((0.6, 0.0, 0.0))
     view.view_distance = 6.5
@@ -89,44 +85,11 @@ def facts():
 
 
 def click_on(what, x, y):
-    """A click that a button notices, counted."""
-    yield from rest_on(x, y)
-    click(x, y)
+    """A click, counted."""
+    yield from pointer.press(x, y)
     CLICKS.append(what)
-    yield 1.0
-
-
-def rest_on(x, y):
-    """The pointer goes there and stays, too short for a tooltip."""
-    move(x - 2, y)
-    yield 0.2
-    move(x, y)
-    yield 0.2
+    yield 0.8
 
 
 def suzanne():
     return bpy.data.objects["Suzanne"]
-
-
-def in_sidebar(rows, across=0.5):
-    """Pixels from the top left of a place in the sidebar."""
-    ui = region("UI")
-    unit = 20.0 * bpy.context.preferences.system.ui_scale
-    return from_top(ui.x + across * ui.width, ui.y + ui.height - rows * unit)
-
-
-def middle_of_view():
-    area = view_area()
-    return from_top(area.x + 0.3 * area.width, area.y + 0.6 * area.height)
-
-
-def from_top(x, y):
-    return round(x), round(bpy.context.window.height - y)
-
-
-def view_area():
-    return next(area for area in bpy.context.window.screen.areas if area.type == "VIEW_3D")
-
-
-def region(kind):
-    return next(region for region in view_area().regions if region.type == kind)

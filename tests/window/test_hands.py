@@ -4,28 +4,13 @@
 The pictures stay in out/hands, to be looked at.
 """
 
-import json
-import os
-import subprocess
-from pathlib import Path
-
 import pytest
-
-HERE = Path(__file__).resolve().parent
-OUT = HERE.parents[1] / "out" / "hands"
 
 
 @pytest.fixture(scope="module")
-def seen():
+def seen(drive):
     """What the driver saw after each step."""
-    OUT.mkdir(parents=True, exist_ok=True)
-    for old in OUT.iterdir():
-        old.unlink()
-    command = [os.environ["BLENDER_GUI"], "--size", "1280x800", "--driver", str(HERE / "hands.py")]
-    variables = {**os.environ, "GUI_OUT": str(OUT)}
-    done = subprocess.run(command, env=variables, stdin=subprocess.DEVNULL, check=False)
-    assert done.returncode == 0
-    return json.loads((OUT / "hands.json").read_text())
+    return drive("hands.py", "hands")
 
 
 def test_escape_cancels_soon_and_leaves_nothing(seen):

@@ -4,29 +4,18 @@
 The pictures stay in out/newcomer, to be looked at.
 """
 
-import json
-import os
-import subprocess
 from pathlib import Path
 
 import pytest
 
-HERE = Path(__file__).resolve().parent
-OUT = HERE.parents[1] / "out" / "newcomer"
+OUT = Path(__file__).resolve().parents[2] / "out" / "newcomer"
 SHAPE = ("points", "faces", "matrix")
 
 
 @pytest.fixture(scope="module")
-def seen():
+def seen(drive):
     """What the driver saw after each step."""
-    OUT.mkdir(parents=True, exist_ok=True)
-    for old in OUT.iterdir():
-        old.unlink()
-    command = [os.environ["BLENDER_GUI"], "--size", "1280x800", "--driver", str(HERE / "newcomer.py")]
-    variables = {**os.environ, "GUI_OUT": str(OUT)}
-    done = subprocess.run(command, env=variables, stdin=subprocess.DEVNULL, check=False)
-    assert done.returncode == 0
-    return json.loads((OUT / "newcomer.json").read_text())
+    return drive("newcomer.py", "newcomer", size="1280x900")
 
 
 def test_suzanne_is_selected_and_not_decomposed_yet(seen):

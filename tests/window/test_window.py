@@ -4,28 +4,17 @@
 The pictures stay in out/window, to be looked at.
 """
 
-import json
-import os
-import subprocess
 from pathlib import Path
 
 import pytest
 
-HERE = Path(__file__).resolve().parent
-OUT = HERE.parents[1] / "out" / "window"
+OUT = Path(__file__).resolve().parents[2] / "out" / "window"
 
 
 @pytest.fixture(scope="module")
-def seen():
-    """What the driver saw of the scene before and after each step."""
-    OUT.mkdir(parents=True, exist_ok=True)
-    for old in OUT.iterdir():
-        old.unlink()
-    command = [os.environ["BLENDER_GUI"], "--size", "1280x800", "--driver", str(HERE / "driver.py")]
-    variables = {**os.environ, "GUI_OUT": str(OUT)}
-    done = subprocess.run(command, env=variables, stdin=subprocess.DEVNULL, check=False)
-    assert done.returncode == 0
-    return json.loads((OUT / "seen.json").read_text())
+def seen(drive):
+    """What the driver saw after each step."""
+    return drive("driver.py", "window")
 
 
 def test_the_tab_opens(seen):

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs a driver in Blender's real window; driver.py says how.
+
+The pictures that it takes stay in out/, to be looked at.
+"""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+OUT = HERE.parents[1] / "out"
+
+
+@pytest.fixture(scope="session")
+def drive():
+    """Runs a driver; what it has seen after each step."""
+
+    def run(driver, folder, size="1280x800", seconds=180) -> dict:
+        out = OUT / folder
+        out.mkdir(parents=True, exist_ok=True)
+        for old in out.iterdir():
+            old.unlink()
+        command = [os.environ["BLENDER_GUI"], "--size", size, "--seconds", str(seconds), "--driver",
+                   str(HERE / driver)]
+        variables = {**os.environ, "GUI_OUT": str(out)}
+        done = subprocess.run(command, env=variables, stdin=subprocess.DEVNULL, check=False)
+        assert done.returncode == 0
+        return json.loads((out / "seen.json").read_text())
+
+    return run

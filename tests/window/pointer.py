@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hands and eyes of the window drivers: the real pointer, the real keyboard, and where things are in the window.
+
+Imported by the drivers beside it, inside Blender. Places are in pixels of the window, from its top left. What
+takes time is a generator that yields the seconds to wait while the window lives on: ``yield from`` it.
+"""
+
+import os
+import subprocess
+import time
+from pathlib import Path
+
+import bpy
+from bpy_extras import view3d_utils
+from mathutils import Vector
+
+ROOT = Path(__file__).resolve().parents[2]
+OUT = Path(os.environ["GUI_OUT"])
+PATIENCE = 60.0  # seconds for a decomposition
+TAB = "Reeb Parts"
+
+
+# The pointer and the keyboard
+
+
+def xdo(*words):
+    """Real events, by xdotool."""
+    subprocess.run(["xdotool", *map(str, words)], check=True)
+
+
+def rest(x, y):
+    """The pointer goes there and stays, too short for a tooltip; a button takes a click only after that."""
+    xdo("mousemove", x - 2, y)
+    yield 0.1
+    xdo("mousemove", x, y)
+    yield 0.2
+
+
+def press(x, y, *held, button=1):
+    """A click that a button notices, with keys held down."""
+    yield from rest(x, y)
+    for key in held:
+        xdo("keydown", key)
+    xdo("click", button)
+    for key in held:
+        xdo("keyup", key)
+    yield 0.2
+
+
+def drag(places):
+    """Press at the first place, go through the others, let go at the last."""
+    yield from rest(*places[0])
+    xdo("mousedown", 1)
+    yield 0.1
+    for place in places[1:]:
+        xdo("mousemove", *place)
+        yield 0.05
+    xdo("mouseup", 1)
+    yield 0.2
+
+
+def tap(*keys):
+    """Keys like "ctrl+z", one after the other."""
+    for key in keys:
+        xdo("key", key)
+        yield 0.2
+
+
+def write(text):
+    """Type into the field that is open."""
+    xdo("type", "--delay", 12, text)
+    yield 0.2
+
+
+def search(text):
+    """F3 over the view, a command's name, Enter."""
+    yield from rest(*in_view())
+    xdo("key", "F3")
+    yield 0.3
+    yield from write(text)
+    yield 0.3
+    xdo("key", "Return")
+    yield 0.2
+
+
+def until(condition, patience=5.0):
+    """Wait until something has happened, or until patience ends; who asks looks at what there is then."""
+    end = time.monotonic() + patience
+    while not condition() and time.monotonic() < end:
+        yield 0.05
+
+
+# Pictures
+
+
+def shot(name, box=None):
+    """A picture of the window, or of a box (left, top, right, bottom) of it, into the folder for them."""
+    crop = []
+    if box:
+        left, top, right, bottom = (round(edge) for edge in box)
+        crop = ["-crop", f"{right - left}x{bottom - top}+{left}+{top}", "+repage"]
+    path = OUT / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    subprocess.run(["import", "-window", "root", *crop, str(path)], check=True)
+
+
+# Places
+
+
+def view_area():
+    """The first 3D viewport."""
+    return next(area for area in bpy.context.window.screen.areas if area.type == "VIEW_3D")
+
+
+def region(kind, area=None):
+    return next(region for region in (area or view_area()).regions if region.type == kind)
+
+
+def in_view(across=0.3, up=0.5):
+    """A place in the viewport, by shares of its width and height."""
+    area = view_area()
+    return from_top(area.x + across * area.width, area.y + up * area.height)
+
+
+def in_sidebar(rows, across=0.5):
+    """A place in the sidebar, a number of rows of buttons below its top."""
+    ui = region("UI")
+    return from_top(ui.x + across * ui.width, ui.y + ui.height - rows * unit())
+
+
+def over(point):
+    """Where a point of the world is seen."""
+    window = region("WINDOW")
+    x, y = view3d_utils.location_3d_to_region_2d(window, view_area().spaces.active.region_3d, Vector(point))
+    return from_top(window.x + x, window.y + y)
+
+
+def from_top(x, y):
+    """Blender's coordinates of a window count from its bottom."""
+    return round(x), round(bpy.context.window.height - y)
+
+
+def unit():
+    """Height of a row of buttons."""
+    return 20.0 * bpy.context.preferences.system.ui_scale
+
+
+# What most drivers begin with
+
+
+def spot_alone(maximised=False):
+    """The bundled model alone in the scene, filling the view, with our tab open."""
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+    bpy.ops.wm.obj_import(filepath=str(ROOT / "models" / "spot.obj"))
+    if maximised:
+        with bpy.context.temp_override(area=view_area()):
+            bpy.ops.screen.screen_full_area()
+        yield 0.5
+    view_area().spaces.active.show_region_ui = True
+    yield 0.3
+    region("UI").active_panel_category = TAB
+    with bpy.context.temp_override(area=view_area(), region=region("WINDOW")):
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message="Import")
+    yield 0.7
