@@ -45,15 +45,18 @@ class Knife:
         found, chosen = self.contour(target)
         return found.segments[found.label == chosen]
 
-    def sides(self, obj, target):
-        """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off."""
+    def sides(self, target, face_graph):
+        """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off.
+
+        face_graph : what bridge.face_graph says of the object.
+        """
         from ..core.contours import contour_sides
         from ..core.transfer import FaceGraph
 
         found, chosen = self.contour(target)
         if chosen < 0:
             return None
-        area, pairs, length = bridge.face_graph(obj)
+        area, pairs, length = face_graph
         inside = self.model.numbers == self.model.number(target)
         crossed = np.zeros(len(inside), bool)
         crossed[found.face[found.label == chosen]] = True
@@ -75,11 +78,12 @@ def cut_at(context, obj, model, target) -> str:
     number = model.number(target)
     name = store.part_name(obj.data, number)
     edit.check_unlocked(obj, [number])
-    side = Knife(obj, model).sides(obj, target)
+    graph = bridge.face_graph(obj)
+    side = Knife(obj, model).sides(target, graph)
     if side is None:
         raise SceneError(rpt_("Nothing of {name} would be cut off there. Point at another place.").format(name=name))
     new = edit.free_number(obj.data, model.stored)
-    edit.assign_faces(context, obj, model.stored, np.where(side, new, model.numbers))
+    edit.assign_faces(context, obj, model.stored, np.where(side, new, model.numbers), graph)
     return rpt_("{new} was cut from {name}").format(new=store.part_name(obj.data, new), name=name)
 
 

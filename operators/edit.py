@@ -255,7 +255,7 @@ class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):
         return rpt_("{n} faces are in other parts now").format(n=int(changed.sum()))
 
 
-def assign_faces(context, obj, stored, face_numbers):
+def assign_faces(context, obj, stored, face_numbers, graph=None):
     """Give faces to parts, and pin all parts concerned; what falls apart becomes several parts.
 
     Parameters
@@ -265,6 +265,8 @@ def assign_faces(context, obj, stored, face_numbers):
     stored : store.Stored
     face_numbers : (p,) int64
         The part of each face from now on.
+    graph : optional
+        What ``bridge.face_graph`` says of the object, if it is known already.
     """
     from ..core.editing import split_candidates
 
@@ -273,7 +275,7 @@ def assign_faces(context, obj, stored, face_numbers):
     if not moved.any():
         return
     concerned = set(np.unique(np.concatenate([face_numbers[moved], before[moved]])).tolist())
-    graph = bridge.face_graph(obj)
+    graph = graph or bridge.face_graph(obj)
     for number in np.unique(face_numbers[moved]).tolist():
         stored = _finer(stored, split_candidates(stored.decomposition, moved & (face_numbers == number), *graph))
     with store.quiet():

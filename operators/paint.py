@@ -27,25 +27,38 @@ class Brush:
 
     def __init__(self, obj, model, number):
         self.model, self.number = model, number
-        self.pairs, _ = bridge.face_pairs(obj.data)
-        self.chosen = np.zeros(len(model.face_value), bool)
+        count = len(model.face_value)
+        pairs, _ = bridge.face_pairs(obj.data)
+        first, second = np.concatenate([pairs, pairs[:, ::-1]]).T
+        self.neighbors = second[np.argsort(first, kind="stable")]  # of each face, one face after the other
+        self.start = np.append(0, np.cumsum(np.bincount(first, minlength=count)))
+        self.place = np.full(count, -1)
+        self.chosen = np.zeros(count, bool)
         locked = [part.number for part in obj.data.reeb_parts.parts if part.locked and part.number != number]
         self.free = ~np.isin(model.numbers, locked)
 
-    def dab(self, location, radius):
-        """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there."""
+    def dab(self, location, radius) -> np.ndarray:
+        """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there.
+
+        Returns the faces that were not painted before, (k,) int64.
+        """
         from ..core.mesh import components
 
         _, first = self.model.tree.query(location)
         near = np.array(self.model.tree.query_ball_point(location, radius), np.int64)
         if first not in near:  # faces larger than the brush are painted one by one
             near = np.append(near, first)
-        place = np.full(len(self.chosen), -1)
-        place[near] = np.arange(len(near))
-        pairs = place[self.pairs[(place[self.pairs] >= 0).all(axis=1)]]
-        _, piece = components(len(near), *pairs.T)
-        hit = near[piece == piece[place[first]]]
-        self.chosen[hit[self.free[hit]]] = True
+        self.place[near] = np.arange(len(near))
+        degree = self.start[near + 1] - self.start[near]
+        owner = np.repeat(np.arange(len(near)), degree)
+        row = np.arange(degree.sum()) - np.repeat(np.cumsum(degree) - degree, degree)
+        beside = self.place[self.neighbors[np.repeat(self.start[near], degree) + row]]
+        _, piece = components(len(near), owner[beside >= 0], beside[beside >= 0])
+        hit = near[piece == piece[self.place[first]]]
+        self.place[near] = -1
+        fresh = hit[self.free[hit] & ~self.chosen[hit]]
+        self.chosen[fresh] = True
+        return fresh
 
     def numbers(self) -> np.ndarray:
         """The part of each face once it is painted, (p,) int64."""
@@ -131,10 +144,10 @@ class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
         super().cancel(context)
 
     def _dab(self, context, target):
-        self.brush.dab(target.location, self.radius)
+        fresh = self.brush.dab(target.location, self.radius)
         dab = self.stroke.add()
         dab.location, dab.radius = target.location.tolist(), self.radius
-        slide.preview(context.view_layer.objects.active.data, self.brush.numbers(), self.colors)
+        slide.preview(context.view_layer.objects.active.data, self.brush.numbers(), self.colors, fresh)
 
     def _restore(self, context):
         """Show the parts as they are; the object."""

@@ -12,6 +12,8 @@ from .problems import SceneError
 
 HINT = n_("Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel")
 
+FEW = 2000  # faces
+
 
 class Boundary:
     """The boundary of one part, ready to be slid.
@@ -82,6 +84,7 @@ class REEB_PARTS_OT_slide(PartOperator, bpy.types.Operator):
         except SceneError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        self._previewed = self._boundary.numbers
         self._colors = store.number_colors(obj.data)
         self._name = obj.name
         self._start = event.mouse_x
@@ -113,19 +116,30 @@ class REEB_PARTS_OT_slide(PartOperator, bpy.types.Operator):
         context.workspace.status_text_set(None)
 
     def _preview(self, numbers):
-        preview(bpy.data.objects[self._name].data, numbers, self._colors)
+        changed = np.flatnonzero(numbers != self._previewed)
+        preview(bpy.data.objects[self._name].data, numbers, self._colors, changed)
+        self._previewed = numbers
 
 
-def preview(mesh, numbers, colors):
+def preview(mesh, numbers, colors, changed=None):
     """Show parts by their colours alone; all else is written when the mouse is released.
 
-    numbers : (p,) int64, the part of each face. colors : from ``number_colors``.
+    numbers : (p,) int64, the part of each face. colors : from ``store.number_colors``.
+    changed : (k,) int, the only faces that look different from before; all without.
     """
     attribute = mesh.attributes.get(mesh.reeb_parts.color_attribute)
-    if attribute is not None:
-        _, face = bridge.face_corners(mesh)
+    if attribute is None:
+        return
+    _, face = bridge.face_corners(mesh)
+    if changed is None or len(changed) > FEW:
         attribute.data.foreach_set("color_srgb", colors[numbers][face].ravel())
-        mesh.update()
+    else:  # corners one by one cost less than all of a large mesh
+        first, end = np.searchsorted(face, changed), np.searchsorted(face, changed, side="right")
+        shades = colors[numbers[changed]].tolist()
+        for low, high, shade in zip(first.tolist(), end.tolist(), shades, strict=True):
+            for corner in range(low, high):
+                attribute.data[corner].color_srgb = shade
+    mesh.update()
 
 
 def active_number(obj) -> int:
