@@ -64,7 +64,7 @@ class REEB_PARTS_OT_from_arc(bpy.types.Operator):
 
     bl_idname = "reeb_parts.from_arc"
     bl_label = "Part of Arc"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
 
     location: bpy.props.FloatVectorProperty(
         name="Location", size=3, subtype="XYZ", description="A place on or beside the arc, in the world",

@@ -69,6 +69,7 @@ class REEB_PARTS_MT_main(bpy.types.Menu):
         layout.operator("reeb_parts.export", icon="EXPORT")
         layout.operator("reeb_parts.armature", icon="ARMATURE_DATA")
         layout.separator()
+        layout.operator("reeb_parts.reset_parameters", icon="LOOP_BACK")
         layout.operator("reeb_parts.use_preferences", icon="PREFERENCES")
 
 
