@@ -104,6 +104,11 @@ def one_part(obj):
     obj.data.reeb_parts.n_parts = 1
 
 
+def other_parameters(obj):
+    """A scene whose parameters are not those of its preset."""
+    bpy.context.scene.reeb_parts.equalise = False
+
+
 def on_branch(obj):
     """A place half way out on a branch."""
     return {"location": obj.matrix_world @ Vector(0.7 * shapes.TREE_TIPS[0])}
@@ -129,6 +134,7 @@ CASES = {
     "cancel": Case(parts=False, refuses={}),
     "clear": Case(changes=("/active color", "/render color")),
     "use_preferences": Case(parts=False, changes=("/settings",), refuses={}),
+    "reset_parameters": Case(parts=False, prepare=other_parameters, changes=("/settings",), refuses={}),
     "select": Case(prepare=choose(1), changes=("/flags/.* select", "/attributes/.select_.*")),
     "isolate": Case(prepare=choose(1), changes=("/flags/.* hide", "/attributes/.hide_.*")),
     "mark": Case({"action": "FACES"}),
