@@ -45,8 +45,7 @@ def main() -> int:
     parser.add_argument("models", nargs="*", type=Path, metavar="MODELS")
     parser.add_argument("--preset", default="Perceptual", metavar="NAME")
     parser.add_argument("--detail", type=float, metavar="D", help="0..1, instead of the preset's")
-    after = sys.argv.index("--") + 1 if "--" in sys.argv else 1
-    arguments = parser.parse_args(sys.argv[after:])
+    arguments = parser.parse_args(checkout.arguments())
     with tempfile.TemporaryDirectory() as folder:
         checkout.enable(Path(folder))
         print("| model | faces | parts | caps | new borders | edges of 3 faces | lost | area | normals | all else |"

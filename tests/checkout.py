@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Switch the extension on in Blender: the installed one, or else this checkout."""
+"""For programs that run in Blender or with Blender as a module: their arguments, and the extension switched on."""
 
 import sys
 from pathlib import Path
@@ -9,8 +9,15 @@ import bpy
 ROOT = Path(__file__).resolve().parents[1]
 
 
+def arguments() -> list[str]:
+    """What was typed for the program: in Blender what follows --, which its own arguments end with."""
+    if "--" in sys.argv:
+        return sys.argv[sys.argv.index("--") + 1 :]
+    return [] if bpy.app.binary_path else sys.argv[1:]
+
+
 def enable(folder) -> str:
-    """The name of the package that is switched on; an empty folder is for a link to the checkout."""
+    """Switch on the installed extension, or else the checkout by a link in an empty folder; its package's name."""
     for name in sys.modules:
         if name.startswith("bl_ext.") and name.endswith(".reeb_parts"):
             return name
