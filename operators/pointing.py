@@ -117,13 +117,17 @@ class Model:
                       float(blend @ self.lines.value[[low, high]]), -1)
 
     def _face_under(self, context, obj, region, view, mouse):
-        seen = obj.evaluated_get(context.evaluated_depsgraph_get())
+        start = view3d_utils.region_2d_to_origin_3d(region, view, mouse)
+        return self.along(context, obj, start, view3d_utils.region_2d_to_vector_3d(region, view, mouse))
+
+    def along(self, context, obj, start, direction) -> Target | None:
+        """The place of the surface, as it is shown, that a ray meets first; all in the world."""
         back = obj.matrix_world.inverted_safe()
-        start = back @ view3d_utils.region_2d_to_origin_3d(region, view, mouse)
-        ahead = back.to_3x3() @ view3d_utils.region_2d_to_vector_3d(region, view, mouse)
+        ahead = back.to_3x3() @ direction
         if not ahead.length:
             return None
-        hit, location, _, face = seen.ray_cast(start, ahead)
+        seen = obj.evaluated_get(context.evaluated_depsgraph_get())
+        hit, location, _, face = seen.ray_cast(back @ start, ahead)
         if not hit:
             return None
         location = np.array(location)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts chosen, cut and painted where somebody points; by location here, with the pointer in tests/window."""
 
+import sys
+
 import bpy
 import numpy as np
 import pytest
@@ -136,6 +138,35 @@ def test_an_arc_is_a_handle(obj, result):
         assert bpy.context.view_layer.objects.selected[:] == [obj]
         tip_face = np.linalg.norm(centers(obj) - tip, axis=1).argmin()
         assert result.parts[result.active].number == numbers(obj.data)[tip_face], index
+
+
+@pytest.mark.parametrize("change", ["nothing", "subdivided", "mirrored", "exploded", "moved and scaled"])
+def test_a_ray_meets_the_part_that_is_seen_there(package, obj, result, change):
+    pointing = sys.modules[f"{package}.operators.pointing"]
+    start = centers(obj)
+    if change == "subdivided":
+        obj.modifiers.new("Smooth", "SUBSURF").levels = 1
+    elif change == "mirrored":
+        obj.modifiers.new("Twin", "MIRROR").use_axis[2] = True
+    elif change == "exploded":
+        obj.reeb_parts_made.explode = 1.0
+    elif change == "moved and scaled":
+        obj.matrix_world = Matrix.Translation((3, -1, 2)) @ Matrix.Rotation(1.0, 4, "Y")
+        obj.scale = (2, 1, -1)
+    bpy.context.view_layer.update()
+    model = pointing.Model(obj)
+    seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    for tip in shapes.TREE_TIPS:
+        face = int(np.linalg.norm(start - tip, axis=1).argmin())
+        place = Vector(start[face])
+        if change == "exploded":  # the faces keep their order
+            place = seen.data.polygons[face].center
+        # From outside, along the branch.
+        inwards = -Vector(tip).normalized()
+        world = obj.matrix_world
+        target = model.along(bpy.context, obj, world @ (place - 2 * inwards), world.to_3x3() @ inwards)
+        assert model.number(target) == numbers(obj.data)[face]
+    assert model.along(bpy.context, obj, Vector((50, 50, 50)), Vector((1, 0, 0))) is None
 
 
 def dabs(*places, size):
