@@ -41,7 +41,7 @@ class Parameters:
         0, 0, 100_000, "Number of parts",
         "Exactly this many parts instead of a level of detail; 0 lets Detail decide")
     base_spacing: float = _number(
-        0.005, 0.0005, 0.05, "Base vertex spacing",
+        0.005, 0.0005, 0.05, "Base spacing",
         "Share of the area around each point that distances are measured from; smaller is "
         "slower and finer (the paper's 0.005 S)")
     equalise: bool = field(default=True, metadata={

@@ -114,7 +114,7 @@ TEXTS = {
         "Genau so viele Teile statt eines Detailgrads; bei 0 entscheidet Detail",
     "Exactly this many parts, whatever the detail. Nothing is computed again":
         "Genau so viele Teile, unabhängig vom Detail. Nichts wird neu berechnet",
-    "Base vertex spacing": "Basisabstand",
+    "Base spacing": "Basisabstand",
     "Share of the area around each point that distances are measured from; smaller is slower and finer (the "
     "paper's 0.005 S)":
         "Anteil der Oberfläche um jeden Punkt, von dem aus Abstände gemessen werden; kleiner ist langsamer und "
