@@ -12,10 +12,12 @@ CAP = "reeb_cap"
 _FLAT = 1e-3
 
 
-def close_cuts(mesh, opened: np.ndarray) -> tuple[int, int]:
+def close_cuts(mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray) -> tuple[int, int]:
     """Fill the holes that a cut has left; borders that were there before stay open.
 
     A cut that ends on a border makes one hole together with a stretch of it: that is filled as a whole.
+    Where several cuts meet, each stretch between two such places is filled by itself, up to the straight line
+    between its ends, so that the part on its other side can be filled alike.
 
     Parameters
     ----------
@@ -23,6 +25,10 @@ def close_cuts(mesh, opened: np.ndarray) -> tuple[int, int]:
         In Object Mode.
     opened : (e,) bool
         Edges that had faces on both sides before the cut.
+    meeting : (v,) bool
+        Vertices where more than two cuts meet.
+    joined : (k, 2) int64
+        Vertices that an edge joined before the cut, whether it is in this piece or in another.
 
     Returns
     -------
@@ -34,17 +40,30 @@ def close_cuts(mesh, opened: np.ndarray) -> tuple[int, int]:
         bm.from_mesh(mesh, face_normals=False, vertex_normals=False)
         bm.edges.ensure_lookup_table()
         edges = [edge for i in np.flatnonzero(opened).tolist() if (edge := bm.edges[i]).is_boundary]
+        bm.verts.ensure_lookup_table()
+        meeting = {bm.verts[i] for i in np.flatnonzero(meeting).tolist()}
+        joined = _both_ways((bm.verts[a], bm.verts[b]) for a, b in joined.tolist())
         holes, left = _holes(edges)
         if not holes:
             return 0, left
         layer = bm.faces.layers.int.get(CAP) or bm.faces.layers.int.new(CAP)
-        made = [face for hole in holes for face in _fill(bm, hole)]
+        sheets = [sheet for hole in holes for sheet in _sheets(bm, hole, meeting, set(edges))]
+        made = [face for sheet in sheets for face in _fill(bm, sheet, joined)]
         for face in made:
             face[layer] = 1
         bm.to_mesh(mesh)
     finally:
         bm.free()
     return len(holes), left
+
+
+def _both_ways(pairs) -> dict:
+    """What each is paired with."""
+    found = {}
+    for a, b in pairs:
+        found.setdefault(a, set()).add(b)
+        found.setdefault(b, set()).add(a)
+    return found
 
 
 def _holes(edges):
@@ -105,20 +124,55 @@ def _simple(vertices):
     return [walk for walk in [*walks, path] if len(walk) > 2]
 
 
-def _fill(bm, hole):
+def _sheets(bm, hole, meeting, opened):
+    """Take a hole apart where cuts meet: a closed walk for each stretch, and one for what is between them."""
+    at = [i for i, vertex in enumerate(hole) if vertex in meeting]
+    if len(at) < 2 or any(_edge(a, b) not in opened for a, b in zip(hole, [*hole[1:], hole[0]], strict=True)):
+        return [hole]  # along a border nobody is on the other side
+    hole = hole[at[0] :] + hole[: at[0] + 1]
+    at = [i - at[0] for i in at] + [len(hole) - 1]
+    stretches = [hole[i : j + 1] for i, j in zip(at, at[1:], strict=False)]
+    if len(stretches) == 2:
+        if any(_is_straight(stretch) for stretch in stretches):
+            return [hole[:-1]]
+        middle = _between(bm, (hole[0], stretches[1][0]), (0.5, 0.5))
+        return [[*stretch, middle] for stretch in stretches]
+    sheets, inner = [], []
+    for stretch in stretches:
+        if _is_straight(stretch):
+            inner += stretch[:-1]
+        else:
+            # A vertex half way, so that there is no second edge between the ends.
+            middle = _between(bm, (stretch[0], stretch[-1]), (0.5, 0.5))
+            sheets.append([*stretch, middle])
+            inner += [stretch[0], middle]
+    return [*sheets, inner]
+
+
+def _is_straight(stretch):
+    points = np.array([vertex.co[:] for vertex in stretch], np.float64) - stretch[0].co
+    way = points[-1]
+    aside = np.cross(points[1:-1], way)
+    return bool((np.linalg.norm(aside, axis=1) <= _FLAT * (way @ way)).all())
+
+
+def _edge(vertex, other):
+    return next(edge for edge in vertex.link_edges if edge.other_vert(vertex) == other)
+
+
+def _fill(bm, hole, joined):
     """Faces on a hole; never an edge with three faces.
 
     One face if the hole is flat; a fan around its middle if that can be seen from all of the rim; else
     triangles between its corners. The other side of the cut is filled alike, so that pieces fit together.
     """
-    rim = next(edge for edge in hole[0].link_edges if edge.other_vert(hole[0]) == hole[1])
-    beside = rim.link_loops[0]
+    beside = _edge(hole[0], hole[1]).link_loops[0]
     corners = {vertex: _border_corner(vertex, beside) for vertex in hole}
     points = np.array([vertex.co[:] for vertex in hole], np.float64)
     if _is_flat(points) and bm.faces.get(hole) is None:
         polygons = [hole]
     else:
-        polygons = None if _is_star(points) else _triangles(hole, points)
+        polygons = None if _is_star(points) else _triangles(hole, points, joined)
         polygons = polygons or _fan(bm, hole)
     faces = [bm.faces.new(polygon) for polygon in polygons]
     for face in faces:
@@ -160,8 +214,8 @@ def _is_star(points):
     return bool((spokes @ spokes.sum(axis=0) > 0).all())
 
 
-def _triangles(hole, points):
-    """Triangles between the corners of a hole, or None if some edge would meet a third face."""
+def _triangles(hole, points, joined):
+    """Triangles between the corners of a hole, or None if some edge would meet a third face on either side."""
     n = len(hole)
     # From the same corner in the same direction on both sides of the cut.
     first = min(range(n), key=lambda i: tuple(points[i]))
@@ -173,7 +227,7 @@ def _triangles(hole, points):
         triples = [t[::-1] for t in triples]
     directed = {(t[i], t[i - 2]) for t in triples for i in range(3)}
     inner = directed - rim
-    neighbours = [{edge.other_vert(vertex) for edge in vertex.link_edges} for vertex in hole]
+    neighbours = [{edge.other_vert(v) for edge in v.link_edges} | joined.get(v, set()) for v in hole]
     proper = (
         n > 3
         and len(directed) == 3 * len(triples) == 3 * (n - 2)
@@ -185,19 +239,26 @@ def _triangles(hole, points):
 
 
 def _fan(bm, hole):
-    """Triangles to a new vertex in the middle of a hole, which is whatever its neighbours are on average."""
+    """Triangles to a new vertex in the middle of a hole."""
     share = _middle(np.array([vertex.co[:] for vertex in hole], np.float64))
+    middle = _between(bm, hole, share)
+    return [(a, b, middle) for a, b in zip(hole, [*hole[1:], hole[0]], strict=True)]
+
+
+def _between(bm, vertices, share):
+    """A new vertex that is what others are on average."""
+    share = np.asarray(share)
     middle = bm.verts.new()
-    middle.copy_from_vert_interp([hole[0], hole[len(hole) // 2]], 0.5)
-    middle.co = share @ np.array([vertex.co[:] for vertex in hole])
+    middle.copy_from_vert_interp([vertices[0], vertices[len(vertices) // 2]], 0.5)
+    middle.co = share @ np.array([vertex.co[:] for vertex in vertices])
     for layer in bm.verts.layers.shape.values():
-        middle[layer] = share @ np.array([vertex[layer][:] for vertex in hole])
+        middle[layer] = share @ np.array([vertex[layer][:] for vertex in vertices])
     if deform := bm.verts.layers.deform.active:
         sums = {}
-        for vertex, part in zip(hole, share.tolist(), strict=True):
+        for vertex, part in zip(vertices, share.tolist(), strict=True):
             for group, value in vertex[deform].items():
                 sums[group] = sums.get(group, 0.0) + part * value
         middle[deform].clear()
         for group, value in sums.items():
             middle[deform][group] = value
-    return [(a, b, middle) for a, b in zip(hole, [*hole[1:], hole[0]], strict=True)]
+    return middle

@@ -70,21 +70,36 @@ def part_meshes(mesh, face_numbers: np.ndarray, wanted, close=False):
     """
     plain = plain_copy(mesh)
     normals = _custom_normals(plain)
-    edge, (_, face) = bridge.corner_edges(plain), bridge.face_corners(plain)
+    edge, (vertex, face) = bridge.corner_edges(plain), bridge.face_corners(plain)
     cut = attributes.cut_edges(plain, face_numbers)
+    meeting, joined = _around_cuts(plain, cut)
     wanted = [number for number in wanted if (face_numbers == number).any()]
     made, left_open = {}, 0
     for number, piece in _divide(plain, face_numbers, wanted, _has_loose(plain)):
         corner = (face_numbers == number)[face]
         if close:
-            # Elements keep their order, so that the edges of the piece are those of its faces, rising.
-            left_open += caps.close_cuts(piece, cut[np.unique(edge[corner])])[1]
+            # Elements keep their order, so that those of the piece are those of its faces, rising.
+            mine = np.unique(vertex[corner])
+            here = np.searchsorted(mine, joined[np.isin(joined, mine).all(axis=1)])
+            left_open += caps.close_cuts(piece, cut[np.unique(edge[corner])], meeting[mine], here)[1]
         if normals is not None:
             _set_normals(piece, normals[corner])
         _drop_materials(piece, [p.material for p in mesh.reeb_parts.parts if p.number != number])
         made[number] = piece
     bpy.data.meshes.remove(plain)
     return made, left_open
+
+
+def _around_cuts(mesh, cut):
+    """Vertices where more than two edges of cuts meet, (v,) bool, and edges from cut to cut, (k, 2).
+
+    cut : (e,) bool.
+    """
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    ends = ends.reshape(-1, 2)
+    count = np.bincount(ends[cut].ravel(), minlength=len(mesh.vertices))
+    return count > 2, ends[(count[ends] > 0).all(axis=1)]
 
 
 def _divide(mesh, face_numbers, wanted, loose):

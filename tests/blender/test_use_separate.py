@@ -235,21 +235,38 @@ def test_a_hole_where_three_faces_meet_is_left_open_and_counted(make, separate):
     assert borders(meshes[2]) == (set(), 0)
 
 
+def volume(mesh):
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    found = bm.calc_volume(signed=True)
+    bm.free()
+    return found
+
+
 def test_pieces_that_meet_in_rings_fit_together(make):
     """Both sides of a cut are closed by the same surface: together, they enclose what the mesh encloses."""
-    def volume(mesh):
-        bm = bmesh.new()
-        bm.from_mesh(mesh)
-        found = bm.calc_volume(signed=True)
-        bm.free()
-        return found
-
     obj = make(shapes.dumbbell())
     bpy.ops.reeb_parts.decompose(n_parts=3)
     bpy.ops.reeb_parts.separate(caps=True, **KEEP)
     volumes = [volume(piece.data) for piece in pieces()]
     assert min(volumes) > 0
     assert sum(volumes) == pytest.approx(volume(obj.data), rel=1e-5)
+
+
+@pytest.mark.parametrize("count", [3, 4, 5])
+@pytest.mark.parametrize("bent", [0.0, 0.3])
+def test_slices_that_meet_in_two_places_fit_together(make, separate, count, bent):
+    """As of an orange: each stretch between the poles is closed alike on both sides."""
+    vertices, faces = shapes.icosphere(3)
+    obj = make((vertices + bent * np.sin(3 * vertices[:, [1, 2, 0]]), faces))
+    x, y, z = vertices[faces].mean(axis=1).T
+    angle = (np.arctan2(y, x) + 0.4 * np.sin(4 * z)) % (2 * np.pi)
+    numbers = 1 + (angle * count / (2 * np.pi)).astype(int)
+    meshes, left_open = separate.part_meshes(obj.data, numbers, range(1, count + 1), close=True)
+    assert left_open == 0
+    volumes = [volume(mesh) for mesh in meshes.values()]
+    assert min(volumes) > 0
+    assert sum(volumes) == pytest.approx(volume(obj.data), rel=1e-4)
 
 
 def test_caps_are_marked_and_have_the_part_material(rich):
