@@ -6,6 +6,7 @@ The pictures that it takes stay in out/, to be looked at.
 
 import json
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -21,9 +22,8 @@ def drive():
 
     def run(driver, folder, size="1280x800", seconds=180) -> dict:
         out = OUT / folder
-        out.mkdir(parents=True, exist_ok=True)
-        for old in out.iterdir():
-            old.unlink()
+        shutil.rmtree(out, ignore_errors=True)
+        out.mkdir(parents=True)
         command = [os.environ["BLENDER_GUI"], "--size", size, "--seconds", str(seconds), "--driver",
                    str(HERE / driver)]
         variables = {**os.environ, "GUI_OUT": str(out)}

@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 OUT = Path(os.environ["GUI_OUT"])
 PATIENCE = 60.0  # seconds for a decomposition
 TAB = "Reeb Parts"
+F3 = 69  # the key's code; by its name, xdotool holds Alt as well
 
 
 # The pointer and the keyboard
@@ -39,10 +40,13 @@ def rest(x, y):
 def press(x, y, *held, button=1):
     """A click that a button notices, with keys held down."""
     yield from rest(x, y)
+    # Blender asks which keys are down when it comes to the click, not when it was made.
     for key in held:
         xdo("keydown", key)
+        yield 0.1
     xdo("click", button)
     for key in held:
+        yield 0.1
         xdo("keyup", key)
     yield 0.2
 
@@ -68,19 +72,19 @@ def tap(*keys):
 
 def write(text):
     """Type into the field that is open."""
-    xdo("type", "--delay", 12, text)
+    xdo("type", "--delay", 4, text)
     yield 0.2
 
 
 def search(text):
     """F3 over the view, a command's name, Enter."""
-    yield from rest(*in_view())
-    xdo("key", "F3")
-    yield 0.3
-    yield from write(text)
-    yield 0.3
-    xdo("key", "Return")
+    xdo("mousemove", *in_view())
+    yield 0.05
+    xdo("key", F3)
     yield 0.2
+    yield from write(text)
+    xdo("key", "Return")
+    yield 0.05
 
 
 def until(condition, patience=5.0):
@@ -131,8 +135,47 @@ def in_sidebar(rows, across=0.5):
 def over(point):
     """Where a point of the world is seen."""
     window = region("WINDOW")
-    x, y = view3d_utils.location_3d_to_region_2d(window, view_area().spaces.active.region_3d, Vector(point))
+    x, y = view3d_utils.location_3d_to_region_2d(window, window.data, Vector(point))
     return from_top(window.x + x, window.y + y)
+
+
+def surface_places(obj, away=14, window=None):
+    """Where each part can be clicked, by its number: the place nearest to the middle of what is seen of it.
+
+    Beside the graph by some pixels, and not under the sidebar. window : a region of four views.
+    """
+    free = (80, 80, region("UI").width + 60, 120) if window is None else (20, 20, 20, 20)
+    window = window or region("WINDOW")
+    view = window.data
+    graph = [Vector(point) for point in graph_places(obj).values()]
+    found = {}
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    for x in range(free[0], window.width - free[2], 8):
+        for y in range(free[1], window.height - free[3], 8):
+            start = view3d_utils.region_2d_to_origin_3d(window, view, (x, y))
+            ahead = view3d_utils.region_2d_to_vector_3d(window, view, (x, y))
+            hit, _, _, face, item, _ = bpy.context.scene.ray_cast(depsgraph, start, ahead)
+            if hit and item.name == obj.name:
+                number = obj.data.attributes["reeb_part"].data[face].value
+                found.setdefault(number, []).append(Vector(from_top(window.x + x, window.y + y)))
+    for number, places in found.items():
+        middle = sum(places, Vector((0.0, 0.0))) / len(places)
+        beside = [p for p in places if all((p - q).length > away for q in graph)] or places
+        found[number] = tuple(map(round, min(beside, key=lambda p: (p - middle).length)))
+    return found
+
+
+def graph_places(obj):
+    """Where the points of an object's graph are seen: by name of the node, or (spline, point) of the arcs."""
+    found = {}
+    for item in obj.children:
+        if item.type == "EMPTY":
+            found[item.name] = over(item.matrix_world.translation)
+        elif item.type == "CURVE":
+            for i, spline in enumerate(item.data.splines):
+                for j, point in enumerate(spline.points):
+                    found[i, j] = over(item.matrix_world @ point.co.to_3d())
+    return found
 
 
 def from_top(x, y):

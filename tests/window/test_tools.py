@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tools that are used over the model, in Blender's real window; tools.py says how.
+
+The pictures stay in out/tools, to be looked at.
+"""
+
+import pytest
+
+TOOLS = ("Pick Parts", "Cut Part", "Paint into", "Slide Boundary")
+IDS = {"Pick Parts": "pick", "Cut Part": "cut", "Paint into": "paint", "Slide Boundary": "slide"}
+
+
+@pytest.fixture(scope="module")
+def seen(drive):
+    """What the driver saw after each step."""
+    return drive("tools.py", "tools", seconds=240)
+
+
+def test_a_click_on_the_model_or_the_graph_picks_a_part(seen):
+    assert seen["picked one"] == ["Part 06", []]
+    assert seen["picked on an arc"] == ["Part 02", []]
+
+
+def test_shift_picks_several(seen):
+    assert seen["picked two"] == ["Part 03", ["Part 03", "Part 06"]]
+
+
+def test_enter_ends_picking(seen):
+    assert seen["after Enter"] == seen["picked on an arc"]
+
+
+def test_a_click_cuts_a_part(seen):
+    assert len(seen["cut"]) == 11
+
+
+def test_a_stroke_with_a_larger_brush_gives_faces_to_the_active_part(seen):
+    before, after = seen["before painting"], seen["painted"]
+    assert after["Part 01"] > before["Part 01"] + 0.05
+    assert after["Part 06"] < before["Part 06"]
+
+
+@pytest.mark.parametrize("name", [
+    "pick undone", "cut undone", "cut redone", "cut undone again", "paint undone", "paint redone",
+    "paint undone again", "arc undone", "choice undone",
+])  # fmt: skip
+def test_undo_and_redo_are_exact(seen, name):
+    assert seen[name] == []
+
+
+@pytest.mark.parametrize("name", ["cut escaped", "paint escaped", *(f"{tool} escaped at once" for tool in TOOLS)])
+def test_escape_leaves_everything_as_it_was(seen, name):
+    assert seen[name] == []
+
+
+def test_a_click_on_a_node_chooses_its_part(seen):
+    assert seen["a node"] == [["Part 02", []], "Reeb maximum"]
+
+
+def test_a_click_on_an_arc_chooses_its_part_and_the_mesh_is_active_again(seen):
+    assert seen["an arc of Part 06"] == [["Part 06", []], "spot"]
+    assert seen["an arc of Part 03"] == [["Part 03", []], "spot"]
+
+
+@pytest.mark.parametrize("tool", TOOLS)
+def test_undo_while_a_tool_is_at_work(seen, tool):
+    assert seen[f"undo within {tool}"] == []
+    assert seen[f"at work after {tool}"] == []
+
+
+def test_picking_goes_on_beside_other_commands_and_without_the_sidebar(seen):
+    assert seen["picked after Decompose"] == ["Part 06", []]
+    assert seen["picked without the sidebar"] == ["Part 03", []]
+    assert seen["at work after Enter"] == []
+
+
+@pytest.mark.parametrize("name", ["Pick", "Cut", "Slide", "Paint"])
+def test_a_tool_starts_from_its_button(seen, name):
+    assert seen[f"button {name}"] == [f"REEB_PARTS_OT_{name.lower()}"]
+
+
+def test_picking_in_local_view_and_in_each_of_four_views(seen):
+    assert seen["picked in local view"] == ["Part 02", []]
+    found = seen["picked in four views"]
+    assert len(found) == 8
+    assert [name for name, _ in found] == [name for _, name in found]
+
+
+@pytest.mark.parametrize("tool", ["Pick Parts", "Cut Part", "Paint into"])
+def test_a_tool_ends_when_its_object_is_deleted(seen, tool):
+    assert seen[f"at work before deleting within {tool}"] == [f"REEB_PARTS_OT_{IDS[tool]}"]
+    assert seen[f"deleted within {tool}"] == [True, []]
+
+
+@pytest.mark.parametrize("tool", TOOLS)
+def test_deleting_is_undone(seen, tool):
+    assert seen[f"at work after deleting within {tool}"] == []
+    assert seen[f"deletion within {tool} undone"] == []

@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tools that are used over the model, in a real window: pick, cut, paint, and the graph as a handle.
+
+And what people do while a tool is at work: undo, another command, delete the object, close the sidebar, Esc.
+Executed inside Blender as driver.py is, which says how.
+"""
+
+import json
+import os
+import sys
+
+import bpy
+
+sys.path += [os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__))]
+import pointer
+from snapshot import changes, snapshot
+
+SEEN = {}
+TOOLS = ("Pick Parts", "Cut Part", "Paint into", "Slide Boundary")
+# Rows below the top of the sidebar.
+DECOMPOSE = 3.7
+BUTTONS = {"Pick": 12.3, "Cut": 15.57, "Slide": 18.9, "Paint": 19.95}
+
+
+def steps():
+    """One step after the other; yields the seconds to wait."""
+    yield from pointer.spot_alone()
+    yield from pointer.search("Decompose into Parts")
+    yield from pointer.until(lambda: "reeb_part" in spot().data.attributes, pointer.PATIENCE)
+    yield 0.5
+    for scene in (picked, cut, painted, escaped, by_graph, disturbed, elsewhere, deleted):
+        yield from scene()
+        (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
+
+
+def picked():
+    """A click, Shift and a click, a click on the graph; Enter ends; undo."""
+    places = pointer.surface_places(spot())
+    before = snapshot()
+    yield from pointer.search("Pick Parts")
+    yield from pointer.press(*places[number("Part 06")])
+    note("picked one", chosen())
+    yield from pointer.press(*places[number("Part 03")], "Shift_L")
+    note("picked two", chosen())
+    pointer.shot("1_pick.png")
+    yield from pointer.press(*on_arc("Part 02"))
+    note("picked on an arc", chosen())
+    yield from pointer.tap("Return")
+    yield from pointer.press(*pointer.in_view(0.1, 0.1))  # beside everything: what a click means without a tool
+    note("after Enter", chosen())
+    yield from undo_to("pick undone", before, 2)
+
+
+def cut():
+    """The ring under the pointer; a click cuts; undo and redo."""
+    before = snapshot()
+    yield from pointer.search("Cut Part")
+    x, y = pointer.surface_places(spot())[number("Part 06")]
+    yield from pointer.rest(x, y)
+    pointer.shot("2_ring.png")
+    yield from pointer.tap("Escape")
+    note("cut escaped", differences(before))
+    yield from pointer.search("Cut Part")
+    yield from pointer.rest(x, y)
+    yield from pointer.press(x, y)
+    yield 0.3
+    after = snapshot()
+    note("cut", [part.name for part in spot().data.reeb_parts.parts])
+    pointer.shot("3_cut.png")
+    yield from undo_to("cut undone", before)
+    yield from keys_to("cut redone", after, "ctrl+shift+z")
+    yield from undo_to("cut undone again", before)
+
+
+def painted():
+    """A stroke with a larger brush, Enter; then another with Esc."""
+    choose("Part 01")
+    before = snapshot()
+    note("before painting", shares())
+    yield from pointer.search("Paint into")
+    path = stroke("Part 01", "Part 06")
+    yield from pointer.rest(*path[0])
+    pointer.shot("4_brush.png")
+    for _ in range(3):
+        yield from pointer.press(*path[0], "Control_L", button=4)  # the wheel, up
+    yield 0.3
+    pointer.shot("5_larger_brush.png")
+    yield from pointer.drag(path)
+    pointer.shot("6_painted.png")
+    yield from pointer.tap("Return")
+    yield 0.3
+    after = snapshot()
+    note("painted", shares())
+    yield from undo_to("paint undone", before)
+    yield from keys_to("paint redone", after, "ctrl+shift+z")
+    yield from undo_to("paint undone again", before)
+    yield from pointer.search("Paint into")
+    yield from pointer.drag(path)
+    yield from pointer.tap("Escape")
+    yield 0.3
+    note("paint escaped", differences(before))
+
+
+def escaped():
+    """Esc right after the start, with the pointer where it was."""
+    for name in TOOLS:
+        before = snapshot()
+        yield from pointer.search(name)
+        yield from pointer.tap("Escape")
+        note(f"{name} escaped at once", differences(before))
+
+
+def by_graph():
+    """A click on a node, on an arc, and on another arc right after; no tool is at work."""
+    node = next(item for item in spot().children if item.get("part") == number("Part 02"))
+    yield from pointer.press(*pointer.over(node.matrix_world.translation))
+    yield 0.3
+    note("a node", [chosen(), bpy.context.view_layer.objects.active.name])
+    pointer.shot("7_node.png")
+    for name in ("Part 06", "Part 03"):
+        yield from pointer.press(*on_arc(name))
+        yield 0.5
+        note(f"an arc of {name}", [chosen(), bpy.context.view_layer.objects.active.name])
+    pointer.shot("8_arc.png")
+    before = snapshot()
+    choose("Part 06")
+    bpy.ops.ed.undo_push(message="ready")
+    ready = snapshot()
+    yield from pointer.press(*on_arc("Part 02"))
+    yield 0.5
+    yield from undo_to("arc undone", ready, 2)
+    yield from undo_to("choice undone", before)
+
+
+def disturbed():
+    """Ctrl+Z, another command and N while a tool is at work."""
+    places = pointer.surface_places(spot())
+    before = snapshot()
+    for name in TOOLS:
+        choose("Part 01")
+        bpy.ops.ed.undo_push(message="ready")
+        ready = snapshot()
+        yield from pointer.search("Split Parts")
+        yield from pointer.until(lambda ready=ready: snapshot() != ready)
+        split = snapshot()
+        yield from pointer.search(name)
+        yield from pointer.rest(*places[number("Part 06")])
+        yield from pointer.tap("ctrl+z")
+        yield from pointer.rest(*places[number("Part 03")])
+        yield from pointer.tap("Escape")
+        yield 0.2
+        # Sliding takes all keys for itself.
+        note(f"undo within {name}", differences(split if name == "Slide Boundary" else ready))
+        note(f"at work after {name}", at_work())
+        for _ in range(4):
+            if differences(before):
+                bpy.ops.ed.undo()
+    yield from pointer.search("Pick Parts")
+    yield from pointer.press(*pointer.in_sidebar(DECOMPOSE))
+    yield from pointer.until(lambda: at_work() == ["REEB_PARTS_OT_pick"])
+    yield from pointer.press(*places[number("Part 06")])
+    note("picked after Decompose", chosen())
+    yield from pointer.tap("n")
+    yield from pointer.press(*places[number("Part 03")])
+    note("picked without the sidebar", chosen())
+    yield from pointer.tap("n", "Return")
+    note("at work after Enter", at_work())
+
+
+def elsewhere():
+    """From the button in the sidebar; in local view; in each of four views; beside a second viewport."""
+    for name, row in BUTTONS.items():
+        yield from pointer.press(*pointer.in_sidebar(row, 0.832))
+        note(f"button {name}", at_work())
+        yield from pointer.rest(*pointer.in_view())
+        yield from pointer.tap("Escape")
+    yield from pointer.tap("KP_Divide")
+    yield 0.5
+    yield from pointer.search("Pick Parts")
+    yield from pointer.press(*pointer.surface_places(spot())[number("Part 02")])
+    note("picked in local view", chosen())
+    yield from pointer.tap("Return", "KP_Divide")
+    yield 0.5
+    area = pointer.view_area()
+    with bpy.context.temp_override(area=area, region=pointer.region("WINDOW")):
+        bpy.ops.screen.region_quadview()
+    yield 1.0
+    yield from pointer.search("Pick Parts")
+    found = []
+    for window in [region for region in area.regions if region.type == "WINDOW"]:
+        places = pointer.surface_places(spot(), window=window)
+        for name in ("Part 06", "Part 01"):
+            if number(name) in places:
+                yield from pointer.press(*places[number(name)])
+                found.append([name, chosen()[0]])
+    pointer.shot("9_four_views.png")
+    note("picked in four views", found)
+    yield from pointer.tap("Return")
+    with bpy.context.temp_override(area=area, region=pointer.region("WINDOW")):
+        bpy.ops.screen.region_quadview()
+    yield 0.5
+
+
+def deleted():
+    """The object is deleted while a tool is at work."""
+    for name in TOOLS:
+        before = snapshot()
+        yield from pointer.search(name)
+        yield 0.2
+        note(f"at work before deleting within {name}", at_work())
+        yield from pointer.tap("Delete")
+        yield from pointer.rest(*pointer.in_view())
+        note(f"deleted within {name}", ["spot" not in bpy.context.scene.objects, at_work()])
+        yield from pointer.tap("Escape", "Escape")
+        note(f"at work after deleting within {name}", at_work())
+        for _ in range(2):
+            if differences(before):
+                bpy.ops.ed.undo()
+        note(f"deletion within {name} undone", differences(before))
+
+
+def at_work():
+    """What waits for events in the window."""
+    return sorted(operator.bl_idname for operator in bpy.context.window.modal_operators)
+
+
+def note(name, value):
+    SEEN[name] = value
+
+
+def differences(before):
+    return [str(change)[:300] for change in changes(before, snapshot())]
+
+
+def undo_to(name, before, times=1):
+    yield from keys_to(name, before, *["ctrl+z"] * times)
+
+
+def keys_to(name, wanted, *keys):
+    """Keys over the view; what is not as it should be then."""
+    pointer.xdo("mousemove", *pointer.in_view(0.3, 0.2))
+    yield from pointer.tap(*keys)
+    yield from pointer.until(lambda: snapshot() == wanted, 2.0)
+    note(name, differences(wanted))
+
+
+def shares():
+    return {part.name: round(part.share, 3) for part in spot().data.reeb_parts.parts}
+
+
+def chosen():
+    """The active part, and those that are ticked."""
+    result = spot().data.reeb_parts
+    return [result.parts[result.active].name, [part.name for part in result.parts if part.selected]]
+
+
+def choose(name):
+    result = spot().data.reeb_parts
+    result.active = result.parts.find(name)
+
+
+def number(name):
+    return spot().data.reeb_parts.parts[name].number
+
+
+def on_arc(name):
+    """A place on an arc within a part, away from nodes."""
+    obj = spot()
+    places = pointer.graph_places(obj)
+    node = [place for key, place in places.items() if isinstance(key, str)]
+    from_nodes = lambda p: min((p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2 for q in node)  # noqa: E731
+    curve = next(item for item in obj.children if item.type == "CURVE")
+    inside = []
+    for key, place in places.items():
+        if not isinstance(key, str):
+            point = curve.matrix_world @ curve.data.splines[key[0]].points[key[1]].co.to_3d()
+            hit, _, _, face = obj.closest_point_on_mesh(obj.matrix_world.inverted() @ point)
+            if hit and obj.data.attributes["reeb_part"].data[face].value == number(name):
+                inside.append(place)
+    return max(inside, key=from_nodes)
+
+
+def stroke(start, end):
+    places = pointer.surface_places(spot())
+    (x, y), (u, v) = places[number(start)], places[number(end)]
+    return [(round(x + (u - x) * s / 8), round(y + (v - y) * s / 8)) for s in range(9)]
+
+
+def spot():
+    """Looked up anew, since undo replaces it."""
+    return bpy.data.objects["spot"]
