@@ -120,4 +120,4 @@ def make(vertices, faces):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    checkout.leave(main())

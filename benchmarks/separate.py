@@ -110,4 +110,4 @@ def check(name, make, preset, detail) -> bool:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    checkout.leave(main())

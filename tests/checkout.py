@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """For programs that run in Blender or with Blender as a module: their arguments, and the extension switched on."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -14,6 +15,15 @@ def arguments() -> list[str]:
     if "--" in sys.argv:
         return sys.argv[sys.argv.index("--") + 1 :]
     return [] if bpy.app.binary_path else sys.argv[1:]
+
+
+def leave(status: int):
+    """End the program; at once with Blender as a module, which may hang when it frees what is still held."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    if not bpy.app.binary_path:
+        os._exit(status)
+    sys.exit(status)
 
 
 def enable(folder) -> str:
