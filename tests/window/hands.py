@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hands on the parts, in a real window: cancel, drag Detail, click in the list, slide a boundary, undo.
+"""Hands on the sidebar, in a real window: cancel, drag Detail, all that the list can do, sliders and menus.
 
 Executed inside Blender as driver.py is, which says how.
 """
@@ -11,11 +11,19 @@ import time
 
 import bpy
 
-sys.path.append(os.path.dirname(__file__))
+sys.path += [os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__))]
 import pointer
+from snapshot import changes, snapshot
 
 # Rows below the top of the sidebar.
-DECOMPOSE, DETAIL, LIST = 3.7, 7.0, 12.6
+DECOMPOSE, DETAIL, NUMBER, LIST, USE, OUTPUT, OVERLAY = 3.7, 7.0, 8.0, 12.55, 25.15, 30.1, 31.4
+EMPTY = 33.5  # below the last title
+# Below the title of a sub-panel that is open.
+EXPLODE, PALETTE, SHOW_GRAPH = 9.9, 5.0, 1.6
+# Across the list.
+CHIP, NAME, LOCK, TICK = 0.12, 0.25, 0.627, 0.7
+# In pixels: from a chip to the field of its popup; from a right click to an entry of the menu.
+HEX, MERGE = (99, -32), (-60, 205)
 
 
 def steps():
@@ -29,6 +37,17 @@ def steps():
     yield from clicked(seen)
     yield from slid(seen)
     yield from undone(seen, "slide undone", "drag undone")
+    for scene in (numbered, recolored, renamed, locked, merged_by_menu, exploded, graph_hidden, palette_chosen):
+        if scene in PANELS:  # Blender makes settings where there are none when it draws them
+            yield from pointer.press(*pointer.in_sidebar(PANELS[scene]))
+            yield 0.7
+        bpy.context.view_layer.update()  # undo leaves that for the next redraw
+        before = snapshot()
+        yield from scene(seen)
+        yield from all_undone(seen, scene.__name__, before)
+        if scene in PANELS:
+            yield from pointer.press(*pointer.in_sidebar(PANELS[scene]))
+            yield 0.7
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
 
@@ -93,6 +112,143 @@ def slid(seen):
     yield 1.0
     seen["slid"] = facts()
     pointer.shot("8_slid.png")
+
+
+def numbered(seen):
+    """Type a number of parts."""
+    yield from typed(*pointer.in_sidebar(NUMBER, 0.6), "4")
+    seen["typed"] = facts()
+
+
+def recolored(seen):
+    """The chip of a part, and a colour typed into Blender's popup."""
+    before = corner_colors()
+    x, y = in_list(1, CHIP)
+    yield from pointer.press(x, y)
+    yield 0.5
+    pointer.shot("9_popup.png")
+    yield from typed(x + HEX[0], y + HEX[1], "#FF00FF")
+    yield from pointer.press(*pointer.in_sidebar(EMPTY))  # beside the popup, which closes
+    yield 0.3
+    after = corner_colors()
+    seen["color"] = [round(channel, 3) for channel in mesh().reeb_parts.parts[1].color]
+    seen["recolored"] = sorted({after[i] for i in after if after[i] != before[i]})
+    seen["recolored parts"] = sorted({part_of_corner(i) for i in after if after[i] != before[i]})
+    pointer.shot("10_recolored.png")
+
+
+def renamed(seen):
+    """A double click on a name."""
+    x, y = in_list(2, NAME)
+    yield from pointer.press(x, y)
+    yield from typed(x, y, "Leg", clicks=2)
+    seen["renamed"] = facts()["groups"]
+
+
+def locked(seen):
+    """The lock, and two boxes ticked."""
+    yield from pointer.press(*in_list(1, LOCK))
+    yield from pointer.press(*in_list(3, TICK))
+    yield from pointer.press(*in_list(5, TICK))
+    parts = mesh().reeb_parts.parts
+    seen["locked"] = [part.name for part in parts if part.locked]
+    seen["ticked"] = [part.name for part in parts if part.selected]
+    pointer.shot("11_locked.png")
+
+
+def merged_by_menu(seen):
+    """Tick two parts, right click on the list, Merge Parts."""
+    yield from pointer.press(*in_list(3, TICK))
+    yield from pointer.press(*in_list(5, TICK))
+    yield from pointer.press(*in_list(5, NAME), button=3)
+    yield 0.5
+    pointer.shot("12_menu.png")
+    x, y = in_list(5, NAME)
+    yield from pointer.press(x + MERGE[0], y + MERGE[1])
+    yield 0.3
+    seen["merged"] = facts()["shares"]
+
+
+def exploded(seen):
+    """The slider, away and back."""
+    x, y = pointer.in_sidebar(USE + EXPLODE, 0.7)
+    yield from pointer.drag([(x + 6 * step, y) for step in range(9)])
+    yield 0.3
+    seen["exploded"] = [modifier.name for modifier in spot().modifiers]
+    pointer.shot("14_exploded.png")
+    yield from typed(x, y, "0")
+    seen["together"] = [modifier.name for modifier in spot().modifiers]
+
+
+def graph_hidden(seen):
+    """The tick box under Overlay, off and on."""
+    seen["graph"] = [graph_shown()]
+    for _ in range(2):
+        yield from pointer.press(*pointer.in_sidebar(OVERLAY + SHOW_GRAPH, 0.5))
+        seen["graph"].append(graph_shown())
+
+
+def palette_chosen(seen):
+    """The menu of palettes under Output: the entry below."""
+    before = corner_colors()
+    yield from pointer.press(*pointer.in_sidebar(OUTPUT + PALETTE, 0.6))
+    yield 0.4
+    pointer.shot("15_palettes.png")
+    yield from pointer.tap("Down", "Return")
+    yield 0.4
+    seen["palette"] = [mesh().reeb_parts.palette, corner_colors() != before]
+    pointer.shot("16_palette.png")
+
+
+PANELS = {exploded: USE, graph_hidden: OVERLAY, palette_chosen: OUTPUT}  # what is open for them
+
+
+def typed(x, y, text, clicks=2):
+    """Open a field by clicks, and type over what is in it."""
+    yield from pointer.rest(x, y)
+    for _ in range(clicks):
+        pointer.xdo("click", 1)
+        yield 0.1
+    yield from pointer.tap("ctrl+a")
+    yield from pointer.write(text)
+    yield from pointer.tap("Return")
+    yield 0.3
+
+
+def all_undone(seen, name, before):
+    """Ctrl+Z until the file is as it was; what is not, if it never is."""
+    pointer.xdo("mousemove", *pointer.in_view())
+    for _ in range(6):
+        if changes(before, snapshot()):
+            yield from pointer.tap("ctrl+z")
+            yield 0.2
+            bpy.context.view_layer.update()
+    seen[f"{name}, undone"] = [str(change)[:300] for change in changes(before, snapshot())]
+
+
+def corner_colors():
+    """The colour of each corner, by its index."""
+    return {i: tuple(round(c, 2) for c in item.color_srgb)
+            for i, item in enumerate(mesh().color_attributes["Reeb Parts"].data)}
+
+
+def part_of_corner(index):
+    if not PARTS:
+        for polygon in mesh().polygons:
+            for corner in polygon.loop_indices:
+                PARTS[corner] = mesh().attributes["reeb_part"].data[polygon.index].value
+    return PARTS[index]
+
+
+PARTS = {}
+
+
+def graph_shown():
+    return bpy.data.collections["Reeb Graph spot"].objects[0].visible_get()
+
+
+def spot():
+    return bpy.data.objects["spot"]
 
 
 def in_list(index, across=0.3):

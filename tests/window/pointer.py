@@ -144,14 +144,16 @@ def surface_places(obj, away=14, window=None):
 
     Beside the graph by some pixels, and not under the sidebar. window : a region of four views.
     """
-    free = (80, 80, region("UI").width + 60, 120) if window is None else (20, 20, 20, 20)
+    edge = (80, 120) if window is None else (20, 20)
     window = window or region("WINDOW")
     view = window.data
+    sidebar = region("UI").x - window.x - 60 if view_area().spaces.active.show_region_ui else window.width
+    right = min(window.width - edge[0], sidebar)
     graph = [Vector(point) for point in graph_places(obj).values()]
     found = {}
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    for x in range(free[0], window.width - free[2], 8):
-        for y in range(free[1], window.height - free[3], 8):
+    for x in range(edge[0], right, 8):
+        for y in range(edge[0], window.height - edge[1], 8):
             start = view3d_utils.region_2d_to_origin_3d(window, view, (x, y))
             ahead = view3d_utils.region_2d_to_vector_3d(window, view, (x, y))
             hit, _, _, face, item, _ = bpy.context.scene.ray_cast(depsgraph, start, ahead)

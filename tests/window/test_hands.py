@@ -10,7 +10,7 @@ import pytest
 @pytest.fixture(scope="module")
 def seen(drive):
     """What the driver saw after each step."""
-    return drive("hands.py", "hands")
+    return drive("hands.py", "hands", size="1280x1000")
 
 
 def test_escape_cancels_soon_and_leaves_nothing(seen):
@@ -43,3 +43,50 @@ def test_a_boundary_follows_the_mouse(seen):
 
 def test_a_slide_is_one_step_of_undo(seen):
     assert seen["slide undone"]["shares"] == seen["drag undone"]["shares"]
+
+
+def test_a_number_of_parts_is_typed(seen):
+    assert len(seen["typed"]["shares"]) == 4
+
+
+def test_the_faces_follow_the_colour_chosen_in_the_popup(seen):
+    assert seen["color"] == [1.0, 0.0, 1.0]
+    assert seen["recolored"] == [[1.0, 0.0, 1.0, 1.0]]
+    assert seen["recolored parts"] == [2]
+
+
+def test_a_double_click_renames(seen):
+    assert "Leg" in seen["renamed"]
+    assert "Part 03" not in seen["renamed"]
+
+
+def test_locks_and_ticks(seen):
+    assert seen["locked"] == ["Part 02"]
+    assert seen["ticked"] == ["Part 04", "Part 06"]
+
+
+def test_parts_are_merged_from_the_menu_of_the_list(seen):
+    before, after = seen["decomposed"]["shares"], seen["merged"]
+    assert len(after) == len(before) - 1
+    assert after["Part 04"] == pytest.approx(before["Part 06"] + before["Part 04"], abs=2e-4)
+
+
+def test_the_explode_slider_leaves_nothing_at_zero(seen):
+    assert len(seen["exploded"]) == 1
+    assert seen["together"] == []
+
+
+def test_the_graph_hides_and_shows_at_once(seen):
+    assert seen["graph"] == [True, False, True]
+
+
+def test_another_palette_recolours_at_once(seen):
+    palette, changed = seen["palette"]
+    assert palette != "Colour-blind safe"
+    assert changed
+
+
+@pytest.mark.parametrize("scene", ["numbered", "recolored", "renamed", "locked", "merged_by_menu", "exploded",
+                                   "graph_hidden", "palette_chosen"])
+def test_undo_takes_it_back(seen, scene):
+    assert seen[f"{scene}, undone"] == []

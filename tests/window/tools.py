@@ -179,7 +179,7 @@ def elsewhere():
     yield from pointer.search("Pick Parts")
     yield from pointer.press(*pointer.surface_places(spot())[number("Part 02")])
     note("picked in local view", chosen())
-    yield from pointer.tap("Return", "KP_Divide")
+    yield from pointer.tap("Return", "KP_Divide", "n")
     yield 0.5
     area = pointer.view_area()
     with bpy.context.temp_override(area=area, region=pointer.region("WINDOW")):
@@ -195,7 +195,7 @@ def elsewhere():
                 found.append([name, chosen()[0]])
     pointer.shot("9_four_views.png")
     note("picked in four views", found)
-    yield from pointer.tap("Return")
+    yield from pointer.tap("Return", "n")
     with bpy.context.temp_override(area=area, region=pointer.region("WINDOW")):
         bpy.ops.screen.region_quadview()
     yield 0.5
