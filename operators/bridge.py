@@ -5,6 +5,7 @@ Everything is read in bulk on the main thread, so that what follows can run in a
 """
 
 import hashlib
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import bmesh
@@ -227,10 +228,14 @@ def _corners(mesh, name) -> np.ndarray:
 
 def _digest(*arrays) -> str:
     digest = hashlib.blake2b(digest_size=16)
-    for array in arrays:
-        digest.update(str(array.shape).encode())
-        digest.update(np.ascontiguousarray(array))
+    with ThreadPoolExecutor() as pool:  # hashing large arrays leaves the interpreter to the others
+        for array, part in zip(arrays, pool.map(_digest_of, arrays), strict=True):
+            digest.update(str(array.shape).encode() + part)
     return digest.hexdigest()
+
+
+def _digest_of(array) -> bytes:
+    return hashlib.blake2b(np.ascontiguousarray(array), digest_size=16).digest()
 
 
 def _points(mesh) -> np.ndarray:

@@ -6,13 +6,11 @@ import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import bridge, edit, store
+from . import attributes, bridge, edit, store
 from .parts import PartOperator
 from .problems import SceneError
 
 HINT = n_("Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel")
-
-FEW = 2000  # faces
 
 
 class Boundary:
@@ -124,21 +122,9 @@ class REEB_PARTS_OT_slide(PartOperator, bpy.types.Operator):
 def preview(mesh, numbers, colors, changed=None):
     """Show parts by their colours alone; all else is written when the mouse is released.
 
-    numbers : (p,) int64, the part of each face. colors : from ``store.number_colors``.
-    changed : (k,) int, the only faces that look different from before; all without.
+    Takes what attributes.color_faces takes.
     """
-    attribute = mesh.attributes.get(mesh.reeb_parts.color_attribute)
-    if attribute is None:
-        return
-    _, face = bridge.face_corners(mesh)
-    if changed is None or len(changed) > FEW:
-        attribute.data.foreach_set("color_srgb", colors[numbers][face].ravel())
-    else:  # corners one by one cost less than all of a large mesh
-        first, end = np.searchsorted(face, changed), np.searchsorted(face, changed, side="right")
-        shades = colors[numbers[changed]].tolist()
-        for low, high, shade in zip(first.tolist(), end.tolist(), shades, strict=True):
-            for corner in range(low, high):
-                attribute.data[corner].color_srgb = shade
+    attributes.color_faces(mesh, numbers, colors, changed)
     mesh.update()
 
 
