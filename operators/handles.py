@@ -79,9 +79,10 @@ class REEB_PARTS_OT_from_arc(bpy.types.Operator):
         return parts.has_parts(cls, context, source)
 
     def invoke(self, context, event):
-        """Blender has just selected the curve, by a click that is still where the pointer is."""
+        """Blender has just selected the curve, by the last press of a button; the pointer may have gone on."""
         source = source_of_arcs(context.view_layer.objects.active)
-        place = pointing.view_region(context.area, event) if context.area else None
+        pressed = event.mouse_prev_press_x, event.mouse_prev_press_y
+        place = pointing.view_region(context.area, *pressed) if context.area else None
         if place is None:  # it was selected elsewhere, in the outliner
             return {"CANCELLED"}
         try:
@@ -228,7 +229,7 @@ def _follow_active():
 
 
 def _ask_pointer():
-    """Which arc it was, only the pointer knows: it is still there."""
+    """Which arc it was, only the pointer knows, by where its button was pressed."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type != "VIEW_3D":

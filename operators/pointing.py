@@ -147,13 +147,13 @@ def on_screen(positions, matrix, region, view) -> np.ndarray:
     return (seen[:, :2] / depth + 1.0) * 0.5 * (region.width, region.height)
 
 
-def view_region(area, event):
-    """The region of a viewport that the pointer is in: (region, place in it), or None over a panel."""
+def view_region(area, x, y):
+    """The region of a viewport at a place of the window: (region, place in it), or None over a panel."""
     window = None
     for region in area.regions:
-        x, y = event.mouse_x - region.x, event.mouse_y - region.y
-        if 0 <= x < region.width and 0 <= y < region.height:
+        place = x - region.x, y - region.y
+        if 0 <= place[0] < region.width and 0 <= place[1] < region.height:
             if region.type != "WINDOW":
                 return None
-            window = region, (x, y)
+            window = region, place
     return window

@@ -100,7 +100,7 @@ class ViewTool:
         self._end(context)
 
     def _answer(self, context, event):
-        place = pointing.view_region(context.area, event)
+        place = pointing.view_region(context.area, event.mouse_x, event.mouse_y)
         if event.type in _CANCEL and event.value == "PRESS":
             return self.give_up(context)
         if event.type in _CONFIRM and event.value == "PRESS":

@@ -189,12 +189,12 @@ def graph_hidden(seen):
 
 
 def palette_chosen(seen):
-    """The menu of palettes under Output: the entry below."""
+    """The menu of palettes under Output: Pastel, by its letter."""
     before = corner_colors()
     yield from pointer.press(*pointer.in_sidebar(OUTPUT + PALETTE, 0.6))
     yield 0.4
     pointer.shot("15_palettes.png")
-    yield from pointer.tap("Down", "Return")
+    yield from pointer.tap("p")
     yield 0.4
     seen["palette"] = [mesh().reeb_parts.palette, corner_colors() != before]
     pointer.shot("16_palette.png")

@@ -98,11 +98,14 @@ def until(condition, patience=5.0):
 
 
 def shot(name, box=None):
-    """A picture of the window, or of a box (left, top, right, bottom) of it, into the folder for them."""
+    """A picture of the window into the folder for them.
+
+    With a box (left, top, right, bottom) only of that, in few colours: small enough for the documentation.
+    """
     crop = []
     if box:
         left, top, right, bottom = (round(edge) for edge in box)
-        crop = ["-crop", f"{right - left}x{bottom - top}+{left}+{top}", "+repage"]
+        crop = ["-crop", f"{right - left}x{bottom - top}+{left}+{top}", "+repage", "-dither", "None", "-colors", "200"]
     path = OUT / name
     path.parent.mkdir(parents=True, exist_ok=True)
     subprocess.run(["import", "-window", "root", *crop, str(path)], check=True)

@@ -82,7 +82,7 @@ def test_the_graph_hides_and_shows_at_once(seen):
 
 def test_another_palette_recolours_at_once(seen):
     palette, changed = seen["palette"]
-    assert palette != "Colour-blind safe"
+    assert palette == "Pastel"
     assert changed
 
 

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pictures of docs/user.md, taken with the real pointer and keyboard; made anew by
+
+    GUI_OUT=docs/images/user GUI --size 1280x800 --seconds 240 --driver tests/window/manual_pictures.py
+
+where GUI is the program that opens Blender's window with the extension installed (driver.py says what it does).
+Those of the first steps are what newcomer.py leaves, and images/window.png is 2_decomposed.png of driver.py.
+"""
+
+import os
+import sys
+
+import bpy
+from mathutils import Quaternion, Vector
+
+sys.path.append(os.path.dirname(__file__))
+import pointer
+
+# Rows below the top of the sidebar.
+DETAIL, LIST, USE, OUTPUT, OVERLAY = 7.0, 12.55, 25.15, 30.1, 31.4
+CHIP, NAME = 0.12, 0.25  # across the list
+HEX = (99, -32)  # from a chip to the field of its popup
+BODY, LEG, HEAD, EAR = "Part 01", "Part 02", "Part 06", "Part 04"
+MODEL = (350, 110, 850, 690)  # what is seen of the model
+ALL = (350, 60, 1280, 640)  # and the sidebar
+
+
+def steps():
+    """One picture after the other; yields the seconds to wait."""
+    yield from pointer.spot_alone(maximised=True)
+    overlay = pointer.view_area().spaces.active.overlay
+    overlay.show_floor = overlay.show_axis_x = overlay.show_axis_y = overlay.show_cursor = False
+    yield from found_by_name()
+    for scene in (looked, few_and_many, colored, palettes, listed, picked, cut, painted, slid, by_graph, changed,
+                  exploded, boned, face_sets):
+        yield from scene()
+
+
+def found_by_name():
+    """F3, and the menu under Object."""
+    pointer.xdo("mousemove", *pointer.in_view(0.3, 0.6))
+    pointer.xdo("key", pointer.F3)
+    yield 0.4
+    yield from pointer.write("decompose")
+    yield 0.3
+    x, y = pointer.in_view(0.3, 0.6)
+    pointer.shot("search.png", (x - 20, y - 30, x + 400, y + 110))
+    yield from pointer.tap("Return")
+    yield from pointer.until(lambda: "reeb_part" in spot().data.attributes, pointer.PATIENCE)
+    yield 0.5
+    look()
+    yield 0.5
+
+
+def looked():
+    """All of it; the marks of the graph from near."""
+    choose(HEAD)
+    yield from pointer.rest(*pointer.in_view(0.1, 0.1))
+    yield 0.5
+    pointer.shot("parts.png", ALL)
+    inside = [item.matrix_world.translation for item in spot().children if item.get("part") == number(HEAD)]
+    look(0.55, sum(inside, Vector()) / len(inside))
+    yield 0.7
+    pointer.shot("marks.png", MODEL)
+    look()
+    yield 0.5
+
+
+def few_and_many():
+    for name, detail in (("few.png", 0.2), ("many.png", 0.8)):
+        spot().data.reeb_parts.detail = detail
+        yield 0.6
+        pointer.shot(name, MODEL)
+    spot().data.reeb_parts.detail = 0.5
+    yield 0.4
+
+
+def colored():
+    """The popup of a chip, and a colour typed into it."""
+    x, y = in_list(1, CHIP)
+    yield from pointer.press(x, y)
+    yield 0.4
+    yield from pointer.rest(x + HEX[0], y + HEX[1])
+    pointer.xdo("click", 1)
+    yield 0.1
+    yield from pointer.tap("ctrl+a")
+    yield from pointer.write("#FF00FF")
+    yield from pointer.tap("Return")
+    yield 0.3
+    pointer.shot("colour.png", ALL)
+    yield from pointer.press(*pointer.in_sidebar(33.0))
+    yield from pointer.tap("ctrl+z")
+    yield 0.3
+
+
+def palettes():
+    for palette in ("Pastel", "Bright"):
+        bpy.context.scene.reeb_parts.palette = palette
+        yield 0.5
+        pointer.shot(f"{palette.lower()}.png", MODEL)
+    bpy.context.scene.reeb_parts.palette = "Colour-blind safe"
+    yield 0.3
+
+
+def listed():
+    """A name being changed; the menu of the list; isolated."""
+    yield from pointer.press(*in_list(5, NAME))
+    yield from pointer.press(*in_list(5, NAME), button=3)
+    yield 0.5
+    pointer.shot("menu.png", (830, 130, 1280, 800))
+    yield from pointer.tap("Escape")
+    yield 0.3
+    yield from pointer.rest(*pointer.in_view(0.1, 0.1))
+    yield from pointer.search("Isolate Parts")
+    yield 0.4
+    bpy.ops.object.mode_set(mode="EDIT")
+    yield 0.6
+    pointer.shot("isolated.png", MODEL)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    yield from pointer.search("Show All Parts")
+    yield 0.3
+
+
+def picked():
+    places = pointer.surface_places(spot())
+    yield from pointer.search("Pick Parts")
+    yield from pointer.press(*places[number(HEAD)])
+    yield from pointer.press(*places[number(LEG)], "Shift_L")
+    yield 0.3
+    pointer.shot("pick.png", ALL)
+    yield from pointer.tap("Return")
+
+
+def cut():
+    """The ring, and what a click makes of it."""
+    yield from pointer.search("Cut Part")
+    x, y = pointer.surface_places(spot())[number(BODY)]
+    yield from pointer.rest(x, y)
+    yield 0.3
+    pointer.shot("cut_ring.png", MODEL)
+    yield from pointer.press(x, y)
+    yield 0.4
+    pointer.shot("cut_done.png", MODEL)
+    yield from pointer.tap("ctrl+z")
+    yield 0.4
+
+
+def painted():
+    choose(BODY)
+    places = pointer.surface_places(spot())
+    (x, y), (u, v) = places[number(BODY)], places[number(HEAD)]
+    yield from pointer.search("Paint into")
+    yield from pointer.press(x, y, "Control_L", button=4)
+    yield from pointer.drag([(round(x + (u - x) * s / 8), round(y + (v - y) * s / 8)) for s in range(9)])
+    pointer.shot("paint.png", MODEL)
+    yield from pointer.tap("Escape")
+    yield 0.3
+
+
+def slid():
+    choose(HEAD)
+    yield from pointer.search("Slide Boundary")
+    x, y = pointer.in_view()
+    for step in range(1, 13):
+        pointer.xdo("mousemove", x + 10 * step, y)
+        yield 0.05
+    yield 0.3
+    pointer.shot("slide.png", MODEL)
+    yield from pointer.tap("Escape")
+    yield 0.3
+
+
+def by_graph():
+    """A click on an arc."""
+    curve = next(item for item in spot().children if item.type == "CURVE")
+    longest = max(curve.data.splines, key=lambda spline: len(spline.points))
+    middle = longest.points[len(longest.points) // 2].co.to_3d()
+    yield from pointer.press(*pointer.over(curve.matrix_world @ middle))
+    yield from pointer.rest(*pointer.in_view(0.1, 0.1))
+    yield 1.5  # panels open slowly
+    pointer.shot("arc.png", ALL)
+
+
+def face_sets():
+    """The parts as face sets, and a stroke of Blender's brush over them."""
+    yield from pointer.search("Make Face Sets")
+    yield 0.3
+    bpy.ops.object.mode_set(mode="SCULPT")
+    yield 0.3
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        bpy.ops.brush.asset_activate(asset_library_type="ESSENTIALS", relative_asset_identifier=FACE_SET_BRUSH)
+    yield 0.5
+    places = pointer.surface_places(spot())
+    x, y = places[number(BODY)]
+    yield from pointer.drag([(x - 60 + 20 * step, y - 30) for step in range(8)])
+    yield 0.5
+    pointer.shot("face_sets.png", MODEL)
+    yield from pointer.search("Parts from Face Sets")
+    yield 0.3
+    bpy.ops.object.mode_set(mode="OBJECT")
+    yield 0.5
+    pointer.shot("from_face_sets.png", ALL)
+
+
+def changed():
+    """The button that appears beside the preset."""
+    bpy.context.scene.reeb_parts.alpha = 0.8
+    yield from pointer.rest(*pointer.in_sidebar(6.0))
+    yield 0.5
+    ui = pointer.region("UI")
+    left, top = pointer.from_top(ui.x, ui.y + ui.height)
+    pointer.shot("reset.png", (left, top, left + ui.width, top + 100))
+    yield from pointer.search("Reset Parameters")
+    yield 0.3
+
+
+def exploded():
+    spot().reeb_parts_made.explode = 0.4
+    yield 0.6
+    pointer.shot("explode.png", MODEL)
+    spot().reeb_parts_made.explode = 0.0
+    yield 0.3
+
+
+def boned():
+    yield from pointer.search("Make Armature")
+    yield 0.6
+    pointer.shot("armature.png", MODEL)
+    yield from pointer.tap("ctrl+z")
+    yield 0.4
+
+
+FACE_SET_BRUSH = os.path.join("brushes", "essentials_brushes-mesh_sculpt.blend", "Brush", "Face Set Paint")
+
+
+def look(distance=1.0, middle=(0.0, 0.0, 0.0)):
+    """From the side, the model left of the sidebar. distance : as a share of that to see all of it."""
+    view = pointer.view_area().spaces.active.region_3d
+    view.view_rotation = Quaternion((0.75, 0.48, 0.25, 0.38))
+    view.view_location = Vector(middle) + view.view_rotation @ Vector((0.1 * distance, 0.0, 0.0))
+    view.view_distance = 3.6 * distance
+
+
+def choose(name):
+    spot().data.reeb_parts.active = spot().data.reeb_parts.parts.find(name)
+
+
+def number(name):
+    return spot().data.reeb_parts.parts[name].number
+
+
+def in_list(index, across=0.3):
+    """A place in an entry of the list."""
+    return pointer.in_sidebar(LIST + 1.01 * index, across)
+
+
+def spot():
+    """Looked up anew, since undo replaces it."""
+    return bpy.data.objects["spot"]
