@@ -118,8 +118,8 @@ def by_graph():
     note("a node", [chosen(), bpy.context.view_layer.objects.active.name])
     pointer.shot("7_node.png")
     for name in ("Part 06", "Part 03"):
-        yield from pointer.rest(*on_arc(name))
-        pointer.xdo("click", 1, "mousemove", *pointer.in_view(0.1, 0.1))  # and away at once
+        yield from pointer.press(*on_arc(name))
+        pointer.xdo("mousemove", *pointer.in_view(0.1, 0.1))  # and away, before the view is drawn again
         yield 0.7
         note(f"an arc of {name}", [chosen(), bpy.context.view_layer.objects.active.name])
     pointer.shot("8_arc.png")
