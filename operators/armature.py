@@ -66,13 +66,11 @@ def _bones(obj, decomposition, numbered):
     place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
     turn = np.array(place.inverted() @ world, np.float64)
     points = bridge.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3]
-    stretch = np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+    stretch = store.stretch_of(mesh)
     line = decomposition.graph.point_position @ np.linalg.pinv(stretch).T @ turn[:3, :3].T + turn[:3, 3]
     nodes = decomposition.graph.node_position @ np.linalg.pinv(stretch).T @ turn[:3, :3].T + turn[:3, 3]
-    vertex, face = bridge.face_corners(mesh)
-    corners = np.bincount(face, minlength=len(mesh.polygons))
-    center = _sums(face, points[vertex], len(corners)) / corners[:, None]
-    height = np.bincount(face, np.nan_to_num(decomposition.field)[vertex], len(corners)) / corners
+    center = bridge.face_means(mesh, points)
+    height = bridge.face_means(mesh, np.nan_to_num(decomposition.field))
     edges, sides = _cut_edges(mesh, parts.labels)
     ends = points[edges]
     bones = part_bones(
@@ -83,16 +81,9 @@ def _bones(obj, decomposition, numbered):
     return place, bones
 
 
-def _sums(index, values, count):
-    return np.stack([np.bincount(index, axis, count) for axis in values.T], axis=1)
-
-
 def _cut_edges(mesh, labels):
     """Vertices of the edges on cuts, (e, 2), and the parts on their sides, (e, 2)."""
-    edge, (_, face) = bridge.corner_edges(mesh), bridge.face_corners(mesh)
-    low, high = np.full(len(mesh.edges), len(labels)), np.full(len(mesh.edges), -1)
-    np.minimum.at(low, edge, labels[face])
-    np.maximum.at(high, edge, labels[face])
+    low, high = bridge.edge_labels(mesh, labels)
     cut = low < high
     ends = np.empty(2 * len(mesh.edges), np.int32)
     mesh.edges.foreach_get("vertices", ends)

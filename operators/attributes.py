@@ -503,12 +503,7 @@ def _seam_name(mesh):
 
 def cut_edges(mesh, numbers: np.ndarray) -> np.ndarray:
     """Whether faces of different parts meet at each edge, (e,) bool."""
-    edge = bridge.corner_edges(mesh)
-    _, face = bridge.face_corners(mesh)
-    low = np.full(len(mesh.edges), np.iinfo(np.int64).max)
-    high = np.full(len(mesh.edges), -1, np.int64)
-    np.minimum.at(low, edge, numbers[face])
-    np.maximum.at(high, edge, numbers[face])
+    low, high = bridge.edge_labels(mesh, numbers)
     return low < high
 
 

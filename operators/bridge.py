@@ -201,13 +201,30 @@ def face_pairs(mesh) -> tuple[np.ndarray, np.ndarray]:
     return np.stack([face[first], face[second]], axis=1), edge[first]
 
 
+def edge_labels(mesh, labels) -> tuple[np.ndarray, np.ndarray]:
+    """The smallest and the largest label of the faces at each edge, two (e,) int64 arrays.
+
+    labels : (p,) int64. An edge of no face has the smallest above the largest.
+    """
+    edge, (_, face) = corner_edges(mesh), face_corners(mesh)
+    low, high = np.full(len(mesh.edges), np.iinfo(np.int64).max), np.full(len(mesh.edges), -1, np.int64)
+    np.minimum.at(low, edge, labels[face])
+    np.maximum.at(high, edge, labels[face])
+    return low, high
+
+
+def face_means(mesh, values) -> np.ndarray:
+    """Mean over the corners of each face of what each vertex has: (n,) to (p,), or (n, k) to (p, k)."""
+    vertex, face = face_corners(mesh)
+    count = len(mesh.polygons)
+    total = np.bincount(face, minlength=count)
+    means = [np.bincount(face, column, count) / total for column in np.atleast_2d(values.T)[:, vertex]]
+    return np.stack(means, axis=1) if values.ndim > 1 else means[0]
+
+
 def face_centers(obj) -> np.ndarray:
     """Mean of the corners of each face, (p, 3) float64, along the object's axes in units of the world."""
-    vertex, face = face_corners(obj.data)
-    corners = (shown_points(obj).astype(np.float64) @ world_stretch(obj).T)[vertex]
-    count = len(obj.data.polygons)
-    total = np.bincount(face, minlength=count)
-    return np.stack([np.bincount(face, corners[:, axis], count) / total for axis in range(3)], axis=1)
+    return face_means(obj.data, shown_points(obj).astype(np.float64) @ world_stretch(obj).T)
 
 
 _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}

@@ -49,16 +49,21 @@ def complete(operator):
                 setattr(operator, name, getattr(source, name))
 
 
-class REEB_PARTS_OT_use_preferences(bpy.types.Operator):
-    """Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons"""
+class SceneOperator:
+    """For operators on the settings of the scene."""
 
-    bl_idname = "reeb_parts.use_preferences"
-    bl_label = "Use Preferences in This Scene"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context):
         return context.scene.is_editable
+
+
+class REEB_PARTS_OT_use_preferences(SceneOperator, bpy.types.Operator):
+    """Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons"""
+
+    bl_idname = "reeb_parts.use_preferences"
+    bl_label = "Use Preferences in This Scene"
 
     def execute(self, context):
         settings = context.scene.reeb_parts
@@ -68,16 +73,11 @@ class REEB_PARTS_OT_use_preferences(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class REEB_PARTS_OT_reset_parameters(bpy.types.Operator):
+class REEB_PARTS_OT_reset_parameters(SceneOperator, bpy.types.Operator):
     """Set the parameters back to those of the preset; some of them were changed"""
 
     bl_idname = "reeb_parts.reset_parameters"
     bl_label = "Reset Parameters to Preset"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        return context.scene.is_editable
 
     def execute(self, context):
         settings = context.scene.reeb_parts

@@ -55,14 +55,14 @@ def _segments(graph) -> np.ndarray:
 
 
 def nearest(points: np.ndarray, segments: np.ndarray, target) -> tuple[int, float, float]:
-    """The segment nearest to a point of the plane.
+    """The segment nearest to a point, in the plane or in space.
 
     Parameters
     ----------
-    points : (m, 2) float64
+    points : (m, d) float64
         nan for those that cannot be seen.
     segments : (s, 2) int64
-    target : (2,) float64
+    target : (d,) float64
 
     Returns
     -------
@@ -74,7 +74,7 @@ def nearest(points: np.ndarray, segments: np.ndarray, target) -> tuple[int, floa
     """
     start, end = points[segments[:, 0]], points[segments[:, 1]]
     way = end - start
-    square = np.maximum((way**2).sum(axis=1), 1e-12)
+    square = np.maximum((way**2).sum(axis=1), np.finfo(float).tiny)
     share = np.clip(((np.asarray(target) - start) * way).sum(axis=1) / square, 0.0, 1.0)
     distance = np.linalg.norm(start + share[:, None] * way - target, axis=1)
     distance[np.isnan(distance)] = np.inf

@@ -52,7 +52,7 @@ def show_graph(obj, shown, context):
     try:
         with object_mode(context):
             stored = store.load(obj.data)
-            stretch = np.array(obj.data.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+            stretch = store.stretch_of(obj.data)
             overlay.draw_graph(context, obj, stored.decomposition.graph, stretch, context.scene.reeb_parts)
             overlay.update_parts(obj, stored.shown_parts())
     except SceneError:

@@ -135,7 +135,7 @@ def _arc_batch(source):
         stored = store.load(source.data)
     except SceneError:
         return None
-    stretch = np.array(source.data.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+    stretch = store.stretch_of(source.data)
     lines = GraphLines.of(stored.decomposition, stretch)
     if not len(lines.segments):
         return None

@@ -50,16 +50,10 @@ class Model:
     def __init__(self, obj):
         self.name = obj.name
         self.stored = store.load(obj.data)
-        self.stretch = np.array(obj.data.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+        self.stretch = store.stretch_of(obj.data)
         self.lines = GraphLines.of(self.stored.decomposition, self.stretch)
-        vertex, face = bridge.face_corners(obj.data)
-        count = len(obj.data.polygons)
-        corners = np.bincount(face, minlength=count)
-        field = np.nan_to_num(self.stored.decomposition.field)
-        self.face_value = np.bincount(face, field[vertex], count) / corners
-        points = bridge.shown_points(obj).astype(np.float64)
-        self.face_center = np.stack(
-            [np.bincount(face, axis, count) / corners for axis in points[vertex].T], axis=1)
+        self.face_value = bridge.face_means(obj.data, np.nan_to_num(self.stored.decomposition.field))
+        self.face_center = bridge.face_means(obj.data, bridge.shown_points(obj).astype(np.float64))
         self._tree = None
 
     @property
@@ -85,13 +79,8 @@ class Model:
         location = np.asarray(location, np.float64)
         if not on_graph:
             return self._on_face(int(self.tree.query(location)[1]), location)
-        start, end = self.lines.position[self.lines.segments].transpose(1, 0, 2)
-        way = end - start
-        square = np.maximum((way**2).sum(axis=1), 1e-300)
-        share = np.clip(((location - start) * way).sum(axis=1) / square, 0.0, 1.0)
-        distance = np.linalg.norm(start + share[:, None] * way - location, axis=1)
-        best = int(distance.argmin())
-        return self._on_line(best, float(share[best]))
+        segment, share, _ = nearest(self.lines.position, self.lines.segments, location)
+        return self._on_line(segment, share)
 
     def under(self, context, obj, region, mouse, graph=True, surface=True) -> Target | None:
         """What is at a (2,) place of a region, in its pixels: of the graph first; None beside the model."""

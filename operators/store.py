@@ -161,6 +161,11 @@ def _face_numbers(mesh) -> tuple[np.ndarray, np.ndarray]:
     return faces, np.where(np.isin(faces, tied), faces, 0)
 
 
+def stretch_of(mesh) -> np.ndarray:
+    """What the object did to its mesh when it was decomposed, (3, 3) float64; see bridge.world_stretch."""
+    return np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+
+
 def part_name(mesh, number) -> str:
     """The name somebody gave to a number, or its own."""
     entry = _kept(mesh, number)

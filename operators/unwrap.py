@@ -6,7 +6,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
-from . import attributes, bridge, separate
+from . import attributes, bridge, separate, store
 from .parts import PartOperator
 from .problems import SceneError, translated
 
@@ -67,15 +67,10 @@ def _seams(obj, face_numbers, open_parts):
 
         ends = np.empty(2 * len(mesh.edges), np.int32)
         mesh.edges.foreach_get("vertices", ends)
-        points = bridge.shown_points(obj) @ _stretch(mesh).T
+        points = bridge.shown_points(obj) @ store.stretch_of(mesh).T
         _, face = bridge.face_corners(mesh)
         seams |= opening_seams(points, ends.reshape(-1, 2), bridge.corner_edges(mesh), face, seams)
     return seams
-
-
-def _stretch(mesh):
-    """How the object stretches its mesh, as it was decomposed, (3, 3)."""
-    return np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
 
 
 def _unwrapped(context, obj, seams, method):
@@ -85,7 +80,7 @@ def _unwrapped(context, obj, seams, method):
     copy = separate.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
     try:
-        _prepare(twin, bridge.shown_points(obj) @ _stretch(obj.data).T, seams)
+        _prepare(twin, bridge.shown_points(obj) @ store.stretch_of(obj.data).T, seams)
         context.scene.collection.objects.link(twin)
         for other in selected:
             other.select_set(False)
