@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.colors import PALETTE, PALETTES, part_colors
 from ..core.numbering import NumberedParts
-from . import bridge, store
+from . import bridge, groups, store
 
 FACE_ATTRIBUTE = "reeb_part"
 COLOR_ATTRIBUTE = "Reeb Parts"
@@ -40,9 +40,9 @@ def write_outputs(obj, numbered: NumberedParts, field: np.ndarray, outputs):
         Has the switches of ui.properties.OutputProperties.
     """
     mesh = obj.data
-    remove_groups(obj)
+    groups.remove_groups(obj)
     for wanted, add, remove in (
-        (outputs.vertex_groups, _plan_groups, remove_groups),
+        (outputs.vertex_groups, groups.plan_groups, groups.remove_groups),
         (outputs.face_attribute, add_face_attribute, remove_face_attribute),
         (outputs.colors, add_colors, remove_colors),
         (outputs.field, add_field, remove_field),
@@ -75,7 +75,7 @@ def update_outputs(obj, numbered: NumberedParts, before: np.ndarray | None = Non
     colors = store.number_colors(mesh)
     _list_parts(obj, numbered)
     if result.has_groups:
-        _write_groups(obj, numbers, before)
+        groups.write_groups(obj, numbers, before)
     if attribute := mesh.attributes.get(result.face_attribute):
         attribute.data.foreach_set("value", numbers.astype(np.int32))
     update_colors(mesh, numbered, _recolored(before, numbers, colors, store.number_colors(mesh)))
@@ -109,7 +109,7 @@ def _recolored(before, after, old, new):
 
 def remove_outputs(obj):
     """Take back all that was written to the mesh; the result itself stays."""
-    for remove in (remove_groups, remove_face_attribute, remove_colors, remove_field, remove_face_sets,
+    for remove in (groups.remove_groups, remove_face_attribute, remove_colors, remove_field, remove_face_sets,
                    remove_materials, remove_seams):
         remove(obj)
     obj.data.update()
@@ -125,7 +125,7 @@ def _list_parts(obj, numbered):
     colors = _colors(obj.data, numbered)
     for number, (_, _, group, material) in known.items():
         if number not in wanted:
-            _remove_group(obj, group)
+            groups.remove_group(obj, group)
             _remove_material(obj.data, material)
     with store.quiet():
         result.parts.clear()
@@ -148,126 +148,6 @@ def _colors(mesh, numbered) -> np.ndarray:
     for number, color in store.kept_colors(mesh).items():
         colors[numbered.numbers == number] = color
     return colors
-
-
-# Vertex groups
-
-
-def group_changes(vertex: np.ndarray, before: np.ndarray, after: np.ndarray) -> tuple[dict, dict]:
-    """Which vertices come to which parts, and which go.
-
-    A vertex is in every part that has a face there, so that parts share those on cuts.
-
-    Parameters
-    ----------
-    vertex : (c,) int32
-        Of each corner.
-    before, after : (c,) int
-        Number of the part of the corner's face; 0 for none.
-
-    Returns
-    -------
-    come, gone : dict of number -> (k,) int64
-    """
-    count = int(vertex.max(initial=-1)) + 1
-    (old, old_more), (new, new_more) = (_members(vertex, numbers, count) for numbers in (before, after))
-    # Vertices with several parts are few, and looked at one by one.
-    several = np.zeros(count, bool)
-    several[old_more[1]] = several[new_more[1]] = True
-    moved, cut = np.flatnonzero((old != new) & ~several), np.flatnonzero(several)
-    old_pairs, new_pairs = (
-        np.concatenate([more[0].astype(np.int64) * count + more[1], first[cut].astype(np.int64) * count + cut])
-        for first, more in ((old, old_more), (new, new_more))
-    )
-    found = []
-    for first, mine, others in ((new, new_pairs, old_pairs), (old, old_pairs, new_pairs)):
-        number, shared = np.divmod(np.setdiff1d(mine, others, assume_unique=True), count)
-        found.append(_by_number(np.concatenate([first[moved], number]), np.concatenate([moved, shared])))
-    return tuple(found)
-
-
-def _members(vertex, numbers, count):
-    """A part of each vertex, 0 for none; and the other parts of those on cuts, as numbers and vertices."""
-    first = np.zeros(count, numbers.dtype)
-    first[vertex] = numbers
-    left = np.flatnonzero(first[vertex] != numbers)
-    vertex, numbers = vertex[left], numbers[left]
-    part, more = first.copy(), [(numbers[:0], vertex[:0])]
-    while len(vertex):  # as often as parts meet in one vertex
-        part[vertex] = numbers
-        where = np.unique(vertex)
-        more.append((part[where], where))
-        left = part[vertex] != numbers
-        vertex, numbers = vertex[left], numbers[left]
-    return first, [np.concatenate(values) for values in zip(*more, strict=True)]
-
-
-def _by_number(numbers, vertices):
-    """Vertices of each number above 0."""
-    # Small whole numbers are sorted much faster.
-    order = np.argsort(numbers.astype(np.int16) if numbers.max(initial=0) < 2**15 else numbers, kind="stable")
-    numbers, vertices = numbers[order], vertices[order]
-    bounds = np.flatnonzero(np.diff(numbers, prepend=0))
-    return dict(zip(numbers[bounds].tolist(), np.split(vertices, bounds)[1:], strict=True))
-
-
-def _plan_groups(obj):
-    obj.data.reeb_parts.has_groups = True
-
-
-def _write_groups(obj, numbers, before):
-    """Make each part's group hold the part's vertices."""
-    vertex, face = bridge.face_corners(obj.data)
-    parts = {part.number: part for part in obj.data.reeb_parts.parts}
-    fresh = [number for number, part in parts.items() if part.group not in obj.vertex_groups]
-    if before is None or np.isin(before, fresh).any():
-        before = np.zeros_like(numbers)
-    # Only at the corners of faces that changed can a vertex have come or gone.
-    near = np.zeros(len(obj.data.vertices), bool)
-    near[vertex[(numbers != before)[face]]] = True
-    near = near[vertex]
-    near_face = face[near]
-    come, gone = group_changes(vertex[near], before.astype(np.int32)[near_face], numbers.astype(np.int32)[near_face])
-    active = obj.vertex_groups.active_index
-    for number in sorted(parts):
-        part = parts[number]
-        if part.group not in obj.vertex_groups:
-            part.group = obj.vertex_groups.new(name=part.name).name
-        group = obj.vertex_groups[part.group]
-        if number in gone:
-            group.remove(gone[number].tolist())
-        if number in come:
-            group.add(come[number].tolist(), 1.0, "REPLACE")
-    if active >= 0:
-        obj.vertex_groups.active_index = active
-
-
-def _remove_group(obj, name):
-    group = obj.vertex_groups.get(name) if name else None
-    if group is None:
-        return
-    active = obj.vertex_groups.active
-    former = active.name if active else ""
-    obj.vertex_groups.remove(group)
-    if former in obj.vertex_groups:
-        obj.vertex_groups.active_index = obj.vertex_groups[former].index
-
-
-def remove_groups(obj):
-    """Remove the vertex groups that were made, and no other."""
-    result = obj.data.reeb_parts
-    for part in result.parts:
-        _remove_group(obj, part.group)
-        part.group = ""
-    result.has_groups = False
-
-
-def rename_group(obj, part):
-    """Give the part's vertex group the part's name, or the nearest that is free."""
-    if part.group in obj.vertex_groups:
-        group = obj.vertex_groups[part.group]
-        group.name = part.name
-        part.group = group.name
 
 
 # Face attribute, colours, field

@@ -9,7 +9,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from . import attributes, overlay, store
+from . import attributes, groups, overlay, store
 from .modes import object_mode
 from .problems import SceneError
 
@@ -37,7 +37,7 @@ def rename(part, context):
         if not part.name.strip():
             part.name = store.part_name(mesh, part.number)
         for obj in users(mesh)[:1]:
-            attributes.rename_group(obj, part)
+            groups.rename_group(obj, part)
         store.keep_name(mesh, part.number, part.name)
         with object_mode(context):
             _anchor(mesh, part.number)
