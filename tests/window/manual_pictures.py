@@ -22,7 +22,7 @@ CHIP, NAME = 0.12, 0.25  # across the list
 HEX = (99, -32)  # from a chip to the field of its popup
 BODY, LEG, HEAD, EAR = "Part 01", "Part 02", "Part 06", "Part 04"
 MODEL = (350, 110, 850, 690)  # what is seen of the model
-ALL = (350, 60, 1280, 640)  # and the sidebar
+ALL = (350, 60, 1270, 690)  # and the sidebar
 
 
 def steps():
@@ -205,7 +205,7 @@ def face_sets():
 def changed():
     """The button that appears beside the preset."""
     bpy.context.scene.reeb_parts.alpha = 0.8
-    yield from pointer.rest(*pointer.in_sidebar(6.0))
+    pointer.region("UI").tag_redraw()
     yield 0.5
     ui = pointer.region("UI")
     left, top = pointer.from_top(ui.x, ui.y + ui.height)
@@ -215,7 +215,7 @@ def changed():
 
 
 def exploded():
-    spot().reeb_parts_made.explode = 0.4
+    spot().reeb_parts_made.explode = 0.2
     yield 0.6
     pointer.shot("explode.png", MODEL)
     spot().reeb_parts_made.explode = 0.0

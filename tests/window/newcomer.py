@@ -2,7 +2,7 @@
 """The newcomer's path, in a real window: from Blender's default scene to separate parts of Suzanne.
 
 Executed inside Blender as driver.py is, which says how. Each picture is taken while the pointer rests where the
-next click goes; tools/window_pictures.py makes those of docs/user.md of them.
+next click goes. Those of docs/user.md, in docs/images/first, are copies of them.
 """
 
 import json
@@ -31,21 +31,21 @@ def steps():
     yield from click_on("the tab", *pointer.in_sidebar(TAB, 0.96))
     seen["tab"] = pointer.region("UI").active_panel_category
     yield from pointer.rest(*pointer.in_sidebar(DECOMPOSE))
-    pointer.shot("3_tab.png")
+    pointer.shot("3_tab.png", (300, 60, 1050, 500))
     yield from click_on("Decompose", *pointer.in_sidebar(DECOMPOSE))
     yield from pointer.until(lambda: "reeb_part" in suzanne().data.attributes, pointer.PATIENCE)
     yield 1.0
     seen["decomposed"] = facts()
     yield from pointer.rest(*pointer.in_sidebar(USE_PARTS))
-    pointer.shot("4_decomposed.png")
+    pointer.shot("4_decomposed.png", (300, 60, 1050, 700))
     yield from click_on("Use Parts", *pointer.in_sidebar(USE_PARTS))
     yield from pointer.rest(*pointer.in_sidebar(SEPARATE))
-    pointer.shot("5_use.png")
+    pointer.shot("5_use.png", (300, 60, 1050, 815))
     yield from click_on("Separate", *pointer.in_sidebar(SEPARATE))
     yield from pointer.rest(*pointer.in_view(0.3, 0.75))
     seen["separated"] = facts()
     seen["clicks"] = CLICKS
-    pointer.shot("6_separated.png")
+    pointer.shot("6_separated.png", (300, 60, 1280, 560))
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
 
@@ -58,7 +58,7 @@ def add_suzanne():
     yield 0.3
     yield from pointer.write("monkey")
     yield 0.5
-    pointer.shot("1_add.png")
+    pointer.shot("1_add.png", (300, 330, 836, 440))
     yield from pointer.tap("Return")
     yield 0.8
     view = pointer.view_area().spaces.active.region_3d

@@ -105,7 +105,7 @@ def shot(name, box=None):
     crop = []
     if box:
         left, top, right, bottom = (round(edge) for edge in box)
-        crop = ["-crop", f"{right - left}x{bottom - top}+{left}+{top}", "+repage", "-dither", "None", "-colors", "200"]
+        crop = ["-crop", f"{right - left}x{bottom - top}+{left}+{top}", "+repage", "-dither", "None", "-colors", "128"]
     path = OUT / name
     path.parent.mkdir(parents=True, exist_ok=True)
     subprocess.run(["import", "-window", "root", *crop, str(path)], check=True)
