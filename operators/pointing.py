@@ -136,6 +136,14 @@ def on_screen(positions, matrix, region, view) -> np.ndarray:
     return (seen[:, :2] / depth + 1.0) * 0.5 * (region.width, region.height)
 
 
+def viewport_region(screen, x, y):
+    """The region of any viewport of a screen at a place of the window, as of ``view_region``."""
+    for area in screen.areas:
+        if area.type == "VIEW_3D" and 0 <= x - area.x < area.width and 0 <= y - area.y < area.height:
+            return view_region(area, x, y)
+    return None
+
+
 def view_region(area, x, y):
     """The region of a viewport at a place of the window: (region, place in it), or None over a panel."""
     window = None

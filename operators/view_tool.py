@@ -100,7 +100,8 @@ class ViewTool:
         self._end(context)
 
     def _answer(self, context, event):
-        place = pointing.view_region(context.area, event.mouse_x, event.mouse_y)
+        # Of the area that it was started in there may be nothing left: another workspace, a maximised area.
+        place = pointing.viewport_region(context.window.screen, event.mouse_x, event.mouse_y)
         if event.type in _CANCEL and event.value == "PRESS":
             return self.give_up(context)
         if event.type in _CONFIRM and event.value == "PRESS":
@@ -142,14 +143,16 @@ class ViewTool:
         self.begin(context, obj)
 
     def _redraw(self, context):
-        context.area.tag_redraw()
+        for area in context.window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
 
     def _end(self, context):
         self.preview.remove()
         context.window.cursor_modal_restore()
-        context.workspace.status_text_set(None)
-        if context.area is not None:
-            context.area.tag_redraw()
+        for workspace in bpy.data.workspaces:
+            workspace.status_text_set(None)
+        self._redraw(context)
 
 
 def _key(obj):

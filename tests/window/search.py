@@ -205,10 +205,10 @@ def steps():
     for name in (*MODES, "OBJECT"):  # each brings its brushes along
         bpy.ops.object.mode_set(mode=name)
     bpy.ops.ed.undo_push(message="Decomposed")
-    start = snapshot()
+    start = look()
     for command in COMMANDS:
         yield from tried(command, seen)
-        back = changes(start, snapshot())
+        back = changes(start, look())
         if back:
             raise AssertionError(f"{command.name} left {back}")
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
@@ -221,11 +221,11 @@ def tried(command, seen):
     bpy.ops.ed.undo_push(message="ready")
     yield 0.05
     key = f"{command.name}, {bpy.context.mode}"
-    before, said = snapshot(), len(bpy.context.window_manager.reports)
+    before, said = look(), len(bpy.context.window_manager.reports)
     yield from pointer.search(command.name)
     yield from command.hands(spot())
     yield from pointer.until(lambda: len(bpy.context.window_manager.reports) > said)
-    after = snapshot()
+    after = look()
     seen[key] = {
         "changed": [path for path, *_ in changes(before, after)],
         "said": [f"{r.type}: {r.message}" for r in list(bpy.context.window_manager.reports)[said:]],
@@ -236,11 +236,17 @@ def tried(command, seen):
         pointer.xdo("mousemove", *pointer.in_view())
         for name, keys, wanted in (("undone", "ctrl+z", before), ("redone", "ctrl+shift+z", after)):
             pointer.xdo("key", keys)
-            yield from pointer.until(lambda wanted=wanted: snapshot() == wanted, 2.0)
-            seen[key][name] = [str(change)[:200] for change in changes(wanted, snapshot())]
+            yield from pointer.until(lambda wanted=wanted: look() == wanted, 2.0)
+            seen[key][name] = [str(change)[:200] for change in changes(wanted, look())]
         bpy.ops.ed.undo()
     bpy.ops.ed.undo()
     yield 0.05
+
+
+def look():
+    """The file as it is, with all that depends on what was changed."""
+    bpy.context.view_layer.update()
+    return snapshot()
 
 
 def spot():

@@ -78,8 +78,9 @@ def test_a_tool_starts_from_its_button(seen, name):
     assert seen[f"button {name}"] == [f"REEB_PARTS_OT_{name.lower()}"]
 
 
-def test_picking_in_local_view_and_in_each_of_four_views(seen):
+def test_picking_in_local_view_maximised_and_in_each_of_four_views(seen):
     assert seen["picked in local view"] == ["Part 02", []]
+    assert seen["picked while maximised"] == ["Part 06", []]
     found = seen["picked in four views"]
     assert len(found) == 8
     assert [name for name, _ in found] == [name for _, name in found]

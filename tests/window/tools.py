@@ -182,6 +182,13 @@ def elsewhere():
     note("picked in local view", chosen())
     yield from pointer.tap("Return", "KP_Divide", "n")
     yield 0.5
+    yield from pointer.search("Pick Parts")
+    yield from pointer.tap("ctrl+space")  # the viewport fills the window
+    yield 1.0
+    yield from pointer.press(*pointer.surface_places(spot())[number("Part 06")])
+    note("picked while maximised", chosen())
+    yield from pointer.tap("Return", "ctrl+space")
+    yield 1.0
     area = pointer.view_area()
     with bpy.context.temp_override(area=area, region=pointer.region("WINDOW")):
         bpy.ops.screen.region_quadview()
