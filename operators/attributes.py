@@ -141,10 +141,15 @@ def _list_parts(obj, numbered):
         result.n_parts = len(wanted)
 
 
+def palette_colors(mesh, numbered: NumberedParts) -> np.ndarray:
+    """The colour of each part from the mesh's palette, (count, 3) float64 sRGB."""
+    palette = PALETTES.get(mesh.reeb_parts.palette, PALETTE)
+    return part_colors(numbered.parts.count, numbered.parts.cuts, palette)
+
+
 def _colors(mesh, numbered) -> np.ndarray:
     """The colour of each part, (count, 3) float64 sRGB: somebody's choice, or from the palette."""
-    palette = PALETTES.get(mesh.reeb_parts.palette, PALETTE)
-    colors = part_colors(numbered.parts.count, numbered.parts.cuts, palette)
+    colors = palette_colors(mesh, numbered)
     for number, color in store.kept_colors(mesh).items():
         colors[numbered.numbers == number] = color
     return colors

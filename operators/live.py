@@ -77,10 +77,13 @@ def recolor(part, context):
     if store.is_quiet():
         return
     mesh = part.id_data
-    store.keep_color(mesh, part.number, part.color)
     try:
         with object_mode(context):
             numbered = store.load(mesh).shown_parts()
+            own = attributes.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
+            # Blender's popup, when it is cancelled, sets the colour back.
+            chosen = np.abs(own - part.color).max() > 0.5 / 255
+            store.keep_color(mesh, part.number, part.color[:] if chosen else None)
             # The list stays as it is: somebody has a hand on one of its colours.
             attributes.update_colors(mesh, numbered)
             for obj in users(mesh):

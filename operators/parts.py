@@ -134,6 +134,13 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
 
     show_all: bpy.props.BoolProperty(name="Show all", description="Show every face again")
 
+    def execute(self, context):
+        seen = self.show_all or context.mode != "OBJECT"
+        result = super().execute(context)
+        if "FINISHED" in result and not seen:
+            self.report({"INFO"}, rpt_("Object Mode shows hidden faces all the same; Edit Mode and paint modes do not"))
+        return result
+
     def work(self, context, obj, stored):
         mesh = obj.data
         numbers = stored.shown[stored.decomposition.candidates]

@@ -180,9 +180,10 @@ def keep_name(mesh, number, name):
 
 
 def keep_color(mesh, number, color):
-    """Remember a colour, also while its part is not shown. color : three values, sRGB."""
-    entry = _keep(mesh, number, True)
-    entry.color, entry.has_color = color, True
+    """Remember a colour, also while its part is not shown. color : three values, sRGB; None for the palette's."""
+    if entry := _keep(mesh, number, color is not None):
+        entry.color, entry.has_color = color or (0.0, 0.0, 0.0), color is not None
+        _drop_empty(mesh)
 
 
 def kept_colors(mesh) -> dict:

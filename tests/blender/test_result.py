@@ -138,6 +138,16 @@ def test_a_colour_that_is_chosen_stays_with_the_part(obj, result):
     check_colors(obj)
 
 
+def test_a_colour_set_back_is_the_palettes_again(obj, result):
+    before = result.parts[1].color[:]
+    result.parts[1].color = (1.0, 0.0, 0.5)
+    assert len(result.names) == 1
+    result.parts[1].color = before
+    assert len(result.names) == 0
+    bpy.context.scene.reeb_parts.palette = "Pastel"
+    assert min(result.parts[1].color) >= 0.5
+
+
 def test_a_palette_is_seen_at_once_and_spares_chosen_colours(obj, result):
     result.parts[0].color = (0.1, 0.2, 0.3)
     before = [part.color[:] for part in result.parts]

@@ -472,6 +472,8 @@ TEXTS = {
     "The stored parts were written by another version. Decompose again.":
         "Die gespeicherten Teile stammen von einer anderen Version. Bitte erneut zerlegen.",
     # Was die Werkzeuge melden
+    "Object Mode shows hidden faces all the same; Edit Mode and paint modes do not":
+        "Der Objektmodus zeigt verborgene Flächen trotzdem; Bearbeitungs- und Malmodi nicht",
     "There is no part with the number {number}.": "Es gibt kein Teil mit der Nummer {number}.",
     "{name} is locked. Unlock it in the list first.": "{name} ist gesperrt. Bitte zuerst in der Liste entsperren.",
     "Mark the parts to merge in the list, two or more.":
