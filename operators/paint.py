@@ -126,8 +126,11 @@ class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
         return True
 
     def confirm(self, context):
-        obj = self._restore(context)
+        self._restore()
+        obj = context.view_layer.objects.active
         try:
+            if not self.is_current(obj):
+                raise SceneError(rpt_("The object was changed meanwhile."))
             message = _paint(context, obj, self.brush)
         except SceneError as error:
             self.report({"ERROR"}, str(error))
@@ -136,11 +139,11 @@ class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
         return {"FINISHED"}
 
     def give_up(self, context):
-        self._restore(context)
+        self._restore()
         return {"CANCELLED"}
 
     def cancel(self, context):
-        self._restore(context)
+        self._restore()
         super().cancel(context)
 
     def _dab(self, context, target):
@@ -149,11 +152,11 @@ class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
         dab.location, dab.radius = target.location.tolist(), self.radius
         slide.preview(context.view_layer.objects.active.data, self.brush.numbers(), self.colors, fresh)
 
-    def _restore(self, context):
-        """Show the parts as they are; the object."""
-        obj = bpy.data.objects[self.model.name]
-        slide.preview(obj.data, self.model.numbers, self.colors)
-        return obj
+    def _restore(self):
+        """Show the parts as they are."""
+        obj = bpy.data.objects.get(self.model.name)
+        if self.is_current(obj):
+            slide.preview(obj.data, self.model.numbers, self.colors)
 
     def _show_brush(self, target):
         """A circle as large as the brush, lying on the surface."""

@@ -132,10 +132,14 @@ class ViewTool:
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH" or obj.mode != "OBJECT":
             raise SceneError(rpt_("The object was changed meanwhile."))
-        if self._key != _key(obj):
+        if not self.is_current(obj):
             self._read(context, obj)
         self.preview.matrix = obj.matrix_world.copy()
         return self.model.under(context, obj, region, mouse, graph=self.uses_graph)
+
+    def is_current(self, obj) -> bool:
+        """Whether an object is the one that was read, with the parts that it had then; it may be None."""
+        return obj is not None and obj.type == "MESH" and self._key == _key(obj)
 
     def _read(self, context, obj):
         self.model = pointing.Model(obj)
