@@ -32,7 +32,7 @@ def steps():
     overlay.show_floor = overlay.show_axis_x = overlay.show_axis_y = overlay.show_cursor = False
     yield from found_by_name()
     for scene in (looked, few_and_many, colored, palettes, listed, picked, cut, painted, slid, by_graph, changed,
-                  exploded, boned, face_sets):
+                  exploded, boned, seamed, unwrapped, face_sets):
         yield from scene()
 
 
@@ -228,6 +228,33 @@ def boned():
     pointer.shot("armature.png", MODEL)
     yield from pointer.tap("ctrl+z")
     yield 0.4
+
+
+def seamed():
+    """The seams, in Edit Mode."""
+    yield from pointer.search("Mark Seams")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    yield 0.6
+    pointer.shot("seams.png", (370, 480, 720, 680))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    yield 0.3
+
+
+def unwrapped():
+    """The islands, in the UV editor."""
+    yield from pointer.search("Unwrap along Cuts")
+    yield 0.5
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    area = pointer.view_area()
+    area.ui_type = "UV"
+    yield 1.0
+    pointer.shot("unwrap.png", (490, 270, 790, 565))
+    area.ui_type = "VIEW_3D"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    yield 1.0
+    look()
 
 
 FACE_SET_BRUSH = os.path.join("brushes", "essentials_brushes-mesh_sculpt.blend", "Brush", "Face Set Paint")
