@@ -85,9 +85,7 @@ def _cut_edges(mesh, labels):
     """Vertices of the edges on cuts, (e, 2), and the parts on their sides, (e, 2)."""
     low, high = bridge.edge_labels(mesh, labels)
     cut = low < high
-    ends = np.empty(2 * len(mesh.edges), np.int32)
-    mesh.edges.foreach_get("vertices", ends)
-    return ends.reshape(-1, 2)[cut], np.stack([low, high], axis=1)[cut]
+    return bridge.edge_ends(mesh)[cut], np.stack([low, high], axis=1)[cut]
 
 
 def _write_groups(obj, numbered):

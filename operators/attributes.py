@@ -72,13 +72,16 @@ def update_outputs(obj, numbered: NumberedParts, before: np.ndarray | None = Non
     mesh = obj.data
     result = mesh.reeb_parts
     numbers = numbered.face_numbers
-    colors = store.number_colors(mesh)
+    former = store.number_colors(mesh)
     _list_parts(obj, numbered)
+    colors = store.number_colors(mesh)
     if result.has_groups:
         groups.write_groups(obj, numbers, before)
     if attribute := mesh.attributes.get(result.face_attribute):
         attribute.data.foreach_set("value", numbers.astype(np.int32))
-    update_colors(mesh, numbered, _recolored(before, numbers, colors, store.number_colors(mesh)))
+    color_faces(mesh, numbers, colors, _recolored(before, numbers, former, colors))
+    if result.has_materials:
+        _write_materials(mesh, numbered)
     if result.has_face_sets:
         mesh.attributes[FACE_SETS].data.foreach_set("value", numbers.astype(np.int32))
     if result.has_seams:
@@ -86,12 +89,9 @@ def update_outputs(obj, numbered: NumberedParts, before: np.ndarray | None = Non
     mesh.update()
 
 
-def update_colors(mesh, numbered: NumberedParts, changed: np.ndarray | None = None):
-    """Bring the colour attribute and the materials up to date with the colours of the list.
-
-    changed : (k,) int, the only faces that are coloured otherwise than before; all without.
-    """
-    color_faces(mesh, numbered.face_numbers, store.number_colors(mesh), changed)
+def update_colors(mesh, numbered: NumberedParts):
+    """Bring the colour attribute and the materials up to date with the colours of the list, which stays."""
+    color_faces(mesh, numbered.face_numbers, store.number_colors(mesh))
     if mesh.reeb_parts.has_materials:
         _write_materials(mesh, numbered)
     mesh.update()

@@ -185,9 +185,7 @@ def face_graph(obj) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     a, b, c = shape.vertices[shape.triangles].transpose(1, 0, 2)
     area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
     pairs, edge = face_pairs(obj.data)
-    ends = np.empty(2 * len(obj.data.edges), np.int32)
-    obj.data.edges.foreach_get("vertices", ends)
-    start, end = shape.vertices[ends.reshape(-1, 2)[edge]].transpose(1, 0, 2)
+    start, end = shape.vertices[edge_ends(obj.data)[edge]].transpose(1, 0, 2)
     return np.bincount(shape.polygon, area, len(obj.data.polygons)), pairs, np.linalg.norm(end - start, axis=1)
 
 
@@ -199,6 +197,13 @@ def face_pairs(mesh) -> tuple[np.ndarray, np.ndarray]:
     together = np.flatnonzero(np.diff(edge[order]) == 0)
     first, second = order[together], order[together + 1]
     return np.stack([face[first], face[second]], axis=1), edge[first]
+
+
+def edge_ends(mesh) -> np.ndarray:
+    """The vertices of each edge, (e, 2) int32; not in Edit Mode."""
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    return ends.reshape(-1, 2)
 
 
 def edge_labels(mesh, labels) -> tuple[np.ndarray, np.ndarray]:

@@ -18,9 +18,7 @@ class Knife:
     def __init__(self, obj, model):
         mesh = obj.data
         self.model = model
-        self.edges = np.empty(2 * len(mesh.edges), np.int32)
-        mesh.edges.foreach_get("vertices", self.edges)
-        self.edges = self.edges.reshape(-1, 2)
+        self.edges = bridge.edge_ends(mesh)
         self.corner_edge, (_, self.corner_face) = bridge.corner_edges(mesh), bridge.face_corners(mesh)
         self.vertices = bridge.shown_points(obj).astype(np.float64)
 
@@ -104,8 +102,7 @@ class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):
 
     def work(self, context, obj, stored):
         model = pointing.Model(obj)
-        place = obj.matrix_world.inverted_safe() @ Vector(self.location)
-        return cut_at(context, obj, model, model.at(place, self.on_graph))
+        return cut_at(context, obj, model, model.at(obj, self.location, self.on_graph))
 
     def hint(self):
         return rpt_("Click the graph or the surface to cut the part there    Enter, Esc: end")

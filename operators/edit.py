@@ -55,6 +55,11 @@ def check_unlocked(obj, numbers):
             raise SceneError(rpt_("{name} is locked. Unlock it in the list first.").format(name=part.name))
 
 
+def locked_others(mesh, number) -> list[int]:
+    """Numbers of the locked parts but for one."""
+    return [part.number for part in mesh.reeb_parts.parts if part.locked and part.number != number]
+
+
 def merge(context, obj, stored, numbers, into):
     """Make one part of several that touch; raises SceneError if they do not."""
     from ..core.editing import pieces
@@ -179,8 +184,7 @@ class REEB_PARTS_OT_shrink(PartOperator, bpy.types.Operator):
 
 def _not_locked(obj, stored, number) -> np.ndarray:
     """Candidates of other parts that the user did not lock, (c,) bool."""
-    held = [part.number for part in obj.data.reeb_parts.parts if part.locked and part.number != number]
-    return ~np.isin(stored.shown, held)
+    return ~np.isin(stored.shown, locked_others(obj.data, number))
 
 
 def _move(context, obj, stored, candidate, number):

@@ -103,8 +103,7 @@ class REEB_PARTS_OT_from_arc(bpy.types.Operator):
         except SceneError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        place = source.matrix_world.inverted_safe() @ Vector(self.location)
-        choose(source, [model.number(model.at(place, True))])
+        choose(source, [model.number(model.at(source, self.location, True))])
         item.select_set(False)
         source.select_set(True)
         context.view_layer.objects.active = source

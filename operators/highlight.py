@@ -44,9 +44,7 @@ def outline(obj, numbers) -> np.ndarray:
     mesh = obj.data
     stored = store.load(mesh)
     mine = np.isin(stored.shown[stored.decomposition.candidates], numbers)
-    ends = np.empty(2 * len(mesh.edges), np.int32)
-    mesh.edges.foreach_get("vertices", ends)
-    edges = ends.reshape(-1, 2)[attributes.cut_edges(mesh, mine.astype(np.int64))]
+    edges = bridge.edge_ends(mesh)[attributes.cut_edges(mesh, mine.astype(np.int64))]
     return bridge.shown_points(obj)[edges.ravel()]
 
 

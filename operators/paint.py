@@ -34,8 +34,7 @@ class Brush:
         self.start = np.append(0, np.cumsum(np.bincount(first, minlength=count)))
         self.place = np.full(count, -1)
         self.chosen = np.zeros(count, bool)
-        locked = [part.number for part in obj.data.reeb_parts.parts if part.locked and part.number != number]
-        self.free = ~np.isin(model.numbers, locked)
+        self.free = ~np.isin(model.numbers, edit.locked_others(obj.data, number))
 
     def dab(self, location, radius) -> np.ndarray:
         """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there.

@@ -25,8 +25,7 @@ class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):
 
     def work(self, context, obj, stored):
         model = pointing.Model(obj)
-        place = obj.matrix_world.inverted_safe() @ Vector(self.location)
-        self._choose(obj, model.number(model.at(place, False)), self.extend)
+        self._choose(obj, model.number(model.at(obj, self.location, False)), self.extend)
 
     def hint(self):
         return rpt_("Click a part or the graph to choose it    Shift: several    Enter, Esc: end")

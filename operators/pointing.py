@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from bpy_extras import view3d_utils
+from mathutils import Vector
 
 from . import bridge, overlay, store
 from .graph_lines import GraphLines, nearest
@@ -74,9 +75,9 @@ class Model:
         """The part that a target lies in."""
         return int(self.stored.shown[target.candidate])
 
-    def at(self, location, on_graph) -> Target:
-        """The place of the graph, or of the surface, nearest to a (3,) location in mesh coordinates."""
-        location = np.asarray(location, np.float64)
+    def at(self, obj, location, on_graph) -> Target:
+        """The place of the graph, or of the surface, nearest to a location in the world."""
+        location = np.array(obj.matrix_world.inverted_safe() @ Vector(location), np.float64)
         if not on_graph:
             return self._on_face(int(self.tree.query(location)[1]), location)
         segment, share, _ = nearest(self.lines.position, self.lines.segments, location)

@@ -95,9 +95,7 @@ def _around_cuts(mesh, cut):
 
     cut : (e,) bool.
     """
-    ends = np.empty(2 * len(mesh.edges), np.int32)
-    mesh.edges.foreach_get("vertices", ends)
-    ends = ends.reshape(-1, 2)
+    ends = bridge.edge_ends(mesh)
     count = np.bincount(ends[cut].ravel(), minlength=len(mesh.vertices))
     return count > 2, ends[(count[ends] > 0).all(axis=1)]
 

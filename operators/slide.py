@@ -34,7 +34,7 @@ class Boundary:
         pairs, _ = bridge.face_pairs(obj.data)
         center = bridge.face_centers(obj)
         length = np.linalg.norm(center[pairs[:, 0]] - center[pairs[:, 1]], axis=1)
-        locked = [part.number for part in obj.data.reeb_parts.parts if part.locked and part.number != number]
+        locked = edit.locked_others(obj.data, number)
         inside = self.numbers == number
         distance, across = boundary_distance(inside, pairs, length)
         # What a face inside would go to; its own part for one that has nowhere to go.

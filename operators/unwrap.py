@@ -65,11 +65,9 @@ def _seams(obj, face_numbers, open_parts):
     if open_parts:
         from ..core.unfold import opening_seams  # imports SciPy
 
-        ends = np.empty(2 * len(mesh.edges), np.int32)
-        mesh.edges.foreach_get("vertices", ends)
         points = bridge.shown_points(obj) @ store.stretch_of(mesh).T
         _, face = bridge.face_corners(mesh)
-        seams |= opening_seams(points, ends.reshape(-1, 2), bridge.corner_edges(mesh), face, seams)
+        seams |= opening_seams(points, bridge.edge_ends(mesh), bridge.corner_edges(mesh), face, seams)
     return seams
 
 
