@@ -130,24 +130,43 @@ def _draw_arcs(source):
 
 
 def _arc_batch(source):
-    """The arcs for the card, None if the parts are out of date."""
+    """The arcs for the card, None if there is nothing to draw."""
     try:
-        stored = store.load(source.data)
+        points, colors = colored_arcs(source.data)
     except SceneError:
         return None
-    stretch = store.stretch_of(source.data)
-    lines = GraphLines.of(stored.decomposition, stretch)
-    if not len(lines.segments):
+    if not len(points):
         return None
-    colors = store.number_colors(source.data)[stored.shown[lines.candidate]]
+    shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
+    return batch_for_shader(shader, "LINES", {"pos": points, "color": colors})
+
+
+def colored_arcs(mesh):
+    """The arcs of a graph as lines in the colours of their parts.
+
+    Returns
+    -------
+    points : (2 k, 3) float32
+        Both ends of each line, in the coordinates of the mesh.
+    point_colors : (2 k, 4) float32
+
+    Raises
+    ------
+    SceneError
+        The parts are out of date. In Edit Mode, what is edited there does not count yet.
+    """
+    if mesh.is_editmode and not store.is_edited(mesh):
+        stored = store.last(mesh)
+    else:
+        stored = store.load(mesh)
+    lines = GraphLines.of(stored.decomposition, store.stretch_of(mesh))
+    colors = store.number_colors(mesh)[stored.shown[lines.candidate]]
     ends = lines.segments
     middle = lines.position[ends].mean(axis=1)
     # Each half of a segment is in the part that its end is in.
     points = np.stack([lines.position[ends[:, 0]], middle, middle, lines.position[ends[:, 1]]], axis=1)
     shades = np.repeat(colors[ends], 2, axis=1)
-    shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-    return batch_for_shader(shader, "LINES", {
-        "pos": points.reshape(-1, 3).astype(np.float32), "color": shades.reshape(-1, 4).astype(np.float32)})
+    return points.reshape(-1, 3).astype(np.float32), shades.reshape(-1, 4).astype(np.float32)
 
 
 def _draw_nodes(context, source, nodes):

@@ -102,9 +102,13 @@ def load(mesh) -> Stored:
     if bridge.fingerprint(mesh) != result.fingerprint:
         raise SceneError(
             rpt_("{name} was edited since it was decomposed. Decompose it again.").format(name=mesh.name))
-    decomposition = _decomposition(result.data)
-    numbers = np.frombuffer(result.numbers, np.int32).astype(np.int64)
-    return Stored(decomposition, *numbers.reshape(3, -1))
+    return last(mesh)
+
+
+def last(mesh) -> Stored:
+    """The stored result of a mesh that has one, in any mode; the mesh may have been edited since."""
+    numbers = np.frombuffer(mesh.reeb_parts.numbers, np.int32).astype(np.int64)
+    return Stored(_decomposition(mesh.reeb_parts.data), *numbers.reshape(3, -1))
 
 
 def save(mesh, stored: Stored):

@@ -3,6 +3,7 @@
 
 import sys
 
+import bpy
 import numpy as np
 import pytest
 
@@ -40,3 +41,45 @@ def test_marks_lie_in_the_view_plane_around_their_node(markers):
 def test_kinds_look_different(markers):
     assert set(markers.SHAPES) == {"minimum", "saddle", "maximum"}
     assert len({len(outline) for outline in markers.SHAPES.values()}) == 3
+
+
+@pytest.fixture
+def arcs(markers, obj):
+    """The arcs of a decomposed mesh, looked up anew since undo and modes replace it."""
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    return lambda: markers.colored_arcs(obj.data)
+
+
+def refused(package):
+    return pytest.raises(sys.modules[f"{package}.operators.problems"].SceneError)
+
+
+def test_arcs_have_the_colours_of_the_parts_that_they_pass(obj, arcs):
+    points, colors = arcs()
+    assert points.dtype == colors.dtype == np.float32
+    assert len(points) == len(colors) > 100
+    assert {tuple(color[:3]) for color in colors} == {tuple(part.color) for part in obj.data.reeb_parts.parts}
+
+
+def test_arcs_keep_their_colours_in_edit_mode(obj, arcs):
+    before = arcs()
+    bpy.ops.object.mode_set(mode="EDIT")
+    for one, other in zip(before, arcs(), strict=True):
+        assert np.array_equal(one, other)
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.translate(value=(1.0, 0.0, 0.0))
+    for one, other in zip(before, arcs(), strict=True):
+        assert np.array_equal(one, other)
+
+
+def test_arcs_are_out_of_date_once_edits_are_left(package, obj, arcs):
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.translate(value=(1.0, 0.0, 0.0))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    with refused(package):
+        arcs()
+    obj.data.reeb_parts.edited = True  # as is noticed after a moment
+    bpy.ops.object.mode_set(mode="EDIT")
+    with refused(package):
+        arcs()
