@@ -23,6 +23,15 @@ def check(mesh):
     edited = bridge.fingerprint(mesh) != result.fingerprint
     if result.edited != edited:
         result.edited = edited
+        _redraw()
+
+
+def _redraw():
+    """So that panels say it without waiting for the pointer."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
 
 
 @persistent
