@@ -6,10 +6,10 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from . import bridge, edit, pointing, slide, store
+from . import bridge, edit, pointing, store
 from .parts import PartOperator
 from .problems import SceneError
-from .view_tool import ViewTool
+from .view_tool import ColoredTool, active_number
 
 START_SIZE = 0.04  # radius of the brush, as a share of the object's size
 
@@ -36,11 +36,8 @@ class Brush:
         self.chosen = np.zeros(count, bool)
         self.free = ~np.isin(model.numbers, edit.locked_others(obj.data, number))
 
-    def dab(self, location, radius) -> np.ndarray:
-        """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there.
-
-        Returns the faces that were not painted before, (k,) int64.
-        """
+    def dab(self, location, radius):
+        """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there."""
         from ..core.mesh import components
 
         _, first = self.model.tree.query(location)
@@ -55,9 +52,7 @@ class Brush:
         _, piece = components(len(near), owner[beside >= 0], beside[beside >= 0])
         hit = near[piece == piece[self.place[first]]]
         self.place[near] = -1
-        fresh = hit[self.free[hit] & ~self.chosen[hit]]
-        self.chosen[fresh] = True
-        return fresh
+        self.chosen[hit[self.free[hit]]] = True
 
     def numbers(self) -> np.ndarray:
         """The part of each face once it is painted, (p,) int64."""
@@ -71,7 +66,7 @@ class ReebDab(bpy.types.PropertyGroup):
     radius: bpy.props.FloatProperty(name="Radius", min=0.0, subtype="DISTANCE")
 
 
-class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
+class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
     """Paint faces of other parts into the active part, with the pointer; locked parts stay"""
 
     bl_idname = "reeb_parts.paint"
@@ -85,7 +80,7 @@ class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
     )
 
     def work(self, context, obj, stored):
-        brush = Brush(obj, pointing.Model(obj), slide.active_number(obj))
+        brush = Brush(obj, pointing.Model(obj), active_number(obj))
         for dab in self.stroke:
             brush.dab(dab.location[:], dab.radius)
         return _paint(context, obj, brush)
@@ -96,11 +91,10 @@ class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
     def begin(self, context, obj):
         if not self.radius:
             self.radius = START_SIZE * float(np.linalg.norm(np.ptp(self.model.face_center, axis=0)))
-        edit.check_unlocked(obj, [slide.active_number(obj)])
+        super().begin(context, obj)
         self.stroke.clear()
-        self.brush = Brush(obj, self.model, slide.active_number(obj))
+        self.brush = Brush(obj, self.model, self.number)
         self.painting = False
-        self.colors = store.number_colors(obj.data)
 
     def hover(self, context, target, event):
         self._show_brush(target)
@@ -124,38 +118,15 @@ class REEB_PARTS_OT_paint(ViewTool, PartOperator, bpy.types.Operator):
         self._show_brush(target)
         return True
 
-    def confirm(self, context):
-        self._restore()
-        obj = context.view_layer.objects.active
-        try:
-            if not self.is_current(obj):
-                raise SceneError(rpt_("The object was changed meanwhile."))
-            message = _paint(context, obj, self.brush)
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, message)
+    def finish(self, context, obj):
+        self.report({"INFO"}, _paint(context, obj, self.brush))
         return {"FINISHED"}
 
-    def give_up(self, context):
-        self._restore()
-        return {"CANCELLED"}
-
-    def cancel(self, context):
-        self._restore()
-        super().cancel(context)
-
     def _dab(self, context, target):
-        fresh = self.brush.dab(target.location, self.radius)
+        self.brush.dab(target.location, self.radius)
         dab = self.stroke.add()
         dab.location, dab.radius = target.location.tolist(), self.radius
-        slide.preview(context.view_layer.objects.active.data, self.brush.numbers(), self.colors, fresh)
-
-    def _restore(self):
-        """Show the parts as they are."""
-        obj = bpy.data.objects.get(self.model.name)
-        if self.is_current(obj):
-            slide.preview(obj.data, self.model.numbers, self.colors)
+        self.show(context.view_layer.objects.active, self.brush.numbers())
 
     def _show_brush(self, target):
         """A circle as large as the brush, lying on the surface."""

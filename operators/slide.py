@@ -3,14 +3,12 @@
 
 import bpy
 import numpy as np
-from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import attributes, bridge, edit, store
+from . import bridge, edit
 from .parts import PartOperator
 from .problems import SceneError
-
-HINT = n_("Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel")
+from .view_tool import ColoredTool, active_number, turns_view
 
 
 class Boundary:
@@ -51,11 +49,13 @@ class Boundary:
         return np.where(taken, self.number, np.where(given, self.receiver, self.numbers))
 
 
-class REEB_PARTS_OT_slide(PartOperator, bpy.types.Operator):
+class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
     """Slide the boundary of the active part over the surface with the mouse"""
 
     bl_idname = "reeb_parts.slide"
     bl_label = "Slide Boundary"
+    cursor = "MOVE_X"
+    aims = False
 
     offset: bpy.props.FloatProperty(
         name="Distance", subtype="DISTANCE", options={"SKIP_SAVE"},
@@ -69,69 +69,40 @@ class REEB_PARTS_OT_slide(PartOperator, bpy.types.Operator):
             raise SceneError(rpt_("Nothing would be left of the part. Slide the boundary less far."))
         edit.assign_faces(context, obj, stored, numbers)
 
-    def invoke(self, context, event):
+    def hint(self):
+        return rpt_("Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel")
+
+    def begin(self, context, obj):
         """Read everything once; each move of the mouse is a comparison of distances then."""
-        obj = context.view_layer.objects.active
-        if obj.mode != "OBJECT":
-            self.report({"ERROR"}, rpt_("Slide boundaries in Object Mode, where the parts can be seen."))
-            return {"CANCELLED"}
-        try:
-            stored = store.load(obj.data)
-            edit.check_unlocked(obj, [active_number(obj)])
-            self._boundary = Boundary(obj, stored, active_number(obj))
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self._previewed = self._boundary.numbers
-        self._colors = store.number_colors(obj.data)
-        self._name = obj.name
-        self._start = event.mouse_x
+        super().begin(context, obj)
+        self.boundary = Boundary(obj, self.model.stored, self.number)
+        self.offset = 0.0
         # The whole width of the view is half the size of the object.
         size = float(np.linalg.norm(np.array(obj.dimensions)))
-        self._unit = 0.5 * size / max(context.area.width if context.area else 1000, 1)
-        context.workspace.status_text_set(rpt_(HINT))
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        self.unit = 0.5 * size / max(context.area.width if context.area else 1000, 1)
+        self.last_x = None  # of the pointer, unless it was used for something else since
 
-    def modal(self, context, event):
-        if event.type == "MOUSEMOVE":
-            offset = (event.mouse_x - self._start) * self._unit * (0.1 if event.shift else 1.0)
-            self.offset = float(np.clip(offset, *(0.999 * self._boundary.reach)))
-            self._preview(self._boundary.slid(self.offset))
-        elif event.type in {"RET", "NUMPAD_ENTER", "LEFTMOUSE"} and event.value == "PRESS":
-            self._end(context)
-            return self.execute(context)
-        elif event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-            self._end(context)
-            return {"CANCELLED"}
-        return {"RUNNING_MODAL"}
+    def hover(self, context, target, event):
+        if event.type != "MOUSEMOVE":  # those between would only make it late
+            return
+        if self.last_x is not None:
+            way = (event.mouse_x - self.last_x) * self.unit * (0.1 if event.shift else 1.0)
+            self.offset = float(np.clip(self.offset + way, *(0.999 * self.boundary.reach)))
+            self.show(context.view_layer.objects.active, self.boundary.slid(self.offset))
+        self.last_x = event.mouse_x
 
-    def cancel(self, context):
-        self._end(context)
+    def press(self, context, target, event):
+        return self.confirm(context)
 
-    def _end(self, context):
-        self._preview(self._boundary.numbers)
-        context.workspace.status_text_set(None)
+    def other(self, context, target, event):
+        """Only the view can be turned meanwhile."""
+        if not turns_view(context, event):
+            return True
+        self.last_x = None
+        return False
 
-    def _preview(self, numbers):
-        changed = np.flatnonzero(numbers != self._previewed)
-        preview(bpy.data.objects[self._name].data, numbers, self._colors, changed)
-        self._previewed = numbers
-
-
-def preview(mesh, numbers, colors, changed=None):
-    """Show parts by their colours alone; all else is written when the mouse is released.
-
-    Takes what attributes.color_faces takes.
-    """
-    attributes.color_faces(mesh, numbers, colors, changed)
-    mesh.update()
-
-
-def active_number(obj) -> int:
-    """The part that is active in the list."""
-    result = obj.data.reeb_parts
-    return result.parts[result.active].number
+    def finish(self, context, obj):
+        return self.execute(context)
 
 
 CLASSES = (REEB_PARTS_OT_slide,)

@@ -3,14 +3,19 @@
 
 import bpy
 import gpu
+import numpy as np
+from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 from gpu_extras.batch import batch_for_shader
 
-from . import pointing
+from . import attributes, edit, pointing, store
 from .problems import SceneError
 
 _CONFIRM = {"RET", "NUMPAD_ENTER"}
 _CANCEL = {"ESC", "RIGHTMOUSE"}
+_MOVES = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}
+_CHANGED = n_("The object was changed meanwhile.")
+_TURNS = {"view3d.rotate", "view3d.move", "view3d.zoom", "view3d.dolly"}
 
 
 class Preview:
@@ -46,6 +51,7 @@ class ViewTool:
     """
 
     cursor = "EYEDROPPER"
+    aims = True  # at places of the model
     uses_graph = True  # or only the surface
 
     def hint(self) -> str:
@@ -100,42 +106,42 @@ class ViewTool:
         self._end(context)
 
     def _answer(self, context, event):
-        # Of the area that it was started in there may be nothing left: another workspace, a maximised area.
-        place = pointing.viewport_region(context.window.screen, event.mouse_x, event.mouse_y)
-        if event.type in _CANCEL and event.value == "PRESS":
-            return self.give_up(context)
-        if event.type in _CONFIRM and event.value == "PRESS":
-            return self.confirm(context)
-        if place is None:
-            return {"PASS_THROUGH"}
         try:
-            target = self._target(context, *place)
-            return self._use(context, target, event)
+            if event.type in _CANCEL and event.value == "PRESS":
+                return self.give_up(context)
+            if event.type in _CONFIRM and event.value == "PRESS":
+                return self.confirm(context)
+            # Of the area that it was started in there may be nothing left: another workspace, a maximised area.
+            place = pointing.viewport_region(context.window.screen, event.mouse_x, event.mouse_y)
+            if place is None and self.aims:
+                return {"PASS_THROUGH"}
+            return self._use(context, self._target(context, place), event)
         except SceneError as error:
             self.report({"ERROR"}, str(error))
             return self.give_up(context)
 
     def _use(self, context, target, event):
-        if event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}:
+        if event.type in _MOVES:
             self.hover(context, target, event)
             self._redraw(context)
             return {"RUNNING_MODAL"}
         if event.type == "LEFTMOUSE" and event.value == "PRESS" and not event.alt:  # Alt turns the view
             # Beside the model a click would deselect it.
-            return (self.press(context, target, event) if target else None) or {"RUNNING_MODAL"}
+            hit = target is not None or not self.aims
+            return (self.press(context, target, event) if hit else None) or {"RUNNING_MODAL"}
         used = self.other(context, target, event)
         self._redraw(context)
         return {"RUNNING_MODAL"} if used else {"PASS_THROUGH"}
 
-    def _target(self, context, region, mouse):
+    def _target(self, context, place):
         """What is under the pointer; everything is read again if parts or object have changed."""
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH" or obj.mode != "OBJECT":
-            raise SceneError(rpt_("The object was changed meanwhile."))
+            raise SceneError(rpt_(_CHANGED))
         if not self.is_current(obj):
             self._read(context, obj)
         self.preview.matrix = obj.matrix_world.copy()
-        return self.model.under(context, obj, region, mouse, graph=self.uses_graph)
+        return self.model.under(context, obj, *place, graph=self.uses_graph) if self.aims else None
 
     def is_current(self, obj) -> bool:
         """Whether an object is the one that was read, with the parts that it had then; it may be None."""
@@ -163,3 +169,65 @@ def _key(obj):
     """Changes with the object, its mesh and its parts."""
     result = obj.data.reeb_parts
     return obj.name, obj.data.session_uid, result.fingerprint, result.numbers
+
+
+class ColoredTool(ViewTool):
+    """Shows in colours what the active part would be; all else is written once that is confirmed.
+
+    A class that inherits gives ``finish(context, obj)``, too.
+    """
+
+    _shown = None  # (p,) int64, the part that each face has the colour of
+
+    def finish(self, context, obj):
+        """It was confirmed; the operator's result. Raises SceneError."""
+        raise NotImplementedError
+
+    def begin(self, context, obj):
+        if self._shown is not None:  # another command has written its parts, and maybe not over all that was shown
+            self._shown = np.full(len(self.model.numbers), -1)
+            self.restore()
+        self._shown = self.model.numbers
+        self.number = active_number(obj)
+        edit.check_unlocked(obj, [self.number])
+
+    def show(self, obj, numbers):
+        """Colour the faces as if they were in other parts. numbers : (p,) int64."""
+        changed = np.flatnonzero(numbers != self._shown)
+        attributes.color_faces(obj.data, numbers, store.number_colors(obj.data), changed)
+        obj.data.update()
+        self._shown = numbers
+
+    def restore(self):
+        """Show the parts as they are."""
+        obj = bpy.data.objects.get(self.model.name)
+        if self.is_current(obj):
+            self.show(obj, self.model.numbers)
+
+    def confirm(self, context):
+        self.restore()
+        obj = context.view_layer.objects.active
+        if not self.is_current(obj):
+            raise SceneError(rpt_(_CHANGED))
+        return self.finish(context, obj)
+
+    def give_up(self, context):
+        self.restore()
+        return {"CANCELLED"}
+
+    def cancel(self, context):
+        self.restore()
+        super().cancel(context)
+
+
+def turns_view(context, event) -> bool:
+    """Whether an event moves the view, by the keys and buttons that the user has set."""
+    keymap = context.window_manager.keyconfigs.user.keymaps["3D View"]
+    found = keymap.keymap_items.match_event(event)
+    return found is not None and (found.idname in _TURNS or found.idname.startswith(("view3d.view_", "view3d.ndof_")))
+
+
+def active_number(obj) -> int:
+    """The part that is active in the list."""
+    result = obj.data.reeb_parts
+    return result.parts[result.active].number

@@ -99,19 +99,42 @@ def clicked(seen):
 
 
 def slid(seen):
-    """Slide the part's boundary with the mouse, and confirm with a click."""
+    """Slide the part's boundary with the mouse, turn the view meanwhile, and confirm with a click."""
     x, y = pointer.in_view()
     yield from pointer.rest(x, y)
     with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
         bpy.ops.reeb_parts.slide("INVOKE_DEFAULT")
-    for step in range(1, 11):
-        pointer.xdo("mousemove", x + 6 * step, y)
-        yield 0.05
+    yield 0.2
+    yield from sweep(x, y)
+    seen["slide"] = [slide_now()]
+    yield from pointer.drag([(x + 60 + 10 * step, y + 4 * step) for step in range(9)], button=2)
+    seen["slide"].append(slide_now())
+    pointer.xdo("click", 4)  # the wheel
+    yield from pointer.tap("KP_4")
     yield 0.5
+    seen["slide"].append(slide_now())
+    yield from pointer.tap("ctrl+z", "Delete")
+    yield from sweep(x + 140, y + 32)
+    seen["slide"].append(slide_now())
     pointer.xdo("click", 1)
     yield 1.0
     seen["slid"] = facts()
     pointer.shot("8_slid.png")
+
+
+def sweep(x, y):
+    """To the right, slowly."""
+    for step in range(11):
+        pointer.xdo("mousemove", x + 6 * step, y)
+        yield 0.05
+    yield 0.3
+
+
+def slide_now():
+    """How far the boundary was slid, and from where it is looked at."""
+    (operator,) = bpy.context.window.modal_operators
+    view = pointer.view_area().spaces.active.region_3d
+    return [operator.properties.offset, list(view.view_rotation), view.view_distance]
 
 
 def numbered(seen):

@@ -51,15 +51,15 @@ def press(x, y, *held, button=1):
     yield 0.2
 
 
-def drag(places):
+def drag(places, button=1):
     """Press at the first place, go through the others, let go at the last."""
     yield from rest(*places[0])
-    xdo("mousedown", 1)
+    xdo("mousedown", button)
     yield 0.1
     for place in places[1:]:
         xdo("mousemove", *place)
         yield 0.05
-    xdo("mouseup", 1)
+    xdo("mouseup", button)
     yield 0.2
 
 

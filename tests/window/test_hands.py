@@ -41,6 +41,13 @@ def test_a_boundary_follows_the_mouse(seen):
     assert after[name] > before[name]
 
 
+def test_the_view_is_turned_while_a_boundary_is_slid(seen):
+    slid, turned, nearer, further = seen["slide"]
+    assert slid[0] == turned[0] == nearer[0] < further[0]
+    assert slid[1] != turned[1] != nearer[1] == further[1]
+    assert slid[2] == turned[2] > nearer[2] == further[2]
+
+
 def test_a_slide_is_one_step_of_undo(seen):
     assert seen["slide undone"]["shares"] == seen["drag undone"]["shares"]
 

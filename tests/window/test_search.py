@@ -46,7 +46,7 @@ DOES = {
 REFUSES = {
     "Cut Part at Point, EDIT_MESH": "ERROR: This works in Object Mode, where the parts can be seen.",
     "Paint into Part, SCULPT": "ERROR: This works in Object Mode, where the parts can be seen.",
-    "Slide Boundary, PAINT_WEIGHT": "ERROR: Slide boundaries in Object Mode, where the parts can be seen.",
+    "Slide Boundary, PAINT_WEIGHT": "ERROR: This works in Object Mode, where the parts can be seen.",
     "Pick Parts, PAINT_VERTEX": "ERROR: This works in Object Mode, where the parts can be seen.",
 }
 FILES = "Export Parts to Files, OBJECT"

@@ -492,8 +492,6 @@ TEXTS = {
     "{name} cannot give away anything more.": "{name} kann nichts mehr abgeben.",
     "Nothing would be left of the part. Slide the boundary less far.":
         "Von dem Teil bliebe nichts übrig. Bitte die Grenze weniger weit verschieben.",
-    "Slide boundaries in Object Mode, where the parts can be seen.":
-        "Grenzen werden im Objektmodus verschoben, wo die Teile zu sehen sind.",
     "Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel":
         "Maus nach links und rechts bewegen, um die Grenze zu verschieben    Eingabe: bestätigen    Esc: abbrechen",
     "Drag over the model to paint    Ctrl and wheel, [ ]: size    Enter: confirm    Esc: cancel":
