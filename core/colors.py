@@ -44,7 +44,9 @@ def distance_matrix(colors: np.ndarray = PALETTE) -> np.ndarray:
     return np.min([np.linalg.norm(v[:, None] - v[None], axis=2) for v in views], axis=0)
 
 
-def part_colors(count: int, neighbours: np.ndarray, palette: np.ndarray = PALETTE) -> np.ndarray:
+def part_colors(
+    count: int, neighbours: np.ndarray, palette: np.ndarray = PALETTE, wanted: np.ndarray | None = None
+) -> np.ndarray:
     """One colour per part; each new part takes what differs most from its neighbours.
 
     Parameters
@@ -54,12 +56,20 @@ def part_colors(count: int, neighbours: np.ndarray, palette: np.ndarray = PALETT
         Pairs of parts that touch.
     palette : (c, 3) float64
         Colours to choose from.
+    wanted : (count,) int64, optional
+        Which colour of the palette each part is to have unless a neighbour has it; -1 for any.
 
     Returns
     -------
     colors : (count, 3) float64
-        sRGB, 0..1. The first c parts differ all; later ones repeat, but not beside each other.
+        sRGB, 0..1. Without ``wanted`` the first c parts differ all; later ones repeat, but not beside each
+        other.
     """
+    return palette[chosen_colors(count, neighbours, palette, wanted)]
+
+
+def chosen_colors(count, neighbours, palette, wanted=None) -> np.ndarray:
+    """Which colour of the palette each part has, (count,) int64; see ``part_colors``."""
     apart = distance_matrix(palette)
     chosen = np.full(count, -1)
     used = np.zeros(len(palette), np.int64)
@@ -70,8 +80,11 @@ def part_colors(count: int, neighbours: np.ndarray, palette: np.ndarray = PALETT
     for part in range(count):
         beside = [chosen[other] for other in around[part] if chosen[other] >= 0]
         room = apart[beside].min(axis=0) if beside else np.ones(len(palette))
-        # Least used first, then clearly unlike the neighbours, then palette order.
-        rank = np.lexsort((np.arange(len(palette)), -np.minimum(room, 0.25), used + 99 * (room == 0)))
-        chosen[part] = rank[0]
-        used[rank[0]] += 1
-    return palette[chosen] if count else np.zeros((0, 3))
+        if wanted is not None and wanted[part] >= 0 and room[wanted[part]] > 0:
+            chosen[part] = wanted[part]
+        else:
+            # Least used first, then clearly unlike the neighbours, then palette order.
+            rank = np.lexsort((np.arange(len(palette)), -np.minimum(room, 0.25), used + 99 * (room == 0)))
+            chosen[part] = rank[0]
+        used[chosen[part]] += 1
+    return chosen

@@ -136,8 +136,13 @@ class Decomposition:
         return np.bincount(self.candidates, index) / np.bincount(self.candidates)
 
     @cached_property
+    def pair_merge(self) -> np.ndarray:
+        """(e,) int64, the merge of the hierarchy that joins each pair of candidates that touch."""
+        return self.hierarchy.merge_of(*self.candidate_pairs.T)
+
+    @cached_property
     def _pair_salience(self) -> np.ndarray:
-        return self.hierarchy.cut_salience(*self.candidate_pairs.T)
+        return np.append(self.hierarchy.salience, 1.0)[self.pair_merge]
 
     def parts(self, detail: float | None = None, n_parts: int | None = None) -> Parts:
         """Parts at a level of detail or of an exact number; nothing is computed again.
@@ -188,7 +193,7 @@ class Decomposition:
         area = np.bincount(part, self.candidate_area)
         weight = np.bincount(self.candidates, minlength=self.n_candidates)
         middle = np.bincount(part, weight * self._face_order) / np.bincount(part, weight)
-        middle[area.argmax()] = -1.0
+        middle[np.lexsort((middle, -area))[0]] = -1.0
         place = np.empty(len(area), np.int64)
         place[np.argsort(middle, kind="stable")] = np.arange(len(area))
         return place[part]

@@ -55,7 +55,7 @@ def best_split(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray | N
     if mask.sum() < 2:
         return None
     pairs = _inside(decomposition, mask)
-    order = np.argsort(_merge_time(decomposition, pairs), kind="stable")
+    order = np.argsort(decomposition.hierarchy.merge_of(*pairs.T), kind="stable")
     part = np.arange(decomposition.n_candidates)
     for a, b in pairs[order].tolist():
         if part[a] != part[b]:
@@ -99,7 +99,7 @@ def node_split(decomposition: Decomposition, mask: np.ndarray, node: int) -> np.
 def _strongest_cut(decomposition, mask, start, targets) -> np.ndarray | None:
     """The side of a candidate at the last merge that joins it with one of some others in a part."""
     pairs = _inside(decomposition, mask)
-    pairs = pairs[np.argsort(_merge_time(decomposition, pairs), kind="stable")]
+    pairs = pairs[np.argsort(decomposition.hierarchy.merge_of(*pairs.T), kind="stable")]
     part = np.arange(decomposition.n_candidates)
     joins, cut = [], None
     for a, b in pairs.tolist():
@@ -165,7 +165,7 @@ def shrinkage(
     inner, outer = _border(decomposition, mask)
     usable = allowed[outer]
     inner, outer = inner[usable], outer[usable]
-    time = _merge_time(decomposition, np.stack([inner, outer], axis=1))
+    time = decomposition.hierarchy.merge_of(inner, outer)
     for index in np.argsort(time, kind="stable").tolist():
         rest = mask.copy()
         rest[inner[index]] = False
@@ -282,12 +282,4 @@ def _border(decomposition, mask) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _weakest(decomposition, a, b) -> int:
-    return int(_merge_time(decomposition, np.stack([a, b], axis=1)).argmin())
-
-
-def _merge_time(decomposition, pairs) -> np.ndarray:
-    """When in the merging sequence two candidates come together, 0..1; no two merges at once."""
-    hierarchy = decomposition.hierarchy
-    count = len(hierarchy.merges)
-    clock = Hierarchy.of(hierarchy.n_candidates, hierarchy.merges, np.arange(count) / max(count, 1))
-    return clock.cut_salience(*pairs.T)
+    return int(decomposition.hierarchy.merge_of(a, b).argmin())

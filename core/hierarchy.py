@@ -73,15 +73,21 @@ class Hierarchy:
         done = self.merges[: self.n_candidates - n_parts]
         return components(self.n_candidates, *done.T)[1]
 
+    def merge_of(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        """The merge that joins candidates a and b; the number of merges where none does.
+
+        a, b : (e,) int64. Returns (e,) int64.
+        """
+        joined = np.full(len(a), len(self.merges), np.int64)
+        part = np.arange(self.n_candidates)
+        for index, (first, second) in enumerate(self.merges.tolist()):
+            part[part == part[second]] = part[first]
+            joined[(part[a] == part[b]) & (joined > index)] = index
+        return joined
+
     def cut_salience(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Salience of the merge that joins candidates a and b; 1 where none does.
 
         a, b : (e,) int64. Returns (e,) float64.
         """
-        joined = np.full(len(a), np.inf)
-        part = np.arange(self.n_candidates)
-        for (first, second), salience in zip(self.merges, self.salience, strict=True):
-            keep, gone = part[first], part[second]
-            part[part == gone] = keep
-            joined[np.isinf(joined) & (part[a] == part[b])] = salience
-        return np.where(np.isinf(joined), 1.0, joined)
+        return np.append(self.salience, 1.0)[self.merge_of(a, b)]

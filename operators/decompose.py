@@ -68,8 +68,7 @@ def write_result(context, obj, outcome: Outcome, settings):
     mesh, decomposition = obj.data, outcome.decomposition
     parameters = decomposition.parameters
     stored = store.succeed(mesh, decomposition)
-    numbered = stored.parts(parameters.detail, parameters.n_parts)
-    stored = store.settle(stored, numbered)
+    numbered = stored.shown_parts()
     result = mesh.reeb_parts
     with store.quiet():
         store.save(mesh, stored)

@@ -11,7 +11,6 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.numbering import numbered_parts
 from . import attributes, bridge, live, store
 from .parts import PartOperator, chosen_numbers
 from .problems import SceneError
@@ -33,13 +32,10 @@ def tie(context, obj, stored, candidate_numbers, changed):
     mesh = obj.data
     result = mesh.reeb_parts
     pinned = np.isin(candidate_numbers, list(changed)) | (stored.fixed > 0)
-    fixed = np.where(pinned, candidate_numbers, 0)
-    former = np.where(pinned, candidate_numbers, stored.former)
-    tied = replace(stored, former=former, fixed=fixed)
+    tied = replace(stored, fixed=np.where(pinned, candidate_numbers, 0))
     # Around the pinned parts everything is as the hierarchy has it.
     count = len(np.unique(candidate_numbers)) if result.by_number else 0
-    numbered = numbered_parts(tied.decomposition, result.detail, count, former, fixed)
-    live.refresh(context, mesh, tied, numbered)
+    live.refresh(context, mesh, tied, tied.parts(result.detail, count))
 
 
 def free_number(mesh, stored) -> int:

@@ -39,8 +39,6 @@ def rename(part, context):
         for obj in users(mesh)[:1]:
             groups.rename_group(obj, part)
         store.keep_name(mesh, part.number, part.name)
-        with object_mode(context):
-            _anchor(mesh, part.number)
 
 
 def show_graph(obj, shown, context):
@@ -88,7 +86,6 @@ def recolor(part, context):
             attributes.update_colors(mesh, numbered)
             for obj in users(mesh):
                 overlay.update_parts(obj, numbered)
-            _anchor(mesh, part.number)
     except SceneError:
         mesh.reeb_parts.edited = True
 
@@ -104,9 +101,8 @@ def lock(part, context):
             stored = store.load(mesh)
             own = stored.shown == number
             fixed = np.where(own, number if locked else 0, stored.fixed)
-            former = np.where(own, number, stored.former)
             with store.quiet():
-                store.save_numbers(mesh, replace(stored, former=former, fixed=fixed))
+                store.save_numbers(mesh, replace(stored, fixed=fixed))
     except SceneError:
         mesh.reeb_parts.edited = True
         return
@@ -147,14 +143,3 @@ def show(result, context):
     except SceneError:
         # The panel says so; a property cannot.
         result.edited = True
-
-
-def _anchor(mesh, number):
-    """Make the parts that are shown now the ones whose number is remembered."""
-    try:
-        stored = store.load(mesh)
-    except SceneError:
-        return
-    if number not in stored.former:
-        former = np.where(stored.shown == number, number, stored.former)
-        store.save_numbers(mesh, replace(stored, former=former))

@@ -8,11 +8,12 @@ the part that it is in now.
 
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.numbering import NumberedParts, default_name, in_number_order, numbered_parts, transfer
+from ..core.numbering import NumberedParts, Numbering, default_name, inherited, transfer
 from . import bridge
 from .problems import SceneError, load_core, translated
 
@@ -49,7 +50,7 @@ class Stored:
     decomposition : core.Decomposition
         With c candidates.
     former, fixed, shown : (c,) int64
-        Part numbers; see core.numbering.numbered_parts for the first two.
+        Part numbers; see core.numbering.Numbering for the first two.
     """
 
     decomposition: object
@@ -57,16 +58,18 @@ class Stored:
     fixed: np.ndarray
     shown: np.ndarray
 
+    @cached_property
+    def numbering(self) -> Numbering:
+        """The numbers of the parts at every level of detail."""
+        return _numbering(self.decomposition, self.former.tobytes(), self.fixed.tobytes())
+
     def parts(self, detail, n_parts) -> NumberedParts:
         """Parts at a level of detail, or of an exact number if that is not 0."""
-        return numbered_parts(self.decomposition, detail, n_parts, self.former, self.fixed)
+        return self.numbering.parts(detail, n_parts)
 
     def shown_parts(self) -> NumberedParts:
         """Parts as they are now."""
-        parts = self.decomposition.group(self.shown)
-        numbers = np.zeros(parts.count, np.int64)
-        numbers[parts.candidate_part] = self.shown
-        return in_number_order(parts, numbers)
+        return self.numbering.shown(self.shown)
 
     def showing(self, numbered: NumberedParts) -> "Stored":
         """The same with other parts shown."""
@@ -132,18 +135,17 @@ def save_numbers(mesh, stored: Stored):
 
 
 def succeed(mesh, decomposition) -> Stored:
-    """A new result for a mesh, with the numbers of the parts that its faces had until now."""
-    none = np.zeros(decomposition.n_candidates, np.int64)
-    stored = Stored(decomposition, none, none, none)
-    if not has_result(mesh):
-        return stored
-    faces, fixed_faces = _face_numbers(mesh)
-    if len(faces) != decomposition.n_faces or not faces.any():
-        return stored
-    weight = np.ones(len(faces))
-    former = transfer(decomposition.candidates, faces, weight)
-    fixed = transfer(decomposition.candidates, fixed_faces, weight)
-    return replace(stored, former=former, fixed=fixed)
+    """A new result for a mesh; its parts take over the numbers of those that the faces were in until now."""
+    former = fixed = np.zeros(decomposition.n_candidates, np.int64)
+    if has_result(mesh):
+        faces, fixed_faces = _face_numbers(mesh)
+        if len(faces) == decomposition.n_faces and faces.any():
+            weight = np.ones(len(faces))
+            former = transfer(decomposition.candidates, faces, weight)
+            fixed = transfer(decomposition.candidates, fixed_faces, weight)
+    parameters = decomposition.parameters
+    numbers = inherited(decomposition, parameters.detail, parameters.n_parts, former, fixed)
+    return Stored(decomposition, former=numbers, fixed=fixed, shown=numbers)
 
 
 def _face_numbers(mesh) -> tuple[np.ndarray, np.ndarray]:
@@ -154,8 +156,10 @@ def _face_numbers(mesh) -> tuple[np.ndarray, np.ndarray]:
     except SceneError:  # edited, or from another version: what is left is on the faces
         pass
     else:
+        # A finer part that somebody named or coloured is one to find again, too.
+        ours = np.isin(old.shown, [entry.number for entry in result.names])
         candidates = old.decomposition.candidates
-        return old.former[candidates], old.fixed[candidates]
+        return np.where(ours, old.shown, old.former)[candidates], old.fixed[candidates]
     attribute = mesh.attributes.get(result.face_attribute)
     faces = np.zeros(len(mesh.polygons), np.int32)
     if attribute is not None and attribute.domain == "FACE" and len(attribute.data) == len(faces):
@@ -240,9 +244,16 @@ def _remember(data: bytes, decomposition):
         del _read[next(iter(_read))]
 
 
+@lru_cache(_KEEP)
+def _numbering(decomposition, former: bytes, fixed: bytes) -> Numbering:
+    """While the detail is dragged, the numbers of all levels stay the same."""
+    return Numbering.of(decomposition, np.frombuffer(former, np.int64), np.frombuffer(fixed, np.int64))
+
+
 def forget():
     """Free what is kept in memory."""
     _read.clear()
+    _numbering.cache_clear()
 
 
 def mark_pins(mesh, stored: Stored):
@@ -251,9 +262,3 @@ def mark_pins(mesh, stored: Stored):
     with quiet():
         for part in mesh.reeb_parts.parts:
             part.pinned = part.number in pinned
-
-
-def settle(stored: Stored, numbered: NumberedParts) -> Stored:
-    """Show parts and remember their numbers from now on."""
-    numbers = numbered.candidate_numbers
-    return replace(stored, former=numbers, shown=numbers)
