@@ -83,6 +83,63 @@ def test_there_and_back_is_where_it_was(obj, result):
     check_outputs(obj)
 
 
+def listed(result):
+    return {part.number: (part.name, tuple(part.color)) for part in result.parts}
+
+
+def test_more_detail_gives_new_numbers_and_changes_no_name_or_colour(obj, result):
+    seen, count = {}, 0
+    for detail in np.linspace(0, 1, 30).tolist():
+        result.detail = detail
+        known = listed(result)
+        for number in seen.keys() & known.keys():
+            assert known[number] == seen[number]
+        assert seen.keys() <= known.keys()
+        seen, count = known, count + 1
+    # And the way back shows the same.
+    result.detail = 0.5
+    assert all(seen[number] == value for number, value in listed(result).items())
+
+
+@pytest.fixture
+def large(obj):
+    """The tree with 218,000 corners, with colours and another attribute of the user's own."""
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide(number_cuts=4)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    obj.data.color_attributes.new("Mine", "BYTE_COLOR", "CORNER")
+    obj.data.attributes.new("Weight", "FLOAT", "POINT")
+    bpy.ops.reeb_parts.decompose(field=True)
+    obj.data.attributes.active = obj.data.attributes["Weight"]
+    return obj
+
+
+def described(mesh):
+    """Names and kinds of all attributes, and which are active."""
+    kinds = sorted((a.name, a.data_type, a.domain) for a in mesh.attributes)
+    return kinds, mesh.attributes.active.name, mesh.attributes.active_color_name, mesh.attributes.default_color_name
+
+
+def test_colours_of_a_large_mesh_are_those_of_its_parts_by_either_way(large):
+    mesh, result = large.data, large.data.reeb_parts
+    before = described(mesh)
+    chosen = result.parts[0].number
+    result.parts[0].color = (0.1234, 0.5, 0.777)  # between bytes
+    for detail in (1.0, 0.0, 0.7):
+        result.detail = detail
+        check_colors(large)
+        assert described(mesh) == before
+    fast = corner_colors(mesh)
+    # With a modifier Blender's operator for attributes would evaluate it: then colours are written one by one.
+    result.detail = 0.0
+    large.modifiers.new("Bend", "SIMPLE_DEFORM")
+    result.detail = 0.7
+    assert np.array_equal(corner_colors(mesh), fast)
+    assert described(mesh) == before
+    assert chosen in {part.number for part in result.parts}
+
+
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_exact_number(obj, result, count):
     result.n_parts = count
