@@ -94,8 +94,9 @@ def _call_messages(call) -> set:
     if name_of(call) in LOOK_UPS and call.args:
         context = literal(call.args[1]) if len(call.args) > 1 else "*"
         return {(context, literal(call.args[0]))}
-    # Buttons are looked up as operators are.
+    # Buttons are looked up as operators are, unless told otherwise.
     context = "Operator" if name_of(call).startswith("operator") else "*"
+    context = next((literal(keyword.value) for keyword in call.keywords if keyword.arg == "text_ctxt"), context)
     return {(context, literal(keyword.value)) for keyword in call.keywords if keyword.arg in WORDS_OF_LAYOUT}
 
 

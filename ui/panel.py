@@ -141,24 +141,30 @@ class REEB_PARTS_PT_parts(ReebPanel, bpy.types.Panel):
         layout = self.layout
         result = _result(context)
         row = layout.row()
-        row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=10)
+        row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=6)
         column = row.column(align=True)
-        column.operator("reeb_parts.pick", text="", icon="EYEDROPPER")
-        column.separator()
         column.operator("reeb_parts.merge", text="", icon="AUTOMERGE_ON")
         column.operator("reeb_parts.split", text="", icon="MOD_EDGESPLIT")
-        column.operator("reeb_parts.cut", text="", icon="MOD_BOOLEAN")
         column.separator()
         column.operator("reeb_parts.grow", text="", icon="ADD")
         column.operator("reeb_parts.shrink", text="", icon="REMOVE")
-        column.operator("reeb_parts.slide", text="", icon="ARROW_LEFTRIGHT")
-        column.operator("reeb_parts.paint", text="", icon="BRUSH_DATA")
         column.separator()
         column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT")
+        _draw_tools(layout)
         row = layout.row(align=True)
         row.operator("reeb_parts.select", text="Select")
         row.operator("reeb_parts.isolate", text="Isolate").show_all = False
         row.operator("reeb_parts.isolate", text="Show All").show_all = True
+
+
+def _draw_tools(layout):
+    """What works with the pointer over the model; in two rows, since other languages have longer words."""
+    flow = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+    # In a context of our own: by "Cut", Blender means the clipboard, and in some languages says so.
+    flow.operator("reeb_parts.pick", text="Pick", text_ctxt="Reeb Parts", icon="EYEDROPPER")
+    flow.operator("reeb_parts.cut", text="Cut", text_ctxt="Reeb Parts", icon="MOD_BOOLEAN")
+    flow.operator("reeb_parts.slide", text="Slide", text_ctxt="Reeb Parts", icon="ARROW_LEFTRIGHT")
+    flow.operator("reeb_parts.paint", text="Paint", text_ctxt="Reeb Parts", icon="BRUSH_DATA")
 
 
 class REEB_PARTS_PT_field(ReebPanel, bpy.types.Panel):

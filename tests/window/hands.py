@@ -16,12 +16,12 @@ import pointer
 from snapshot import changes, snapshot
 
 # Rows below the top of the sidebar.
-DECOMPOSE, DETAIL, NUMBER, LIST, USE, OUTPUT, OVERLAY = 3.7, 7.0, 8.0, 12.55, 25.15, 30.1, 31.4
-EMPTY = 33.5  # below the last title
+DECOMPOSE, DETAIL, NUMBER, LIST, USE, OUTPUT, OVERLAY = 3.7, 7.0, 8.0, 12.55, 23.4, 28.35, 29.65
+EMPTY = 31.75  # below the last title
 # Below the title of a sub-panel that is open.
-EXPLODE, PALETTE, SHOW_GRAPH = 9.9, 5.0, 1.6
+EXPLODE, PALETTE, SHOW_GRAPH = 9.65, 5.0, 1.6
 # Across the list.
-CHIP, NAME, LOCK, TICK = 0.12, 0.25, 0.627, 0.7
+CHIP, NAME, LOCK, TICK = 0.12, 0.25, 0.56, 0.635
 # In pixels: from a chip to the field of its popup; from a right click to an entry of the menu.
 HEX, MERGE = (99, -32), (-60, 205)
 
@@ -229,9 +229,9 @@ PANELS = {exploded: USE, graph_hidden: OVERLAY, palette_chosen: OUTPUT}  # what 
 def typed(x, y, text, clicks=2):
     """Open a field by clicks, and type over what is in it."""
     yield from pointer.rest(x, y)
-    for _ in range(clicks):
-        pointer.xdo("click", 1)
-        yield 0.1
+    # At once: between them a slow machine would draw the view, and they would be two single clicks.
+    pointer.xdo("click", "--repeat", clicks, "--delay", 60, 1)
+    yield 0.2
     yield from pointer.tap("ctrl+a")
     yield from pointer.write(text)
     yield from pointer.tap("Return")

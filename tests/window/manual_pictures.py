@@ -17,7 +17,7 @@ sys.path.append(os.path.dirname(__file__))
 import pointer
 
 # Rows below the top of the sidebar.
-DETAIL, LIST, USE, OUTPUT, OVERLAY = 7.0, 12.55, 25.15, 30.1, 31.4
+DETAIL, LIST, USE, OUTPUT, OVERLAY = 7.0, 12.55, 23.4, 28.35, 29.65
 CHIP, NAME = 0.12, 0.25  # across the list
 HEX = (99, -32)  # from a chip to the field of its popup
 BODY, LEG, HEAD, EAR = "Part 01", "Part 02", "Part 06", "Part 04"
@@ -88,7 +88,7 @@ def colored():
     yield from pointer.tap("Return")
     yield 0.3
     pointer.shot("colour.png", ALL)
-    yield from pointer.press(*pointer.in_sidebar(33.0))
+    yield from pointer.press(*pointer.in_sidebar(31.25))
     yield from pointer.tap("ctrl+z")
     yield 0.3
 

@@ -16,7 +16,7 @@ sys.path.append(os.path.dirname(__file__))
 import pointer
 
 # Rows below the top of the sidebar.
-DECOMPOSE, TAB, USE_PARTS, SEPARATE = 3.7, 12.0, 28.2, 30.8
+DECOMPOSE, TAB, USE_PARTS, SEPARATE = 3.7, 12.0, 26.45, 29.0
 CLICKS = []  # what was clicked since Suzanne was selected
 
 
@@ -40,7 +40,7 @@ def steps():
     pointer.shot("4_decomposed.png", (300, 60, 1050, 700))
     yield from click_on("Use Parts", *pointer.in_sidebar(USE_PARTS))
     yield from pointer.rest(*pointer.in_sidebar(SEPARATE))
-    pointer.shot("5_use.png", (300, 60, 1050, 815))
+    pointer.shot("5_use.png", (300, 60, 1050, 720))
     yield from click_on("Separate", *pointer.in_sidebar(SEPARATE))
     yield from pointer.rest(*pointer.in_view(0.3, 0.75))
     seen["separated"] = facts()
@@ -51,14 +51,15 @@ def steps():
 
 def add_suzanne():
     """Delete the default cube; Shift+A, and type what to add; look at its face from near."""
-    yield from pointer.rest(*pointer.in_view(0.3, 0.6))
+    x, y = pointer.in_view(0.3, 0.6)
+    yield from pointer.rest(x, y)
     yield from pointer.tap("Delete")
     yield 0.3
     yield from pointer.tap("shift+a")
     yield 0.3
     yield from pointer.write("monkey")
     yield 0.5
-    pointer.shot("1_add.png", (300, 330, 836, 440))
+    pointer.shot("1_add.png", (x - 16, y - 12, x + 520, y + 98))
     yield from pointer.tap("Return")
     yield 0.8
     view = pointer.view_area().spaces.active.region_3d

@@ -15,7 +15,7 @@ SHAPE = ("points", "faces", "matrix")
 @pytest.fixture(scope="module")
 def seen(drive):
     """What the driver saw after each step."""
-    return drive("newcomer.py", "newcomer", size="1280x900")
+    return drive("newcomer.py", "newcomer")
 
 
 def test_suzanne_is_selected_and_not_decomposed_yet(seen):

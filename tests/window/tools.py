@@ -17,9 +17,9 @@ from snapshot import changes, snapshot
 
 SEEN = {}
 TOOLS = ("Pick Parts", "Cut Part", "Paint into", "Slide Boundary")
-# Rows below the top of the sidebar.
+# Rows below the top of the sidebar; of the buttons, the share of its width, too.
 DECOMPOSE = 3.7
-BUTTONS = {"Pick": 12.3, "Cut": 15.57, "Slide": 18.9, "Paint": 19.95}
+BUTTONS = {"Pick": (19.55, 0.3), "Cut": (19.55, 0.7), "Slide": (20.6, 0.3), "Paint": (20.6, 0.7)}
 
 
 def steps():
@@ -170,8 +170,8 @@ def disturbed():
 
 def elsewhere():
     """From the button in the sidebar; in local view; in each of four views; beside a second viewport."""
-    for name, row in BUTTONS.items():
-        yield from pointer.press(*pointer.in_sidebar(row, 0.832))
+    for name, place in BUTTONS.items():
+        yield from pointer.press(*pointer.in_sidebar(*place))
         note(f"button {name}", at_work())
         yield from pointer.rest(*pointer.in_view())
         yield from pointer.tap("Escape")

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What Reeb Parts says in other languages than English: a file for each, named by Blender's code for it.
 
-Such a file has two dictionaries from English to that language: OPERATORS for the names of operators and
-what stands on buttons, TEXTS for all else. Values in braces stay as they are; they may change places.
+Such a file has three dictionaries from English to that language: OPERATORS for the names of operators and
+what stands on buttons, TOOLS for the buttons of tools, in short words, TEXTS for all else. Values in braces
+stay as they are; they may change places.
 tests/blender/test_translations.py lists what a language still lacks and what it no longer needs.
 """
 
@@ -18,6 +19,7 @@ def dictionary() -> dict:
     """All languages as Blender takes them: a text by its context and its English, for each language."""
     return {
         code: {("Operator", english): text for english, text in language.OPERATORS.items()}
+        | {("Reeb Parts", english): text for english, text in language.TOOLS.items()}
         | {("*", english): text for english, text in language.TEXTS.items()}
         for code, language in LANGUAGES.items()
     }

@@ -59,6 +59,13 @@ OPERATORS = {
     "Make Armature from Parts": "Skelett aus Teilen erstellen",
 }
 
+TOOLS = {
+    "Pick": "Anklicken",
+    "Cut": "Schneiden",
+    "Slide": "Schieben",
+    "Paint": "Malen",
+}
+
 TEXTS = {
     # Der Reiter und seine Felder
     "Reeb Parts": "Reeb Parts",
