@@ -70,17 +70,20 @@ class NumberedParts:
         Label i is the part with the i-th smallest number.
     numbers : (count,) int64
         Rising, from 1; not all need to be in use.
+    candidates : (p,) int64
+        The candidate of each face.
     graph : NumberGraph
     """
 
     parts: Parts
     numbers: np.ndarray
+    candidates: np.ndarray
     graph: NumberGraph
 
     @property
     def face_numbers(self) -> np.ndarray:
         """(p,) int64, the number of each face's part."""
-        return self.numbers[self.parts.labels]
+        return self.candidate_numbers[self.candidates]
 
     @property
     def candidate_numbers(self) -> np.ndarray:
@@ -222,7 +225,8 @@ class Numbering:
         parts = self.decomposition.group(candidate_numbers)
         numbers = np.zeros(parts.count, np.int64)
         numbers[parts.candidate_part] = candidate_numbers
-        return _in_number_order(NumberedParts(parts, numbers, self.graph.including(numbers)))
+        graph = self.graph.including(numbers)
+        return _in_number_order(NumberedParts(parts, numbers, self.decomposition.candidates, graph))
 
 
 def _born(decomposition, splits, former) -> tuple[np.ndarray, np.ndarray]:

@@ -13,6 +13,7 @@ from . import (
     defaults,
     edit,
     export,
+    groups,
     handles,
     highlight,
     jobs,
@@ -69,5 +70,6 @@ def unregister():
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
     bridge.forget()
+    groups.forget()
     compute.forget()
     store.forget()

@@ -68,21 +68,25 @@ def update_outputs(obj, numbered: NumberedParts, before: np.ndarray | None = Non
     ----------
     obj : bpy.types.Object
     numbered : NumberedParts
-    before : (p,) int64, optional
-        Numbers of the faces' parts as they are written now, so that only what differs is written
+    before : (c,) int64, optional
+        Numbers of the candidates' parts as they are written now, so that only what differs is written
         where writing is slow.
     """
     mesh = obj.data
     result = mesh.reeb_parts
     numbers = numbered.face_numbers
     former = store.number_colors(mesh)
-    _list_parts(obj, numbered)
+    gone = _list_parts(mesh, numbered)
     colors = store.number_colors(mesh)
+    # Colours first: what evaluates the scene there finds nothing else changed yet.
+    color_faces(mesh, numbers, colors, _recolored(numbered, before, former, colors))
+    for _, _, group, material in gone:
+        groups.remove_group(obj, group)
+        _remove_material(mesh, material)
     if result.has_groups:
-        groups.write_groups(obj, numbers, before)
+        groups.write_groups(obj, numbered, before)
     if attribute := mesh.attributes.get(result.face_attribute):
         attribute.data.foreach_set("value", numbers.astype(np.int32))
-    color_faces(mesh, numbers, colors, _recolored(before, numbers, former, colors))
     if result.has_materials:
         _write_materials(mesh, numbered)
     if result.has_face_sets:
@@ -100,14 +104,15 @@ def update_colors(mesh, numbered: NumberedParts):
     mesh.update()
 
 
-def _recolored(before, after, old, new):
+def _recolored(numbered, before, old, new):
     """The faces whose colour changes, None if that is not known."""
     if before is None:
         return None
     same = np.zeros(len(new), bool)
     both = min(len(old), len(new))
     same[:both] = (old[:both] == new[:both]).all(axis=1)
-    return np.flatnonzero((before != after) | ~same[after])
+    changed = (before != numbered.candidate_numbers) | ~same[numbered.candidate_numbers]
+    return np.flatnonzero(changed[numbered.candidates])
 
 
 def remove_outputs(obj):
@@ -118,30 +123,27 @@ def remove_outputs(obj):
     obj.data.update()
 
 
-def _list_parts(obj, numbered):
-    """Fill the list of parts; what is known of a number stays, what was made for one that is gone goes."""
-    result = obj.data.reeb_parts
+def _list_parts(mesh, numbered) -> list:
+    """Fill the list of parts; what is known of a number stays. Returns what was known of those that are gone."""
+    result = mesh.reeb_parts
     active = result.parts[result.active].number if result.active < len(result.parts) else 0
     keys = ("locked", "selected", "group", "material")
     known = {part.number: [getattr(part, key) for key in keys] for part in result.parts}
     wanted = numbered.numbers.tolist()
-    colors = _colors(obj.data, numbered)
-    for number, (_, _, group, material) in known.items():
-        if number not in wanted:
-            groups.remove_group(obj, group)
-            _remove_material(obj.data, material)
+    colors = _colors(mesh, numbered)
     with store.quiet():
         result.parts.clear()
         for label, number in enumerate(wanted):
             part = result.parts.add()
             part.number = number
-            part.name = store.part_name(obj.data, number)
+            part.name = store.part_name(mesh, number)
             part.color = colors[label]
             part.share = numbered.parts.share[label]
             for key, value in zip(keys, known.get(number, ()), strict=False):
                 setattr(part, key, value)
         result.active = wanted.index(active) if active in wanted else 0
         result.n_parts = len(wanted)
+    return [values for number, values in known.items() if number not in wanted]
 
 
 def palette_colors(mesh, numbered: NumberedParts) -> np.ndarray:

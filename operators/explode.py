@@ -72,7 +72,7 @@ def _face_attribute(obj):
             return ""
         with store.quiet():
             attributes.add_face_attribute(obj)
-            attributes.update_outputs(live.users(obj.data)[0], numbered, numbered.face_numbers)
+            attributes.update_outputs(live.users(obj.data)[0], numbered, numbered.candidate_numbers)
     return result.face_attribute
 
 

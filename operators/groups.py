@@ -4,67 +4,98 @@
 Blender has no way to write weights in bulk but a list of vertices per group, so only what changes is written.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from . import bridge
 
 
-def group_changes(vertex: np.ndarray, before: np.ndarray, after: np.ndarray) -> tuple[dict, dict]:
-    """Which vertices come to which parts, and which go.
+@dataclass(frozen=True, eq=False)
+class Grains:
+    """Which vertices the faces of each candidate have; a vertex on a cut is one of several candidates.
 
-    A vertex is in every part that has a face there, so that parts share those on cuts.
-
-    Parameters
+    Attributes
     ----------
-    vertex : (c,) int32
-        Of each corner.
-    before, after : (c,) int
-        Number of the part of the corner's face; 0 for none.
-
-    Returns
-    -------
-    come, gone : dict of number -> (k,) int64
+    inner : (k,) int32
+        Vertices of one candidate alone, those of the first candidate first.
+    bounds : (c + 1,) int64
+        Where those of each candidate start, and the end.
+    shared : (e, 2) int64
+        Candidate and vertex, of the other vertices.
     """
-    count = int(vertex.max(initial=-1)) + 1
-    (old, old_more), (new, new_more) = (_members(vertex, numbers, count) for numbers in (before, after))
-    # Vertices with several parts are few, and looked at one by one.
-    several = np.zeros(count, bool)
-    several[old_more[1]] = several[new_more[1]] = True
-    moved, cut = np.flatnonzero((old != new) & ~several), np.flatnonzero(several)
-    old_pairs, new_pairs = (
-        np.concatenate([more[0].astype(np.int64) * count + more[1], first[cut].astype(np.int64) * count + cut])
-        for first, more in ((old, old_more), (new, new_more))
-    )
-    found = []
-    for first, mine, others in ((new, new_pairs, old_pairs), (old, old_pairs, new_pairs)):
-        number, shared = np.divmod(np.setdiff1d(mine, others, assume_unique=True), count)
-        found.append(_by_number(np.concatenate([first[moved], number]), np.concatenate([moved, shared])))
-    return tuple(found)
+
+    inner: np.ndarray
+    bounds: np.ndarray
+    shared: np.ndarray
+
+    @classmethod
+    def of(cls, vertex: np.ndarray, candidate: np.ndarray) -> "Grains":
+        """From the vertex and the candidate of each corner, two (k,) integer arrays."""
+        n_vertices, count = int(vertex.max(initial=-1)) + 1, int(candidate.max(initial=-1)) + 1
+        # Small whole numbers are sorted much faster.
+        one = np.full(n_vertices, count, np.int16 if count < 2**15 else np.int32)
+        one[vertex] = candidate
+        other = np.flatnonzero(one[vertex] != candidate)
+        mixed = np.zeros(n_vertices, bool)
+        mixed[vertex[other]] = True
+        several = np.flatnonzero(mixed)
+        pairs = np.concatenate([candidate[other].astype(np.int64) * n_vertices + vertex[other],
+                                one[several].astype(np.int64) * n_vertices + several])
+        one[several] = count
+        inner = np.argsort(one, kind="stable").astype(np.int32)
+        bounds = np.searchsorted(one[inner], np.arange(count + 1))
+        return cls(inner, bounds, np.column_stack(np.divmod(np.unique(pairs), max(n_vertices, 1))))
+
+    def changes(self, before: np.ndarray, after: np.ndarray) -> tuple[dict, dict]:
+        """Which vertices come to which parts, and which go.
+
+        A vertex is in every part that has a face there, so that parts share those on cuts.
+
+        Parameters
+        ----------
+        before, after : (c,) int
+            Number of each candidate's part; 0 for none.
+
+        Returns
+        -------
+        come, gone : dict of number -> (k,) int
+        """
+        candidate, vertex = self.shared.T
+        width = int(vertex.max(initial=-1)) + 1
+        near = np.zeros(width, bool)
+        near[vertex[(before != after)[candidate]]] = True
+        candidate, vertex = candidate[near[vertex]], vertex[near[vertex]]
+        old, new = (np.unique(numbers[candidate].astype(np.int64) * width + vertex) for numbers in (before, after))
+        moved = np.flatnonzero(before != after).tolist()
+        found = []
+        for numbers, mine, others in ((after, new, old), (before, old, new)):
+            lists = {}
+            for index in moved:
+                inside = self.inner[self.bounds[index] : self.bounds[index + 1]]
+                lists.setdefault(int(numbers[index]), []).append(inside)
+            number, there = np.divmod(np.setdiff1d(mine, others, assume_unique=True), max(width, 1))
+            start = np.flatnonzero(np.diff(number, prepend=-1))
+            for first, vertices in zip(number[start].tolist(), np.split(there, start)[1:], strict=True):
+                lists.setdefault(first, []).append(vertices)
+            found.append({number: np.concatenate(there) for number, there in lists.items() if number > 0})
+        return tuple(found)
 
 
-def _members(vertex, numbers, count):
-    """A part of each vertex, 0 for none; and the other parts of those on cuts, as numbers and vertices."""
-    first = np.zeros(count, numbers.dtype)
-    first[vertex] = numbers
-    left = np.flatnonzero(first[vertex] != numbers)
-    vertex, numbers = vertex[left], numbers[left]
-    part, more = first.copy(), [(numbers[:0], vertex[:0])]
-    while len(vertex):  # as often as parts meet in one vertex
-        part[vertex] = numbers
-        where = np.unique(vertex)
-        more.append((part[where], where))
-        left = part[vertex] != numbers
-        vertex, numbers = vertex[left], numbers[left]
-    return first, [np.concatenate(values) for values in zip(*more, strict=True)]
+_grains: list[tuple[np.ndarray, np.ndarray, Grains]] = []  # the last, with what it was made of
 
 
-def _by_number(numbers, vertices):
-    """Vertices of each number above 0."""
-    # Small whole numbers are sorted much faster.
-    order = np.argsort(numbers.astype(np.int16) if numbers.max(initial=0) < 2**15 else numbers, kind="stable")
-    numbers, vertices = numbers[order], vertices[order]
-    bounds = np.flatnonzero(np.diff(numbers, prepend=0))
-    return dict(zip(numbers[bounds].tolist(), np.split(vertices, bounds)[1:], strict=True))
+def grains(mesh, candidates: np.ndarray) -> Grains:
+    """The grains of a mesh, kept for the next step of a drag. candidates : (p,) int64, of each face."""
+    vertex, face = bridge.face_corners(mesh)
+    if not _grains or _grains[0][0] is not vertex or _grains[0][1] is not candidates:
+        _grains[:] = [(vertex, candidates, Grains.of(vertex, candidates.astype(np.int32)[face]))]
+    return _grains[0][2]
+
+
+def forget():
+    """Free what is kept in memory."""
+    _grains.clear()
 
 
 def plan_groups(obj):
@@ -72,22 +103,17 @@ def plan_groups(obj):
     obj.data.reeb_parts.has_groups = True
 
 
-def write_groups(obj, numbers, before):
+def write_groups(obj, numbered, before):
     """Make each part's group hold the part's vertices.
 
-    numbers : (p,) int64, the part of each face. before : the same as it is written now, or None.
+    numbered : core.numbering.NumberedParts. before : (c,) int64, the candidates' numbers as they are written
+    now, or None.
     """
-    vertex, face = bridge.face_corners(obj.data)
     parts = {part.number: part for part in obj.data.reeb_parts.parts}
     fresh = [number for number, part in parts.items() if part.group not in obj.vertex_groups]
     if before is None or np.isin(before, fresh).any():
-        before = np.zeros_like(numbers)
-    # Only at the corners of faces that changed can a vertex have come or gone.
-    near = np.zeros(len(obj.data.vertices), bool)
-    near[vertex[(numbers != before)[face]]] = True
-    near = near[vertex]
-    near_face = face[near]
-    come, gone = group_changes(vertex[near], before.astype(np.int32)[near_face], numbers.astype(np.int32)[near_face])
+        before = np.zeros_like(numbered.candidate_numbers)
+    come, gone = grains(obj.data, numbered.candidates).changes(before, numbered.candidate_numbers)
     active = obj.vertex_groups.active_index
     for number in sorted(parts):
         part = parts[number]

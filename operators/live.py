@@ -111,7 +111,7 @@ def lock(part, context):
 
 def refresh(context, mesh, stored, numbered):
     """Write other parts of the same decomposition: outputs, list and graphs."""
-    before = stored.shown[stored.decomposition.candidates]
+    before = stored.shown
     stored = stored.showing(numbered)
     objects = users(mesh)
     with store.quiet():

@@ -24,7 +24,7 @@ class OutputOperator(PartOperator):
             (remove if self.remove else add)(obj)
             if not self.remove:
                 numbered = stored.shown_parts()
-                attributes.update_outputs(obj, numbered, numbered.face_numbers)
+                attributes.update_outputs(obj, numbered, numbered.candidate_numbers)
         obj.data.update()
         return rpt_(undone) if self.remove else rpt_(done).format(n=len(obj.data.reeb_parts.parts))
 
