@@ -47,27 +47,25 @@ def show_graph(obj, shown, context):
         return
     if overlay.set_hidden(context, obj, not shown) or not shown:
         return
-    try:
-        with object_mode(context):
-            stored = store.load(obj.data)
-            stretch = store.stretch_of(obj.data)
-            overlay.draw_graph(context, obj, stored.decomposition.graph, stretch, context.scene.reeb_parts)
-            overlay.update_parts(obj, stored.shown_parts())
-    except SceneError:
-        obj.data.reeb_parts.edited = True
+
+    def draw(stored):
+        stretch = store.stretch_of(obj.data)
+        overlay.draw_graph(context, obj, stored.decomposition.graph, stretch, context.scene.reeb_parts)
+        overlay.update_parts(obj, stored.shown_parts())
+
+    _with_result(obj.data, context, draw)
 
 
 def use_palette(mesh, palette, context):
     """Colour the parts of a mesh from another palette."""
     if store.is_quiet() or not store.has_result(mesh) or mesh.reeb_parts.palette == palette:
         return
-    try:
-        with object_mode(context):
-            stored = store.load(mesh)
-            mesh.reeb_parts.palette = palette
-            refresh(context, mesh, stored, stored.shown_parts())
-    except SceneError:
-        mesh.reeb_parts.edited = True
+
+    def recolor_all(stored):
+        mesh.reeb_parts.palette = palette
+        refresh(context, mesh, stored, stored.shown_parts())
+
+    _with_result(mesh, context, recolor_all)
 
 
 def recolor(part, context):
@@ -75,19 +73,19 @@ def recolor(part, context):
     if store.is_quiet():
         return
     mesh = part.id_data
-    try:
-        with object_mode(context):
-            numbered = store.load(mesh).shown_parts()
-            own = attributes.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
-            # Blender's popup, when it is cancelled, sets the colour back.
-            chosen = np.abs(own - part.color).max() > 0.5 / 255
-            store.keep_color(mesh, part.number, part.color[:] if chosen else None)
-            # The list stays as it is: somebody has a hand on one of its colours.
-            attributes.update_colors(mesh, numbered)
-            for obj in users(mesh):
-                overlay.update_parts(obj, numbered)
-    except SceneError:
-        mesh.reeb_parts.edited = True
+
+    def keep(stored):
+        numbered = stored.shown_parts()
+        own = attributes.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
+        # Blender's popup, when it is cancelled, sets the colour back.
+        chosen = np.abs(own - part.color).max() > 0.5 / 255
+        store.keep_color(mesh, part.number, part.color[:] if chosen else None)
+        # The list stays as it is: somebody has a hand on one of its colours.
+        attributes.update_colors(mesh, numbered)
+        for obj in users(mesh):
+            overlay.update_parts(obj, numbered)
+
+    _with_result(mesh, context, keep)
 
 
 def lock(part, context):
@@ -96,17 +94,14 @@ def lock(part, context):
         return
     mesh = part.id_data
     number, locked = part.number, part.locked
-    try:
-        with object_mode(context):
-            stored = store.load(mesh)
-            own = stored.shown == number
-            fixed = np.where(own, number if locked else 0, stored.fixed)
-            with store.quiet():
-                store.save_numbers(mesh, replace(stored, fixed=fixed))
-    except SceneError:
-        mesh.reeb_parts.edited = True
-        return
-    show(mesh.reeb_parts, context)
+
+    def fix(stored):
+        fixed = np.where(stored.shown == number, number if locked else 0, stored.fixed)
+        with store.quiet():
+            store.save_numbers(mesh, replace(stored, fixed=fixed))
+        show(mesh.reeb_parts, context)
+
+    _with_result(mesh, context, fix)
 
 
 def refresh(context, mesh, stored, numbered):
@@ -130,16 +125,24 @@ def users(mesh):
 def show(result, context):
     """Show the parts of the detail or number that is set."""
     mesh = result.id_data
+
+    def write(stored):
+        numbered = stored.parts(result.detail, result.n_parts if result.by_number else 0)
+        if np.array_equal(numbered.candidate_numbers, stored.shown):
+            store.mark_pins(mesh, stored)
+        else:
+            refresh(context, mesh, stored, numbered)
+        with store.quiet():
+            result.n_parts = numbered.parts.count
+
+    _with_result(mesh, context, write)
+
+
+def _with_result(mesh, context, work):
+    """Do something with the stored result of a mesh, in Object Mode."""
     try:
         with object_mode(context):
-            stored = store.load(mesh)
-            numbered = stored.parts(result.detail, result.n_parts if result.by_number else 0)
-            if np.array_equal(numbered.candidate_numbers, stored.shown):
-                store.mark_pins(mesh, stored)
-            else:
-                refresh(context, mesh, stored, numbered)
-            with store.quiet():
-                result.n_parts = numbered.parts.count
+            work(store.load(mesh))
     except SceneError:
-        # The panel says so; a property cannot.
-        result.edited = True
+        # The panel says that the mesh was edited; a property that is changed cannot say anything.
+        mesh.reeb_parts.edited = True
