@@ -139,7 +139,7 @@ def slide_now():
 
 def numbered(seen):
     """Type a number of parts."""
-    yield from typed(*pointer.in_sidebar(NUMBER, 0.6), "4")
+    yield from pointer.type_over(*pointer.in_sidebar(NUMBER, 0.6), "4")
     seen["typed"] = facts()
 
 
@@ -150,7 +150,7 @@ def recolored(seen):
     yield from pointer.press(x, y)
     yield 0.5
     pointer.shot("9_popup.png")
-    yield from typed(x + HEX[0], y + HEX[1], "#FF00FF")
+    yield from pointer.type_over(x + HEX[0], y + HEX[1], "#FF00FF")
     yield from pointer.press(*pointer.in_sidebar(EMPTY))  # beside the popup, which closes
     yield 0.3
     after = corner_colors()
@@ -164,7 +164,7 @@ def renamed(seen):
     """A double click on a name."""
     x, y = in_list(2, NAME)
     yield from pointer.press(x, y)
-    yield from typed(x, y, "Leg", clicks=2)
+    yield from pointer.type_over(x, y, "Leg", clicks=2)
     seen["renamed"] = facts()["groups"]
 
 
@@ -199,7 +199,7 @@ def exploded(seen):
     yield 0.3
     seen["exploded"] = [modifier.name for modifier in spot().modifiers]
     pointer.shot("14_exploded.png")
-    yield from typed(x, y, "0")
+    yield from pointer.type_over(x, y, "0")
     seen["together"] = [modifier.name for modifier in spot().modifiers]
 
 
@@ -224,18 +224,6 @@ def palette_chosen(seen):
 
 
 PANELS = {exploded: USE, graph_hidden: OVERLAY, palette_chosen: OUTPUT}  # what is open for them
-
-
-def typed(x, y, text, clicks=2):
-    """Open a field by clicks, and type over what is in it."""
-    yield from pointer.rest(x, y)
-    # At once: between them a slow machine would draw the view, and they would be two single clicks.
-    pointer.xdo("click", "--repeat", clicks, "--delay", 60, 1)
-    yield 0.2
-    yield from pointer.tap("ctrl+a")
-    yield from pointer.write(text)
-    yield from pointer.tap("Return")
-    yield 0.3
 
 
 def all_undone(seen, name, before):

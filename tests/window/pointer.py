@@ -76,6 +76,18 @@ def write(text):
     yield 0.2
 
 
+def type_over(x, y, text, clicks=2):
+    """Open a field by clicks, and type over what is in it."""
+    yield from rest(x, y)
+    # At once: between them a slow machine would draw the view, and they would be two single clicks.
+    xdo("click", "--repeat", clicks, "--delay", 60, 1)
+    yield 0.2
+    yield from tap("ctrl+a")
+    yield from write(text)
+    yield from tap("Return")
+    yield 0.3
+
+
 def search(text):
     """F3 over the view, a command's name, Enter."""
     xdo("mousemove", *in_view())
@@ -135,9 +147,9 @@ def in_sidebar(rows, across=0.5):
     return from_top(ui.x + across * ui.width, ui.y + ui.height - rows * unit())
 
 
-def over(point):
-    """Where a point of the world is seen."""
-    window = region("WINDOW")
+def over(point, window=None):
+    """Where a point of the world is seen. window : a region of a viewport."""
+    window = window or region("WINDOW")
     x, y = view3d_utils.location_3d_to_region_2d(window, window.data, Vector(point))
     return from_top(window.x + x, window.y + y)
 
@@ -145,22 +157,19 @@ def over(point):
 def surface_places(obj, away=14, window=None):
     """Where each part can be clicked, by its number: the place nearest to the middle of what is seen of it.
 
-    Beside the graph by some pixels, and not under the sidebar. window : a region of four views.
+    Beside the graph by some pixels, and not under the sidebar. window : a region of four views, or of another
+    viewport that has no sidebar.
     """
     edge = (80, 120) if window is None else (20, 20)
+    sidebar = region("UI").x - 60 if window is None and view_area().spaces.active.show_region_ui else None
     window = window or region("WINDOW")
-    view = window.data
-    sidebar = region("UI").x - window.x - 60 if view_area().spaces.active.show_region_ui else window.width
-    right = min(window.width - edge[0], sidebar)
-    graph = [Vector(point) for point in graph_places(obj).values()]
+    right = min(window.width - edge[0], sidebar - window.x if sidebar else window.width)
+    graph = [Vector(point) for point in graph_places(obj, window).values()]
     found = {}
-    depsgraph = bpy.context.evaluated_depsgraph_get()
     for x in range(edge[0], right, 8):
         for y in range(edge[0], window.height - edge[1], 8):
-            start = view3d_utils.region_2d_to_origin_3d(window, view, (x, y))
-            ahead = view3d_utils.region_2d_to_vector_3d(window, view, (x, y))
-            hit, _, _, face, item, _ = bpy.context.scene.ray_cast(depsgraph, start, ahead)
-            if hit and item.name == obj.name:
+            item, _, face = seen_at(window, (x, y))
+            if item == obj.name:
                 number = obj.data.attributes["reeb_part"].data[face].value
                 found.setdefault(number, []).append(Vector(from_top(window.x + x, window.y + y)))
     for number, places in found.items():
@@ -170,16 +179,25 @@ def surface_places(obj, away=14, window=None):
     return found
 
 
-def graph_places(obj):
+def seen_at(window, place):
+    """What is seen at a place of a region: name of the object, or None; place in the world; face."""
+    start = view3d_utils.region_2d_to_origin_3d(window, window.data, place)
+    ahead = view3d_utils.region_2d_to_vector_3d(window, window.data, place)
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    hit, location, _, face, item, _ = bpy.context.scene.ray_cast(depsgraph, start, ahead)
+    return item.name if hit else None, location, face
+
+
+def graph_places(obj, window=None):
     """Where the points of an object's graph are seen: by name of the node, or (spline, point) of the arcs."""
     found = {}
     for item in obj.children:
         if item.type == "EMPTY":
-            found[item.name] = over(item.matrix_world.translation)
+            found[item.name] = over(item.matrix_world.translation, window)
         elif item.type == "CURVE":
             for i, spline in enumerate(item.data.splines):
                 for j, point in enumerate(spline.points):
-                    found[i, j] = over(item.matrix_world @ point.co.to_3d())
+                    found[i, j] = over(item.matrix_world @ point.co.to_3d(), window)
     return found
 
 

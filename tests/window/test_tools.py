@@ -41,13 +41,15 @@ def test_a_stroke_with_a_larger_brush_gives_faces_to_the_active_part(seen):
 
 @pytest.mark.parametrize("name", [
     "pick undone", "cut undone", "cut redone", "cut undone again", "paint undone", "paint redone",
-    "paint undone again", "arc undone", "choice undone",
+    "paint undone again", "arc undone", "choice undone", "pick next door undone", "cut next door undone",
+    "paint next door undone", "Detail undone", "Detail within Paint into undone",
 ])  # fmt: skip
 def test_undo_and_redo_are_exact(seen, name):
     assert seen[name] == []
 
 
-@pytest.mark.parametrize("name", ["cut escaped", "paint escaped", *(f"{tool} escaped at once" for tool in TOOLS)])
+@pytest.mark.parametrize("name", ["cut escaped", "paint escaped", *(f"{tool} escaped at once" for tool in TOOLS),
+                                  *(f"{tool} next door escaped" for tool in TOOLS[1:])])
 def test_escape_leaves_everything_as_it_was(seen, name):
     assert seen[name] == []
 
@@ -67,6 +69,12 @@ def test_undo_while_a_tool_is_at_work(seen, tool):
     assert seen[f"at work after {tool}"] == []
 
 
+def test_nothing_of_a_stroke_is_left_when_the_detail_changes_under_it(seen):
+    more, before = seen["more parts"]
+    assert more > before
+    assert seen["Detail within Paint into"] == []
+
+
 def test_picking_goes_on_beside_other_commands_and_without_the_sidebar(seen):
     assert seen["picked after Decompose"] == ["Part 06", []]
     assert seen["picked without the sidebar"] == ["Part 03", []]
@@ -84,6 +92,26 @@ def test_picking_in_local_view_maximised_and_in_each_of_four_views(seen):
     found = seen["picked in four views"]
     assert len(found) == 8
     assert [name for name, _ in found] == [name for _, name in found]
+
+
+def test_a_tool_is_carried_into_another_viewport(seen):
+    assert {"Part 01", "Part 06"} <= set(seen["seen next door"])
+    assert seen["picked next door"] == ["Part 06", ["Part 01", "Part 06"]]
+    before, cut, painted = seen["before painting"], seen["cut next door"], seen["painted next door"]
+    assert cut["Part 06"] + cut["Part 11"] == pytest.approx(before["Part 06"], abs=2e-3)
+    assert painted["Part 01"] > before["Part 01"]
+    assert painted["Part 06"] < before["Part 06"]
+
+
+def test_what_a_tool_shows_in_another_viewport_is_where_the_pointer_is(seen):
+    ring, brush = seen["Cut Part next door"], seen["Paint into next door"]
+    assert ring["nearest"] < 0.05 * ring["size"]  # through the pointer
+    assert brush["middle"] < 0.05 * brush["size"]  # around it
+
+
+@pytest.mark.parametrize("tool", TOOLS)
+def test_escape_ends_a_tool_in_another_viewport(seen, tool):
+    assert seen[f"at work after {tool} next door"] == []
 
 
 @pytest.mark.parametrize("tool", ["Pick Parts", "Cut Part", "Paint into"])

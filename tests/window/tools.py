@@ -10,6 +10,7 @@ import os
 import sys
 
 import bpy
+from mathutils import Euler, Vector
 
 sys.path += [os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__))]
 import pointer
@@ -18,7 +19,7 @@ from snapshot import changes, snapshot
 SEEN = {}
 TOOLS = ("Pick Parts", "Cut Part", "Paint into", "Slide Boundary")
 # Rows below the top of the sidebar; of the buttons, the share of its width, too.
-DECOMPOSE = 3.7
+DECOMPOSE, DETAIL = 3.7, 7.0
 BUTTONS = {"Pick": (19.55, 0.3), "Cut": (19.55, 0.7), "Slide": (20.6, 0.3), "Paint": (20.6, 0.7)}
 
 
@@ -28,7 +29,7 @@ def steps():
     yield from pointer.search("Decompose into Parts")
     yield from pointer.until(lambda: "reeb_part" in spot().data.attributes, pointer.PATIENCE)
     yield 0.5
-    for scene in (picked, cut, painted, escaped, by_graph, disturbed, elsewhere, deleted):
+    for scene in (picked, cut, painted, escaped, by_graph, disturbed, elsewhere, next_door, deleted):
         yield from scene()
         (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
 
@@ -156,6 +157,7 @@ def disturbed():
         for _ in range(4):
             if differences(before):
                 bpy.ops.ed.undo()
+    yield from detail_while_painting()
     yield from pointer.search("Pick Parts")
     yield from pointer.press(*pointer.in_sidebar(DECOMPOSE))
     yield from pointer.until(lambda: at_work() == ["REEB_PARTS_OT_pick"])
@@ -168,8 +170,28 @@ def disturbed():
     note("at work after Enter", at_work())
 
 
+def detail_while_painting():
+    """Another detail is typed over what a stroke shows."""
+    choose("Part 01")
+    bpy.ops.ed.undo_push(message="ready")
+    ready = snapshot()
+    place = pointer.in_sidebar(DETAIL, 0.6)
+    yield from pointer.type_over(*place, "0.6")
+    wanted = snapshot()
+    note("more parts", [len(shares())])
+    yield from undo_to("Detail undone", ready)
+    note("more parts", [*SEEN["more parts"], len(shares())])
+    yield from pointer.search("Paint into")
+    yield from pointer.drag(stroke("Part 01", "Part 06"))
+    yield from pointer.type_over(*place, "0.6")
+    yield from pointer.rest(*pointer.in_view(0.1, 0.1))
+    yield from pointer.tap("Escape")
+    note("Detail within Paint into", differences(wanted))
+    yield from undo_to("Detail within Paint into undone", ready)
+
+
 def elsewhere():
-    """From the button in the sidebar; in local view; in each of four views; beside a second viewport."""
+    """From the button in the sidebar; in local view; in a maximised area; in each of four views."""
     for name, place in BUTTONS.items():
         yield from pointer.press(*pointer.in_sidebar(*place))
         note(f"button {name}", at_work())
@@ -207,6 +229,70 @@ def elsewhere():
     with bpy.context.temp_override(area=area, region=pointer.region("WINDOW")):
         bpy.ops.screen.region_quadview()
     yield 0.5
+
+
+def next_door():
+    """Started in one viewport and carried into another, which looks from the other side."""
+    area = pointer.view_area()
+    with bpy.context.temp_override(area=area, region=pointer.region("WINDOW")):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
+    yield 0.5
+    other = next(item for item in bpy.context.screen.areas if item.type == "VIEW_3D" and item != area)
+    for space in (area.spaces.active, other.spaces.active):
+        space.show_region_ui = False
+    other.spaces.active.region_3d.view_rotation = Euler((1.2, 0.0, 3.9)).to_quaternion()
+    yield 0.5
+    window = pointer.region("WINDOW", other)
+    places = pointer.surface_places(spot(), window=window)
+    note("seen next door", sorted(part.name for part in spot().data.reeb_parts.parts if part.number in places))
+    before = snapshot()
+    yield from pointer.search("Pick Parts")
+    yield from pointer.press(*places[number("Part 01")])
+    yield from pointer.press(*places[number("Part 06")], "Shift_L")
+    note("picked next door", chosen())
+    yield from pointer.tap("Escape")
+    note("at work after Pick Parts next door", at_work())
+    yield from undo_to("pick next door undone", before)
+    for name in ("Cut Part", "Paint into", "Slide Boundary"):
+        choose("Part 01")
+        bpy.ops.ed.undo_push(message="ready")
+        before = snapshot()
+        yield from pointer.search(name)
+        yield from pointer.rest(*places[number("Part 06")])
+        note(f"{name} next door", shown_lines(window, places[number("Part 06")]))
+        pointer.shot(f"10_next_door_{name.split()[0].lower()}.png")
+        yield from pointer.tap("Escape")
+        note(f"at work after {name} next door", at_work())
+        note(f"{name} next door escaped", differences(before))
+    yield from pointer.search("Cut Part")
+    yield from pointer.press(*places[number("Part 06")])
+    yield 0.3
+    note("cut next door", shares())
+    yield from undo_to("cut next door undone", before)
+    yield from pointer.search("Paint into")
+    yield from pointer.drag(stroke("Part 01", "Part 06", window))
+    pointer.shot("10_painted_next_door.png")
+    yield from pointer.tap("Return")
+    note("painted next door", shares())
+    yield from undo_to("paint next door undone", before)
+    with bpy.context.temp_override(area=other):
+        bpy.ops.screen.area_close()
+    yield 0.5
+    pointer.view_area().spaces.active.show_region_ui = True
+    yield 0.5
+
+
+def shown_lines(window, place):
+    """How far the lines that a tool shows are from what is seen at a place, and how large they are."""
+    (tool,) = bpy.context.window.modal_operators
+    if tool.preview.lines is None:
+        return None
+    x, y = pointer.from_top(*place)
+    _, there, _ = pointer.seen_at(window, (x - window.x, y - window.y))
+    points = [spot().matrix_world @ Vector(point) for point in tool.preview.lines.reshape(-1, 3).tolist()]
+    middle = sum(points, Vector()) / len(points)
+    return {"nearest": min((point - there).length for point in points), "middle": (middle - there).length,
+            "size": max((point - middle).length for point in points)}
 
 
 def deleted():
@@ -288,8 +374,8 @@ def on_arc(name):
     return max(inside, key=from_nodes)
 
 
-def stroke(start, end):
-    places = pointer.surface_places(spot())
+def stroke(start, end, window=None):
+    places = pointer.surface_places(spot(), window=window)
     (x, y), (u, v) = places[number(start)], places[number(end)]
     return [(round(x + (u - x) * s / 8), round(y + (v - y) * s / 8)) for s in range(9)]
 
