@@ -259,7 +259,7 @@ def _born(decomposition, splits, former) -> tuple[np.ndarray, np.ndarray]:
 
     number, births = np.zeros(len(code), np.int64), []
     for start, end in splits.root_runs.tolist():
-        births.append(give(start, end, 1))
+        births.append(give(start, end, len(births) + 1))
         number[start:end] = births[-1]
     counts = (decomposition.n_candidates - splits.merge).tolist()
     for (start, middle, end), count in zip(splits.runs.tolist(), counts, strict=True):
