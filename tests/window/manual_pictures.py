@@ -9,6 +9,8 @@ Those of the first steps are what newcomer.py leaves, and images/window.png is 2
 
 import os
 import sys
+import tempfile
+from pathlib import Path
 
 import bpy
 from mathutils import Quaternion, Vector
@@ -17,7 +19,7 @@ sys.path.append(os.path.dirname(__file__))
 import pointer
 
 # Rows below the top of the sidebar.
-DETAIL, LIST, USE, OUTPUT, OVERLAY = 7.0, 12.55, 23.4, 28.35, 29.65
+DETAIL, PARTS, LIST, USE, OUTPUT, OVERLAY = 7.0, 10.8, 12.55, 23.4, 28.35, 29.65
 CHIP, NAME = 0.12, 0.25  # across the list
 HEX = (99, -32)  # from a chip to the field of its popup
 BODY, LEG, HEAD, EAR = "Part 01", "Part 02", "Part 06", "Part 04"
@@ -32,7 +34,7 @@ def steps():
     overlay.show_floor = overlay.show_axis_x = overlay.show_axis_y = overlay.show_cursor = False
     yield from found_by_name()
     for scene in (looked, few_and_many, colored, palettes, listed, picked, cut, painted, slid, by_graph, changed,
-                  exploded, boned, seamed, unwrapped, face_sets):
+                  exploded, boned, exported, folded_out, seamed, unwrapped, face_sets):
         yield from scene()
 
 
@@ -228,6 +230,46 @@ def boned():
     pointer.shot("armature.png", MODEL)
     yield from pointer.tap("ctrl+z")
     yield 0.4
+
+
+def exported():
+    """The top of the file browser, with what it asks; in the whole window, not in one of its own."""
+    bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
+    folder = Path(tempfile.gettempdir()) / "Spot"
+    folder.mkdir(exist_ok=True)
+    yield from pointer.search("Export Parts to Files")
+    yield from pointer.until(lambda: browser() is not None)
+    yield 0.5
+    browser().spaces.active.params.directory = os.fsencode(str(folder))
+    yield 0.7
+    left, top = pointer.from_top(pointer.region("WINDOW", browser()).x, browser().y + browser().height)
+    pointer.shot("export.png", (left, top, 1280, top + 135))
+    yield from pointer.tap("Escape")
+    yield 0.7
+    folder.rmdir()
+
+
+def browser():
+    """The area that shows files, if there is one."""
+    areas = bpy.context.window.screen.areas
+    return next((area for area in areas if area.type == "FILE_BROWSER"), None)
+
+
+def folded_out():
+    """The panels Output and Overlay, with the list folded away above them."""
+    yield from pointer.press(*pointer.in_sidebar(PARTS))
+    yield 0.7
+    ui = pointer.region("UI")
+    for name, row, rows in (("output.png", 17.0, 10.5), ("overlay.png", 18.25, 7.2)):
+        yield from pointer.press(*pointer.in_sidebar(row))
+        yield from pointer.rest(*pointer.in_view(0.1, 0.1))
+        yield 0.7
+        left, top = pointer.in_sidebar(row - 0.7, 0.0)
+        pointer.shot(name, (left + 9, top, left + 0.88 * ui.width, top + rows * pointer.unit()))
+        yield from pointer.press(*pointer.in_sidebar(row))
+        yield 0.7
+    yield from pointer.press(*pointer.in_sidebar(PARTS))
+    yield 0.7
 
 
 def seamed():
