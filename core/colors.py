@@ -6,12 +6,12 @@ from __future__ import annotations
 import numpy as np
 
 # Okabe & Ito's palette without black, then Paul Tol's muted scheme, as sRGB bytes: both made
-# to stay distinct under the common kinds of colour blindness.
+# to stay distinct under the common kinds of colour blindness. Tol's colours are in the order in which
+# each differs most from those before it, so that a model of ten parts has no two that look alike.
 PALETTE = np.array([
     (86, 180, 233), (230, 159, 0), (0, 158, 115), (204, 121, 167), (240, 228, 66),
-    (0, 114, 178), (213, 94, 0), (136, 204, 238), (51, 34, 136), (221, 204, 119),
-    (17, 119, 51), (136, 34, 85), (68, 170, 153), (170, 68, 153), (153, 153, 51),
-    (204, 102, 119),
+    (0, 114, 178), (213, 94, 0), (51, 34, 136), (136, 34, 85), (153, 153, 51), (221, 204, 119),
+    (17, 119, 51), (136, 204, 238), (170, 68, 153), (68, 170, 153), (204, 102, 119),
 ]) / 255.0
 
 # Kelly (1965), colours of maximum contrast, without black, white and grey; bright, but not all of

@@ -37,6 +37,14 @@ def test_neighbours_are_told_apart_by_colour_blind_people():
     assert distance_matrix(colors)[0, 1:].min() > 0.2
 
 
+def test_the_first_colours_differ_most():
+    apart = distance_matrix()
+    nearest = [apart[index, :index].min() for index in range(1, len(PALETTE))]
+    assert min(nearest[:10]) > 0.12  # eleven colours for most models
+    for index in range(7, len(PALETTE)):
+        assert nearest[index - 1] >= apart[index:, :index].min(axis=1).max() - 1e-12
+
+
 def test_distance_is_a_symmetric_difference():
     apart = distance_matrix(np.array([(0, 0, 0), (1, 1, 1), (1, 0, 0), (1, 0, 0)], float))
     np.testing.assert_allclose(apart, apart.T)
