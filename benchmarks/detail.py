@@ -5,7 +5,7 @@
     python3 benchmarks/detail.py [--check] [--size N ...]            with Blender as a module
 
 The bundled model is refined to each size and decomposed with all that is written by default; then Detail is
-set to 30 values from 0 to 1, and the number of parts to 30 from 1. Milliseconds are from setting the property
+set to 30 values from 0 to 1 and back, and the number of parts to 30 from 1. Milliseconds are from setting the property
 to its return. Drawing and Blender's own evaluation of the changed mesh are not in them; "evaluated" is the
 median with that. They depend on the machine, so each size comes with a yardstick: writing the colours of all
 corners, which is the least that a change of all parts has to do. --check fails when 50,000 vertices take more
@@ -59,12 +59,13 @@ def measure(size: int, limit: float):
     result.detail = 1.0
     most = len(result.parts)
     yardstick = write_colors(obj.data)
-    for name, values in (("detail", np.linspace(0, 1, N_VALUES).tolist()),
-                         ("n_parts", list(range(1, min(N_VALUES, most) + 1)))):
-        result.detail = 0.5
+    rising = np.linspace(0, 1, N_VALUES).tolist()
+    for what, name, values in (("Detail, rising", "detail", rising), ("Detail, falling", "detail", rising[::-1]),
+                               ("number of parts", "n_parts", list(range(1, min(N_VALUES, most) + 1)))):
+        setattr(result, name, values[0])
         bpy.context.view_layer.update()
         returned, evaluated = np.array([drag(result, name, value) for value in values]).T
-        print(f"| {size:,} | {name} | 1 to {len(result.parts)} | {np.median(returned):.0f} | "
+        print(f"| {size:,} | {what} | 1 to {most if name == 'detail' else values[-1]} | {np.median(returned):.0f} | "
               f"{returned.max():.0f} | {np.median(evaluated):.0f} | {yardstick:.0f} | {limit:.0f} |", flush=True)
         yield returned.max()
 

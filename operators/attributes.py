@@ -20,7 +20,7 @@ FACE_SETS = ".sculpt_face_set"
 
 # Up to this share of the faces, their corners one by one cost less than all corners at once: Blender sets
 # byte colours slowly.
-FEW = 0.03
+FEW = 0.01
 
 # From so many corners on, Blender's operator that converts colours is worth calling.
 MANY = 200_000
