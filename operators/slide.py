@@ -54,6 +54,7 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.slide"
     bl_label = "Slide Boundary"
+    bl_options = {"REGISTER", "UNDO", "BLOCKING", "GRAB_CURSOR_X"}  # from the button at the edge, too
     cursor = "MOVE_X"
     aims = False
 
