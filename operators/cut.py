@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
 from . import bridge, edit, pointing, store
-from .parts import PartOperator
+from .parts import PartOperator, make_active
 from .problems import SceneError
 from .view_tool import ViewTool
 
@@ -82,6 +82,7 @@ def cut_at(context, obj, model, target) -> str:
         raise SceneError(rpt_("Nothing of {name} would be cut off there. Point at another place.").format(name=name))
     new = edit.free_number(obj.data, model.stored)
     edit.assign_faces(context, obj, model.stored, np.where(side, new, model.numbers), graph)
+    make_active(obj.data, new)
     return rpt_("{new} was cut from {name}").format(new=store.part_name(obj.data, new), name=name)
 
 

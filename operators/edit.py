@@ -12,7 +12,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import attributes, bridge, live, store
-from .parts import PartOperator, chosen_numbers
+from .parts import PartOperator, chosen_numbers, make_active
 from .problems import SceneError
 
 
@@ -224,6 +224,7 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
         before = stored.shown[stored.decomposition.candidates]
         check_unlocked(obj, {number, *before[faces].tolist()})
         assign_faces(context, obj, stored, np.where(faces, number, before))
+        make_active(mesh, number)
         return rpt_("{n} faces are {name} now").format(n=int(faces.sum()), name=_name(obj, number))
 
 

@@ -42,6 +42,14 @@ def choose(source, numbers):
                 result.active = index
 
 
+def make_active(mesh, number):
+    """Make a part the active one of the list, which scrolls to it; no mark changes."""
+    with store.quiet():
+        for index, part in enumerate(mesh.reeb_parts.parts):
+            if part.number == number:
+                mesh.reeb_parts.active = index
+
+
 def toggle(source, number):
     """Mark one part more, or one part less; it becomes the active one."""
     result = source.data.reeb_parts

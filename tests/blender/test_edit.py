@@ -201,9 +201,11 @@ def test_faces_are_assigned(obj, result, new):
     after = numbers(obj.data)
     assert (after != before)[chosen].all()
     assert len(set(after[chosen])) >= 1
-    if not new:
-        assert (after[chosen] == 1).all()
     result = obj.data.reeb_parts
+    if new:
+        assert result.parts[result.active].number in after[chosen]
+    else:
+        assert (after[chosen] == 1).all()
     check(obj)
     kept = after.copy()
     result.detail = 0.2

@@ -82,6 +82,7 @@ def test_a_cut_goes_around_the_branch_where_it_was_pointed_at(obj, matrix, on_gr
     assert (found[own & (along > 1.65)] == new).all()
     assert (found[~own | (along < 1.15)] == 1).all()
     assert all(part.pinned for part in mesh.reeb_parts.parts)
+    assert mesh.reeb_parts.parts[mesh.reeb_parts.active].number == new
 
 
 def test_a_cut_stays_at_every_detail(obj, result):
