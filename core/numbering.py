@@ -271,16 +271,19 @@ def _born(decomposition, splits, former) -> tuple[np.ndarray, np.ndarray]:
         number[slice(*new)] = births[-1]
     order = np.argsort(births)
     rank = order[np.searchsorted(np.array(births)[order], number)]
-    born = ~np.isin(number, known)
-    # A former number that no part had most of goes to the first candidate in it that has a new one.
-    for lost in np.flatnonzero(free).tolist():
-        place = np.flatnonzero(born & (code == lost))
-        if len(place):
+    place = np.argsort(splits.order)
+    return _former_first(number[place], rank[place], former[place], known[free])
+
+
+def _former_first(own, rank, former, lost) -> tuple[np.ndarray, np.ndarray]:
+    """The same with former numbers born before all others, and those that no part had most of given, too."""
+    own, new = own.copy(), ~np.isin(own, former[former > 0])
+    for number in lost.tolist():
+        place = np.flatnonzero(new & (former == number))
+        if len(place):  # to the first that has a new one
             place = place[rank[place].argmin()]
-            number[place], born[place] = known[lost], False
-    own, first = np.empty_like(number), np.empty_like(rank)
-    own[splits.order], first[splits.order] = number, np.argsort(np.lexsort((rank, born)))
-    return own, first
+            own[place], new[place] = number, False
+    return own, np.argsort(np.lexsort((rank, new)))
 
 
 def _around(own, rank, former, fixed) -> tuple[np.ndarray, np.ndarray]:
@@ -294,7 +297,7 @@ def _around(own, rank, former, fixed) -> tuple[np.ndarray, np.ndarray]:
         own[candidate] = last = number
     # A number that a fixed part took away from its candidate: another one, born last.
     lost = np.isin(own, fixed[fixed > 0]) & (own != fixed)
-    own[lost] = own.max() + 1 + np.arange(lost.sum())
+    own[lost] = max(own.max(), fixed.max()) + 1 + np.arange(lost.sum())
     return np.where(fixed > 0, fixed, own), np.argsort(order[np.argsort(lost[order], kind="stable")])
 
 
