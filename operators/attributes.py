@@ -277,21 +277,23 @@ def _color_many(mesh, attribute, numbers, colors) -> bool:
     name, chosen = attribute.name, (mesh.attributes.active_color_name, mesh.attributes.default_color_name)
     active = mesh.attributes.active.name if mesh.attributes.active else ""
     exact = [(*linear(color), 1.0) for color in (np.floor(255.0 * colors[:, :3] + 0.5) / 255.0).tolist()]
-    made = mesh.attributes.new(name, "FLOAT_COLOR", "FACE")
-    made.data.foreach_set("color", _spread(exact, numbers))
-    mesh.attributes.active = made
-    made = made.name
+    made = mesh.attributes.new(name, "FLOAT_COLOR", "FACE").name
+    done = False
     try:
+        mesh.attributes[made].data.foreach_set("color", _spread(exact, numbers))
+        mesh.attributes.active = mesh.attributes[made]
         with bpy.context.temp_override(object=users[0], active_object=users[0]):
-            done = bpy.ops.geometry.attribute_convert(mode="GENERIC", domain="CORNER", data_type="BYTE_COLOR")
+            done = "FINISHED" in bpy.ops.geometry.attribute_convert(
+                mode="GENERIC", domain="CORNER", data_type="BYTE_COLOR")
     except RuntimeError:  # not in this context
-        done = {"CANCELLED"}
-    mesh.attributes.remove(mesh.attributes[name if "FINISHED" in done else made])
-    if "FINISHED" in done:
-        mesh.attributes[made].name = name
-    mesh.attributes.active = mesh.attributes.get(active)
-    mesh.attributes.active_color_name, mesh.attributes.default_color_name = chosen
-    return "FINISHED" in done
+        pass
+    finally:
+        mesh.attributes.remove(mesh.attributes[name if done else made])
+        if done:
+            mesh.attributes[made].name = name
+        mesh.attributes.active = mesh.attributes.get(active)
+        mesh.attributes.active_color_name, mesh.attributes.default_color_name = chosen
+    return done
 
 
 def _spread(colors, index) -> np.ndarray:
