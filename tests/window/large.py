@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Detail of a larger mesh, typed and dragged in a real window: one with more than 200,000 corners, whose colours
+Blender's own operator converts.
+
+Executed inside Blender as driver.py is, which says how.
+"""
+
+import hashlib
+import json
+import os
+import sys
+
+import bpy
+import numpy as np
+
+sys.path.append(os.path.dirname(__file__))
+import pointer
+
+DECOMPOSE, DETAIL = 3.7, 7.0  # rows below the top of the sidebar
+
+
+def steps():
+    """One step after the other; yields the seconds to wait."""
+    seen = {}
+    yield from pointer.spot_alone()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide(number_cuts=3)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.ed.undo_push(message="Subdivide")
+    yield from pointer.press(*pointer.in_sidebar(DECOMPOSE))
+    yield from pointer.until(lambda: len(mesh().reeb_parts.parts), pointer.PATIENCE)
+    yield 1.0
+    seen["decomposed"] = facts()
+    yield from pointer.type_over(*pointer.in_sidebar(DETAIL, 0.7), "0.9")
+    yield 1.0
+    seen["typed"] = facts()
+    pointer.shot("1_typed.png")
+    for step, keys in (("undone", "ctrl+z"), ("redone", "ctrl+shift+z")):
+        pointer.xdo("mousemove", *pointer.in_view())
+        yield 0.2
+        yield from pointer.tap(keys)
+        yield 1.0
+        seen[step] = facts()
+    x, y = pointer.in_sidebar(DETAIL, 0.7)
+    yield from pointer.drag([(x - 3 * step, y) for step in range(12)])
+    yield 1.0
+    seen["dragged"] = facts()
+    pointer.xdo("mousemove", *pointer.in_view())
+    yield 0.2
+    yield from pointer.tap("ctrl+z")
+    yield 1.0
+    seen["drag undone"] = facts()
+    (pointer.OUT / "seen.json").write_text(json.dumps(seen))
+
+
+def mesh():
+    """Looked up anew, since undo replaces it."""
+    return bpy.data.objects["spot"].data
+
+
+def facts():
+    """What the test compares between the steps."""
+    result, attributes = mesh().reeb_parts, mesh().attributes
+    colors = np.empty(4 * len(mesh().loops), np.float32)
+    attributes["Reeb Parts"].data.foreach_get("color_srgb", colors)
+    numbers = np.empty(len(mesh().polygons), np.int32)
+    attributes["reeb_part"].data.foreach_get("value", numbers)
+    own = np.zeros((numbers.max() + 1, 3))
+    for part in result.parts:
+        own[part.number] = part.color
+    face = np.repeat(numbers, [polygon.loop_total for polygon in mesh().polygons])
+    return {
+        "detail": round(result.detail, 3),
+        "corners": len(face),
+        "parts": len(result.parts),
+        "groups": sorted(group.name for group in bpy.data.objects["spot"].vertex_groups),
+        "names": sorted(part.group for part in result.parts),
+        "wrong colour": float(np.abs(colors.reshape(-1, 4)[:, :3] - own[face]).max()),
+        "digest": hashlib.sha256(colors.tobytes() + numbers.tobytes()).hexdigest(),
+        "attributes": sorted((a.name, a.data_type, a.domain) for a in attributes),
+        "active": [attributes.active_color_name, attributes.default_color_name],
+    }

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Detail of a larger mesh in Blender's real window; large.py says how.
+
+The pictures stay in out/large, to be looked at.
+"""
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def seen(drive):
+    """What the driver saw after each step."""
+    return drive("large.py", "large")
+
+
+def test_colours_and_groups_are_those_of_the_parts_after_each_step(seen):
+    for step in seen.values():
+        assert step["corners"] > 200_000
+        assert step["wrong colour"] < 0.51 / 255
+        assert step["groups"] == step["names"]
+        assert step["active"] == ["Reeb Parts", "Reeb Parts"]
+        assert step["attributes"] == seen["decomposed"]["attributes"]
+
+
+def test_each_is_one_exact_step_of_undo(seen):
+    assert seen["typed"]["detail"] == 0.9
+    assert seen["typed"]["parts"] > seen["decomposed"]["parts"]
+    assert seen["undone"] == seen["decomposed"]
+    assert seen["redone"] == seen["typed"]
+    assert seen["dragged"]["detail"] != 0.9
+    assert seen["drag undone"] == seen["typed"]
