@@ -44,9 +44,7 @@ def distance_matrix(colors: np.ndarray = PALETTE) -> np.ndarray:
     return np.min([np.linalg.norm(v[:, None] - v[None], axis=2) for v in views], axis=0)
 
 
-def part_colors(
-    count: int, neighbours: np.ndarray, palette: np.ndarray = PALETTE, wanted: np.ndarray | None = None
-) -> np.ndarray:
+def part_colors(count: int, neighbours: np.ndarray, palette: np.ndarray = PALETTE) -> np.ndarray:
     """One colour per part; each new part takes what differs most from its neighbours.
 
     Parameters
@@ -56,20 +54,31 @@ def part_colors(
         Pairs of parts that touch.
     palette : (c, 3) float64
         Colours to choose from.
-    wanted : (count,) int64, optional
-        Which colour of the palette each part is to have unless a neighbour has it; -1 for any.
 
     Returns
     -------
     colors : (count, 3) float64
-        sRGB, 0..1. Without ``wanted`` the first c parts differ all; later ones repeat, but not beside each
-        other.
+        sRGB, 0..1. The first c parts differ all; later ones repeat, but not beside each other.
     """
-    return palette[chosen_colors(count, neighbours, palette, wanted)]
+    return palette[chosen_colors(count, neighbours, palette)]
 
 
-def chosen_colors(count, neighbours, palette, wanted=None) -> np.ndarray:
-    """Which colour of the palette each part has, (count,) int64; see ``part_colors``."""
+def chosen_colors(
+    count: int, neighbours: np.ndarray, palette: np.ndarray, wanted: np.ndarray | None = None
+) -> np.ndarray:
+    """Which colour of the palette each part has; see ``part_colors``.
+
+    Parameters
+    ----------
+    count, neighbours, palette
+        As in ``part_colors``.
+    wanted : (count,) int64, optional
+        Which colour each part is to have unless a neighbour has it; -1 for any.
+
+    Returns
+    -------
+    chosen : (count,) int64
+    """
     apart = distance_matrix(palette)
     chosen = np.full(count, -1)
     used = np.zeros(len(palette), np.int64)

@@ -13,11 +13,13 @@ depends on nothing but the part itself, and so nothing done elsewhere renumbers 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
 from .colors import PALETTE, chosen_colors
 from .decomposition import Decomposition, Parts
+from .mesh import frozen
 from .splits import Splits
 
 
@@ -54,10 +56,17 @@ class NumberGraph:
 
     def colors(self, palette: np.ndarray) -> np.ndarray:
         """(k,) int64, place in the palette. What is done by hand changes no colour unless it makes two alike touch."""
-        wanted = None
-        if self.plain is not None:
-            wanted = np.where(self.origin >= 0, self.plain.colors(palette)[self.origin], -1)
-        return chosen_colors(len(self.numbers), self.pairs, palette, wanted)
+        return _chosen(self, palette.tobytes())
+
+
+@lru_cache(16)
+def _chosen(graph: NumberGraph, palette: bytes) -> np.ndarray:
+    """Chosen once for all levels of detail: they have one graph."""
+    palette = np.frombuffer(palette).reshape(-1, 3)
+    wanted = None
+    if graph.plain is not None:
+        wanted = np.where(graph.origin >= 0, graph.plain.colors(palette)[graph.origin], -1)
+    return frozen(chosen_colors(len(graph.numbers), graph.pairs, palette, wanted), np.int64)
 
 
 @dataclass(frozen=True, eq=False)
