@@ -190,7 +190,7 @@ def decompose_object(obj, parameters):
 
 def write_files(options, objects, reports) -> dict:
     """Write what is asked for; returns the JSON with what was written."""
-    from ..core.report import document
+    from ..core.uses.report import document
 
     written = {}
     if options.parts:

@@ -12,14 +12,14 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from core.agd import agd_field, coarse_agd
-from core.features import SurfaceMeasures, surface_measures
-from core.levelsets import cut_at_levels, uniform_levels
-from core.merging import RegionGraph, merge_all_
-from core.mesh import PolygonMesh, TriMesh
+from core.cuts.perceptual.features import SurfaceMeasures, surface_measures
+from core.cuts.perceptual.merging import RegionGraph, merge_all_
+from core.cuts.perceptual.patches import concave_patches
+from core.field.agd import agd_field, coarse_agd
+from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.parameters import Parameters
-from core.patches import concave_patches
-from core.working import MAX_EDGE, refine, repair
+from core.surface.mesh import PolygonMesh, TriMesh
+from core.surface.preparation import MAX_EDGE, refine, repair
 
 CATEGORIES = (
     ("Human", 1), ("Cup", 21), ("Glasses", 41), ("Airplane", 61), ("Ant", 81), ("Chair", 101),
@@ -45,7 +45,7 @@ class Subject:
     Attributes
     ----------
     mesh, measures, label
-        As in core.perceptual, of the refined mesh.
+        As in core.cuts.perceptual.method, of the refined mesh.
     votes : (patches, people's parts) float64
         Faces of the benchmark in each patch with each label of each person.
     n_people : int

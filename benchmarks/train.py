@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Learn from people which cuts to keep; writes core/data/cuts.npz.
+"""Learn from people which cuts to keep; writes core/cuts/perceptual/cut_model.npz.
 
-    python benchmarks/train.py MESHES [--out core/data/cuts.npz] [--rounds 2]
+    python benchmarks/train.py MESHES [--out core/cuts/perceptual/cut_model.npz] [--rounds 2]
 
 MESHES holds N.npz with ``vertices`` (n, 3), ``faces`` (m, 3) and ``human`` (people, m): the layout
 of the Princeton Segmentation Benchmark as converted for this project. Cuts are learned without
@@ -27,8 +27,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import lightgbm
 from people import Run, Subject, category_of, merge_and_record, mesh_numbers, prepare, varied
 
-from core.features import FEATURES
-from core.trees import Trees
+from core.cuts.perceptual.boosted_trees import Trees
+from core.cuts.perceptual.features import FEATURES
 
 N_TREES = 250
 SETTINGS = {
@@ -197,7 +197,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", type=Path)
     parser.add_argument("--out", type=Path,
-                        default=Path(__file__).resolve().parents[1] / "core" / "data" / "cuts.npz")
+                        default=Path(__file__).resolve().parents[1] / "core" / "cuts" / "perceptual" / "cut_model.npz")
     parser.add_argument("--rounds", type=int, default=2)
     options = parser.parse_args()
     subjects = read_subjects(options.meshes)

@@ -14,18 +14,18 @@ from importlib import import_module
 # Loaded on first use: Blender reads the parameters when it starts, long before SciPy is needed.
 _HOME = {
     "Cancelled": "errors",
-    "Decomposition": "decomposition",
+    "Decomposition": "result.decomposition",
     "EmptyMeshError": "errors",
-    "Hierarchy": "hierarchy",
+    "Hierarchy": "cuts.hierarchy",
     "MeshError": "errors",
     "PRESETS": "parameters",
     "ParameterError": "errors",
     "Parameters": "parameters",
-    "Parts": "decomposition",
+    "Parts": "result.decomposition",
     "ReebError": "errors",
-    "ReebGraph": "reeb",
-    "TriMesh": "mesh",
-    "VERSION": "decomposition",
+    "ReebGraph": "graph.reeb",
+    "TriMesh": "surface.mesh",
+    "VERSION": "result.decomposition",
     "decompose": "pipeline",
 }
 

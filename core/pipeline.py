@@ -11,20 +11,20 @@ from functools import cached_property
 
 import numpy as np
 
-from .agd import FIELD_VERTICES, ScalarField, agd_field, coarse_agd
-from .berretti import berretti_candidates
-from .coarse import Coarsening, coarsen
-from .decomposition import Decomposition
-from .hierarchy import Hierarchy
-from .levelsets import LevelSets, cut_at_levels, uniform_levels
-from .mesh import MIN_FACES, PolygonMesh, TriMesh
+from .cuts.berretti.method import berretti_candidates
+from .cuts.hierarchy import Hierarchy
+from .cuts.perceptual.method import perceptual_candidates
+from .field.agd import FIELD_VERTICES, ScalarField, agd_field, coarse_agd
+from .graph.level_sets import LevelSets, cut_at_levels, uniform_levels
+from .graph.reeb import ReebGraph, ReebStructure, reeb_graph, reeb_structure
+from .graph.simplify import simplify
 from .parameters import PERCEPTUAL, Parameters
-from .perceptual import perceptual_candidates
-from .reeb import ReebGraph, ReebStructure, reeb_graph, reeb_structure
+from .result.decomposition import Decomposition
 from .sentence import Sentence
-from .simplify import simplify
-from .transfer import FaceGraph, connect, fill_unlabelled, majority, settle, straighten
-from .working import MAX_EDGE, WorkingMesh, refine, repair
+from .surface.coarsening import Coarsening, coarsen
+from .surface.labels import FaceGraph, connect, fill_unlabelled, majority, settle, straighten
+from .surface.mesh import MIN_FACES, PolygonMesh, TriMesh
+from .surface.preparation import MAX_EDGE, WorkingMesh, refine, repair
 
 # The graph to look at leaves out leaves that cover less than this share of a component, or
 # less than this many levels: ripples, not protrusions.

@@ -59,7 +59,7 @@ def make(context, obj, stored, deform):
 
 def _bones(obj, decomposition, numbered):
     """Where the armature is in the world, and the bones in its coordinates."""
-    from ..core.bones import part_bones  # imports SciPy
+    from ..core.uses.bones import part_bones  # imports SciPy
 
     mesh, parts = obj.data, numbered.parts
     world = obj.matrix_world

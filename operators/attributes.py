@@ -9,8 +9,8 @@ before is kept in attributes whose names start with a dot, which Blender hides a
 import bpy
 import numpy as np
 
-from ..core.colors import PALETTE, PALETTES
-from ..core.numbering import NumberedParts
+from ..core.result.numbering import NumberedParts
+from ..core.uses.colors import PALETTE, PALETTES
 from . import bridge, groups, store
 
 FACE_ATTRIBUTE = "reeb_part"

@@ -31,7 +31,7 @@ class Knife:
         chosen : int
             -1 if there is none.
         """
-        from ..core.contours import contours
+        from ..core.graph.contours import contours
 
         inside = self.model.numbers == self.model.number(target)
         found = contours(self.model.stored.decomposition.field, target.level, self.vertices, self.edges,
@@ -48,8 +48,8 @@ class Knife:
 
         face_graph : what bridge.face_graph says of the object.
         """
-        from ..core.contours import contour_sides
-        from ..core.transfer import FaceGraph
+        from ..core.graph.contours import contour_sides
+        from ..core.surface.labels import FaceGraph
 
         found, chosen = self.contour(target)
         if chosen < 0:

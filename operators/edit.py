@@ -58,7 +58,7 @@ def locked_others(mesh, number) -> list[int]:
 
 def merge(context, obj, stored, numbers, into):
     """Make one part of several that touch; raises SceneError if they do not."""
-    from ..core.editing import pieces
+    from ..core.result.editing import pieces
 
     check_unlocked(obj, numbers)
     mask = np.isin(stored.shown, numbers)
@@ -123,7 +123,7 @@ class REEB_PARTS_OT_split(PartOperator, bpy.types.Operator):
     bl_label = "Split Parts"
 
     def work(self, context, obj, stored):
-        from ..core.editing import best_split
+        from ..core.result.editing import best_split
 
         check_unlocked(obj, chosen_numbers(obj.data))
         for number in chosen_numbers(obj.data):
@@ -145,7 +145,7 @@ class REEB_PARTS_OT_grow(PartOperator, bpy.types.Operator):
     bl_label = "Grow Parts"
 
     def work(self, context, obj, stored):
-        from ..core.editing import growth
+        from ..core.result.editing import growth
 
         check_unlocked(obj, chosen_numbers(obj.data))
         for number in chosen_numbers(obj.data):
@@ -165,7 +165,7 @@ class REEB_PARTS_OT_shrink(PartOperator, bpy.types.Operator):
     bl_label = "Shrink Parts"
 
     def work(self, context, obj, stored):
-        from ..core.editing import shrinkage
+        from ..core.result.editing import shrinkage
 
         check_unlocked(obj, chosen_numbers(obj.data))
         for number in chosen_numbers(obj.data):
@@ -194,7 +194,7 @@ def _move(context, obj, stored, candidate, number):
 
 def _part_pieces(obj, stored, numbers, number) -> set:
     """Give all but the largest piece of a part numbers of their own, in place; returns these."""
-    from ..core.editing import pieces
+    from ..core.result.editing import pieces
 
     piece = pieces(stored.decomposition, numbers == number)
     made = set()
@@ -269,7 +269,7 @@ def assign_faces(context, obj, stored, face_numbers, graph=None):
     graph : optional
         What ``bridge.face_graph`` says of the object, if it is known already.
     """
-    from ..core.editing import split_candidates
+    from ..core.result.editing import split_candidates
 
     before = stored.shown[stored.decomposition.candidates]
     moved = face_numbers != before

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..core.report import bounding_boxes, report
+from ..core.uses.report import bounding_boxes, report
 from . import bridge, store
 
 

@@ -185,7 +185,7 @@ def split_at_node(context, obj, node):
     SceneError
         The part is locked, cannot be split, or the mesh was edited.
     """
-    from ..core.editing import node_split
+    from ..core.result.editing import node_split
 
     stored = store.load(obj.data)
     decomposition = stored.decomposition

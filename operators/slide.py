@@ -25,7 +25,7 @@ class Boundary:
     """
 
     def __init__(self, obj, stored, number):
-        from ..core.editing import boundary_distance
+        from ..core.result.editing import boundary_distance
 
         self.number = number
         self.numbers = stored.shown[stored.decomposition.candidates]

@@ -13,7 +13,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.numbering import NumberedParts, Numbering, default_name, inherited, transfer
+from ..core.result.numbering import NumberedParts, Numbering, default_name, inherited, transfer
 from . import bridge
 from .problems import SceneError, load_core, translated
 

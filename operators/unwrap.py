@@ -63,7 +63,7 @@ def _seams(obj, face_numbers, open_parts):
     mesh.edges.foreach_get("use_seam", seams)
     seams |= attributes.cut_edges(mesh, face_numbers)
     if open_parts:
-        from ..core.unfold import opening_seams  # imports SciPy
+        from ..core.uses.unfold import opening_seams  # imports SciPy
 
         points = bridge.shown_points(obj) @ store.stretch_of(mesh).T
         _, face = bridge.face_corners(mesh)

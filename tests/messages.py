@@ -28,7 +28,7 @@ def sources(package) -> dict:
     root = Path(sys.modules[package].__file__).parent
     return {
         path.relative_to(root).as_posix(): ast.parse(path.read_text(encoding="utf-8"))
-        for name in PACKAGES for path in sorted((root / name).glob("*.py"))
+        for name in PACKAGES for path in sorted((root / name).rglob("*.py"))
     }
 
 

@@ -19,8 +19,8 @@ from bpy.props import (
     StringProperty,
 )
 
-from ..core.colors import PALETTES
 from ..core.parameters import PRESETS, Parameters
+from ..core.uses.colors import PALETTES
 
 
 def _property(field):

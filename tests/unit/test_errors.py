@@ -4,14 +4,7 @@
 import numpy as np
 import pytest
 
-from core.errors import (
-    Cancelled,
-    DisconnectedMeshError,
-    EmptyMeshError,
-    MeshError,
-    ParameterError,
-    ReebError,
-)
+from core.errors import Cancelled, DisconnectedMeshError, EmptyMeshError, MeshError, ParameterError, ReebError
 
 
 @pytest.mark.parametrize("kind", [MeshError, EmptyMeshError, DisconnectedMeshError])

@@ -9,7 +9,7 @@ import pytest
 import shapes
 
 from core import PRESETS, Cancelled, EmptyMeshError, MeshError, Parameters, TriMesh, decompose
-from core.mesh import components
+from core.surface.mesh import components
 
 PAPER = "Berretti 2009"
 # What a user would read in Blender's console is an error here.

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Boosted regression trees: evaluation in whole arrays, from coefficients that ship as data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from ...surface.mesh import frozen
+
+ROWS = 64  # at once: what they need stays in the processor's cache
+
+
+@dataclass(frozen=True, eq=False)
+class Trees:
+    """A sum of regression trees, mapped to 0..1 by the logistic function.
+
+    With T trees of at most L <= 16 leaves, numbered from left to right:
+
+    Attributes
+    ----------
+    feature : (T, L - 1) int64
+        Column that each inner node looks at.
+    threshold : (T, L - 1) float32
+        A value at or below it goes left. Infinite where a tree has fewer nodes.
+    mask : (T, L - 1) uint16
+        Leaves that are still possible when the value goes right, one bit each.
+    leaf : (T, L) float64
+        What each leaf adds.
+    """
+
+    feature: np.ndarray
+    threshold: np.ndarray
+    mask: np.ndarray
+    leaf: np.ndarray
+
+    @classmethod
+    def read(cls, path: Path) -> Trees:
+        """From the arrays of an .npz file."""
+        with np.load(path, allow_pickle=False) as stored:
+            return cls(frozen(stored["feature"], np.int64), frozen(stored["threshold"], np.float32),
+                       frozen(stored["mask"], np.uint16), frozen(stored["leaf"], np.float64))
+
+    def write(self, path: Path):
+        """Compressed; the coefficients of the leaves keep 32 bits."""
+        np.savez_compressed(path, feature=self.feature.astype(np.uint8), threshold=self.threshold,
+                            mask=self.mask, leaf=self.leaf.astype(np.float32))
+
+    def predict(self, rows: np.ndarray) -> np.ndarray:
+        """Value of each row.
+
+        Parameters
+        ----------
+        rows : (k, features) float64
+
+        Returns
+        -------
+        value : (k,) float64
+            0..1.
+
+        Notes
+        -----
+        No tree is walked. Every inner node is asked at once; each that sends the row to the right
+        rules out the leaves on its left, and the first leaf left is the row's [Lucchese2015].
+        """
+        rows = rows.astype(np.float32)  # the thresholds were found on these
+        feature, threshold = self.feature.ravel(), self.threshold.ravel()
+        mask, every = self.mask.ravel(), np.uint16(0xFFFF)
+        n_trees, n_leaves = self.leaf.shape
+        first = np.arange(n_trees) * n_leaves
+        total = np.empty(len(rows))
+        for start in range(0, len(rows), ROWS):
+            some = rows[start:start + ROWS]
+            left = np.where(some[:, feature] <= threshold, every, mask)
+            left = np.bitwise_and.reduce(left.reshape(len(some), n_trees, -1), axis=2)
+            lowest = left & (~left + np.uint16(1))
+            place = np.frexp(lowest.astype(np.float32))[1] - 1
+            total[start:start + ROWS] = self.leaf.ravel()[first + place].sum(axis=1)
+        return 1.0 / (1.0 + np.exp(-total))
+
+
+@cache
+def cut_model() -> Trees:
+    """The trees that judge cuts; benchmarks/train.py made them."""
+    return Trees.read(Path(__file__).parent / "cut_model.npz")

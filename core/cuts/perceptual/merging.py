@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Greedy merging: the weakest cut goes first, and what it changed is judged again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ...surface.mesh import TriMesh
+from .features import BORDER, Regions, SurfaceMeasures, cut_features, region_shape
+
+# So long as there are more regions than this, or cuts weaker than this, all regions merge at once
+# that are each other's weakest cut; then one at a time.
+MANY_REGIONS = 60
+WEAK_CUT = 0.12
+WEAKEST_SHARE = 0.2
+
+Judge = Callable[["RegionGraph", np.ndarray], np.ndarray]
+
+
+class RegionGraph:
+    """Regions, the borders between them, and what is measured on both; merging changes it.
+
+    Attributes
+    ----------
+    regions : Regions
+        A merged region keeps the row of one of the two.
+    ends : (b, 2) int64
+        The two regions of each border.
+    border : (b, BORDER.width) float64
+    neighbours : list of dict
+        For each region, border by neighbour.
+    """
+
+    def __init__(self, mesh: TriMesh, measures: SurfaceMeasures, label: np.ndarray):
+        n = int(label.max()) + 1
+        low, high = np.sort(label[mesh.edges.pairs], axis=1).T
+        apart = low != high
+        key, where = np.unique(low[apart] * np.int64(n) + high[apart], return_inverse=True)
+        self.ends = np.stack(np.divmod(key, n), axis=1)
+        self.border = _sums(where.reshape(-1), measures.pair[apart], len(key))
+        around = sum(_sums(end, self.border, n) for end in self.ends.T)
+        level_min, level_max = np.full(n, np.inf), np.full(n, -np.inf)
+        np.minimum.at(level_min, label, measures.level)
+        np.maximum.at(level_max, label, measures.level)
+        agd_max = np.full(n, -np.inf)
+        np.maximum.at(agd_max, label, measures.agd)
+        sums = _sums(label, measures.face, n)
+        perimeter = around[:, BORDER.length].copy()
+        degree = np.bincount(self.ends.ravel(), minlength=n).astype(float)
+        shape = region_shape(sums, perimeter, level_min, level_max)
+        self.regions = Regions(sums, level_min, level_max, agd_max, perimeter, degree, around,
+                               shape, np.ones(n, bool))
+        self.neighbours: list[dict[int, int]] = [{} for _ in range(n)]
+        for index, (a, b) in enumerate(self.ends.tolist()):
+            self.neighbours[a][b] = self.neighbours[b][a] = index
+
+    @property
+    def n_alive(self) -> int:
+        return int(self.regions.alive.sum())
+
+    def features(self, borders: np.ndarray) -> np.ndarray:
+        """(k, len(FEATURES)) of some borders."""
+        return cut_features(self.regions, self.ends[borders], self.border[borders])
+
+    def merge_(self, border: int) -> list[int]:
+        """Join the two regions of a border into the first; borders that are gone."""
+        a, b = (int(end) for end in self.ends[border])
+        r, lost = self.regions, self.border[border]
+        for sums in (r.sums, r.around, r.perimeter):
+            sums[a] += sums[b]
+        r.around[a] -= 2 * lost
+        r.perimeter[a] = max(r.perimeter[a] - 2 * lost[BORDER.length], 0.0)
+        r.level_min[a] = min(r.level_min[a], r.level_min[b])
+        r.level_max[a] = max(r.level_max[a], r.level_max[b])
+        r.agd_max[a] = max(r.agd_max[a], r.agd_max[b])
+        r.alive[b] = False
+        del self.neighbours[a][b], self.neighbours[b][a]
+        gone = [border]
+        for other, index in self.neighbours[b].items():
+            del self.neighbours[other][b]
+            kept = self.neighbours[a].get(other)
+            if kept is None:
+                self.ends[index] = (a, other)
+                self.neighbours[a][other] = self.neighbours[other][a] = index
+            else:
+                self.border[kept] += self.border[index]
+                r.degree[other] -= 1
+                gone.append(index)
+        self.neighbours[b] = {}
+        r.degree[a] = len(self.neighbours[a])
+        return gone
+
+    def measure_(self, changed: list[int]):
+        """Shape anew of regions that grew."""
+        r = self.regions
+        r.shape[changed] = region_shape(r.sums[changed], r.perimeter[changed],
+                                        r.level_min[changed], r.level_max[changed])
+
+
+def merge_all_(graph: RegionGraph, judge: Judge) -> tuple[np.ndarray, np.ndarray]:
+    """Merge until every region is alone; changes the graph.
+
+    Parameters
+    ----------
+    graph : RegionGraph
+        c regions of one connected surface.
+    judge : callable
+        judge(graph, borders) gives the salience of some borders, 0..1.
+
+    Returns
+    -------
+    merges : (c - 1, 2) int64
+        The two regions of each merge, in order.
+    salience : (c - 1,) float64
+        As judged at the time; not monotone.
+    """
+    n = len(graph.regions.alive)
+    strength = judge(graph, np.arange(len(graph.ends)))
+    merges, salience = [], []
+    while len(merges) < n - 1 and np.isfinite(strength).any():
+        again, grown = set(), []
+        for border in _next(graph, strength, n - len(merges)):
+            merges.append(graph.ends[border].copy())
+            salience.append(strength[border])
+            gone = graph.merge_(border)
+            strength[gone] = np.inf
+            region = int(merges[-1][0])
+            grown.append(region)
+            again.update(graph.neighbours[region].values())
+            again.difference_update(gone)
+        graph.measure_(grown)
+        if again:
+            changed = np.array(sorted(again))
+            strength[changed] = judge(graph, changed)
+    return np.reshape(merges, (-1, 2)).astype(np.int64), np.array(salience, float)
+
+
+def _next(graph: RegionGraph, strength: np.ndarray, n_regions: int) -> list[int]:
+    """Borders that may merge together, weakest first: no region twice."""
+    weakest = int(strength.argmin())
+    if n_regions <= MANY_REGIONS and strength[weakest] >= WEAK_CUT:
+        return [weakest]
+    live = np.flatnonzero(np.isfinite(strength))
+    s, ends = strength[live], graph.ends[live]
+    limit = np.sort(s)[int(WEAKEST_SHARE * len(s))] if n_regions > MANY_REGIONS else WEAK_CUT
+    least = np.full(len(graph.regions.alive), np.inf)
+    np.minimum.at(least, ends, s[:, None])
+    mutual = (s == least[ends[:, 0]]) & (s == least[ends[:, 1]])
+    chosen = live[mutual & (s <= max(limit, strength[weakest]))]
+    chosen = chosen[np.argsort(strength[chosen], kind="stable")]
+    # Equal strengths can make a region twice the weakest: the first stays.
+    _, first = np.unique(graph.ends[chosen], return_index=True)
+    once = np.zeros(2 * len(chosen), bool)
+    once[first] = True
+    return chosen[once.reshape(-1, 2).all(axis=1)].tolist()
+
+
+def _sums(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
+    """(count, k) sums of the rows of (n, k) values by index."""
+    return np.stack([np.bincount(index, column, count) for column in values.T], axis=1)

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Critical points of a piecewise linear field.
+
+Ties are broken by vertex index: the total order (value, index) makes every field generic, so
+flat regions need no code of their own [Edelsbrunner2001].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..surface.mesh import TriMesh
+
+MINIMUM, SADDLE, MAXIMUM = 0, 1, 2
+KINDS = ("minimum", "saddle", "maximum")
+
+
+@dataclass(frozen=True, eq=False)
+class CriticalPoints:
+    """Where the topology of the level set changes.
+
+    Attributes
+    ----------
+    vertex : (c,) int64
+        Ascending by (value, index).
+    kind : (c,) int8
+        MINIMUM, SADDLE or MAXIMUM.
+    multiplicity : (c,) int64
+        1 for extrema and simple saddles, k for a saddle where k + 1 lower parts meet.
+    """
+
+    vertex: np.ndarray
+    kind: np.ndarray
+    multiplicity: np.ndarray
+
+    def count(self, kind: int) -> int:
+        """How many points of a kind there are, saddles with their multiplicity."""
+        return int(self.multiplicity[self.kind == kind].sum())
+
+
+def total_order(values: np.ndarray) -> np.ndarray:
+    """Place of each vertex by (value, vertex index), without ties: (n,) int64."""
+    rank = np.empty(len(values), np.int64)
+    rank[np.argsort(values, kind="stable")] = np.arange(len(values))
+    return rank
+
+
+def critical_points(mesh: TriMesh, rank: np.ndarray) -> CriticalPoints:
+    """Classify every vertex by its lower link.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        n vertices. On a closed manifold, minima - saddles + maxima is the Euler
+        characteristic; at a border the kinds are those of the surface as it is.
+    rank : (n,) int64
+        Place of each vertex in the total order, as ``total_order`` gives it.
+
+    Returns
+    -------
+    points : CriticalPoints
+
+    Notes
+    -----
+    O(n + m). The Euler characteristic of a vertex's lower link (lower neighbours minus edges
+    between them, opposite the vertex) is 1 at a regular vertex, 0 at a minimum or a maximum
+    inside, and k + 1 at a saddle of multiplicity k.
+    """
+    n = mesh.n_vertices
+    start, end = mesh.edges.vertices.T
+    rises = rank[start] < rank[end]
+    upper_end = np.where(rises, end, start)
+    lower_end = np.where(rises, start, end)
+    n_lower = np.bincount(upper_end, minlength=n)
+    n_upper = np.bincount(lower_end, minlength=n)
+    # The face's highest vertex has the opposite edge in its lower link.
+    highest = np.take_along_axis(mesh.faces, rank[mesh.faces].argmax(axis=1)[:, None], axis=1)
+    link_edges = np.bincount(highest[:, 0], minlength=n)
+    euler = n_lower - link_edges
+
+    minimum = (n_lower == 0) & (n_upper > 0)
+    maximum = (n_upper == 0) & (n_lower > 0)
+    saddle = (euler >= 2) & ~maximum
+    kind = np.full(n, -1, np.int8)
+    kind[saddle], kind[minimum], kind[maximum] = SADDLE, MINIMUM, MAXIMUM
+    vertex = np.flatnonzero(kind >= 0)
+    vertex = vertex[np.argsort(rank[vertex])]
+    multiplicity = np.where(kind[vertex] == SADDLE, euler[vertex] - 1, 1)
+    return CriticalPoints(vertex, kind[vertex], multiplicity)

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Piecewise linear level sets: the surface cut into slabs, their pieces and contours.
+
+A level set lives on the triangles it crosses. Counting components of *vertex* bands tears a
+band narrower than an edge into crumbs; elements of (triangle, slab) do not (docs/method.md,
+section 3). One pass of connected components labels the pieces of all slabs at once, another
+the contours of all levels.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..surface.mesh import TriMesh, components
+
+
+@dataclass(frozen=True, eq=False)
+class LevelSets:
+    """A surface cut at levels.
+
+    Slab s lies between level s - 1 and level s. A vertex exactly on a level counts as above
+    it, so no case is degenerate. With E elements, P pieces, S segments and C contours:
+
+    Attributes
+    ----------
+    mesh : TriMesh
+        n vertices, m faces.
+    values : (n,) float64
+        The field.
+    levels : (K,) float64
+        Strictly ascending.
+    vertex_slab : (n,) int64
+        0..K.
+    element_face, element_slab, element_piece : (E,) int64
+        One element per (face, slab) pair that meet, faces in order, slabs ascending.
+    piece_slab : (P,) int64
+        A piece is one connected component of a slab.
+    segment_face, segment_level, segment_contour : (S,) int64
+        One segment per face and level that crosses it, faces in order, levels ascending.
+    contour_level : (C,) int64
+        A contour is one connected component of a level set.
+    contour_pieces : (C, 2) int64
+        The piece below and the piece above each contour.
+    """
+
+    mesh: TriMesh
+    values: np.ndarray
+    levels: np.ndarray
+    vertex_slab: np.ndarray
+    element_face: np.ndarray
+    element_slab: np.ndarray
+    element_piece: np.ndarray
+    piece_slab: np.ndarray
+    segment_face: np.ndarray
+    segment_level: np.ndarray
+    segment_contour: np.ndarray
+    contour_level: np.ndarray
+    contour_pieces: np.ndarray
+
+    @property
+    def n_pieces(self) -> int:
+        return len(self.piece_slab)
+
+    @property
+    def n_contours(self) -> int:
+        return len(self.contour_level)
+
+    @cached_property
+    def n_loops(self) -> int:
+        """Independent loops of the graph of pieces and contours."""
+        count, _ = components(self.n_pieces, *self.contour_pieces.T)
+        return self.n_contours - self.n_pieces + count
+
+    @cached_property
+    def face_first_slab(self) -> np.ndarray:
+        """(m,) int64, the lowest slab each face meets."""
+        return self.vertex_slab[self.mesh.faces].min(axis=1)
+
+    @cached_property
+    def face_first_element(self) -> np.ndarray:
+        """(m,) int64, where each face's elements start."""
+        return np.searchsorted(self.element_face, np.arange(self.mesh.n_faces))
+
+    @cached_property
+    def vertex_piece(self) -> np.ndarray:
+        """(n,) int64, the piece each vertex lies in."""
+        corner_slab = self.vertex_slab[self.mesh.faces]
+        element = (self.face_first_element - self.face_first_slab)[:, None] + corner_slab
+        piece = np.empty(self.mesh.n_vertices, np.int64)
+        piece[self.mesh.faces] = self.element_piece[element]
+        return piece
+
+    @cached_property
+    def element_area(self) -> np.ndarray:
+        """(E,) float64, exact area of each face inside each slab."""
+        below = np.zeros(len(self.element_face))  # share of the face below the element's top
+        top = np.append(self.levels, np.inf)[self.element_slab]
+        last = np.append(self.element_face[1:] != self.element_face[:-1], True)
+        below[last] = 1.0
+        inner = ~last
+        below[inner] = _share_below(self.values[self.mesh.faces[self.element_face[inner]]],
+                                    top[inner])
+        first = np.append(True, last[:-1])
+        share = below - np.where(first, 0.0, np.append(0.0, below[:-1]))
+        return np.maximum(share, 0.0) * self.mesh.face_area[self.element_face]
+
+    @cached_property
+    def piece_area(self) -> np.ndarray:
+        """(P,) float64."""
+        return np.bincount(self.element_piece, self.element_area, self.n_pieces)
+
+    @cached_property
+    def segment_edges(self) -> np.ndarray:
+        """(S, 2) int64, the two edges of the mesh that each segment joins."""
+        above = self.vertex_slab[self.mesh.faces[self.segment_face]] > self.segment_level[:, None]
+        alone = np.where((above.sum(axis=1) == 1)[:, None], above, ~above).argmax(axis=1)
+        edges = self.mesh.edges.face_edges[self.segment_face]
+        rows = np.arange(len(edges))
+        return np.stack([edges[rows, alone], edges[rows, (alone + 2) % 3]], axis=1)
+
+    def crossing(self, edge: np.ndarray, level: np.ndarray) -> np.ndarray:
+        """Share of the way along each edge at which a level crosses it; shape of ``edge``."""
+        low, high = (self.values[self.mesh.edges.vertices[edge, end]] for end in (0, 1))
+        rise = high - low
+        share = np.divide(self.levels[level] - low, rise, out=np.full(rise.shape, 0.5),
+                          where=rise != 0)
+        return np.clip(share, 0.0, 1.0)
+
+    @cached_property
+    def segment_points(self) -> np.ndarray:
+        """(S, 2, 3) float64, the ends of each segment, in the order of ``segment_edges``."""
+        share = self.crossing(self.segment_edges, self.segment_level[:, None])[..., None]
+        start, end = (self.mesh.vertices[self.mesh.edges.vertices[self.segment_edges, k]]
+                      for k in (0, 1))
+        return start + share * (end - start)
+
+    @cached_property
+    def segment_length(self) -> np.ndarray:
+        """(S,) float64."""
+        return np.linalg.norm(self.segment_points[:, 1] - self.segment_points[:, 0], axis=1)
+
+    @cached_property
+    def contour_length(self) -> np.ndarray:
+        """(C,) float64, length of each contour."""
+        return np.bincount(self.segment_contour, self.segment_length, self.n_contours)
+
+    @cached_property
+    def contour_centre(self) -> np.ndarray:
+        """(C, 3) float64, centroid of each contour, weighted by length."""
+        return self._contour_mean(self.segment_points.mean(axis=1))
+
+    @cached_property
+    def contour_radius(self) -> np.ndarray:
+        """(C,) float64, mean distance of each contour from its centroid."""
+        offset = self.segment_points.mean(axis=1) - self.contour_centre[self.segment_contour]
+        return self._contour_mean(np.linalg.norm(offset, axis=1))
+
+    def _contour_mean(self, of_segments: np.ndarray) -> np.ndarray:
+        # A contour through one vertex has no length; its segments then count alike.
+        weight = self.segment_length + 1e-9 * np.sqrt(self.mesh.area)
+        columns = np.atleast_2d(of_segments.T)
+        sums = [np.bincount(self.segment_contour, weight * c, self.n_contours) for c in columns]
+        total = np.bincount(self.segment_contour, weight, self.n_contours)
+        return (np.stack(sums, axis=-1) / total[:, None]).reshape(-1, *of_segments.shape[1:])
+
+
+def uniform_levels(n_slabs: int) -> np.ndarray:
+    """The inner borders of ``n_slabs`` equal slabs of 0..1: (n_slabs - 1,) float64."""
+    return np.arange(1, n_slabs) / n_slabs
+
+
+def cut_at_levels(mesh: TriMesh, values: np.ndarray, levels: np.ndarray) -> LevelSets:
+    """Cut a surface at levels of a field that is linear on every triangle.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        n vertices, m faces.
+    values : (n,) float64
+    levels : (K,) float64
+        Strictly ascending.
+
+    Returns
+    -------
+    sets : LevelSets
+
+    Notes
+    -----
+    Time and memory grow with faces + crossings of faces and levels.
+    """
+    slab = np.searchsorted(levels, values, side="right")
+    corner_slab = slab[mesh.faces]
+    lowest, highest = corner_slab.min(axis=1), corner_slab.max(axis=1)
+    element_face, element_slab = _expand(lowest, highest - lowest + 1)
+    segment_face, segment_level = _expand(lowest, highest - lowest)
+    pairs = mesh.edges.pairs
+    ends = slab[mesh.edges.vertices[mesh.edges.pair_edge]]
+    low, high = ends.min(axis=1), ends.max(axis=1)
+
+    first = np.cumsum(highest - lowest + 1) - (highest - lowest + 1) - lowest
+    pair, at = _expand(low, high - low + 1)
+    n_pieces, element_piece = components(
+        len(element_face), first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
+
+    first_segment = np.cumsum(highest - lowest) - (highest - lowest) - lowest
+    pair, at = _expand(low, high - low)
+    n_contours, segment_contour = components(
+        len(segment_face), first_segment[pairs[pair, 0]] + at, first_segment[pairs[pair, 1]] + at)
+
+    lower = first[segment_face] + segment_level
+    contour_pieces = np.empty((n_contours, 2), np.int64)
+    contour_pieces[segment_contour, 0] = element_piece[lower]
+    contour_pieces[segment_contour, 1] = element_piece[lower + 1]
+    piece_slab = np.empty(n_pieces, np.int64)
+    piece_slab[element_piece] = element_slab
+    contour_level = np.empty(n_contours, np.int64)
+    contour_level[segment_contour] = segment_level
+    return LevelSets(mesh, values, levels, slab, element_face, element_slab, element_piece,
+                     piece_slab, segment_face, segment_level, segment_contour, contour_level,
+                     contour_pieces)
+
+
+def _expand(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rows (i, first[i]), (i, first[i] + 1), ... with count[i] rows for each i."""
+    row = np.repeat(np.arange(len(first)), count)
+    step = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
+    return row, first[row] + step
+
+
+def _share_below(corner_values: np.ndarray, level: np.ndarray) -> np.ndarray:
+    """Share of each triangle's area where the linear field is below a level.
+
+    corner_values (r, 3), level (r,) -> (r,).
+    """
+    low, middle, high = np.sort(corner_values, axis=1).T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        rising = (level - low) ** 2 / ((middle - low) * (high - low))
+        falling = 1.0 - (high - level) ** 2 / ((high - low) * (high - middle))
+    share = np.where(level <= middle, rising, falling)
+    share = np.where(level <= low, 0.0, np.where(level >= high, 1.0, share))
+    return np.clip(share, 0.0, 1.0)

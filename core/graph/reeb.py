@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Reeb graph: contours contracted to points.
+
+Pieces of slabs are its fine nodes and contours its fine arcs. Chains of pieces with one
+contour below and one above become arcs; what is left are the nodes, where contours appear,
+join, split or vanish. Exact up to the levels: a loop thinner than one slab is not seen, and a
+level at every critical value would make it exact.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..surface.mesh import components
+from .critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
+from .level_sets import LevelSets
+
+
+@dataclass(frozen=True, eq=False)
+class ReebGraph:
+    """Nodes and arcs of the Reeb graph, with centre lines to draw them by.
+
+    With k nodes, q arcs and r centre points:
+
+    Attributes
+    ----------
+    node_kind : (k,) int8
+        MINIMUM, SADDLE or MAXIMUM (core.critical.KINDS names them).
+    node_value : (k,) float64
+        Of the field whose levels were taken, 0..1; in a Decomposition, of the normalised field.
+    node_position : (k, 3) float64
+        Tips lie on the surface, saddles inside.
+    arcs : (q, 2) int64
+        Lower and upper node. Two nodes may share several arcs: a loop.
+    arc_points : (q + 1,) int64
+        Arc i owns the centre points arc_points[i]:arc_points[i + 1], from low to high.
+    point_position : (r, 3) float64
+        Centroids of the contours.
+    point_radius, point_length, point_value : (r,) float64
+        Mean distance of the contour from its centroid, its length, its level.
+    n_components : int
+    """
+
+    node_kind: np.ndarray
+    node_value: np.ndarray
+    node_position: np.ndarray
+    arcs: np.ndarray
+    arc_points: np.ndarray
+    point_position: np.ndarray
+    point_radius: np.ndarray
+    point_length: np.ndarray
+    point_value: np.ndarray
+    n_components: int
+
+    @property
+    def n_nodes(self) -> int:
+        return len(self.node_kind)
+
+    @property
+    def n_arcs(self) -> int:
+        return len(self.arcs)
+
+    @property
+    def n_loops(self) -> int:
+        """Independent loops (first Betti number): the genus of a closed orientable surface."""
+        return self.n_arcs - self.n_nodes + self.n_components
+
+    @cached_property
+    def point_arc(self) -> np.ndarray:
+        """(r,) int64, the arc of each centre point."""
+        return np.repeat(np.arange(self.n_arcs), np.diff(self.arc_points))
+
+    @classmethod
+    def empty(cls) -> ReebGraph:
+        """The graph of nothing."""
+        number, place, index = np.empty(0), np.empty((0, 3)), np.zeros(1, np.int64)
+        return cls(np.empty(0, np.int8), number, place, np.empty((0, 2), np.int64), index, place,
+                   number, number, number, 0)
+
+    @classmethod
+    def join(cls, graphs: list[ReebGraph]) -> ReebGraph:
+        """One graph of several components' graphs, in order; of none, the empty one."""
+        graphs = [cls.empty(), *graphs]
+        nodes = np.cumsum([0] + [g.n_nodes for g in graphs])
+        points = np.cumsum([0] + [len(g.point_value) for g in graphs])
+        arrays = {
+            name: np.concatenate([getattr(g, name) for g in graphs])
+            for name in ("node_kind", "node_value", "node_position", "point_position",
+                         "point_radius", "point_length", "point_value")
+        }
+        arcs = np.concatenate([g.arcs + n for g, n in zip(graphs, nodes, strict=False)])
+        offsets = [g.arc_points[:-1] + p for g, p in zip(graphs, points, strict=False)]
+        return cls(arcs=arcs, arc_points=np.concatenate([*offsets, points[-1:]]),
+                   n_components=sum(g.n_components for g in graphs), **arrays)
+
+
+@dataclass(frozen=True, eq=False)
+class ReebStructure:
+    """The Reeb graph as what it is made of: pieces for nodes, chains of contours for arcs.
+
+    With P pieces, C contours, k nodes and q arcs:
+
+    Attributes
+    ----------
+    piece_node : (P,) int64
+        The node each piece belongs to, -1 on an arc.
+    piece_arc : (P,) int64
+        The arc each piece belongs to, -1 at a node.
+    contour_arc : (C,) int64
+        The arc each contour belongs to; -1 if it was simplified away.
+    arcs : (q, 2) int64
+        Lower and upper node.
+    n_nodes : int
+    """
+
+    piece_node: np.ndarray
+    piece_arc: np.ndarray
+    contour_arc: np.ndarray
+    arcs: np.ndarray
+    n_nodes: int
+
+
+def reeb_structure(sets: LevelSets) -> ReebStructure:
+    """Contract chains of two-sided pieces to arcs.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        P pieces, C contours.
+
+    Returns
+    -------
+    structure : ReebStructure
+
+    Notes
+    -----
+    O(P + C), whole arrays.
+    """
+    lower, upper = sets.contour_pieces.T
+    n_below = np.bincount(upper, minlength=sets.n_pieces)
+    n_above = np.bincount(lower, minlength=sets.n_pieces)
+    regular = (n_below == 1) & (n_above == 1)
+    below = np.zeros(sets.n_pieces, np.int64)
+    above = np.zeros(sets.n_pieces, np.int64)
+    below[upper] = np.arange(sets.n_contours)
+    above[lower] = np.arange(sets.n_contours)
+    n_arcs, contour_arc = components(sets.n_contours, below[regular], above[regular])
+
+    piece_node = np.full(sets.n_pieces, -1)
+    piece_node[~regular] = np.arange((~regular).sum())
+    piece_arc = np.full(sets.n_pieces, -1)
+    piece_arc[regular] = contour_arc[below[regular]]
+    arcs = np.empty((n_arcs, 2), np.int64)
+    bottom, top = piece_node[lower] >= 0, piece_node[upper] >= 0
+    arcs[contour_arc[bottom], 0] = piece_node[lower[bottom]]
+    arcs[contour_arc[top], 1] = piece_node[upper[top]]
+    return ReebStructure(piece_node, piece_arc, contour_arc, arcs, int((~regular).sum()))
+
+
+def reeb_graph(sets: LevelSets, structure: ReebStructure) -> ReebGraph:
+    """Kinds, values, positions and centre lines of a Reeb graph.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        Of one connected component.
+    structure : ReebStructure
+        Of those level sets, simplified or not.
+
+    Returns
+    -------
+    graph : ReebGraph
+    """
+    n_below = np.bincount(structure.arcs[:, 1], minlength=structure.n_nodes)
+    n_above = np.bincount(structure.arcs[:, 0], minlength=structure.n_nodes)
+    kind = np.where(n_below == 0, MINIMUM, np.where(n_above == 0, MAXIMUM, SADDLE)).astype(np.int8)
+    tip = _tip_vertices(sets, structure, kind)
+    middle, position = _node_means(sets, structure)
+    value = _saddle_values(sets, structure, middle)
+    has_tip = tip >= 0
+    value[has_tip] = sets.values[tip[has_tip]]
+    position[has_tip] = sets.mesh.vertices[tip[has_tip]]
+
+    kept = np.flatnonzero(structure.contour_arc >= 0)
+    arc = structure.contour_arc[kept]
+    order = np.lexsort((sets.contour_level[kept], arc))
+    contour = kept[order]
+    return ReebGraph(
+        node_kind=kind, node_value=value, node_position=position, arcs=structure.arcs,
+        arc_points=np.searchsorted(arc[order], np.arange(len(structure.arcs) + 1)),
+        point_position=sets.contour_centre[contour], point_radius=sets.contour_radius[contour],
+        point_length=sets.contour_length[contour],
+        point_value=sets.levels[sets.contour_level[contour]],
+        n_components=components(structure.n_nodes, *structure.arcs.T)[0])
+
+
+def _tip_vertices(sets: LevelSets, structure: ReebStructure, kind: np.ndarray) -> np.ndarray:
+    """The vertex of lowest or highest value of each minimum and maximum; -1 for saddles."""
+    node = structure.piece_node[sets.vertex_piece]
+    inside = np.flatnonzero(node >= 0)
+    order = inside[np.lexsort((inside, sets.values[inside]))]
+    tip = np.full(len(kind), -1)
+    tip[node[order]] = order  # the last one written is the highest
+    lowest = np.full(len(kind), -1)
+    lowest[node[order[::-1]]] = order[::-1]
+    tip = np.where(kind == MINIMUM, lowest, tip)
+    tip[kind == SADDLE] = -1
+    return tip
+
+
+def _saddle_values(sets: LevelSets, structure: ReebStructure, middle: np.ndarray) -> np.ndarray:
+    """Value of each node's saddle vertex: the one of most arcs, then nearest the middle level.
+
+    Nodes without one (a loop thinner than a slab, a border) keep the middle level.
+    """
+    critical = critical_points(sets.mesh, total_order(sets.values))
+    node = structure.piece_node[sets.vertex_piece[critical.vertex]]
+    saddle = (critical.kind == SADDLE) & (node >= 0)
+    node, vertex = node[saddle], critical.vertex[saddle]
+    off = np.abs(sets.values[vertex] - middle[node])
+    order = np.lexsort((vertex, -off, critical.multiplicity[saddle]))
+    value = middle.copy()
+    value[node[order]] = sets.values[vertex[order]]  # the last one written is the best
+    return value
+
+
+def _node_means(sets: LevelSets, structure: ReebStructure) -> tuple[np.ndarray, np.ndarray]:
+    """Middle level and area centroid of each node's pieces."""
+    node = structure.piece_node[sets.element_piece]
+    inside = node >= 0
+    weight = sets.element_area[inside] + 1e-12 * sets.mesh.area
+    node = node[inside]
+    total = np.bincount(node, weight, structure.n_nodes)
+    middles = (sets.element_slab[inside] + 0.5) / (len(sets.levels) + 1)
+    centres = sets.mesh.face_centroids[sets.element_face[inside]]
+    columns = [middles, *centres.T]
+    means = [np.bincount(node, weight * c, structure.n_nodes) / total for c in columns]
+    return means[0], np.stack(means[1:], axis=1)

@@ -1,0 +1,372 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The triangle mesh that every stage works on, and the checks where data enters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..errors import EmptyMeshError, MeshError
+from ..sentence import Sentence
+
+MIN_FACES = 4  # a closed surface has at least the four faces of a tetrahedron
+
+
+def frozen(array, dtype) -> np.ndarray:
+    """A read-only copy in C order."""
+    copy = np.array(array, dtype=dtype, order="C")
+    copy.flags.writeable = False
+    return copy
+
+
+@dataclass(frozen=True, eq=False)
+class TriMesh:
+    """A triangle mesh, checked once and never changed.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+        Positions, in the caller's unit of length.
+    faces : (m, 3) int64
+        Vertex indices. Any topology: borders, non-manifold edges, loose parts.
+
+    Raises
+    ------
+    MeshError
+        Wrong shape, an index out of range, or a coordinate that is not finite;
+        ``error.vertices`` or ``error.faces`` lists them.
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray
+
+    def __post_init__(self):
+        vertices = np.asarray(self.vertices)
+        faces = np.asarray(self.faces)
+        if vertices.ndim != 2 or vertices.shape[1] != 3:
+            raise MeshError(
+                Sentence("Vertices must have shape (n, 3), not {shape}.", shape=vertices.shape))
+        if faces.size == 0:
+            faces = np.empty((0, 3), np.int64)
+        if faces.ndim != 2 or faces.shape[1] != 3:
+            raise MeshError(
+                Sentence("Triangles must have shape (m, 3), not {shape}.", shape=faces.shape))
+        if not np.issubdtype(faces.dtype, np.integer):
+            raise MeshError(
+                Sentence("Face indices must be whole numbers, not {type}.", type=faces.dtype))
+        object.__setattr__(self, "vertices", frozen(vertices, np.float64))
+        object.__setattr__(self, "faces", frozen(faces, np.int64))
+        self._check_values()
+
+    def _check_values(self):
+        bad = np.flatnonzero(~np.isfinite(self.vertices).all(axis=1))
+        if len(bad):
+            raise MeshError(
+                Sentence(
+                    "{n} of {total} vertices have a coordinate that is not a finite number (first: "
+                    "vertex {first}). Delete or move them.",
+                    n=len(bad), total=self.n_vertices, first=int(bad[0])),
+                vertices=bad,
+            )
+        outside = ((self.faces < 0) | (self.faces >= self.n_vertices)).any(axis=1)
+        if outside.any():
+            bad = np.flatnonzero(outside)
+            raise MeshError(
+                Sentence(
+                    "{n} of {total} faces name a vertex that does not exist (first: face {first}; "
+                    "there are {n_vertices} vertices).",
+                    n=len(bad), total=self.n_faces, first=int(bad[0]), n_vertices=self.n_vertices),
+                faces=bad,
+            )
+
+    @property
+    def n_vertices(self) -> int:
+        return len(self.vertices)
+
+    @property
+    def n_faces(self) -> int:
+        return len(self.faces)
+
+    @cached_property
+    def corners(self) -> np.ndarray:
+        """(m, 3, 3) float64, the positions of every face's corners."""
+        return self.vertices[self.faces]
+
+    @cached_property
+    def area_normals(self) -> np.ndarray:
+        """(m, 3) float64, normals whose length is the face's area."""
+        p, q, r = self.corners.transpose(1, 0, 2)
+        return 0.5 * np.cross(q - p, r - p)
+
+    @cached_property
+    def face_area(self) -> np.ndarray:
+        """(m,) float64, squared unit of the vertices."""
+        return np.linalg.norm(self.area_normals, axis=1)
+
+    @cached_property
+    def face_normals(self) -> np.ndarray:
+        """(m, 3) float64 unit normals; zero where the face has no area."""
+        area = self.face_area[:, None]
+        return np.divide(self.area_normals, area, out=np.zeros((self.n_faces, 3)), where=area > 0)
+
+    @cached_property
+    def face_centroids(self) -> np.ndarray:
+        """(m, 3) float64."""
+        return self.corners.mean(axis=1)
+
+    @cached_property
+    def area(self) -> float:
+        """Area of the whole surface."""
+        return float(self.face_area.sum())
+
+    @cached_property
+    def vertex_area(self) -> np.ndarray:
+        """(n,) float64, a third of the area of the faces around each vertex; sums to the area."""
+        return np.bincount(self.faces.ravel(), np.repeat(self.face_area / 3, 3), self.n_vertices)
+
+    @cached_property
+    def edges(self) -> EdgeTable:
+        """Every edge once, and which faces meet there."""
+        return EdgeTable.of(self.faces, self.n_vertices)
+
+    @cached_property
+    def edge_length(self) -> np.ndarray:
+        """(e,) float64, one per row of ``edges.vertices``."""
+        a, b = self.edges.vertices.T
+        return np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1)
+
+    @cached_property
+    def pair_length(self) -> np.ndarray:
+        """(pairs,) float64, length of the edge between each pair of faces."""
+        return self.edge_length[self.edges.pair_edge]
+
+    @cached_property
+    def pair_distance(self) -> np.ndarray:
+        """(pairs,) float64, way from face to face over the middle of their edge."""
+        a, b = self.edges.vertices[self.edges.pair_edge].T
+        middle = (self.vertices[a] + self.vertices[b]) / 2
+        left, right = (self.face_centroids[face] - middle for face in self.edges.pairs.T)
+        return np.sqrt(np.einsum("ij,ij->i", left, left)) + np.sqrt(np.einsum("ij,ij->i", right, right))
+
+    @cached_property
+    def dihedral(self) -> np.ndarray:
+        """(pairs,) float64 angle in radians between the normals of each face pair.
+
+        Positive where the surface is convex, negative where it is concave; one per row of
+        ``edges.pairs``. Zero where a face has no area.
+        """
+        left, right = self.edges.pairs.T
+        sine = np.cross(self.face_normals[left], self.face_normals[right])
+        cosine = (self.face_normals[left] * self.face_normals[right]).sum(axis=1)
+        angle = np.arctan2(np.linalg.norm(sine, axis=1), cosine)
+        across = self.face_centroids[right] - self.face_centroids[left]
+        convex = ((self.face_normals[left] - self.face_normals[right]) * across).sum(axis=1) <= 0
+        return np.where(convex, angle, -angle)
+
+    @cached_property
+    def face_components(self) -> tuple[int, np.ndarray]:
+        """Number of components and (m,) int64, each face's component; faces touch by edges."""
+        return components(self.n_faces, *self.edges.pairs.T)
+
+    @property
+    def euler_characteristic(self) -> int:
+        """Vertices of a face - edges + faces."""
+        used = len(np.unique(self.faces))
+        return used - len(self.edges.vertices) + self.n_faces
+
+    def submesh(self, face_mask: np.ndarray) -> tuple[TriMesh, np.ndarray]:
+        """The faces where ``face_mask`` is true, with only their vertices.
+
+        Returns
+        -------
+        mesh : TriMesh
+        vertex_index : (n',) int64
+            For each of its vertices, the vertex of this mesh.
+        """
+        faces = self.faces[face_mask]
+        vertex_index, inverse = np.unique(faces, return_inverse=True)
+        return TriMesh(self.vertices[vertex_index], inverse.reshape(faces.shape)), vertex_index
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeTable:
+    """Edges of a triangle mesh.
+
+    Attributes
+    ----------
+    vertices : (e, 2) int64
+        Ends of each edge, smaller index first, in lexicographic order.
+    face_edges : (m, 3) int64
+        Edge between corners 0-1, 1-2 and 2-0 of each face.
+    n_faces : (e,) int64
+        How many faces meet at each edge: 1 at a border, 2 inside, more if non-manifold.
+    pairs : (p, 2) int64
+        Faces that touch along an edge. One row at an inner edge; where k faces meet,
+        k - 1 rows chain them. Faces with a repeated vertex may touch themselves: left out.
+    pair_edge : (p,) int64
+        The edge of each pair.
+    """
+
+    vertices: np.ndarray
+    face_edges: np.ndarray
+    n_faces: np.ndarray
+    pairs: np.ndarray
+    pair_edge: np.ndarray
+
+    @classmethod
+    def of(cls, faces: np.ndarray, n_vertices: int) -> EdgeTable:
+        start, end = faces, np.roll(faces, -1, axis=1)
+        # One integer per half-edge sorts far faster than rows.
+        key = (np.minimum(start, end) * np.int64(n_vertices) + np.maximum(start, end)).ravel()
+        order = np.argsort(key, kind="stable")
+        key = key[order]
+        together = key[1:] == key[:-1]
+        first_of_edge = np.flatnonzero(np.append(True, ~together)[: len(key)])
+        edge_sorted = np.cumsum(np.append(True, ~together)[: len(key)]) - 1
+        edge = np.empty(len(key), np.int64)
+        edge[order] = edge_sorted
+        unique = key[first_of_edge]
+        count = np.diff(np.append(first_of_edge, len(key)))
+        owner = order // 3
+        first, second = owner[:-1][together], owner[1:][together]
+        distinct = first != second
+        return cls(
+            vertices=frozen(np.stack(np.divmod(unique, max(n_vertices, 1)), axis=1), np.int64),
+            face_edges=frozen(edge.reshape(-1, 3), np.int64),
+            n_faces=frozen(count, np.int64),
+            pairs=frozen(np.stack([first, second], axis=1)[distinct], np.int64),
+            pair_edge=frozen(edge_sorted[1:][together][distinct], np.int64),
+        )
+
+
+def first_largest(values: np.ndarray) -> int:
+    """Index of the largest value; the first of those that differ from it by rounding only.
+
+    On a symmetric shape two sides are equally far from its middle. Their last bit depends on
+    the processor and on where the shape stands, the order of the vertices does not.
+    """
+    return int((values >= (1 - 1e-9) * values.max()).argmax())
+
+
+def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
+    """Connected components of n elements joined by the pairs (a, b).
+
+    Returns
+    -------
+    count : int
+    label : (n,) int64
+        0..count-1, numbered by each component's lowest element, so that the numbering does
+        not depend on the library.
+    """
+    # Not above: Blender's panel reads stored parts also where SciPy is missing, to say that it is.
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    graph = coo_array((np.ones(len(a), np.int8), (a, b)), shape=(n, n))
+    count, label = connected_components(graph, directed=False)
+    first = np.full(count, n, np.int64)
+    np.minimum.at(first, label, np.arange(n))
+    rank = np.empty(count, np.int64)
+    rank[np.argsort(first, kind="stable")] = np.arange(count)
+    return count, rank[label]
+
+
+@dataclass(frozen=True, eq=False)
+class PolygonMesh:
+    """What the caller gave: polygons, cut into triangles.
+
+    Attributes
+    ----------
+    triangles : TriMesh
+        All of the caller's vertices; triangles of the polygons.
+    polygon : (m,) int64
+        The polygon each triangle belongs to.
+    n_polygons : int
+    """
+
+    triangles: TriMesh
+    polygon: np.ndarray
+    n_polygons: int
+
+    @classmethod
+    def of(cls, vertices, faces, polygon=None) -> PolygonMesh:
+        """Read triangles, quads or polygons.
+
+        Parameters
+        ----------
+        vertices : (n, 3) array_like
+        faces : (m, k) array_like of int, or a sequence of index sequences
+            Polygons are cut into the fan of their first corner.
+        polygon : (m,) array_like of int, optional
+            Only for triangles: the caller's own triangulation of polygons, as the
+            polygon of each triangle.
+
+        Raises
+        ------
+        MeshError
+            Not a mesh (shapes, indices, values).
+        EmptyMeshError
+            Fewer than four faces, or no area.
+        """
+        if polygon is None:
+            faces, polygon, n_polygons = _fan(faces)
+        else:
+            faces = np.asarray(faces)
+            polygon = frozen(polygon, np.int64)
+            if polygon.shape != (len(faces),) or (polygon < 0).any():
+                raise MeshError(Sentence(
+                    "Polygon numbers must be {n} whole numbers from 0, one per triangle.",
+                    n=len(faces)))
+            n_polygons = int(polygon.max(initial=-1)) + 1
+        if n_polygons == 0:
+            raise EmptyMeshError(
+                Sentence("The mesh has no faces. Add some, or choose another object."))
+        mesh = cls(TriMesh(vertices, faces), frozen(polygon, np.int64), n_polygons)
+        mesh._check_size()
+        return mesh
+
+    def _check_size(self):
+        if self.n_polygons < MIN_FACES:
+            raise EmptyMeshError(
+                Sentence(
+                    "The mesh has only {n} of the {least} faces that the smallest solid has. "
+                    "Choose a larger mesh.",
+                    n=self.n_polygons, least=MIN_FACES),
+                faces=np.arange(self.n_polygons),
+            )
+        used = np.zeros(self.triangles.n_vertices, bool)
+        used[self.triangles.faces] = True
+        extent = np.ptp(self.triangles.vertices[used], axis=0).max()
+        # Below the rounding error of the coordinates an area is noise.
+        if not self.triangles.area > 1e-14 * extent**2:
+            raise EmptyMeshError(Sentence(
+                "All {n} faces have zero area. Check the scale of the object.", n=self.n_polygons))
+
+
+def _fan(faces) -> tuple[np.ndarray, np.ndarray, int]:
+    """Triangles of polygons, the polygon of each, and how many polygons there are."""
+    if not isinstance(faces, np.ndarray) and isinstance(faces, Sequence) and len(faces):
+        sizes = np.array([len(face) for face in faces], np.int64)
+        flat = np.concatenate([np.asarray(face) for face in faces])
+    else:
+        faces = np.asarray(faces)
+        if faces.size == 0:
+            return np.empty((0, 3), np.int64), np.empty(0, np.int64), 0
+        if faces.ndim != 2:
+            raise MeshError(
+                Sentence("Faces must have shape (m, corners), not {shape}.", shape=faces.shape))
+        sizes = np.full(len(faces), faces.shape[1], np.int64)
+        flat = faces.ravel()
+    if (sizes < 3).any():
+        bad = np.flatnonzero(sizes < 3)
+        raise MeshError(
+            Sentence("{n} faces have fewer than three corners.", n=len(bad)), faces=bad)
+    start = np.cumsum(sizes) - sizes
+    polygon = np.repeat(np.arange(len(sizes)), sizes - 2)
+    step = np.arange(len(polygon)) - np.repeat(np.cumsum(sizes - 2) - (sizes - 2), sizes - 2)
+    first = start[polygon]
+    corners = np.stack([first, first + step + 1, first + step + 2], axis=1)
+    return flat[corners], polygon, len(sizes)

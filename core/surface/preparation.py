@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The working copy: the caller's surface, repaired and refined until a field can live on it.
+
+The paper triangulates and regularises first (section 3). Labels found on the copy go back
+to the caller's own faces and vertices, which are never touched: ``polygon`` and
+``vertex_source`` are the way back.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..sentence import Sentence
+from .mesh import PolygonMesh, TriMesh, components, frozen
+
+# No edge of the copy is longer than this share of the square root of the component's area:
+# half the radius of a base vertex's disc, so that a field of its own fits into every disc.
+MAX_EDGE = 0.5 * np.sqrt(0.005)
+# Needles (long, thin triangles) multiply under refinement; past this factor coarse is better.
+MAX_GROWTH = 4
+MIN_BUDGET = 50_000  # faces that refinement may always reach
+# Lengths that differ by less are equal: rounding must not decide how a box is divided.
+ROUNDING = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class WorkingMesh:
+    """A repaired triangle copy of the caller's mesh.
+
+    Attributes
+    ----------
+    mesh : TriMesh
+        No vertex without a face, no face with a repeated vertex, no two fans of faces that
+        touch in a vertex only; faces turned the same way where that is possible.
+    polygon : (m,) int64
+        The caller's face that each triangle lies in.
+    vertex_source : (n,) int64
+        The caller's vertex at each vertex; -1 where refinement added one.
+    notes : tuple of str
+        What was found and done, one sentence each.
+    """
+
+    mesh: TriMesh
+    polygon: np.ndarray
+    vertex_source: np.ndarray
+    notes: tuple[str, ...] = ()
+
+
+def repair(given: PolygonMesh) -> WorkingMesh:
+    """Copy the caller's mesh without what would break the field.
+
+    Coincident border vertices are joined (seams of imported files), faces with a repeated
+    vertex dropped, fans that touch in one vertex only separated, and faces turned outwards.
+    """
+    mesh = given.triangles
+    joined, note_joined = _join_coincident_borders(mesh)
+    faces = joined[mesh.faces]
+    whole = (faces != np.roll(faces, -1, axis=1)).all(axis=1)
+    # What needs no repair keeps the tables that are already made for it.
+    copy = mesh if whole.all() and not note_joined else TriMesh(mesh.vertices, faces[whole])
+    copy, vertex_source = _separate_fans(copy)
+    copy, note_turned = _turn_outwards(copy)
+    return WorkingMesh(copy, frozen(given.polygon[whole], np.int64),
+                       frozen(vertex_source, np.int64),
+                       _notes(given) + note_joined + note_turned)
+
+
+def refine(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndarray]:
+    """Split edges at their middle until none is longer than ``max_length``.
+
+    Conforming: a split edge is split for all its faces, so no gaps appear. The shape of the
+    surface does not change. Stops early, coarser, when needles would multiply past bounds.
+
+    Returns
+    -------
+    mesh : TriMesh
+        The given vertices first, in order, then the new ones.
+    parent : (m',) int64
+        The given face that each face lies in.
+    """
+    parent = np.arange(mesh.n_faces)
+    budget = max(MIN_BUDGET, MAX_GROWTH * mesh.n_faces)
+    while mesh.n_faces < budget:
+        long = mesh.edge_length > (1 + ROUNDING) * max_length
+        if not long.any():
+            break
+        mesh, step = _split_edges(mesh, long)
+        parent = parent[step]
+    return mesh, parent
+
+
+def _split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]:
+    """Split the marked edges at their middle, and every face to 1-4 triangles accordingly."""
+    ends = mesh.edges.vertices[marked]
+    middle = np.full(len(marked), -1)
+    middle[marked] = mesh.n_vertices + np.arange(len(ends))
+    vertices = np.concatenate([mesh.vertices, mesh.vertices[ends].mean(axis=1)])
+    mids = middle[mesh.edges.face_edges]
+    n_split = (mids >= 0).sum(axis=1)
+    # Turn each face so that its one split edge, or its one whole edge, is the first.
+    odd_one = np.where((n_split == 1)[:, None], mids >= 0, mids < 0)
+    turn = (odd_one.argmax(axis=1)[:, None] + np.arange(3)) % 3
+    a, b, c = np.take_along_axis(mesh.faces, turn, axis=1).T
+    ab, bc, ca = np.take_along_axis(mids, turn, axis=1).T
+    # Two split edges leave a quadrangle: cut it along its shorter diagonal.
+    shorter = np.linalg.norm(vertices[a] - vertices[bc], axis=1) <= (1 + ROUNDING) * np.linalg.norm(
+        vertices[b] - vertices[ca], axis=1)
+    patterns = (
+        (n_split == 0, ((a, b, c),)),
+        (n_split == 1, ((a, ab, c), (ab, b, c))),
+        ((n_split == 2) & shorter, ((a, b, bc), (a, bc, ca), (ca, bc, c))),
+        ((n_split == 2) & ~shorter, ((a, b, ca), (b, bc, ca), (ca, bc, c))),
+        (n_split == 3, ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))),
+    )
+    faces, parent = [], []
+    for chosen, triangles in patterns:
+        for corners in triangles:
+            faces.append(np.stack(corners, axis=1)[chosen])
+            parent.append(np.flatnonzero(chosen))
+    return TriMesh(vertices, np.concatenate(faces)), np.concatenate(parent)
+
+
+def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]]:
+    """For each vertex, the first border vertex at the same place (itself elsewhere).
+
+    Only borders: where two closed surfaces touch they stay two parts.
+    """
+    joined = np.arange(mesh.n_vertices)
+    border = np.unique(mesh.edges.vertices[mesh.edges.n_faces == 1])
+    if not len(border):
+        return joined, ()
+    # + 0.0 makes -0.0 and 0.0 the same place.
+    _, first, inverse = np.unique(
+        mesh.vertices[border] + 0.0, axis=0, return_index=True, return_inverse=True)
+    joined[border] = border[first[inverse.reshape(-1)]]
+    n_joined = int((joined != np.arange(len(joined))).sum())
+    if not n_joined:
+        return joined, ()
+    return joined, (
+        Sentence("{n} coincident border vertices are treated as joined.", n=n_joined),)
+
+
+def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
+    """Give each fan of faces around a vertex a vertex of its own; drop unused vertices.
+
+    Returns the mesh and the given vertex of each of its vertices, ascending.
+    """
+    left, right = mesh.edges.pairs.T
+    joins_a, joins_b = [], []
+    for end in (0, 1):
+        vertex = mesh.edges.vertices[mesh.edges.pair_edge, end]
+        joins_a.append(3 * left + (mesh.faces[left] == vertex[:, None]).argmax(axis=1))
+        joins_b.append(3 * right + (mesh.faces[right] == vertex[:, None]).argmax(axis=1))
+    count, fan = components(3 * mesh.n_faces, np.concatenate(joins_a), np.concatenate(joins_b))
+    source = np.empty(count, np.int64)
+    source[fan] = mesh.faces.ravel()
+    order = np.argsort(source, kind="stable")
+    source = source[order]
+    if count == mesh.n_vertices and (source == np.arange(count)).all():
+        return mesh, source
+    place = np.empty(count, np.int64)
+    place[order] = np.arange(count)
+    return TriMesh(mesh.vertices[source], place[fan].reshape(-1, 3)), source
+
+
+def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
+    """Turn faces so that neighbours agree, and closed components enclose a positive volume."""
+    pairs, edge = mesh.edges.pairs, mesh.edges.pair_edge
+    same_way = _edge_direction(mesh, pairs[:, 0], edge) == _edge_direction(mesh, pairs[:, 1], edge)
+    flip = np.zeros(mesh.n_faces, bool)
+    if same_way.any():
+        # Double cover: (face, as given) and (face, flipped); orientable where the two differ.
+        m = mesh.n_faces
+        a, b = pairs.T
+        other = np.where(same_way, m, 0)
+        _, sheet = components(2 * m, np.concatenate([a, a + m]),
+                              np.concatenate([b + other, (b + m + other) % (2 * m)]))
+        orientable = sheet[:m] != sheet[m:]
+        flip = orientable & (sheet[:m] > sheet[m:])
+    count, component = mesh.face_components
+    sign = np.where(flip, -1.0, 1.0)
+    centre = mesh.vertices.mean(axis=0)  # near the origin, where volumes do not cancel
+    volume = sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - centre)
+    as_given = np.bincount(component, sign * mesh.face_area, count)
+    borders = mesh.edges.n_faces[mesh.edges.face_edges] == 1
+    closed = np.bincount(component, borders.any(axis=1), count) == 0
+    inside_out = np.where(closed, np.bincount(component, volume, count) < 0, as_given < 0)
+    flip ^= inside_out[component]
+    if not flip.any():
+        return mesh, ()
+    faces = np.where(flip[:, None], mesh.faces[:, ::-1], mesh.faces)
+    note = Sentence("{n} triangles face inwards or against their neighbours.", n=int(flip.sum()))
+    return TriMesh(mesh.vertices, faces), (note,)
+
+
+def _edge_direction(mesh: TriMesh, face: np.ndarray, edge: np.ndarray) -> np.ndarray:
+    """Whether each face runs along its edge from the smaller vertex to the larger."""
+    corner = (mesh.edges.face_edges[face] == edge[:, None]).argmax(axis=1)
+    return mesh.faces[face, corner] == mesh.edges.vertices[edge, 0]
+
+
+def _notes(given: PolygonMesh) -> tuple[str, ...]:
+    """What is odd about the caller's mesh, in sentences."""
+    mesh = given.triangles
+    n_lost = mesh.n_vertices - len(np.unique(mesh.faces))
+    flat = np.ones(given.n_polygons, bool)
+    longest = mesh.edge_length[mesh.edges.face_edges].max(axis=1)
+    # Three corners on a line rarely have an area of exactly 0.
+    flat[given.polygon[mesh.face_area > 1e-12 * longest**2]] = False
+    notes = (
+        Sentence("{n} edges join more than two faces (non-manifold).",
+                 n=int((mesh.edges.n_faces > 2).sum())),
+        Sentence("{n} border edges: the surface is open there.", n=int((mesh.edges.n_faces == 1).sum())),
+        Sentence("{n} vertices belong to no face; they get no part.", n=n_lost),
+        Sentence("{n} faces have zero area; they follow their neighbours.", n=int(flat.sum())),
+    )
+    return tuple(note for note in notes if note.values["n"])

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Boundary search: curves in order, concavity without unit, cuts that slide into necks."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.cuts.berretti.boundary_search import concavity, contour_curve, search_boundaries
+from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.graph.reeb import reeb_structure
+from core.surface.curvature import k_min
+from core.surface.mesh import TriMesh, components
+
+
+def upright(shape, n_slabs=60):
+    """Level sets of the height, 0..1."""
+    z = shape.vertices[:, 2]
+    return cut_at_levels(TriMesh(*shape), (z - z.min()) / np.ptp(z), uniform_levels(n_slabs))
+
+
+def parted_at(sets, level):
+    """Pieces below a level are region 0, above region 1."""
+    return (sets.piece_slab > level).astype(np.int64)
+
+
+def cut_heights(sets, region):
+    """The level of each contour between two regions."""
+    lower, upper = region[sets.contour_pieces].T
+    return sets.levels[sets.contour_level[lower != upper]]
+
+
+def moved(sets, region, alpha, sigma=0.1):
+    return search_boundaries(sets, reeb_structure(sets), k_min(sets.mesh), region, alpha, sigma)
+
+
+@pytest.mark.parametrize("make", [shapes.dumbbell, lambda: shapes.surface_of_genus(2), shapes.tube_tree])
+def test_closed_curves_pass_every_crossing_once(make):
+    sets = upright(make(), 13)
+    edges = sets.mesh.edges.vertices
+    for contour in range(sets.n_contours):
+        edge, points, closed = contour_curve(sets, contour)
+        segments = sets.segment_contour == contour
+        assert closed
+        assert len(edge) == len(set(edge.tolist())) == segments.sum()
+        assert set(edge.tolist()) == set(sets.segment_edges[segments].ravel().tolist())
+        # Consecutive crossings, and the last and the first, are the ends of one segment.
+        steps = {tuple(sorted(p)) for p in zip(edge.tolist(), np.roll(edge, -1).tolist(), strict=True)}
+        assert steps == {tuple(sorted(p)) for p in sets.segment_edges[segments].tolist()}
+        length = np.linalg.norm(points - np.roll(points, -1, axis=0), axis=1).sum()
+        assert length == pytest.approx(sets.contour_length[contour])
+        a, b = sets.mesh.vertices[edges[edge]].transpose(1, 0, 2)
+        np.testing.assert_allclose(np.linalg.norm(points - a, axis=1) + np.linalg.norm(points - b, axis=1),
+                                   np.linalg.norm(a - b, axis=1), rtol=1e-9)
+
+
+def test_open_curves_run_from_border_to_border():
+    vertices, faces = shapes.flat_grid(6, 9)
+    sets = cut_at_levels(TriMesh(vertices, faces), vertices[:, 0], np.array([2.5]))
+    _, points, closed = contour_curve(sets, 0)
+    assert not closed
+    y = points[:, 1]
+    assert (np.diff(y) > 0).all() or (np.diff(y) < 0).all()
+    assert sorted((y[0], y[-1])) == [0, 9]
+    np.testing.assert_allclose(points[:, 0], 2.5)
+
+
+def test_concavity_has_no_unit_and_its_sign_is_that_of_k_min():
+    # The waist of the dumbbell is a saddle of radius 0.25; its balls are convex.
+    for scale in (1e-3, 1.0, 1e3):
+        vertices, faces = shapes.dumbbell()
+        sets = upright(shapes.Shape(scale * vertices, faces), 31)
+        curvature = k_min(sets.mesh)
+        z = sets.contour_centre[:, 2] / scale
+        energy = np.array([concavity(sets, curvature, c, 0.1) for c in range(sets.n_contours)])
+        order = np.argsort(z)
+        if scale == 1e-3:
+            expected = energy[order]
+        np.testing.assert_allclose(energy[order], expected, rtol=1e-6, atol=1e-9)
+        assert (energy[np.abs(z) < 0.2] < 0).all()
+        assert (energy[np.abs(np.abs(z) - 1.5) < 0.5] > 0).all()
+        assert np.abs(z[energy.argmin()]) < 0.4
+
+
+def test_concavity_of_a_ball_is_that_of_its_circle():
+    # k_min is 1 / R everywhere; times the radius of the circle at height h, worth 0.1 of it.
+    sets = upright(shapes.icosphere(4), 10)
+    curvature = k_min(sets.mesh)
+    for contour in range(sets.n_contours):
+        height = 2 * sets.levels[sets.contour_level[contour]] - 1
+        assert concavity(sets, curvature, contour, 0.1) == pytest.approx(
+            0.1 * np.sqrt(1 - height**2), rel=0.1)
+
+
+@pytest.mark.parametrize("level", [24, 26, 28, 29, 31, 33, 34])
+def test_a_cut_slides_into_the_neck(level):
+    # Level 29 of 60 slabs is the middle. A ball's contour counts about +0.045 and the waist's
+    # -0.07: worth a way of 0.1 of the range, six levels. The last level may not pay.
+    sets = upright(shapes.dumbbell())
+    heights = cut_heights(sets, moved(sets, parted_at(sets, level), 0.5))
+    assert heights == pytest.approx([0.5], abs=1.01 / 60)
+
+
+@pytest.mark.parametrize("level", [14, 20, 38, 45])
+def test_a_cut_too_far_from_the_neck_stays(level):
+    sets = upright(shapes.dumbbell())
+    region = parted_at(sets, level)
+    np.testing.assert_array_equal(moved(sets, region, 0.5), region)
+
+
+def test_alpha_zero_moves_nothing_and_alpha_one_moves_at_will():
+    sets = upright(shapes.dumbbell())
+    region = parted_at(sets, 12)
+    np.testing.assert_array_equal(moved(sets, region, 0.0), region)
+    heights = cut_heights(sets, moved(sets, region, 1.0))
+    curvature = k_min(sets.mesh)
+    energy = [concavity(sets, curvature, c, 0.1) for c in range(sets.n_contours)]
+    assert heights == pytest.approx([sets.levels[sets.contour_level[int(np.argmin(energy))]]])
+
+
+def test_a_cut_on_a_ball_stays_where_it_is():
+    # On a sphere nothing is concave: sliding off to a smaller circle must not pay.
+    sets = upright(shapes.icosphere(4), 40)
+    region = parted_at(sets, 10)
+    np.testing.assert_array_equal(moved(sets, region, 0.5), region)
+
+
+def test_cuts_do_not_pass_each_other():
+    # Two cuts on one side of the neck: the nearer takes it, the other stays on its own side.
+    sets = upright(shapes.dumbbell())
+    region = (sets.piece_slab > 15).astype(np.int64) + (sets.piece_slab > 22)
+    heights = np.sort(cut_heights(sets, moved(sets, region, 1.0)))
+    assert len(heights) == 2
+    assert heights[0] < heights[1]
+    assert np.unique(moved(sets, region, 1.0)).tolist() == [0, 1, 2]
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("make", [shapes.tube_tree, lambda: shapes.surface_of_genus(2)])
+def test_regions_stay_connected_and_none_is_lost(make, seed):
+    # Any cuts of the arcs: afterwards the same regions, and the same ones touch.
+    shape = make()
+    rng = np.random.default_rng(seed)
+    values = shape.vertices @ np.array([1.0, 0.7, 0.2])
+    sets = cut_at_levels(TriMesh(*shape), (values - values.min()) / np.ptp(values), uniform_levels(40))
+    structure = reeb_structure(sets)
+    region = np.where(structure.piece_node >= 0, structure.piece_node, structure.n_nodes + structure.piece_arc)
+    region = rng.permutation(structure.n_nodes + len(structure.arcs))[region]
+    after = search_boundaries(sets, structure, k_min(sets.mesh), region, 0.7, 0.1)
+    same = after[sets.contour_pieces[:, 0]] == after[sets.contour_pieces[:, 1]]
+    count, _ = components(sets.n_pieces, *sets.contour_pieces[same].T)
+    assert count == len(np.unique(after))
+    assert {tuple(sorted(p)) for p in after[sets.contour_pieces].tolist() if p[0] != p[1]} <= {
+        tuple(sorted(p)) for p in region[sets.contour_pieces].tolist() if p[0] != p[1]}
+
+
+def test_upside_down_is_the_same_cut():
+    vertices, faces = shapes.dumbbell()
+    up = upright(shapes.Shape(vertices, faces))
+    down = upright(shapes.Shape(vertices * (1, -1, -1), faces))
+    one = cut_heights(up, moved(up, parted_at(up, 22), 0.5))
+    two = cut_heights(down, moved(down, parted_at(down, 58 - 22), 0.5))
+    assert one == pytest.approx(1 - two, abs=1.01 / 60)

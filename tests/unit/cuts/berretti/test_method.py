@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The method of the paper, from level sets to candidates."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.cuts.berretti.boundary_search import concavity
+from core.cuts.berretti.method import berretti_candidates
+from core.cuts.berretti.regions import berretti_regions
+from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.graph.reeb import reeb_structure
+from core.graph.simplify import simplify
+from core.parameters import Parameters
+from core.surface.curvature import k_min
+from core.surface.mesh import TriMesh, components
+
+PAPER = Parameters.preset("Berretti 2009")
+
+
+def candidates(shape, direction, **changes):
+    values = shape.vertices @ np.asarray(direction, float)
+    sets = cut_at_levels(TriMesh(*shape), (values - values.min()) / np.ptp(values), uniform_levels(50))
+    structure = simplify(sets, reeb_structure(sets), 0.0025, 1)
+    parameters = Parameters.preset("Berretti 2009", **changes)
+    return sets, structure, *berretti_candidates(sets, structure, parameters)
+
+
+@pytest.fixture(params=["tree", "genus 2", "dumbbell", "border"])
+def made(request):
+    return {
+        "tree": lambda: candidates(shapes.tube_tree(), (0.3, 1, 0.2), small_region=0.02),
+        "genus 2": lambda: candidates(shapes.surface_of_genus(2), (1, 0.1, 0)),
+        "dumbbell": lambda: candidates(shapes.dumbbell(), (1, 0, 0.2)),
+        "border": lambda: candidates(shapes.flat_grid(30, 20), (1, 0.4, 0)),
+    }[request.param]()
+
+
+def test_every_element_has_a_candidate_of_the_hierarchy(made):
+    sets, _, element, hierarchy = made
+    assert element.shape == sets.element_face.shape
+    assert element.min() >= 0
+    assert element.max() < hierarchy.n_candidates
+    assert hierarchy.n_loose == 1
+
+
+def test_a_candidate_is_made_of_whole_pieces(made):
+    # The paper's cuts run along level sets.
+    sets, _, element, _ = made
+    assert len(np.unique(sets.element_piece * (element.max() + 1) + element)) == sets.n_pieces
+
+
+def test_parts_of_the_papers_decision_are_connected(made):
+    sets, _, element, hierarchy = made
+    part = hierarchy.parts(hierarchy.n_parts(0.5))[element]
+    piece = np.empty(sets.n_pieces, np.int64)
+    piece[sets.element_piece] = part
+    same = piece[sets.contour_pieces[:, 0]] == piece[sets.contour_pieces[:, 1]]
+    assert components(sets.n_pieces, *sets.contour_pieces[same].T)[0] == len(np.unique(part))
+
+
+def test_without_concavity_the_regions_stay():
+    sets, structure, element, hierarchy = candidates(shapes.tube_tree(), (0.3, 1, 0.2), alpha=0.0)
+    regions = berretti_regions(sets, structure, PAPER.small_region)
+    np.testing.assert_array_equal(element, regions.piece_region[sets.element_piece])
+    np.testing.assert_array_equal(hierarchy.merges, regions.hierarchy.merges)
+
+
+def test_concavity_pulls_cuts_into_creases():
+    # Distance from the middle of the tree: its four branches leave a ball, with a crease around each foot.
+    shape = shapes.tube_tree()
+    distance = np.linalg.norm(shape.vertices, axis=1)
+    sets = cut_at_levels(TriMesh(*shape), distance, np.linspace(distance.min(), distance.max(), 51)[1:-1])
+    structure = simplify(sets, reeb_structure(sets), 0.0025, 1)
+    curvature = k_min(sets.mesh)
+
+    def cuts(alpha):
+        element, hierarchy = berretti_candidates(sets, structure, Parameters.preset("Berretti 2009", alpha=alpha))
+        piece = np.empty(sets.n_pieces, np.int64)
+        piece[sets.element_piece] = hierarchy.parts(hierarchy.n_parts(0.5))[element]
+        lower, upper = piece[sets.contour_pieces].T
+        return np.flatnonzero((lower != upper) & (structure.contour_arc >= 0))
+
+    def energy(contours):
+        return [concavity(sets, curvature, c, PAPER.sigma) for c in contours.tolist()]
+
+    stay, slide = cuts(0.0), cuts(1.0)
+    assert len(stay) == len(slide) >= 4
+    assert np.mean(energy(slide)) < np.mean(energy(stay)) - 0.01
+    assert max(np.sort(energy(slide)) - np.sort(energy(stay))) <= 0
+
+
+def test_upright_dumbbell_has_no_branch_and_so_one_part():
+    # Seen along its own axis every level set is one circle: the graph is one arc.
+    _, _, element, hierarchy = candidates(shapes.dumbbell(), (0, 0, 1))
+    assert hierarchy.n_candidates == 1
+    assert (element == 0).all()

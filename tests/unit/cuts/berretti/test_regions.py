@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The paper's regions: intervals, equal adjacency, small regions."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.cuts.berretti.regions import (
+    RegionGraph,
+    berretti_regions,
+    fuse_equal_adjacency,
+    fuse_intervals,
+    fuse_small,
+)
+from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.graph.reeb import reeb_structure
+from core.graph.simplify import simplify
+from core.surface.mesh import TriMesh, components
+
+
+def along(shape, direction, n_slabs=40, noise=0.0):
+    values = shape.vertices @ np.asarray(direction, float)
+    values = (values - values.min()) / np.ptp(values)
+    values = values + noise * np.random.default_rng(0).random(len(values))
+    return cut_at_levels(TriMesh(*shape), values / values.max(), uniform_levels(n_slabs))
+
+
+def y_shape():
+    """A flat Y of unit squares: stem x 0..3, a bar three wide x 3..4, arms to x = 7 and x = 6.
+
+    Cut half way through every square: slab k is x from k - 1/2 to k + 1/2.
+    """
+    cells = [(0, 1), (1, 1), (2, 1), (3, 0), (3, 1), (3, 2), (4, 0), (5, 0), (6, 0), (4, 2), (5, 2)]
+    shape = shapes.flat_cells(cells)
+    return cut_at_levels(TriMesh(*shape), shape.vertices[:, 0], np.arange(7) + 0.5)
+
+
+def described(sets, count, region):
+    """Slabs and area of each region, as a sorted list."""
+    return sorted((np.unique(sets.piece_slab[region == r]).tolist(), round(sets.piece_area[region == r].sum(), 9))
+                  for r in range(count))
+
+
+def test_a_y_by_hand():
+    sets = y_shape()
+    # One piece in slabs 0..4 (the bar ends at 4, the arms are free from 4.5 on), two in 5 and 6
+    # (the short arm ends at 6, inside slab 6), one in 7.
+    count, region = fuse_intervals(sets, reeb_structure(sets))
+    stem = ([0, 1, 2, 3, 4], 7.0)  # stem 3, bar 3, two halves of arms
+    assert described(sets, count, region) == [stem, ([5, 6], 1.5), ([5, 6], 2.0), ([7], 0.5)]
+    # Neighbours: tip 1, long arm 2, stem 2, short arm 1. Arm and stem fuse; then 1, 2, 1.
+    count, region = fuse_equal_adjacency(sets, count, region)
+    assert described(sets, count, region) == [([0, 1, 2, 3, 4, 5, 6], 9.0), ([5, 6], 1.5), ([7], 0.5)]
+    # The tip goes first, at 0.5 of 9, then the short arm at 1.5 of 9.5.
+    _, ratio = fuse_small(sets, count, region)
+    assert ratio == pytest.approx([0.5 / 9, 1.5 / 9.5])
+    regions = berretti_regions(sets, reeb_structure(sets), 0.1)
+    assert regions.hierarchy.n_parts(0.5) == 2  # the threshold 0.1 lies between
+
+
+def test_contiguous_intervals_differ():
+    for shape, direction in ((shapes.surface_of_genus(2), (1, 0.1, 0)), (shapes.tube_tree(), (0.3, 1, 0.2))):
+        sets = along(shape, direction)
+        _, region = fuse_intervals(sets, reeb_structure(sets))
+        # Count regions over each slab: consecutive slabs differ only where an interval ends.
+        starts = [set(region[sets.piece_slab == s].tolist()) for s in range(len(sets.levels) + 1)]
+        ends = [s for s in range(len(starts) - 1) if starts[s].isdisjoint(starts[s + 1])]
+        assert ends
+        for s in ends:
+            assert len(starts[s]) != len(starts[s + 1])
+        for s in set(range(len(starts) - 1)) - set(ends):
+            assert starts[s] == starts[s + 1]
+
+
+@pytest.fixture(params=["genus 1", "genus 3", "tree", "dumbbell", "noise"])
+def made(request):
+    sets = {
+        "genus 1": lambda: along(shapes.surface_of_genus(1), (1, 0.1, 0)),
+        "genus 3": lambda: along(shapes.surface_of_genus(3), (1, 0.1, 0)),
+        "tree": lambda: along(shapes.tube_tree(), (0.3, 1, 0.2)),
+        "dumbbell": lambda: along(shapes.dumbbell(), (0, 0, 1)),
+        "noise": lambda: along(shapes.tube_tree(), (0.3, 1, 0.2), noise=0.4),
+    }[request.param]()
+    return sets, simplify(sets, reeb_structure(sets), 0.0025, 1)
+
+
+def region_pairs(sets, region):
+    pairs = np.sort(region[sets.contour_pieces], axis=1)
+    return np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
+
+
+def assert_connected(sets, count, region):
+    assert np.unique(region).tolist() == list(range(count))
+    same = region[sets.contour_pieces[:, 0]] == region[sets.contour_pieces[:, 1]]
+    assert components(sets.n_pieces, *sets.contour_pieces[same].T)[0] == count
+
+
+def test_regions_are_connected(made):
+    sets, structure = made
+    count, region = fuse_intervals(sets, structure)
+    assert_connected(sets, count, region)
+    assert_connected(sets, *fuse_equal_adjacency(sets, count, region))
+
+
+def test_no_two_regions_of_equal_adjacency_touch(made):
+    sets, structure = made
+    count, region = fuse_equal_adjacency(sets, *fuse_intervals(sets, structure))
+    pairs = region_pairs(sets, region)
+    degree = np.bincount(pairs.ravel(), minlength=count)
+    if count > 2:
+        assert (degree[pairs[:, 0]] != degree[pairs[:, 1]]).all()
+
+
+def test_small_regions_go_smallest_first(made):
+    sets, structure = made
+    count, region = fuse_equal_adjacency(sets, *fuse_intervals(sets, structure))
+    merges, ratio = fuse_small(sets, count, region)
+    assert merges.shape == (count - 1, 2)
+    area, part = np.bincount(region, sets.piece_area, count), np.arange(count)
+    for (keep, gone), share in zip(merges, ratio, strict=True):
+        alive, total = np.unique(part, return_inverse=True)
+        now = np.bincount(total.reshape(-1), area)
+        assert share == pytest.approx(now.min() / now.max())
+        assert now[np.flatnonzero(alive == part[gone])[0]] == pytest.approx(now.min())
+        # The neighbour along the longest boundary.
+        lower, upper = part[region[sets.contour_pieces]].T
+        mine = (lower == part[gone]) != (upper == part[gone])
+        other = np.where(lower == part[gone], upper, lower)[mine]
+        length = np.bincount(other, sets.contour_length[mine], count)
+        assert length[part[keep]] == pytest.approx(length.max())
+        part[part == part[gone]] = part[keep]
+    assert len(np.unique(part)) == 1
+
+
+def test_the_decision_is_the_papers_threshold():
+    # Salience 0.5 where the ratio is the threshold: what is left has no region below it.
+    for threshold in (0.02, 0.05, 0.2):
+        sets = along(shapes.tube_tree(), (0.3, 1, 0.2))
+        structure = simplify(sets, reeb_structure(sets), 0.0025, 1)
+        regions = berretti_regions(sets, structure, threshold)
+        kept = regions.hierarchy.parts(regions.hierarchy.n_parts(0.5))[regions.piece_region]
+        area = np.bincount(kept, sets.piece_area)
+        assert area.min() >= threshold * area.max() or len(area) == 1
+
+
+def test_region_graph_by_hand():
+    # A strip of heights 0 1 0 1 0 cut at one half: areas 1/2, 1, 1, 1, 1/2 in a row.
+    sets = cut_at_levels(TriMesh(*shapes.flat_grid(4, 1)), np.repeat([0.0, 1, 0, 1, 0], 2), np.array([0.5]))
+    left_to_right = sets.vertex_piece[::2]
+    region = np.empty(5, np.int64)
+    region[left_to_right] = np.arange(5)
+    graph = RegionGraph(sets, 5, region)
+    assert graph.area == pytest.approx([0.5, 1, 1, 1, 0.5])
+    assert graph.neighbours[2] == pytest.approx({1: 1.0, 3: 1.0})
+    graph.merge(1, 2)
+    assert graph.neighbours[1] == pytest.approx({0: 1.0, 3: 1.0})
+    graph.merge(3, 0)  # not a neighbour of 3: only the bookkeeping is asked for
+    assert graph.neighbours[1] == pytest.approx({3: 2.0})
+    assert graph.alive == {1, 3, 4}
+    assert sum(graph.area[r] for r in graph.alive) == pytest.approx(4)
+    assert graph.longest_boundary(3) == 1
+
+
+def test_flat_field_is_one_region():
+    sets = cut_at_levels(TriMesh(*shapes.icosphere(1)), np.zeros(42), np.empty(0))
+    regions = berretti_regions(sets, reeb_structure(sets), 0.05)
+    assert regions.count == 1
+    assert regions.hierarchy.n_candidates == 1

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Trees in whole arrays against trees walked by hand."""
+
+from pathlib import Path
+
+import numpy as np
+
+from core.cuts.perceptual.boosted_trees import ROWS, Trees, cut_model
+from core.cuts.perceptual.features import FEATURES
+
+
+def two_trees() -> Trees:
+    """x0 <= 1 ? (x1 <= 2 ? 0.1 : 0.2) : 0.4, and x1 <= 0 ? -1 : 1 with one node to spare."""
+    return Trees(
+        feature=np.array([[0, 1], [1, 0]]),
+        threshold=np.array([[1, 2], [0, np.inf]], np.float32),
+        mask=np.array([[0b100, 0b110], [0b10, 0xFFFF]], np.uint16) | np.uint16(0xFFF8),
+        leaf=np.array([[0.1, 0.2, 0.4], [-1.0, 1.0, 0.0]]))
+
+
+def by_hand(x, y):
+    total = ((0.1 if y <= 2 else 0.2) if x <= 1 else 0.4) + (-1.0 if y <= 0 else 1.0)
+    return 1 / (1 + np.exp(-total))
+
+
+def test_every_leaf_by_hand():
+    rows = np.array([(x, y) for x in (0, 1, 1.5) for y in (-1, 0, 1, 2, 3)], float)
+    np.testing.assert_allclose(two_trees().predict(rows), [by_hand(*r) for r in rows], rtol=1e-12)
+
+
+def test_answers_are_those_of_the_trainer():
+    """Rows on and beside thresholds; tests/data/trees_by_trainer.py made the file."""
+    path = Path(__file__).resolve().parents[3] / "data" / "trees_by_trainer.npz"
+    with np.load(path, allow_pickle=False) as stored:
+        rows, expected = stored["rows"], stored["expected"]
+    np.testing.assert_allclose(Trees.read(path).predict(rows), expected, rtol=1e-9)
+
+
+def test_many_rows_are_each_row_alone():
+    rows = np.random.default_rng(0).normal(size=(2 * ROWS + 3, len(FEATURES)))
+    model = cut_model()
+    together = model.predict(rows)
+    assert together.tolist() == [model.predict(row[None])[0] for row in rows]
+    assert ((together >= 0) & (together <= 1)).all()
+    assert model.predict(rows[:0]).shape == (0,)
+
+
+def test_reading_gives_back_what_was_written(tmp_path):
+    two_trees().write(tmp_path / "trees.npz")
+    again = Trees.read(tmp_path / "trees.npz")
+    rows = np.random.default_rng(1).normal(size=(50, 2))
+    np.testing.assert_allclose(again.predict(rows), two_trees().predict(rows), rtol=1e-6)
+
+
+def test_shipped_coefficients_are_trees_on_these_features():
+    model = cut_model()
+    assert model.feature.max() < len(FEATURES)
+    assert model.leaf.shape[1] <= 16
+    # The leftmost leaf is possible until a node sends the row right; no node rules out all leaves.
+    leaves = (1 << model.leaf.shape[1]) - 1
+    assert ((model.mask & leaves) > 0).all()

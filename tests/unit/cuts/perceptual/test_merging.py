@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Patches, measures of regions and greedy merging, by identities."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.cuts.perceptual.features import BORDER, FEATURES, REGION, surface_measures
+from core.cuts.perceptual.merging import RegionGraph, merge_all_
+from core.cuts.perceptual.patches import absorb_small, concave_patches
+from core.field.agd import agd_field, coarse_agd
+from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.surface.mesh import TriMesh, components
+
+
+def measured(mesh):
+    field = agd_field(mesh, coarse_agd(mesh, np.sqrt(0.02 * mesh.area)), True)
+    return surface_measures(cut_at_levels(mesh, field.values, uniform_levels(30)), field)
+
+
+@pytest.fixture(scope="module")
+def tree():
+    mesh = TriMesh(*shapes.tube_tree())
+    return mesh, measured(mesh), concave_patches(mesh, 40)
+
+
+def by_length(graph, borders):
+    """A judge that needs no model: short borders are strong."""
+    return 1.0 / (1.0 + 10 * graph.border[borders, BORDER.length])
+
+
+def groups_after(merges, n, steps):
+    group = np.arange(n)
+    for a, b in merges[:steps]:
+        group[group == group[b]] = group[a]
+    return np.unique(group, return_inverse=True)[1].reshape(-1)
+
+
+def is_connected(mesh, label):
+    same = label[mesh.edges.pairs[:, 0]] == label[mesh.edges.pairs[:, 1]]
+    return components(mesh.n_faces, *mesh.edges.pairs[same].T)[0] == len(np.unique(label))
+
+
+@pytest.mark.parametrize("shape", [shapes.tube_tree(), shapes.torus(), shapes.dumbbell(), shapes.flat_grid(9, 7)])
+@pytest.mark.parametrize("count", [1, 5, 60])
+def test_patches_are_connected_and_cover_the_surface(shape, count):
+    mesh = TriMesh(*shape)
+    label = concave_patches(mesh, count)
+    assert np.unique(label).tolist() == list(range(label.max() + 1))
+    assert label.max() < count
+    assert is_connected(mesh, label)
+
+
+def test_patches_end_at_a_concave_crease():
+    """Two balls that meet in a crease: what patches have on both sides is the rim of the neck."""
+    mesh = TriMesh(*shapes.dumbbell(neck=0.05))
+    label = concave_patches(mesh, 30)
+    above = mesh.face_centroids[:, 2] > 0
+    upper, both = np.bincount(label, mesh.face_area * above), np.bincount(label, mesh.face_area)
+    assert np.minimum(upper, both - upper).sum() < 0.005 * mesh.area
+
+
+def test_small_regions_join_the_longest_border():
+    """Three cells in a row of a grid, the middle one small, touching the right one along more."""
+    mesh = TriMesh(*shapes.flat_grid(6, 4))
+    x, y = mesh.face_centroids[:, 0], mesh.face_centroids[:, 1]
+    label = np.where(x < 3, 0, 1)
+    label[(x > 3) & (x < 4) & (y < 1)] = 2  # one edge to the left, two to the right
+    assert absorb_small(mesh, label, 2.0).tolist() == np.where(x < 3, 0, 1).tolist()
+    assert absorb_small(mesh, label, 0.5).tolist() == label.tolist()
+
+
+def test_sums_of_merged_regions_are_those_of_a_new_start(tree):
+    """After any merges the graph equals one made from the merged labels."""
+    mesh, measures, label = tree
+    graph = RegionGraph(mesh, measures, label)
+    n = len(graph.regions.alive)
+    merges, _ = merge_all_(graph, by_length)
+    for steps in (1, n // 2, n - 3):
+        again = RegionGraph(mesh, measures, label)
+        for a, b in merges[:steps]:
+            again.merge_(again.neighbours[a][b])
+            again.measure_([a])
+        group = groups_after(merges, n, steps)
+        fresh = RegionGraph(mesh, measures, group[label])
+        alive = np.flatnonzero(again.regions.alive)
+        to = group[alive]
+        for name in ("sums", "around", "perimeter", "level_min", "level_max", "agd_max", "degree", "shape"):
+            old, new = getattr(again.regions, name)[alive], getattr(fresh.regions, name)[to]
+            np.testing.assert_allclose(old, new, rtol=1e-6, atol=1e-6, err_msg=name)
+        borders = [(index, fresh.neighbours[group[a]][group[b]])
+                   for a in alive for b, index in again.neighbours[a].items() if a < b]
+        assert len(borders) == len(fresh.ends)
+        old, new = np.transpose(borders)
+        np.testing.assert_allclose(again.features(old), fresh.features(new), rtol=1e-5, atol=1e-5)
+
+
+def test_merging_leaves_one_region_and_every_step_is_a_partition(tree):
+    mesh, measures, label = tree
+    graph = RegionGraph(mesh, measures, label)
+    n = len(graph.regions.alive)
+    merges, salience = merge_all_(graph, by_length)
+    assert merges.shape == (n - 1, 2)
+    assert salience.shape == (n - 1,)
+    assert graph.n_alive == 1
+    for steps in range(0, n, 7):
+        merged = groups_after(merges, n, steps)[label]
+        assert merged.max() + 1 == n - steps
+        assert is_connected(mesh, merged)
+
+
+def test_whole_surface_has_the_sums_of_the_whole(tree):
+    mesh, measures, label = tree
+    graph = RegionGraph(mesh, measures, label)
+    merge_all_(graph, by_length)
+    sums = graph.regions.sums[graph.regions.alive][0]
+    assert sums[REGION.area] == pytest.approx(1)
+    assert sums[REGION.gauss] == pytest.approx(2 * np.pi * mesh.euler_characteristic)
+    np.testing.assert_allclose(sums[REGION.normal], 0, atol=1e-9)  # a closed surface
+    a, b, c = mesh.corners.transpose(1, 0, 2)
+    volume = (a * np.cross(b, c)).sum() / 6
+    assert sums[REGION.reach] / 3 == pytest.approx(volume / mesh.area**1.5)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_features_do_not_depend_on_scale_pose_or_order(tree, seed):
+    mesh, measures, label = tree
+    rng = np.random.default_rng(seed)
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    faces, vertices = rng.permutation(mesh.n_faces), rng.permutation(mesh.n_vertices)
+    place = np.argsort(vertices)
+    moved = TriMesh(7.0 * (mesh.vertices @ turn.T + 3.0)[vertices], place[mesh.faces[faces]])
+    graph = RegionGraph(mesh, measures, label)
+    other = RegionGraph(moved, measured(moved), label[faces])
+    assert other.ends.tolist() == graph.ends.tolist()
+    rows = [g.features(np.arange(len(g.ends))) for g in (graph, other)]
+    # Thickness is measured at probes, and which face is a probe depends on rounding.
+    exact = [i for i, name in enumerate(FEATURES)
+             if not any(word in name for word in ("inside", "outside", "hollowness", "siblings"))]
+    np.testing.assert_allclose(rows[1][:, exact], rows[0][:, exact], rtol=2e-3, atol=2e-3)
+
+
+def test_every_feature_is_finite_on_awkward_meshes():
+    for shape in (shapes.tetrahedron(), shapes.flat_grid(3, 2), shapes.box(), shapes.cylinder(4, 8, capped=False)):
+        mesh = TriMesh(*shape)
+        graph = RegionGraph(mesh, measured(mesh), np.arange(mesh.n_faces))
+        assert np.isfinite(graph.features(np.arange(len(graph.ends)))).all()

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The hierarchy: every number of parts exactly, each level a union of the finer."""
+
+import numpy as np
+import pytest
+
+from core.cuts.hierarchy import Hierarchy
+
+
+def random_hierarchy(rng, n=30, loose=1):
+    """Random merges of n candidates in ``loose`` groups."""
+    part = np.arange(n)
+    group = rng.integers(0, loose, n)
+    group[:loose] = np.arange(loose)
+    merges = []
+    while True:
+        a, b = rng.integers(0, n, 2)
+        if group[a] == group[b] and part[a] != part[b]:
+            merges.append((a, b))
+            part[part == part[b]] = part[a]
+        if len(np.unique(part)) == loose:
+            return Hierarchy.of(n, merges, rng.random(len(merges)) ** 2)
+
+
+@pytest.fixture(params=[(seed, loose) for seed in range(3) for loose in (1, 3)], ids=str)
+def hierarchy(request):
+    seed, loose = request.param
+    return random_hierarchy(np.random.default_rng(seed), loose=loose)
+
+
+def test_by_hand():
+    hierarchy = Hierarchy.of(4, [(2, 3), (0, 1), (1, 2)], [0.2, 0.4, 0.9])
+    assert hierarchy.n_loose == 1
+    assert hierarchy.parts(4).tolist() == [0, 1, 2, 3]
+    assert hierarchy.parts(3).tolist() == [0, 1, 2, 2]
+    assert hierarchy.parts(2).tolist() == [0, 0, 1, 1]
+    assert hierarchy.parts(1).tolist() == [0, 0, 0, 0]
+    # Cuts of salience 1 - detail and above stay.
+    assert [hierarchy.n_parts(d) for d in (0, 0.05, 0.1, 0.5, 0.6, 0.8, 0.9, 1)] == [1, 1, 2, 2, 3, 4, 4, 4]
+    a, b = np.array([(2, 3), (0, 1), (0, 3), (1, 2)]).T
+    assert hierarchy.cut_salience(a, b).tolist() == [0.2, 0.4, 0.9, 0.9]
+
+
+def test_detail_in_decimal_tenths_meets_salience_in_tenths():
+    hierarchy = Hierarchy.of(11, [(i, i + 1) for i in range(10)], np.arange(1, 11) / 10)
+    for tenth in range(10):
+        # Salience 1 - tenth / 10 and above stays: one cut at detail 0, two at 0.1, ...
+        assert hierarchy.n_parts(tenth / 10) == tenth + 2
+
+
+def test_every_number_of_parts_exactly(hierarchy):
+    for n in range(hierarchy.n_loose, hierarchy.n_candidates + 1):
+        assert np.unique(hierarchy.parts(n)).tolist() == list(range(n))
+    assert hierarchy.parts(0).max() + 1 == hierarchy.n_loose
+    assert hierarchy.parts(10**6).max() + 1 == hierarchy.n_candidates
+
+
+def test_nested(hierarchy):
+    for n in range(hierarchy.n_loose, hierarchy.n_candidates):
+        coarse, fine = hierarchy.parts(n), hierarchy.parts(n + 1)
+        assert len(np.unique(fine * 1000 + coarse)) == n + 1  # each finer part in one coarser
+
+
+def test_salience_never_falls_and_detail_never_merges(hierarchy):
+    assert (np.diff(hierarchy.salience) >= 0).all()
+    counts = [hierarchy.n_parts(d) for d in np.linspace(0, 1, 21)]
+    assert counts == sorted(counts)
+    assert counts[0] == hierarchy.n_loose + (hierarchy.salience >= 1).sum()
+    assert counts[-1] == hierarchy.n_candidates
+    for detail in (0.2, 0.5, 0.7):
+        kept = hierarchy.n_candidates - hierarchy.n_parts(detail)
+        assert (hierarchy.salience[:kept] < 1 - detail).all()
+        assert (hierarchy.salience[kept:] >= 1 - detail - 1e-9).all()
+
+
+def test_cut_salience_is_that_of_the_level_that_joins(hierarchy):
+    a, b = (x.ravel() for x in np.meshgrid(*[np.arange(hierarchy.n_candidates)] * 2))
+    salience = hierarchy.cut_salience(a, b)
+    np.testing.assert_allclose(salience, hierarchy.cut_salience(b, a))
+    for n in range(hierarchy.n_loose, hierarchy.n_candidates):
+        merged_by_then = hierarchy.parts(n)[a] == hierarchy.parts(n)[b]
+        last = hierarchy.salience[hierarchy.n_candidates - n - 1]
+        assert (salience[merged_by_then & (a != b)] <= last).all()
+    never = hierarchy.parts(1)[a] != hierarchy.parts(1)[b]
+    assert (salience[never] == 1).all()
+
+
+def test_salience_becomes_its_running_maximum_within_zero_and_one():
+    hierarchy = Hierarchy.of(5, [(0, 1), (1, 2), (2, 3), (3, 4)], [-0.5, 0.6, 0.3, 2.0])
+    assert hierarchy.salience.tolist() == [0, 0.6, 0.6, 1]
+
+
+def test_join_keeps_parts_apart_and_merges_the_weakest_first():
+    rng = np.random.default_rng(0)
+    parts = [random_hierarchy(rng, n) for n in (5, 1, 7)]
+    joined = Hierarchy.join(parts)
+    assert joined.n_candidates == 13
+    assert joined.n_loose == 3
+    assert joined.parts(3).tolist() == [0] * 5 + [1] + [2] * 7
+    assert (np.diff(joined.salience) >= 0).all()
+    for detail in np.linspace(0, 1, 11):
+        assert joined.n_parts(detail) == sum(h.n_parts(detail) for h in parts)
+        expected = np.concatenate([
+            100 * i + h.parts(h.n_parts(detail)) for i, h in enumerate(parts)])
+        got = joined.parts(joined.n_parts(detail))
+        assert len(np.unique(got * 1000 + expected)) == len(np.unique(got)) == len(np.unique(expected))
+
+
+def test_one_candidate():
+    hierarchy = Hierarchy.of(1, [], [])
+    assert hierarchy.n_loose == 1
+    assert hierarchy.n_parts(0) == hierarchy.n_parts(1) == 1
+    assert hierarchy.parts(5).tolist() == [0]
+    assert Hierarchy.join([hierarchy, hierarchy]).parts(1).tolist() == [0, 1]

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Minimum cuts in a band."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.cuts.minimum_cut import refine_cuts
+from core.surface.mesh import TriMesh
+
+
+def border_length(mesh, part):
+    apart = part[mesh.edges.pairs[:, 0]] != part[mesh.edges.pairs[:, 1]]
+    return mesh.edge_length[mesh.edges.pair_edge[apart]].sum()
+
+
+def ragged_grid(n=24):
+    """A flat square, halves with a saw-toothed border."""
+    mesh = TriMesh(*shapes.flat_grid(n, n))
+    x, y = mesh.face_centroids[:, 0], mesh.face_centroids[:, 1]
+    return mesh, (x > n / 2 + np.where(np.floor(y) % 2 > 0, 1.0, -1.0)).astype(np.int64)
+
+
+def test_saw_teeth_become_a_straight_line():
+    mesh, part = ragged_grid()
+    moved = refine_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.5)
+    assert border_length(mesh, moved) < 0.6 * border_length(mesh, part)
+    assert border_length(mesh, moved) == pytest.approx(24, rel=0.1)
+
+
+def test_nothing_moves_without_reach():
+    mesh, part = ragged_grid()
+    assert (refine_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.0) == part).all()
+
+
+def test_a_cut_falls_into_the_crease_beside_it():
+    """A line one cell away costs a twentieth: the border goes there."""
+    n = 48
+    mesh = TriMesh(*shapes.flat_grid(n, n))
+    x = mesh.face_centroids[:, 0]
+    part = (x > n / 2).astype(np.int64)
+    a, b = mesh.edges.pairs.T
+    crease = (x[a] > n / 2 + 1) != (x[b] > n / 2 + 1)
+    moved = refine_cuts(mesh, np.where(crease, -30.0, 0.0), part, 0.5)
+    assert (moved == (x > n / 2 + 1)).all()
+
+
+def test_cuts_between_coarser_parts_stay():
+    mesh, part = ragged_grid()
+    y = mesh.face_centroids[:, 1]
+    finer = part + 2 * (y > 10 + np.where(np.floor(mesh.face_centroids[:, 0]) % 2 > 0, 1, 0))
+    moved = refine_cuts(mesh, np.zeros(len(mesh.edges.pairs)), finer, 0.5, part)
+    assert (moved % 2 == part).all()
+    assert border_length(mesh, moved) < border_length(mesh, finer)

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contours and the cuts along them, on surfaces whose level sets are known."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.graph.contours import contour_sides, contours
+from core.surface.labels import FaceGraph
+from core.surface.mesh import components
+
+
+class Surface:
+    """A closed triangle mesh with a field, as the functions want it."""
+
+    def __init__(self, shape, field):
+        self.vertices, self.faces = shape
+        self.field = field(self.vertices)
+        sides = np.sort(np.stack([self.faces, np.roll(self.faces, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+        self.edges, self.corner_edge = np.unique(sides, axis=0, return_inverse=True)
+        self.corner_edge = self.corner_edge.reshape(-1)
+        self.corner_face = np.repeat(np.arange(len(self.faces)), 3)
+        order = np.argsort(self.corner_edge, kind="stable")
+        ends = self.vertices[self.edges]
+        a, b, c = self.vertices[self.faces].transpose(1, 0, 2)
+        self.graph = FaceGraph(
+            len(self.faces), self.corner_face[order].reshape(-1, 2),
+            np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1),
+            0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1))
+        self.everything = np.ones(len(self.faces), bool)
+
+    def contours(self, level, inside=None):
+        inside = self.everything if inside is None else inside
+        return contours(self.field, level, self.vertices, self.edges, self.corner_edge, self.corner_face, inside)
+
+    def sides(self, level, found, chosen, inside=None):
+        crossed = np.zeros(len(self.faces), bool)
+        crossed[found.face[found.label == chosen]] = True
+        above = self.field[self.faces].mean(axis=1) >= level
+        return contour_sides(self.graph, self.everything if inside is None else inside, above, crossed)
+
+    def pieces(self, mask):
+        pairs = self.graph.pairs[mask[self.graph.pairs].all(axis=1)]
+        _, piece = components(len(mask), *pairs.T)
+        return len(np.unique(piece[mask]))
+
+
+def height(axis):
+    return lambda vertices: vertices[:, axis].astype(float)
+
+
+@pytest.fixture(scope="module")
+def tree():
+    return Surface(shapes.tube_tree(), lambda vertices: np.linalg.norm(vertices, axis=1))
+
+
+def test_one_tetrahedron_by_hand():
+    # Vertex 3 is at height 1, the others at 0: half way up the contour is a triangle of half the size.
+    vertices = np.array([(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 1)], float)
+    faces = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+    surface = Surface((vertices, faces), height(2))
+    found = surface.contours(0.5)
+    assert found.count == 1
+    assert sorted(found.face.tolist()) == [1, 2, 3]
+    corners = {tuple(point) for point in found.segments.reshape(-1, 3).tolist()}
+    assert corners == {(0.0, 0.0, 0.5), (1.0, 0.0, 0.5), (0.0, 1.0, 0.5)}
+    assert [found.through(face) for face in range(4)] == [-1, 0, 0, 0]
+    assert found.around(np.zeros(3)) == 0
+
+
+def test_a_sphere_has_one_round_contour_at_each_level():
+    surface = Surface(shapes.icosphere(4), height(2))
+    for level in (-0.7, 0.03, 0.6):
+        found = surface.contours(level)
+        assert found.count == 1
+        assert np.allclose(found.segments[..., 2], level)
+        length = np.linalg.norm(found.segments[:, 0] - found.segments[:, 1], axis=1).sum()
+        assert length == pytest.approx(2 * np.pi * np.sqrt(1 - level**2), rel=0.01)
+        side = surface.sides(level, found, 0)
+        area = surface.graph.area
+        assert area[side].sum() == pytest.approx(2 * np.pi * (1 - level), rel=0.05)
+        assert surface.pieces(side) == surface.pieces(~side) == 1
+
+
+def test_no_contour_beyond_the_field():
+    surface = Surface(shapes.icosphere(2), height(2))
+    found = surface.contours(3.0)
+    assert found.count == 0
+    assert found.around(np.zeros(3)) == found.through(0) == -1
+
+
+def test_a_cut_at_one_branch_leaves_the_other_branches_alone(tree):
+    found = tree.contours(1.2)
+    assert found.count == 4
+    for tip in shapes.TREE_TIPS:
+        # Where the branch's centre line is 1.2 from the middle.
+        chosen = found.around(1.2 * tip / np.linalg.norm(tip))
+        side = tree.sides(1.2, found, chosen)
+        center = tree.vertices[tree.faces].mean(axis=1)
+        along = center @ tip / np.linalg.norm(tip)
+        nearest = np.argmax(center @ (shapes.TREE_TIPS / np.linalg.norm(shapes.TREE_TIPS, axis=1)[:, None]).T, axis=1)
+        own = nearest == np.flatnonzero((shapes.TREE_TIPS == tip).all(axis=1))[0]
+        assert side[own & (along > 1.3)].all()
+        assert not side[own & (along < 1.1)].any()
+        assert not side[~own].any()
+        assert tree.pieces(side) == tree.pieces(~side) == 1
+
+
+def test_through_and_around_agree(tree):
+    found = tree.contours(1.2)
+    for chosen in range(found.count):
+        faces = found.face[found.label == chosen]
+        assert {found.through(face) for face in faces.tolist()} == {chosen}
+        assert found.around(found.segments[found.label == chosen].mean(axis=(0, 1))) == chosen
+
+
+def test_only_the_part_is_cut(tree):
+    center = tree.vertices[tree.faces].mean(axis=1)
+    inside = center[:, 0] > 0.5
+    found = tree.contours(1.2, inside)
+    assert found.count == 1
+    assert inside[found.face].all()
+    side = tree.sides(1.2, found, 0, inside)
+    assert not side[~inside].any()
+    assert 0 < side.sum() < inside.sum()
+
+
+def test_a_ring_is_cut_at_both_of_its_contours():
+    # A torus that stands: at its middle height there are two contours, and cutting one of them parts nothing.
+    surface = Surface(shapes.torus(48, 24), height(0))
+    found = surface.contours(0.0)
+    assert found.count == 2
+    for chosen in range(2):
+        side = surface.sides(0.0, found, chosen)
+        assert surface.pieces(side) == surface.pieces(~side) == 1
+        assert surface.graph.area[side].sum() == pytest.approx(0.5 * surface.graph.area.sum(), rel=0.05)
+        x = surface.vertices[surface.faces].mean(axis=1)[:, 0]
+        assert side[x > 0.2].all()
+        assert not side[x < -0.2].any()
+
+
+def test_a_contour_that_hardly_cuts_anything_off_gives_none():
+    # All of the part is above the level by its middles.
+    surface = Surface(shapes.icosphere(1), height(2))
+    found = surface.contours(surface.field.min() + 1e-6)
+    assert surface.sides(surface.field.min() + 1e-6, found, 0) is None
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_order_of_vertices_and_faces_does_not_matter(seed):
+    rng = np.random.default_rng(seed)
+    shape = shapes.dumbbell(40, 16)
+    other, _, old_face = shapes.shuffled(shape, rng)
+    first, second = Surface(shape, height(2)), Surface(other, height(2))
+    level = 0.4321
+    sides = [surface.sides(level, surface.contours(level), 0) for surface in (first, second)]
+    assert (sides[1] == sides[0][old_face]).all()

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The result: parts at any detail, in a lasting order, and the same after storing."""
+
+import io
+import json
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+import shapes
+
+from core.cuts.hierarchy import Hierarchy
+from core.errors import ParameterError, ReebError
+from core.graph.reeb import ReebGraph
+from core.parameters import Parameters
+from core.pipeline import decompose
+from core.result.decomposition import Decomposition
+
+
+def row():
+    """Seven faces in a row, four candidates: 0 1 1 2 2 2 3, merged 2-3, then 0-1, then all."""
+    candidates = np.array([0, 1, 1, 2, 2, 2, 3])
+    graph = ReebGraph.empty()
+    return Decomposition(
+        candidates=candidates, vertex_candidates=np.array([0, 1, 2, 3, -1]),
+        candidate_area=np.array([1.0, 2.0, 6.0, 1.0]), candidate_pairs=np.array([(0, 1), (1, 2), (2, 3)]),
+        candidate_pair_length=np.array([0.5, 1.5, 2.5]),
+        hierarchy=Hierarchy.of(4, [(2, 3), (0, 1), (1, 2)], [0.2, 0.4, 0.9]), field=np.zeros(5), graph=graph,
+        node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64), parameters=Parameters(),
+        notes=("odd",), seconds={"mesh": 0.1})
+
+
+@pytest.fixture(scope="module")
+def tree():
+    return decompose(*shapes.tube_tree(step=0.2), parameters=Parameters.preset("Berretti 2009", small_region=0.01))
+
+
+def test_a_row_by_hand():
+    result = row()
+    # Detail 0.7 keeps salience 0.3 and above. The largest part comes first, then the order of faces.
+    parts = result.parts(detail=0.7)
+    assert parts.labels.tolist() == [1, 2, 2, 0, 0, 0, 0]
+    assert parts.vertex_labels.tolist() == [1, 2, 0, 0, -1]
+    assert parts.area.tolist() == [7, 1, 2]
+    assert parts.share.tolist() == [0.7, 0.1, 0.2]
+    assert parts.cuts.tolist() == [[0, 2], [1, 2]]
+    assert parts.cut_length.tolist() == [1.5, 0.5]
+    assert parts.cut_salience.tolist() == [0.9, 0.4]
+    assert parts.names == ("Part 01", "Part 02", "Part 03")
+    assert result.parts(n_parts=2).labels.tolist() == [1, 1, 1, 0, 0, 0, 0]
+    assert result.parts(n_parts=4).labels.tolist() == [1, 2, 2, 0, 0, 0, 3]
+    assert result.parts(n_parts=1).labels.tolist() == [0] * 7
+    assert result.parts(n_parts=9).count == 4
+
+
+def test_without_either_the_parameters_decide():
+    result = row()
+    assert result.parts().count == result.parts(detail=0.5).count
+    assert replace(result, parameters=Parameters(detail=0.0)).parts().count == 1
+    assert replace(result, parameters=Parameters(n_parts=3)).parts().count == 3
+    # A detail that is asked for beats the number in the parameters.
+    assert replace(result, parameters=Parameters(n_parts=3)).parts(detail=1.0).count == 4
+
+
+@pytest.mark.parametrize("asked", [{"detail": 1.5}, {"detail": float("nan")}, {"n_parts": -1}, {"n_parts": 2.5}])
+def test_out_of_range(asked):
+    with pytest.raises(ParameterError):
+        row().parts(**asked)
+
+
+def test_any_grouping():
+    parts = row().group(np.array([7, 3, 3, 7]))  # candidates 0 and 3 do not touch
+    assert parts.labels.tolist() == [1, 0, 0, 0, 0, 0, 1]
+    assert parts.cuts.tolist() == [[0, 1]]
+    assert parts.cut_length.tolist() == [3]
+
+
+def test_every_number_of_parts(tree):
+    for n in range(tree.hierarchy.n_loose, tree.n_candidates + 1):
+        parts = tree.parts(n_parts=n)
+        assert parts.count == n
+        assert np.unique(parts.labels).tolist() == list(range(n))
+        np.testing.assert_array_equal(parts.candidate_part[tree.candidates], parts.labels)
+        assert parts.area.argmax() == 0
+        first = [np.flatnonzero(parts.labels == i).mean() for i in range(1, n)]
+        assert first == sorted(first)
+        assert parts.share.sum() == pytest.approx(1)
+        assert len(parts.names) == len(parts.colors) == n
+        assert parts.node_part.shape == (tree.graph.n_nodes,)
+        assert parts.arc_part.shape == (tree.graph.n_arcs,)
+        assert parts.point_part.shape == tree.graph.point_value.shape
+
+
+def test_a_cut_at_some_detail_is_as_salient_as_that_detail_needs(tree):
+    for detail in (0.3, 0.5, 0.8):
+        parts = tree.parts(detail=detail)
+        assert (parts.cut_salience >= 1 - detail - 1e-9).all()
+    assert (tree.parts(n_parts=2).cut_salience == tree.hierarchy.salience[-1]).all()
+
+
+def test_arcs_lie_in_the_part_of_most_of_their_points(tree):
+    parts = tree.parts()
+    for arc in range(tree.graph.n_arcs):
+        inside = parts.point_part[tree.graph.arc_points[arc]: tree.graph.arc_points[arc + 1]]
+        assert (inside == parts.arc_part[arc]).sum() == np.bincount(inside).max()
+
+
+def assert_equal(one, two):
+    for item in fields(Decomposition):
+        a, b = getattr(one, item.name), getattr(two, item.name)
+        if isinstance(a, np.ndarray):
+            assert a.dtype == b.dtype
+            np.testing.assert_array_equal(a, b)
+        elif item.name not in ("hierarchy", "graph"):
+            assert a == b
+    for name in ("merges", "salience", "n_candidates", "n_loose"):
+        np.testing.assert_array_equal(getattr(one.hierarchy, name), getattr(two.hierarchy, name))
+    for item in fields(ReebGraph):
+        a, b = getattr(one.graph, item.name), getattr(two.graph, item.name)
+        assert type(a) is type(b)
+        np.testing.assert_array_equal(a, b)
+
+
+@pytest.mark.parametrize("make", [
+    row, lambda: decompose(*shapes.icosphere(1)), lambda: decompose(*shapes.crumbs(30)),
+    lambda: decompose(*shapes.with_unused_vertices(shapes.two_spheres()))])
+def test_stored_and_read_back(make, tree):
+    for result in (make(), tree):
+        again = Decomposition.from_bytes(result.to_bytes())
+        assert_equal(result, again)
+        np.testing.assert_array_equal(result.parts().labels, again.parts().labels)
+        assert_equal(again, Decomposition.from_bytes(again.to_bytes()))
+
+
+def test_what_another_version_stored_is_refused():
+    data = row().to_bytes()
+    with np.load(io.BytesIO(data)) as stored:
+        arrays = dict(stored)
+    head = json.loads(arrays["head"].tobytes())
+    arrays["head"] = np.frombuffer(json.dumps(head | {"format": 99}).encode(), np.uint8)
+    stream = io.BytesIO()
+    np.savez(stream, **arrays)
+    with pytest.raises(ReebError, match="another version. Decompose again"):
+        Decomposition.from_bytes(stream.getvalue())
+
+
+def test_sizes(tree):
+    assert tree.n_faces == len(shapes.tube_tree(step=0.2).faces)
+    assert tree.n_vertices == len(shapes.tube_tree(step=0.2).vertices)
+    assert tree.n_candidates == tree.candidates.max() + 1

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts changed by hand, checked against what the hierarchy itself would do."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import Parameters, decompose
+from core.result.editing import (
+    best_split,
+    boundary_distance,
+    growth,
+    node_split,
+    pieces,
+    shrinkage,
+    split_candidates,
+)
+
+
+@pytest.fixture(scope="module")
+def result():
+    return decompose(*shapes.tube_tree(), Parameters(method="berretti"))
+
+
+def test_a_split_is_the_next_cut_of_the_hierarchy(result):
+    for count in range(1, result.n_candidates):
+        coarse, fine = result.hierarchy.parts(count), result.hierarchy.parts(count + 1)
+        (split,) = [p for p in range(count) if len(np.unique(fine[coarse == p])) == 2]
+        side = best_split(result, coarse == split)
+        expected = fine == fine[np.flatnonzero(side)[0]]
+        assert (side == expected).all()
+        rest = (coarse == split) & ~side
+        assert result.candidate_area[side].sum() <= result.candidate_area[rest].sum()
+
+
+def test_a_single_candidate_does_not_split(result):
+    assert best_split(result, np.arange(result.n_candidates) == 0) is None
+
+
+def test_a_node_is_split_from_what_its_arcs_reach(result):
+    everything = np.ones(result.n_candidates, bool)
+    graph = result.graph
+    strongest = best_split(result, everything)
+    sides = set()
+    for node in range(graph.n_nodes):
+        side = node_split(result, everything, node)
+        start = result.node_candidate[node]
+        assert side[start]
+        assert pieces(result, side).max() == pieces(result, ~side).max() == 0
+        ours = np.flatnonzero((graph.arcs == node).any(axis=1))
+        reached = result.point_candidate[np.isin(graph.point_arc, ours)]
+        beyond = np.append(reached, result.node_candidate[graph.arcs[ours].ravel()])
+        if (beyond != start).any():
+            assert not side[beyond].all()
+        else:
+            assert (side == strongest).all() or (side == ~strongest).all()
+        sides.add(side.tobytes())
+    # Nodes tell cuts apart: it is not always the part's best.
+    assert len(sides) > 2
+
+
+def test_a_node_of_a_single_candidate_does_not_split(result):
+    mask = np.arange(result.n_candidates) == result.node_candidate[0]
+    assert node_split(result, mask, 0) is None
+
+
+def test_pieces_are_numbered_by_area(result):
+    everything = np.ones(result.n_candidates, bool)
+    assert (pieces(result, everything) == 0).all()
+    # The body lies between the branches: without it they are apart.
+    touched = np.bincount(result.candidate_pairs.ravel(), minlength=result.n_candidates)
+    without = np.arange(result.n_candidates) != touched.argmax()
+    found = pieces(result, without)
+    assert found[~without] == -1
+    area = [result.candidate_area[found == i].sum() for i in range(found.max() + 1)]
+    assert len(area) > 1
+    assert area == sorted(area, reverse=True)
+
+
+def test_growing_takes_a_neighbour_until_nothing_is_left(result):
+    mask = np.arange(result.n_candidates) == 0
+    everything = np.ones(result.n_candidates, bool)
+    while (taken := growth(result, mask, everything)) is not None:
+        assert not mask[taken]
+        mask[taken] = True
+        assert pieces(result, mask).max() == 0
+    assert mask.all()
+
+
+def test_growing_respects_what_is_not_allowed(result):
+    mask = np.arange(result.n_candidates) == 0
+    assert growth(result, mask, np.zeros(result.n_candidates, bool)) is None
+
+
+def test_shrinking_keeps_one_piece_and_never_everything(result):
+    mask = result.hierarchy.parts(2) == 0
+    everything = np.ones(result.n_candidates, bool)
+    while (step := shrinkage(result, mask, everything)) is not None:
+        given, receiver = step
+        assert mask[given]
+        assert not mask[receiver]
+        mask[given] = False
+        assert pieces(result, mask).max() == 0
+    # What is left at the boundary holds the rest together.
+    pairs = result.candidate_pairs[mask[result.candidate_pairs].sum(axis=1) == 1]
+    for candidate in np.unique(pairs[mask[pairs]]):
+        rest = mask & (np.arange(len(mask)) != candidate)
+        assert not rest.any() or pieces(result, rest).max() > 0
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_finer_candidates_change_no_parts(result, seed):
+    vertices, faces = shapes.tube_tree()
+    corners = vertices[faces]
+    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    pairs, length = _neighbours(vertices, faces)
+    chosen = np.random.default_rng(seed).random(len(faces)) < 0.5
+    finer = split_candidates(result, chosen, area, pairs, length)
+    assert finer.n_candidates == 2 * result.n_candidates
+    for detail in (0.0, 0.4, 0.6, 0.99):
+        assert (finer.parts(detail).labels == result.parts(detail).labels).all()
+    # Candidates lie wholly inside or outside of the chosen faces.
+    inside = np.bincount(finer.candidates, chosen)
+    assert ((inside == 0) | (inside == np.bincount(finer.candidates))).all()
+    assert finer.candidate_area == pytest.approx(np.bincount(finer.candidates, area))
+
+
+def test_whole_candidates_need_no_splitting(result):
+    chosen = result.candidates == 1
+    assert split_candidates(result, chosen, np.ones(len(chosen)), np.empty((0, 2), int), np.empty(0)) is result
+
+
+def test_boundary_distance_on_a_strip_by_hand():
+    # Faces 0 - 1 - 2 - 3 - 4 in a row, one apart; 3 and 4 inside. Face 5 is by itself.
+    pairs = np.array([[0, 1], [1, 2], [2, 3], [3, 4]])
+    inside = np.array([False, False, False, True, True, False])
+    distance, across = boundary_distance(inside, pairs, np.array([1.0, 2.0, 1.0, 3.0]))
+    assert distance.tolist() == [4.0, 3.0, 1.0, -1.0, -4.0, np.inf]
+    assert across.tolist() == [3, 3, 3, 2, 2, -1]
+
+
+def test_boundary_distance_has_the_sign_of_the_side(result):
+    vertices, faces = shapes.tube_tree()
+    pairs, _ = _neighbours(vertices, faces)
+    center = vertices[faces].mean(axis=1)
+    inside = result.candidates == 1
+    length = np.linalg.norm(center[pairs[:, 0]] - center[pairs[:, 1]], axis=1)
+    distance, across = boundary_distance(inside, pairs, length)
+    assert ((distance < 0) == inside).all()
+    assert (inside[across] != inside).all()
+    # One step along the surface changes the distance by no more than its length.
+    same = inside[pairs[:, 0]] == inside[pairs[:, 1]]
+    assert (np.abs(np.diff(distance[pairs[same]], axis=1)[:, 0]) <= length[same] * (1 + 1e-9)).all()
+
+
+def _neighbours(vertices, faces):
+    """Pairs of triangles that share an edge, and its length, of a closed manifold."""
+    edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    order = np.lexsort(edges.T)
+    pairs = (order // 3).reshape(-1, 2)
+    ends = vertices[edges[order[::2]]]
+    return pairs, np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Coarse copies: an independent set that covers, and fields that come back as they were."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.field.geodesic import GeodesicSolver
+from core.surface.coarsening import coarsen, prolong
+from core.surface.mesh import TriMesh, components
+
+SURFACES = {"sphere": lambda: shapes.icosphere(3), "genus 2": lambda: shapes.surface_of_genus(2),
+            "tree": shapes.tube_tree, "border": lambda: shapes.flat_grid(20, 15),
+            "fin": lambda: shapes.with_fin(shapes.icosphere(2)), "tetrahedron": shapes.tetrahedron}
+
+
+def made(name):
+    mesh = TriMesh(*SURFACES[name]())
+    return mesh, coarsen(mesh, mesh.vertex_area)
+
+
+def seeds(mesh, coarsening):
+    """The fine vertex at each coarse one."""
+    place = {tuple(p): i for i, p in enumerate(mesh.vertices.tolist())}
+    return np.array([place[tuple(p)] for p in coarsening.mesh.vertices.tolist()])
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_seeds_are_independent_and_every_vertex_has_one_beside_it(name):
+    mesh, coarsening = made(name)
+    seed = np.zeros(mesh.n_vertices, bool)
+    seed[seeds(mesh, coarsening)] = True
+    a, b = mesh.edges.vertices.T
+    assert not (seed[a] & seed[b]).any()
+    covered = seed.copy()
+    covered[a[seed[b]]] = covered[b[seed[a]]] = True
+    assert covered.all()  # maximal
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_each_vertex_belongs_to_its_nearest_seed_of_those_it_touches(name):
+    mesh, coarsening = made(name)
+    fine = seeds(mesh, coarsening)
+    owner = fine[coarsening.owner]
+    np.testing.assert_array_equal(owner[fine], fine)
+    is_seed = np.isin(np.arange(mesh.n_vertices), fine)
+    edges = np.concatenate([mesh.edges.vertices, mesh.edges.vertices[:, ::-1]])
+    edges = edges[is_seed[edges[:, 1]]]
+    nearest = np.full(mesh.n_vertices, np.inf)
+    length = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
+    np.minimum.at(nearest, edges[:, 0], length)
+    own = np.linalg.norm(mesh.vertices - mesh.vertices[owner], axis=1)
+    np.testing.assert_allclose(own[~is_seed], nearest[~is_seed], rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_area_is_kept_and_links_keep_the_surface_in_one_piece(name):
+    mesh, coarsening = made(name)
+    n = coarsening.mesh.n_vertices
+    np.testing.assert_allclose(coarsening.area, np.bincount(coarsening.owner, mesh.vertex_area, n))
+    assert coarsening.area.sum() == pytest.approx(mesh.area)
+    assert components(n, *coarsening.links.T)[0] == 1
+    touching = {tuple(sorted(e)) for e in coarsening.owner[mesh.edges.vertices].tolist() if e[0] != e[1]}
+    assert touching == {tuple(e) for e in coarsening.links.tolist()}
+    assert {tuple(e) for e in coarsening.mesh.edges.vertices.tolist()} <= touching
+
+
+def test_about_one_vertex_in_four_is_left():
+    for name in ("sphere", "genus 2", "tree", "border"):
+        mesh, coarsening = made(name)
+        assert 0.15 < coarsening.mesh.n_vertices / mesh.n_vertices < 0.4
+
+
+@pytest.mark.parametrize("name", ["border", "sphere", "genus 2"])
+def test_a_constant_comes_back_exactly_and_a_slope_nearly(name):
+    mesh, coarsening = made(name)
+    same = prolong(mesh, coarsening, np.full(coarsening.mesh.n_vertices, 2.5))
+    np.testing.assert_allclose(same, 2.5, rtol=1e-12)
+    slope = np.array([0.3, -0.8, 0.5])
+    back = prolong(mesh, coarsening, coarsening.mesh.vertices @ slope)
+    error = np.abs(back - mesh.vertices @ slope)
+    step = mesh.edge_length.mean() * np.linalg.norm(slope)
+    assert error.max() < 0.75 * step
+    assert error.mean() < 0.12 * step
+
+
+@pytest.mark.parametrize("name", ["genus 2", "tree"])
+def test_coarse_distances_are_close_to_fine_ones(name):
+    mesh, coarsening = made(name)
+    fine = seeds(mesh, coarsening)
+    coarse_solver = GeodesicSolver(coarsening.mesh, coarsening.links)
+    solver = GeodesicSolver(mesh)
+    for source in (0, len(fine) // 2, len(fine) - 1):
+        true = solver.distances(fine[source])[fine]
+        far = true > 6 * mesh.edge_length.mean()
+        ratio = coarse_solver.distances(source)[far] / true[far]
+        assert 0.9 < ratio.min()  # a chord may cut a corner of the surface
+        assert ratio.max() < 1.12
+        assert ratio.mean() == pytest.approx(1, abs=0.05)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_choice_does_not_depend_on_the_order(seed):
+    shape = shapes.tube_tree()
+    other, vertex, _ = shapes.shuffled(shape, np.random.default_rng(seed))
+    mesh, permuted = TriMesh(*shape), TriMesh(*other)
+    one, two = coarsen(mesh, mesh.vertex_area), coarsen(permuted, permuted.vertex_area)
+    assert {tuple(p) for p in one.mesh.vertices.tolist()} == {tuple(p) for p in two.mesh.vertices.tolist()}
+    np.testing.assert_array_equal(one.mesh.vertices[one.owner][vertex], two.mesh.vertices[two.owner])
+
+
+def test_twice_is_coarser_still():
+    mesh = TriMesh(*shapes.genus_two(0.08))
+    one = coarsen(mesh, mesh.vertex_area)
+    two = coarsen(one.mesh, one.area, one.links)
+    assert two.mesh.n_vertices < 0.5 * one.mesh.n_vertices
+    assert two.area.sum() == pytest.approx(mesh.area)
+    assert components(two.mesh.n_vertices, *two.links.T)[0] == 1

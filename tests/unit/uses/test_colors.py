@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Colours differ where parts touch, and the first sixteen all do."""
+
+import numpy as np
+import pytest
+
+from core.uses.colors import PALETTE, PALETTES, distance_matrix, part_colors
+
+
+def test_first_sixteen_are_distinct():
+    colors = part_colors(16, np.empty((0, 2), int))
+    assert colors.shape == (16, 3)
+    assert len(np.unique(colors, axis=0)) == 16
+    assert ((colors >= 0) & (colors <= 1)).all()
+
+
+@pytest.mark.parametrize("name", PALETTES)
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("count", [2, 16, 17, 60, 300])
+def test_neighbours_differ(count, seed, name):
+    rng = np.random.default_rng(seed)
+    pairs = np.sort(rng.integers(0, count, (3 * count, 2)), axis=1)
+    pairs = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
+    colors = part_colors(count, pairs, PALETTES[name])
+    a, b = pairs.T
+    assert (colors[a] != colors[b]).any(axis=1).all()
+    if count <= 16:
+        assert len(np.unique(colors, axis=0)) == count
+
+
+def test_neighbours_are_told_apart_by_colour_blind_people():
+    # A star: the centre against fifteen others, all in the distance of the palette itself.
+    apart = distance_matrix()
+    assert apart[~np.eye(len(PALETTE), dtype=bool)].min() > 0.02
+    pairs = np.stack([np.zeros(3, int), np.arange(1, 4)], axis=1)
+    colors = part_colors(4, pairs)
+    assert distance_matrix(colors)[0, 1:].min() > 0.2
+
+
+def test_the_first_colours_differ_most():
+    apart = distance_matrix()
+    nearest = [apart[index, :index].min() for index in range(1, len(PALETTE))]
+    assert min(nearest[:10]) > 0.12  # eleven colours for most models
+    for index in range(7, len(PALETTE)):
+        assert nearest[index - 1] >= apart[index:, :index].min(axis=1).max() - 1e-12
+
+
+def test_distance_is_a_symmetric_difference():
+    apart = distance_matrix(np.array([(0, 0, 0), (1, 1, 1), (1, 0, 0), (1, 0, 0)], float))
+    np.testing.assert_allclose(apart, apart.T)
+    assert apart[2, 3] == 0
+    assert apart[0, 1] == pytest.approx(np.sqrt(3), rel=0.01)  # the same for all three views
+    # Red is darker without the cone for it: nearer to black than the 1 of normal vision.
+    assert apart[0, 2] < 0.75
+
+
+def test_same_answer_twice_and_more_parts_keep_the_colours_of_the_first():
+    none = np.empty((0, 2), int)
+    np.testing.assert_array_equal(part_colors(40, none), part_colors(40, none))
+    np.testing.assert_array_equal(part_colors(40, none)[:20], part_colors(20, none))
+    assert part_colors(0, none).shape == (0, 3)

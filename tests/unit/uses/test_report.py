@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The JSON of a decomposition, against its schema and against the arrays it was made from."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapes
+
+from core import Parameters, decompose
+from core.uses.report import SCHEMA_VERSION, bounding_boxes, document, report
+
+SCHEMA = Path(__file__).resolve().parents[3] / "docs" / "reeb_parts.schema.json"
+
+
+@pytest.fixture(scope="module")
+def result():
+    return decompose(*shapes.tube_tree(), Parameters(method="berretti"))
+
+
+@pytest.fixture(scope="module")
+def validator():
+    jsonschema = pytest.importorskip("jsonschema")
+    schema = json.loads(SCHEMA.read_text())
+    assert schema["properties"]["schema_version"]["const"] == SCHEMA_VERSION
+    return jsonschema.Draft202012Validator(schema)
+
+
+def test_document_is_valid(result, validator):
+    made = document([report(result, name="tree", labels=True)], blender="5.2.0", files={"json": "a.json"})
+    validator.validate(json.loads(json.dumps(made, allow_nan=False)))
+
+
+def test_schema_refuses_what_is_not_in_it(result, validator):
+    made = document([report(result)])
+    made["objects"][0]["parts"][0]["colour"] = "red"
+    assert not validator.is_valid(made)
+
+
+def test_numbers_agree_with_the_arrays(result):
+    parts = result.parts()
+    made = report(result, parts, labels=True)
+    assert [part["faces"] for part in made["parts"]] == np.bincount(parts.labels).tolist()
+    assert sum(part["share"] for part in made["parts"]) == pytest.approx(1.0)
+    assert sum(part["area"] for part in made["parts"]) == pytest.approx(made["area"])
+    assert made["labels"] == parts.labels.tolist()
+    beside = {(a, b) for part in made["parts"] for a in [part["index"]] for b in part["neighbours"]}
+    assert beside == {tuple(p) for c in made["cuts"] for p in (c["parts"], c["parts"][::-1])}
+
+
+def test_graph_is_whole(result):
+    graph = report(result)["graph"]
+    assert len(graph["arcs"]) - len(graph["nodes"]) + graph["components"] == graph["loops"]
+    for arc in graph["arcs"]:
+        low, high = (graph["nodes"][node]["value"] for node in arc["nodes"])
+        assert low <= high
+        assert len(arc["points"]) == len(arc["radii"]) == len(arc["values"])
+        assert arc["values"] == sorted(arc["values"])
+
+
+def test_transform_moves_the_graph(result):
+    move = np.eye(4)
+    move[:3, 3] = (1, 2, 3)
+    here, there = report(result)["graph"], report(result, transform=move)["graph"]
+    for a, b in zip(here["nodes"], there["nodes"], strict=True):
+        assert np.subtract(b["position"], a["position"]) == pytest.approx([1, 2, 3])
+
+
+def test_bounding_boxes_by_hand():
+    points = np.array([[0, 0, 0], [1, 2, 3], [5, 5, 5]], float)
+    boxes = bounding_boxes(np.array([0, 0, 1]), points, 2)
+    assert boxes.tolist() == [[[0, 0, 0], [1, 2, 3]], [[5, 5, 5], [5, 5, 5]]]
