@@ -20,9 +20,10 @@ import bpy
 
 from ..core.errors import ReebError
 from ..core.parameters import PRESETS, Parameters
-from ..operators import bridge, decompose, export
-from ..operators.problems import SceneError, load_core
-from ..ui.properties import OutputProperties, OverlayProperties
+from ..operators import decompose
+from ..scene import bridge, export
+from ..scene.errors import SceneError, load_core
+from ..scene.properties import OutputProperties, OverlayProperties
 
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
@@ -123,7 +124,7 @@ def _dashed(name):
 def run(options) -> dict:
     """Do all that the options ask for; returns the JSON."""
     load_core()
-    from ..operators.facts import object_report  # imports SciPy
+    from ..scene.object_report import object_report  # imports SciPy
 
     parameters = replace(
         PRESETS[options.preset] if options.preset else Parameters(),
@@ -202,11 +203,11 @@ def write_files(options, objects, reports) -> dict:
             bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)
         written["save"] = str(options.save)
     if options.picture:
-        from ..operators import overlay
+        from ..scene import graph_objects
         from .picture import render_parts, view_from
 
         with _whole(options.picture) as path:
-            shown = [(obj, overlay.find(obj)) for obj in objects]
+            shown = [(obj, graph_objects.find(obj)) for obj in objects]
             render_parts(shown, path, view=view_from(options.picture_turn), size=options.picture_size)
         written["picture"] = str(options.picture)
     if options.json:

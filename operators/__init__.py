@@ -3,31 +3,10 @@
 
 import bpy
 
-from . import (
-    armature,
-    bridge,
-    clear,
-    compute,
-    cut,
-    decompose,
-    defaults,
-    edit,
-    export,
-    groups,
-    handles,
-    highlight,
-    jobs,
-    markers,
-    outputs,
-    paint,
-    parts,
-    pick,
-    separate,
-    slide,
-    store,
-    unwrap,
-    watch,
-)
+from ..scene import armature, bridge, compute, defaults, export, jobs, pieces, store, uv_map, watch
+from ..scene.outputs import vertex_groups
+from ..viewport import graph_overlay, highlight
+from . import clear, cut, decompose, edit, graph, outputs, paint, parts, pick, slide
 
 CLASSES = (
     decompose.REEB_PARTS_OT_decompose,
@@ -40,10 +19,10 @@ CLASSES = (
     *slide.CLASSES,
     *cut.CLASSES,
     *paint.CLASSES,
-    *handles.CLASSES,
-    *separate.CLASSES,
+    *graph.CLASSES,
+    *pieces.CLASSES,
     *outputs.CLASSES,
-    *unwrap.CLASSES,
+    *uv_map.CLASSES,
     *export.CLASSES,
     *armature.CLASSES,
 )
@@ -53,9 +32,9 @@ def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     defaults.register()
-    handles.register()
+    graph.register()
     highlight.register()
-    markers.register()
+    graph_overlay.register()
     watch.register()
 
 
@@ -63,13 +42,13 @@ def unregister():
     if jobs.current is not None:
         jobs.current.cancel()
     watch.unregister()
-    markers.unregister()
+    graph_overlay.unregister()
     highlight.unregister()
-    handles.unregister()
+    graph.unregister()
     defaults.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
     bridge.forget()
-    groups.forget()
+    vertex_groups.forget()
     compute.forget()
     store.forget()

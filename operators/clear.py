@@ -4,19 +4,21 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import armature, attributes, bridge, explode, live, overlay, store, unwrap, view
-from .modes import object_mode
-from .problems import SceneError
+from ..scene import armature, bridge, explode, graph_objects, reactions, store, uv_map
+from ..scene.errors import SceneError
+from ..scene.modes import object_mode
+from ..scene.outputs import attributes
+from ..viewport import shading
 
 
 def clear(obj):
     """Remove parts, graph and stored result of an object; Object Mode."""
-    for user in live.users(obj.data):
+    for user in reactions.users(obj.data):
         explode.forget(user)
         armature.remove_modifier(user)
-    unwrap.remove(obj.data)
+    uv_map.remove(obj.data)
     attributes.remove_outputs(obj)
-    overlay.remove(obj)
+    graph_objects.remove(obj)
     obj.data.property_unset("reeb_parts")
 
 
@@ -30,7 +32,7 @@ class REEB_PARTS_OT_clear(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         obj = context.view_layer.objects.active
-        if obj is None or obj.type != "MESH" or not (store.has_result(obj.data) or overlay.find(obj)):
+        if obj is None or obj.type != "MESH" or not (store.has_result(obj.data) or graph_objects.find(obj)):
             cls.poll_message_set(rpt_("The active object has no parts"))
             return False
         return True
@@ -44,5 +46,5 @@ class REEB_PARTS_OT_clear(bpy.types.Operator):
         with object_mode(context):
             for obj in objects:
                 clear(obj)
-        view.restore_colors(context)
+        shading.restore_colors(context)
         return {"FINISHED"}

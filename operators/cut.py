@@ -6,10 +6,12 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from . import bridge, edit, pointing, store
+from ..scene import bridge, store
+from ..scene.errors import SceneError
+from ..viewport import pointing
+from ..viewport.view_tool import ViewTool
+from . import edit
 from .parts import PartOperator, make_active
-from .problems import SceneError
-from .view_tool import ViewTool
 
 
 class Knife:

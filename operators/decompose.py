@@ -7,11 +7,20 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import Cancelled, ReebError
-from ..ui.properties import OUTPUTS, OVERLAY, PARAMETERS, OutputProperties, OverlayProperties, ParameterProperties
-from . import attributes, bridge, compute, defaults, jobs, notes, overlay, store, view
-from .bridge import Shape
-from .modes import object_mode
-from .problems import SceneError, load_core, translated
+from ..scene import bridge, compute, defaults, graph_objects, jobs, notes, store
+from ..scene.bridge import Shape
+from ..scene.errors import SceneError, load_core, translated
+from ..scene.modes import object_mode
+from ..scene.outputs import attributes
+from ..scene.properties import (
+    OUTPUTS,
+    OVERLAY,
+    PARAMETERS,
+    OutputProperties,
+    OverlayProperties,
+    ParameterProperties,
+)
+from ..viewport import shading
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,10 +89,10 @@ def write_result(context, obj, outcome: Outcome, settings):
         attributes.write_outputs(obj, numbered, decomposition.field, settings)
     store.mark_pins(mesh, stored)
     if settings.graph:
-        overlay.draw_graph(context, obj, decomposition.graph, outcome.shape.stretch, settings)
-        overlay.update_parts(obj, numbered)
+        graph_objects.draw_graph(context, obj, decomposition.graph, outcome.shape.stretch, settings)
+        graph_objects.update_parts(obj, numbered)
     else:
-        overlay.remove(obj)
+        graph_objects.remove(obj)
 
 
 class REEB_PARTS_OT_decompose(
@@ -216,7 +225,7 @@ class REEB_PARTS_OT_decompose(
             self.report({"ERROR"}, str(problem))
             return {"CANCELLED"}
         if self.colors:
-            view.show_colors(context)
+            shading.show_colors(context)
         return self._write(context, self._job.result)
 
     def _check_unchanged(self):

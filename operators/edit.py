@@ -11,9 +11,10 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import attributes, bridge, live, store
+from ..scene import bridge, reactions, store
+from ..scene.errors import SceneError
+from ..scene.outputs import attributes
 from .parts import PartOperator, chosen_numbers, make_active
-from .problems import SceneError
 
 
 def tie(context, obj, stored, candidate_numbers, changed):
@@ -35,7 +36,7 @@ def tie(context, obj, stored, candidate_numbers, changed):
     tied = replace(stored, fixed=np.where(pinned, candidate_numbers, 0))
     # Around the pinned parts everything is as the hierarchy has it.
     count = len(np.unique(candidate_numbers)) if result.by_number else 0
-    live.refresh(context, mesh, tied, tied.parts(result.detail, count))
+    reactions.refresh(context, mesh, tied, tied.parts(result.detail, count))
 
 
 def free_number(mesh, stored) -> int:
@@ -320,7 +321,7 @@ class REEB_PARTS_OT_release(PartOperator, bpy.types.Operator):
         with store.quiet():
             store.save_numbers(obj.data, replace(stored, fixed=fixed))
         result.by_number = False
-        live.show(result, context)
+        reactions.show(result, context)
 
 
 CLASSES = (

@@ -5,7 +5,8 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import attributes, live, store
+from ..scene import reactions, store
+from ..scene.outputs import attributes
 from .parts import PartOperator
 
 
@@ -19,7 +20,7 @@ class OutputOperator(PartOperator):
 
     def work(self, context, obj, stored):
         add, remove, done, undone = self.steps
-        obj = live.users(obj.data)[0]
+        obj = reactions.users(obj.data)[0]
         with store.quiet():
             (remove if self.remove else add)(obj)
             if not self.remove:

@@ -6,10 +6,12 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from . import bridge, edit, pointing, store
+from ..scene import bridge, store
+from ..scene.errors import SceneError
+from ..viewport import pointing
+from ..viewport.view_tool import ColoredTool, active_number
+from . import edit
 from .parts import PartOperator
-from .problems import SceneError
-from .view_tool import ColoredTool, active_number
 
 START_SIZE = 0.04  # radius of the brush, as a share of the object's size
 

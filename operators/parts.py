@@ -6,9 +6,9 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import bridge, store
-from .modes import object_mode
-from .problems import SceneError
+from ..scene import bridge, store
+from ..scene.errors import SceneError
+from ..scene.modes import object_mode
 
 
 def has_parts(cls, context, obj=None):

@@ -5,9 +5,10 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from . import pointing, store
+from ..scene import store
+from ..viewport import pointing
+from ..viewport.view_tool import ViewTool
 from .parts import PartOperator, choose, toggle
-from .view_tool import ViewTool
 
 
 class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):

@@ -5,10 +5,11 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import bridge, edit
+from ..scene import bridge
+from ..scene.errors import SceneError
+from ..viewport.view_tool import ColoredTool, active_number, turns_view
+from . import edit
 from .parts import PartOperator
-from .problems import SceneError
-from .view_tool import ColoredTool, active_number, turns_view
 
 
 class Boundary:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import bpy
 
-PACKAGES = ("core", "operators", "ui")
+PACKAGES = ("core", "scene", "viewport", "operators", "ui")
 LOOK_UPS = {"iface_", "rpt_", "tip_", "n_"}
 WORDS_OF_LAYOUT = {"text", "heading"}  # arguments that Blender looks up, unless told not to
 STAGES = {"stage", "progress"}  # functions of core that take the name of a stage

@@ -22,7 +22,7 @@ import environments
 from environments import ROOT, fail, say
 
 MANIFEST = "blender_manifest.toml"
-SHIPPED = {"__init__.py", MANIFEST, "LICENSE", "batch", "core", "operators", "ui", "wheels"}
+SHIPPED = {"__init__.py", MANIFEST, "LICENSE", "batch", "core", "operators", "scene", "ui", "viewport", "wheels"}
 # The oldest date a zip can hold; what is in the files is what matters.
 ZIP_DATE = (1980, 1, 1, 0, 0, 0)
 

@@ -3,7 +3,8 @@
 
 import bpy
 
-from . import menus, panel, preferences, properties, translations, use_panel, use_properties
+from ..scene import properties, use_properties
+from . import menus, panel, preferences, translations, use_panel
 
 # Sub-panels stand in the order of their registration: what is used often comes before the settings.
 _PLACE = panel.CLASSES.index(panel.REEB_PARTS_PT_parts) + 1

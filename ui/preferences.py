@@ -5,7 +5,7 @@ import bpy
 from bpy.props import EnumProperty
 
 from .. import __package__ as base_package
-from .properties import OUTPUTS, OVERLAY, PRESET_ITEMS, OutputProperties, OverlayProperties
+from ..scene.properties import OUTPUTS, OVERLAY, PRESET_ITEMS, OutputProperties, OverlayProperties
 
 
 def _without_update(prop):

@@ -285,7 +285,7 @@ def set_up(package, name, situation, make, tree, tmp_path):
     if situation in MODES:
         bpy.ops.object.mode_set(mode=situation)
     if name == "cancel":
-        jobs = importlib.import_module(f"{package}.operators.jobs")
+        jobs = importlib.import_module(f"{package}.scene.jobs")
         jobs.current = jobs.Job(lambda progress: None)
     return {key: str(tmp_path / "parts") if value is FOLDER else value for key, value in arguments.items()}
 
@@ -306,7 +306,7 @@ def link_from_file(path, active):
 def no_job(package):
     """Nothing is being computed when the test is over."""
     yield
-    importlib.import_module(f"{package}.operators.jobs").current = None
+    importlib.import_module(f"{package}.scene.jobs").current = None
 
 
 @pytest.fixture(scope="module")

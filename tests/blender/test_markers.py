@@ -10,7 +10,7 @@ import pytest
 
 @pytest.fixture
 def markers(package):
-    return sys.modules[f"{package}.operators.markers"]
+    return sys.modules[f"{package}.viewport.graph_overlay"]
 
 
 def test_marks_lie_in_the_view_plane_around_their_node(markers):
@@ -51,7 +51,7 @@ def arcs(markers, obj):
 
 
 def refused(package):
-    return pytest.raises(sys.modules[f"{package}.operators.problems"].SceneError)
+    return pytest.raises(sys.modules[f"{package}.scene.errors"].SceneError)
 
 
 def test_arcs_have_the_colours_of_the_parts_that_they_pass(obj, arcs):

@@ -143,7 +143,7 @@ def test_an_arc_is_a_handle(obj, result):
 
 @pytest.mark.parametrize("change", ["nothing", "subdivided", "mirrored", "exploded", "moved and scaled"])
 def test_a_ray_meets_the_part_that_is_seen_there(package, obj, result, change):
-    pointing = sys.modules[f"{package}.operators.pointing"]
+    pointing = sys.modules[f"{package}.viewport.pointing"]
     start = centers(obj)
     if change == "subdivided":
         obj.modifiers.new("Smooth", "SUBSURF").levels = 1

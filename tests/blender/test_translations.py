@@ -87,7 +87,7 @@ def test_values_have_their_places_in_every_language(languages):
 
 def test_no_text_is_made_where_nobody_can_translate_it(package):
     trees = messages.sources(package)
-    assert {"core/mesh.py", "operators/decompose.py", "ui/panel.py"} <= trees.keys()
+    assert {"core/surface/mesh.py", "operators/decompose.py", "ui/panel.py"} <= trees.keys()
     assert messages.made_here(trees) == []
 
 
@@ -143,7 +143,7 @@ def test_reports(said, obj, capfd):
 
 
 def test_progress(said, package):
-    jobs = importlib.import_module(f"{package}.operators.jobs")
+    jobs = importlib.import_module(f"{package}.scene.jobs")
     job = jobs.Job(lambda progress: progress("reeb graph", 0.5, "BODY"))
     job.start()
     while job.running:
@@ -158,7 +158,7 @@ def test_the_panel_also_in_a_file_that_was_opened_again(said, obj, package, tmp_
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     result = bpy.data.objects["Tree"].data.reeb_parts
-    assert said["note"] in importlib.import_module(f"{package}.operators.notes").spoken(result)
+    assert said["note"] in importlib.import_module(f"{package}.scene.notes").spoken(result)
     lines = importlib.import_module(f"{package}.ui.panel").facts(result)
     for line, expected in zip(lines, said["facts"], strict=True):
         assert re.fullmatch(expected, line)
@@ -167,7 +167,7 @@ def test_the_panel_also_in_a_file_that_was_opened_again(said, obj, package, tmp_
 def test_json_is_english_in_every_language(said, obj, package):
     obj.modifiers.new("Bevel", "BEVEL")
     bpy.ops.reeb_parts.decompose()
-    report = importlib.import_module(f"{package}.operators.facts").object_report(obj)
+    report = importlib.import_module(f"{package}.scene.object_report").object_report(obj)
     assert ENGLISH["note"] in report["notes"]
     assert report["parts"][0]["name"] == "Part 01"
     assert "distances" in report["seconds"]
@@ -177,7 +177,7 @@ def test_notes_of_a_file_from_before_there_were_translations(obj, package):
     obj.modifiers.new("Bevel", "BEVEL")
     bpy.ops.reeb_parts.decompose()
     obj.data.reeb_parts.property_unset("note_words")
-    assert ENGLISH["note"] in importlib.import_module(f"{package}.operators.notes").spoken(obj.data.reeb_parts)
+    assert ENGLISH["note"] in importlib.import_module(f"{package}.scene.notes").spoken(obj.data.reeb_parts)
 
 
 def test_switched_off_leaves_no_translations(said, package):

@@ -8,7 +8,7 @@ import threading
 
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from .problems import load_core
+from .errors import load_core
 
 
 class Job:

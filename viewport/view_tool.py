@@ -8,8 +8,11 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 from gpu_extras.batch import batch_for_shader
 
-from . import attributes, edit, pointing, store
-from .problems import SceneError
+from ..operators import edit
+from ..scene import store
+from ..scene.errors import SceneError
+from ..scene.outputs import attributes
+from . import pointing
 
 _CONFIRM = {"RET", "NUMPAD_ENTER"}
 _CANCEL = {"ESC", "RIGHTMOUSE"}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the operators under Use Parts have in common."""
 
-from . import parts
+from ..operators import parts
 
 
 def use_panel_settings(operator, properties, context):

@@ -8,7 +8,8 @@ carries them along. They are recognised by custom properties, never by name.
 import bpy
 import numpy as np
 
-from . import attributes, store
+from . import store
+from .outputs import attributes
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 ROLE = "reeb_parts_role"  # on our objects: "node" or "arcs"

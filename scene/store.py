@@ -15,7 +15,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.result.numbering import NumberedParts, Numbering, default_name, inherited, transfer
 from . import bridge
-from .problems import SceneError, load_core, translated
+from .errors import SceneError, load_core, translated
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
 _read: dict[bytes, object] = {}

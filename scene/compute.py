@@ -4,7 +4,7 @@
 from dataclasses import replace
 
 from .bridge import Shape
-from .problems import load_core
+from .errors import load_core
 
 # The last few decompositions, by what they depend on.
 _done: dict[tuple, object] = {}

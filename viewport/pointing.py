@@ -7,7 +7,7 @@ import numpy as np
 from bpy_extras import view3d_utils
 from mathutils import Vector
 
-from . import bridge, overlay, store
+from ..scene import bridge, graph_objects, store
 from .graph_lines import GraphLines, nearest
 
 REACH = 10.0  # pixels around an arc, of a screen without scaling
@@ -90,7 +90,7 @@ class Model:
         return target or (self._face_under(context, obj, region, view, mouse) if surface else None)
 
     def _graph_under(self, context, obj, region, view, mouse):
-        arcs = overlay.arcs(obj)
+        arcs = graph_objects.arcs(obj)
         if arcs is None or not arcs.visible_get():
             return None
         points = on_screen(self.lines.position, obj.matrix_world, region, view)

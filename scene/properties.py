@@ -109,10 +109,10 @@ OUTPUTS = tuple(OutputProperties.__annotations__)
 
 
 def _redraw_graph(self, context):
-    from ..operators import overlay, store
+    from . import graph_objects, store
 
     if not store.is_quiet():
-        overlay.restyle(context.object, self)
+        graph_objects.restyle(context.object, self)
 
 
 class OverlayProperties:
@@ -144,17 +144,17 @@ PRESET_ITEMS = [(name, name, "") for name in PRESETS]
 
 
 def _repaint(self, context):
-    from ..operators import live
+    from . import reactions
 
     if context.object is not None and context.object.type == "MESH":
-        live.use_palette(context.object.data, self.palette, context)
+        reactions.use_palette(context.object.data, self.palette, context)
 
 
 def _show_graph(self, context):
-    from ..operators import live
+    from . import reactions
 
     if context.object is not None and context.object.type == "MESH":
-        live.show_graph(context.object, self.graph, context)
+        reactions.show_graph(context.object, self.graph, context)
 
 
 class ReebPartsSettings(bpy.types.PropertyGroup, ParameterProperties, OutputProperties, OverlayProperties):
@@ -183,21 +183,21 @@ class ReebPartsSettings(bpy.types.PropertyGroup, ParameterProperties, OutputProp
 
 
 def _rename(self, context):
-    from ..operators import live
+    from . import reactions
 
-    live.rename(self, context)
+    reactions.rename(self, context)
 
 
 def _recolor(self, context):
-    from ..operators import live
+    from . import reactions
 
-    live.recolor(self, context)
+    reactions.recolor(self, context)
 
 
 def _lock(self, context):
-    from ..operators import live
+    from . import reactions
 
-    live.lock(self, context)
+    reactions.lock(self, context)
 
 
 def _pick(self, context):
@@ -207,15 +207,15 @@ def _pick(self, context):
 
 
 def _show_detail(self, context):
-    from ..operators import live
+    from . import reactions
 
-    live.show_detail(self, context)
+    reactions.show_detail(self, context)
 
 
 def _show_number(self, context):
-    from ..operators import live
+    from . import reactions
 
-    live.show_number(self, context)
+    reactions.show_number(self, context)
 
 
 class ReebPart(bpy.types.PropertyGroup):

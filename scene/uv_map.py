@@ -6,9 +6,10 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
-from . import attributes, bridge, separate, store
-from .parts import PartOperator
-from .problems import SceneError, translated
+from ..operators.parts import PartOperator
+from . import bridge, pieces, store
+from .errors import SceneError, translated
+from .outputs import attributes
 
 UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
@@ -75,7 +76,7 @@ def _unwrapped(context, obj, seams, method):
     """The UV coordinates of each corner, flat float32; unwrapped on a copy, so that no selection is touched."""
     layer = context.view_layer
     active, selected = layer.objects.active, list(layer.objects.selected)
-    copy = separate.plain_copy(obj.data)
+    copy = pieces.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
     try:
         _prepare(twin, bridge.shown_points(obj) @ store.stretch_of(obj.data).T, seams)

@@ -49,7 +49,7 @@ class ReebPartsUse(bpy.types.PropertyGroup, SeparateProperties):
 
 
 def _explode(self, context):
-    from ..operators import explode
+    from . import explode
 
     explode.changed(self, context)
 

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from .problems import SceneError
+from .errors import SceneError
 
 
 def check_mode(obj):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import bridge
+from .. import bridge
 
 
 @dataclass(frozen=True, eq=False)

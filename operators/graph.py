@@ -7,14 +7,16 @@ from bpy.app.handlers import persistent
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from . import edit, overlay, parts, pointing, store
+from ..scene import graph_objects, store
+from ..scene.errors import SceneError
+from ..viewport import pointing
+from . import edit, parts
 from .parts import choose
-from .problems import SceneError
 
 
 def part_of(item):
     """The decomposed object and the part's number that an object of a graph stands for, or None."""
-    if item is None or item.get(overlay.ROLE) != "node" or item.parent is None:
+    if item is None or item.get(graph_objects.ROLE) != "node" or item.parent is None:
         return None
     source = item.parent
     if source.type != "MESH" or not store.has_result(source.data):
@@ -24,7 +26,7 @@ def part_of(item):
 
 def source_of_arcs(item):
     """The decomposed object that a curve of arcs stands for, or None."""
-    if item is None or item.get(overlay.ROLE) != "arcs" or item.parent is None or item.parent.type != "MESH":
+    if item is None or item.get(graph_objects.ROLE) != "arcs" or item.parent is None or item.parent.type != "MESH":
         return None
     return item.parent if store.has_result(item.parent.data) else None
 
@@ -125,7 +127,7 @@ class REEB_PARTS_OT_to_nodes(bpy.types.Operator):
         if obj.mode != "OBJECT":
             cls.poll_message_set(rpt_("Go to Object Mode first"))
             return False
-        if overlay.find(obj) is None:
+        if graph_objects.find(obj) is None:
             cls.poll_message_set(rpt_("The active object shows no graph"))
             return False
         return True
@@ -133,8 +135,8 @@ class REEB_PARTS_OT_to_nodes(bpy.types.Operator):
     def execute(self, context):
         obj = context.view_layer.objects.active
         numbers = parts.chosen_numbers(obj.data)
-        for item in overlay.find(obj).objects:
-            if item.get(overlay.ROLE) == "node":
+        for item in graph_objects.find(obj).objects:
+            if item.get(graph_objects.ROLE) == "node":
                 item.select_set(item["part"] in numbers)
         return {"FINISHED"}
 

@@ -11,9 +11,9 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from . import overlay, store
+from ..scene import graph_objects, store
+from ..scene.errors import SceneError
 from .graph_lines import GraphLines
-from .problems import SceneError
 
 SIZE = 6.0  # radius of a mark in pixels, of a screen without scaling
 RIM = 1.35  # of the dark rim, in radii
@@ -90,7 +90,7 @@ def _draw():
     layer = context.view_layer
     seen = set()
     for collection in bpy.data.collections:
-        source = collection.get(overlay.SOURCE)
+        source = collection.get(graph_objects.SOURCE)
         if source is None or source.type != "MESH" or not store.has_result(source.data):
             continue
         items = [item for item in collection.objects if item.name in layer.objects and item.visible_get()]
@@ -104,9 +104,9 @@ def _draw():
 def _draw_graph(context, source, items):
     gpu.state.depth_test_set("NONE" if items[0].show_in_front else "LESS_EQUAL")
     gpu.state.blend_set("ALPHA")
-    if any(item.get(overlay.ROLE) == "arcs" for item in items):
+    if any(item.get(graph_objects.ROLE) == "arcs" for item in items):
         _draw_arcs(source)
-    nodes = [item for item in items if item.get(overlay.ROLE) == "node"]
+    nodes = [item for item in items if item.get(graph_objects.ROLE) == "node"]
     if nodes:
         _draw_nodes(context, source, nodes)
     gpu.state.blend_set("NONE")

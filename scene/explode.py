@@ -7,8 +7,9 @@ the object, which drives a value in the modifier's nodes: so it can be dragged, 
 
 import bpy
 
-from . import attributes, live, store
-from .problems import SceneError
+from . import reactions, store
+from .errors import SceneError
+from .outputs import attributes
 
 NAME = "Reeb Parts Explode"
 PROPERTY = "reeb_parts_made.explode"
@@ -72,7 +73,7 @@ def _face_attribute(obj):
             return ""
         with store.quiet():
             attributes.add_face_attribute(obj)
-            attributes.update_outputs(live.users(obj.data)[0], numbered, numbered.candidate_numbers)
+            attributes.update_outputs(reactions.users(obj.data)[0], numbered, numbered.candidate_numbers)
     return result.face_attribute
 
 

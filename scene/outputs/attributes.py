@@ -9,9 +9,10 @@ before is kept in attributes whose names start with a dot, which Blender hides a
 import bpy
 import numpy as np
 
-from ..core.result.numbering import NumberedParts
-from ..core.uses.colors import PALETTE, PALETTES
-from . import bridge, groups, store
+from ...core.result.numbering import NumberedParts
+from ...core.uses.colors import PALETTE, PALETTES
+from .. import bridge, store
+from . import vertex_groups
 
 FACE_ATTRIBUTE = "reeb_part"
 COLOR_ATTRIBUTE = "Reeb Parts"
@@ -43,9 +44,9 @@ def write_outputs(obj, numbered: NumberedParts, field: np.ndarray, outputs):
         Has the switches of ui.properties.OutputProperties.
     """
     mesh = obj.data
-    groups.remove_groups(obj)
+    vertex_groups.remove_groups(obj)
     for wanted, add, remove in (
-        (outputs.vertex_groups, groups.plan_groups, groups.remove_groups),
+        (outputs.vertex_groups, vertex_groups.plan_groups, vertex_groups.remove_groups),
         (outputs.face_attribute, add_face_attribute, remove_face_attribute),
         (outputs.colors, add_colors, remove_colors),
         (outputs.field, add_field, remove_field),
@@ -81,10 +82,10 @@ def update_outputs(obj, numbered: NumberedParts, before: np.ndarray | None = Non
     # Colours first: what evaluates the scene there finds nothing else changed yet.
     color_faces(mesh, numbers, colors, _recolored(numbered, before, former, colors))
     for _, _, group, material in gone:
-        groups.remove_group(obj, group)
+        vertex_groups.remove_group(obj, group)
         _remove_material(mesh, material)
     if result.has_groups:
-        groups.write_groups(obj, numbered, before)
+        vertex_groups.write_groups(obj, numbered, before)
     if attribute := mesh.attributes.get(result.face_attribute):
         attribute.data.foreach_set("value", numbers.astype(np.int32))
     if result.has_materials:
@@ -117,7 +118,7 @@ def _recolored(numbered, before, old, new):
 
 def remove_outputs(obj):
     """Take back all that was written to the mesh; the result itself stays."""
-    for remove in (groups.remove_groups, remove_face_attribute, remove_colors, remove_field, remove_face_sets,
+    for remove in (vertex_groups.remove_groups, remove_face_attribute, remove_colors, remove_field, remove_face_sets,
                    remove_materials, remove_seams):
         remove(obj)
     obj.data.update()

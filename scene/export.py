@@ -10,11 +10,12 @@ from pathlib import Path
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..ui.use_properties import WhichProperties
-from . import bridge, parts, separate, store
+from ..operators import parts
+from . import bridge, pieces, store
+from .errors import SceneError
 from .modes import object_mode
-from .problems import SceneError
-from .use import use_panel_settings, wanted
+from .panel_settings import use_panel_settings, wanted
+from .use_properties import WhichProperties
 
 EXPORTERS = {
     "obj": lambda path: bpy.ops.wm.obj_export(filepath=path, export_selected_objects=True),
@@ -56,7 +57,7 @@ def export_parts(obj, folder: Path, kind: str, numbers=None, close=False) -> lis
     if len({name.lower() for name in names}) < len(names):
         raise SceneError(
             rpt_("Two parts have the same name; give them different ones to write them as files."))
-    meshes, _ = separate.part_meshes(obj.data, face_numbers, numbers, close)
+    meshes, _ = pieces.part_meshes(obj.data, face_numbers, numbers, close)
     try:
         with _own_selection():
             return [_export(obj, meshes[number], folder / f"{name}.{kind}", kind)

@@ -13,11 +13,14 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from ..core.errors import ReebError
-from ..ui.use_properties import SeparateProperties
-from . import attributes, bridge, caps, explode, overlay, parts, store, view
+from ..operators import parts
+from ..viewport import shading
+from . import bridge, caps, explode, graph_objects, store
+from .errors import SceneError, translated
 from .modes import object_mode
-from .problems import SceneError, translated
-from .use import use_panel_settings, wanted
+from .outputs import attributes
+from .panel_settings import use_panel_settings, wanted
+from .use_properties import SeparateProperties
 
 SOURCE = "reeb_parts_pieces_of"  # on the collection: name of the object that the pieces come from
 NUMBER = "reeb_parts_number"  # on a piece: of its part
@@ -353,8 +356,8 @@ class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
             for obj, *_ in made:
                 obj.hide_set(True)
                 obj.hide_render = True
-                overlay.set_hidden(context, obj, True)
-            view.show_pieces(context)
+                graph_objects.set_hidden(context, obj, True)
+            shading.show_pieces(context)
         space = context.space_data
         if space is not None and space.type == "VIEW_3D" and space.local_view:
             for _, separated, *_ in made:
@@ -406,8 +409,8 @@ class REEB_PARTS_OT_show_original(bpy.types.Operator):
         obj = original(context.view_layer.objects.active)
         obj.hide_set(False)
         obj.hide_render = False
-        overlay.set_hidden(context, obj, not context.scene.reeb_parts.graph)
-        view.show_colors(context)
+        graph_objects.set_hidden(context, obj, not context.scene.reeb_parts.graph)
+        shading.show_colors(context)
         for other in context.view_layer.objects.selected:
             other.select_set(False)
         obj.select_set(True)

@@ -9,8 +9,10 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from . import attributes, bridge, explode, parts, store
-from .problems import SceneError
+from ..operators import parts
+from ..scene import bridge, explode, store
+from ..scene.errors import SceneError
+from ..scene.outputs import attributes
 
 COLOR = (1.0, 1.0, 1.0, 0.9)
 WIDTH = 2.5

@@ -9,9 +9,10 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from . import attributes, groups, overlay, store
+from . import graph_objects, store
+from .errors import SceneError
 from .modes import object_mode
-from .problems import SceneError
+from .outputs import attributes, vertex_groups
 
 
 def show_detail(result, context):
@@ -37,7 +38,7 @@ def rename(part, context):
         if not part.name.strip():
             part.name = store.part_name(mesh, part.number)
         for obj in users(mesh)[:1]:
-            groups.rename_group(obj, part)
+            vertex_groups.rename_group(obj, part)
         store.keep_name(mesh, part.number, part.name)
 
 
@@ -45,13 +46,13 @@ def show_graph(obj, shown, context):
     """Hide the graph of an object, or show it; it is drawn if there is none yet."""
     if store.is_quiet() or not store.has_result(obj.data):
         return
-    if overlay.set_hidden(context, obj, not shown) or not shown:
+    if graph_objects.set_hidden(context, obj, not shown) or not shown:
         return
 
     def draw(stored):
         stretch = store.stretch_of(obj.data)
-        overlay.draw_graph(context, obj, stored.decomposition.graph, stretch, context.scene.reeb_parts)
-        overlay.update_parts(obj, stored.shown_parts())
+        graph_objects.draw_graph(context, obj, stored.decomposition.graph, stretch, context.scene.reeb_parts)
+        graph_objects.update_parts(obj, stored.shown_parts())
 
     _with_result(obj.data, context, draw)
 
@@ -83,7 +84,7 @@ def recolor(part, context):
         # The list stays as it is: somebody has a hand on one of its colours.
         attributes.update_colors(mesh, numbered)
         for obj in users(mesh):
-            overlay.update_parts(obj, numbered)
+            graph_objects.update_parts(obj, numbered)
 
     _with_result(mesh, context, keep)
 
@@ -114,7 +115,7 @@ def refresh(context, mesh, stored, numbered):
         attributes.update_outputs(objects[0], numbered, before)
     store.mark_pins(mesh, stored)
     for obj in objects:
-        overlay.update_parts(obj, numbered)
+        graph_objects.update_parts(obj, numbered)
 
 
 def users(mesh):

@@ -10,8 +10,8 @@ from bpy.app.handlers import persistent
 
 from ..core.parameters import PRESETS
 from ..ui import preferences
-from ..ui.properties import OUTPUTS, OVERLAY, PARAMETERS
 from . import store
+from .properties import OUTPUTS, OVERLAY, PARAMETERS
 
 
 def adopt(scene):

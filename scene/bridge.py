@@ -15,8 +15,8 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Sentence
+from .errors import SceneError
 from .modes import check_mode
-from .problems import SceneError
 
 
 @dataclass(frozen=True, eq=False)

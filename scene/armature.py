@@ -6,8 +6,9 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
-from . import attributes, bridge, live, separate, store
-from .parts import PartOperator
+from ..operators.parts import PartOperator
+from . import bridge, pieces, reactions, store
+from .outputs import attributes
 
 NAME = "Reeb Parts Armature"
 ROLE = "reeb_parts_role"  # on the armature, "armature"
@@ -40,7 +41,7 @@ def make(context, obj, stored, deform):
     place, bones = _bones(obj, stored.decomposition, numbered)
     names = [store.part_name(obj.data, number) for number in numbered.numbers.tolist()]
     _write_groups(obj, numbered)
-    collection = separate.make_collection(context, obj)
+    collection = pieces.make_collection(context, obj)
     _remove_earlier(collection)
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
     rig = bpy.data.objects.new(data.name, data)
@@ -94,7 +95,7 @@ def _write_groups(obj, numbered):
     if not result.has_groups:
         result.has_groups = True
         with store.quiet():
-            attributes.update_outputs(live.users(obj.data)[0], numbered)
+            attributes.update_outputs(reactions.users(obj.data)[0], numbered)
 
 
 def _remove_earlier(collection):
