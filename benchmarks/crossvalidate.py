@@ -27,12 +27,12 @@ from people import Subject, rand_index_error
 from train import N_MODELS, add_variants, by_category, fit_many, folds_of, learn, read_subjects
 
 from core.cuts.perceptual import method
-from core.cuts.perceptual.boosted_trees import Trees
+from core.cuts.perceptual.boosted_trees import BoostedTrees
 from core.pipeline import decompose
 
 
 def models_by_fold(subjects: dict[int, Subject], variants: dict[int, Subject], kind: str,
-                   rounds: int) -> dict[int, Trees]:
+                   rounds: int) -> dict[int, BoostedTrees]:
     """A model for each mesh, trained without the fold it is in."""
     fold = folds_of(list(subjects), kind)
     models = {}

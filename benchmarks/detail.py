@@ -7,7 +7,7 @@
 The bundled model is refined to each size and decomposed with all that is written by default; then Detail is
 set to 30 values from 0 to 1 and back, and the number of parts to 30 from 1. Milliseconds are from setting the property
 to its return. Drawing and Blender's own evaluation of the changed mesh are not in them; "evaluated" is the
-median with that. They depend on the machine, so each size comes with a yardstick: writing the colours of all
+median with that. They depend on the machine, so each size comes with a yardstick: writing the colors of all
 corners, which is the least that a change of all parts has to do. --check fails when 50,000 vertices take more
 than 60 ms or 1,000,000 more than 500 ms, in the worst case.
 """
@@ -80,7 +80,7 @@ def drag(result, name, value) -> tuple[float, float]:
 
 
 def write_colors(mesh) -> float:
-    """Milliseconds to write the colour of every corner, the fastest of five."""
+    """Milliseconds to write the color of every corner, the fastest of five."""
     data = mesh.attributes[mesh.reeb_parts.color_attribute].data
     colors = np.ones(4 * len(data), np.float32)
     data.foreach_get("color_srgb", colors)

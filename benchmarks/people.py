@@ -13,13 +13,15 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from core.cuts.perceptual.features import SurfaceMeasures, surface_measures
-from core.cuts.perceptual.merging import RegionGraph, merge_all_
+from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
 from core.cuts.perceptual.patches import concave_patches
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.parameters import Parameters
-from core.surface.mesh import PolygonMesh, TriMesh
-from core.surface.preparation import MAX_EDGE, refine, repair
+from core.surface.coarsening import Pyramid
+from core.surface.mesh import TriMesh
+from core.surface.polygons import PolygonMesh
+from core.surface.preparation import MAX_EDGE, repair, split_long_edges
 
 CATEGORIES = (
     ("Human", 1), ("Cup", 21), ("Glasses", 41), ("Airplane", 61), ("Ant", 81), ("Chair", 101),
@@ -100,10 +102,10 @@ def prepare(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray,
     """Everything that does not depend on the model."""
     parameters = Parameters()
     working = repair(PolygonMesh.of(vertices, faces))
-    mesh, parent = refine(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
+    mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
     owner = working.polygon[parent]
     radius = np.sqrt(parameters.base_spacing * mesh.area)
-    field = agd_field(mesh, coarse_agd(mesh, radius), True)
+    field = agd_field(mesh, coarse_agd(Pyramid(mesh), radius), True)
     sets = cut_at_levels(mesh, field.values, uniform_levels(parameters.levels))
     label = concave_patches(mesh, *([n_patches] if n_patches else []))
     weight = 1.0 / np.bincount(owner, minlength=len(faces))[owner]
@@ -139,7 +141,7 @@ def rand_index_error(labels: np.ndarray, human: np.ndarray) -> float:
     return _error(tables)
 
 
-class VotedGraph(RegionGraph):
+class VotedGraph(RegionAdjacencyGraph):
     """A region graph that knows what share of people separates two regions."""
 
     def __init__(self, subject: Subject):

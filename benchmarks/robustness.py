@@ -43,7 +43,7 @@ def with_noise(share: float):
 
 
 def smoothed(mesh: TriMesh) -> TriMesh:
-    """Ten steps of Laplacian smoothing, halfway to the mean of the neighbours."""
+    """Ten steps of Laplacian smoothing, halfway to the mean of the neighbors."""
     a, b = mesh.edges.vertices.T
     n, points = mesh.n_vertices, mesh.vertices
     degree = np.maximum(np.bincount(a, minlength=n) + np.bincount(b, minlength=n), 1)

@@ -5,7 +5,7 @@
     python3 benchmarks/separate.py [MODELS ...] [--preset NAME]      with Blender as a module
 
 MODELS are .obj files or folders with such. Spot, Suzanne as she is and subdivided twice, and the jug with two
-handles of tests/shapes.py are always done. Each mesh gets a UV map, two colour attributes, an attribute of
+handles of tests/shapes.py are always done. Each mesh gets a UV map, two color attributes, an attribute of
 faces, a vertex group, two shape keys, custom normals, seams, creases, sharp edges and two materials, is
 decomposed and separated with caps. The exit status is 1 if
 
@@ -15,7 +15,7 @@ decomposed and separated with caps. The exit status is 1 if
   Blender keeps custom normals as two angles relative to the faces around, and takes one that is smaller than
   that for none.
 
-Voids are what lies between the caps of neighbours, and are only shown.
+Voids are what lies between the caps of neighbors, and are only shown.
 """
 
 from __future__ import annotations

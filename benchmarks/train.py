@@ -27,7 +27,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import lightgbm
 from people import Run, Subject, category_of, merge_and_record, mesh_numbers, prepare, varied
 
-from core.cuts.perceptual.boosted_trees import Trees
+from core.cuts.perceptual.boosted_trees import BoostedTrees
 from core.cuts.perceptual.features import FEATURES
 
 N_TREES = 250
@@ -42,7 +42,7 @@ N_FOLDS = 5
 N_MODELS = 3  # in what ships; their mean is steadier than each
 
 
-def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES) -> Trees:
+def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES) -> BoostedTrees:
     """Boosted trees from the states met on some meshes.
 
     Parameters
@@ -53,7 +53,7 @@ def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES) -> Trees:
 
     Returns
     -------
-    trees : Trees
+    trees : BoostedTrees
     """
     weight = [r.weight**POWER / (r.weight**POWER).sum() for r in runs]
     rows, share = (np.concatenate([getattr(r, name) for r in runs]) for name in ("rows", "share"))
@@ -64,28 +64,28 @@ def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES) -> Trees:
     return trees_of(lightgbm.train(SETTINGS | {"seed": seed}, data, n_trees))
 
 
-def fit_many(runs: list[Run], count: int) -> Trees:
+def fit_many(runs: list[Run], count: int) -> BoostedTrees:
     """The mean of several models that differ by their random choices."""
     models = [fit(runs, seed=100 + i) for i in range(count)]
     joined = (np.concatenate([getattr(m, name) for m in models])
               for name in ("feature", "threshold", "mask", "leaf"))
     feature, threshold, mask, leaf = joined
-    return Trees(feature, threshold, mask, leaf / count)
+    return BoostedTrees(feature, threshold, mask, leaf / count)
 
 
-def trees_of(booster) -> Trees:
+def trees_of(booster) -> BoostedTrees:
     """The arrays of a trained model."""
     infos = booster.dump_model()["tree_info"]
     n_leaves = max(t["num_leaves"] for t in infos)
     shape = (len(infos), n_leaves - 1)
-    trees = Trees(np.zeros(shape, np.int64), np.full(shape, np.inf, np.float32),
+    trees = BoostedTrees(np.zeros(shape, np.int64), np.full(shape, np.inf, np.float32),
                   np.full(shape, 0xFFFF, np.uint16), np.zeros((len(infos), n_leaves)))
     for tree, info in enumerate(infos):
         _add_nodes(trees, tree, info["tree_structure"], 0, 0)
     return trees
 
 
-def _add_nodes(trees: Trees, tree: int, node: dict, leaf: int, inner: int) -> tuple[int, int]:
+def _add_nodes(trees: BoostedTrees, tree: int, node: dict, leaf: int, inner: int) -> tuple[int, int]:
     """Write a node and what is below it; the next free leaf and inner node."""
     if "split_feature" not in node:
         trees.leaf[tree, leaf] = node["leaf_value"]
@@ -102,7 +102,7 @@ def _add_nodes(trees: Trees, tree: int, node: dict, leaf: int, inner: int) -> tu
     return _add_nodes(trees, tree, node["right_child"], middle, free)
 
 
-def fit_folds(runs: dict[int, list[Run]], fold: dict[int, int], seed: int) -> dict[int, Trees]:
+def fit_folds(runs: dict[int, list[Run]], fold: dict[int, int], seed: int) -> dict[int, BoostedTrees]:
     """A model for each fold, from the meshes of all others."""
     return {left_out: fit([r for n in runs if fold[n] != left_out for r in runs[n]], seed)
             for left_out in sorted(set(fold.values()))}

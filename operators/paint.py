@@ -40,7 +40,7 @@ class Brush:
 
     def dab(self, location, radius):
         """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there."""
-        from ..core.surface.mesh import components
+        from ..core.surface.arrays import components
 
         _, first = self.model.tree.query(location)
         near = np.array(self.model.tree.query_ball_point(location, radius), np.int64)

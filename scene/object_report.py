@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the JSON says of an object."""
 
-from dataclasses import replace
 
 import numpy as np
 
@@ -28,9 +27,8 @@ def object_report(obj, labels=False) -> dict:
     points = bridge.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
     boxes = bounding_boxes(numbered.parts.labels[face], points[vertex], numbered.parts.count)
     colors = store.number_colors(mesh)[numbered.numbers, :3].astype(np.float64)
-    parts = replace(numbered.parts, colors=np.round(colors, 6))
     names = [store.part_name(mesh, number) for number in numbered.numbers.tolist()]
-    result = report(stored.decomposition, parts, obj.name, numbers=numbered.numbers, names=names,
-                    boxes=boxes, transform=from_result, labels=labels)
+    result = report(stored.decomposition, numbered.parts, obj.name, numbers=numbered.numbers, names=names,
+                    colors=np.round(colors, 6), boxes=boxes, transform=from_result, labels=labels)
     result["notes"] = mesh.reeb_parts.notes.splitlines()
     return result

@@ -13,7 +13,8 @@ from functools import cached_property, lru_cache
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.result.numbering import NumberedParts, Numbering, default_name, inherited, transfer
+from ..core.result.numbering import NumberedParts, Numbering, default_name, inherited
+from ..core.surface.labels import majority
 from . import bridge
 from .errors import SceneError, load_core, translated
 
@@ -69,7 +70,7 @@ class Stored:
 
     def shown_parts(self) -> NumberedParts:
         """Parts as they are now."""
-        return self.numbering.shown(self.shown)
+        return self.numbering.numbered(self.shown)
 
     def showing(self, numbered: NumberedParts) -> "Stored":
         """The same with other parts shown."""
@@ -141,8 +142,8 @@ def succeed(mesh, decomposition) -> Stored:
         faces, fixed_faces = _face_numbers(mesh)
         if len(faces) == decomposition.n_faces and faces.any():
             weight = np.ones(len(faces))
-            former = transfer(decomposition.candidates, faces, weight)
-            fixed = transfer(decomposition.candidates, fixed_faces, weight)
+            former = majority(decomposition.candidates, faces, weight, decomposition.n_candidates)
+            fixed = majority(decomposition.candidates, fixed_faces, weight, decomposition.n_candidates)
     parameters = decomposition.parameters
     numbers = inherited(decomposition, parameters.detail, parameters.n_parts, former, fixed)
     return Stored(decomposition, former=numbers, fixed=fixed, shown=numbers)

@@ -217,9 +217,9 @@ def _capsule(points, start, end, radius):
     return np.linalg.norm(points - nearest, axis=1) - (thick[0] + along * (thick[1] - thick[0]))
 
 
-def _ring(points, centre, axis: int, ring: float, tube: float):
+def _ring(points, center, axis: int, ring: float, tube: float):
     """Signed distance from a torus around a coordinate axis."""
-    offset = points - np.asarray(centre, float)
+    offset = points - np.asarray(center, float)
     flat = np.delete(offset, axis, axis=1)
     return np.hypot(np.linalg.norm(flat, axis=1) - ring, offset[:, axis]) - tube
 

@@ -8,9 +8,10 @@ over ridges much, everywhere in proportion to its length, and more the farther i
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, dijkstra, maximum_flow
 
+from ..surface.arrays import both_ways, symmetric_matrix
 from ..surface.labels import label_boundaries, spread
 from ..surface.mesh import TriMesh
 from .hierarchy import Hierarchy
@@ -21,7 +22,7 @@ CHEAPEST, DEAREST = 0.05, 3.0
 UNITS = 10_000  # capacities are whole numbers: the mean edge has so many
 
 
-def refine_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, reach: float = 0.5,
+def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, reach: float = 0.5,
                 within: np.ndarray | None = None) -> np.ndarray:
     """Move the borders of parts into the creases beside them.
 
@@ -48,9 +49,8 @@ def refine_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, reach: f
     a, b = mesh.edges.pairs.T
     length = mesh.pair_length
     cost = length * np.clip(np.exp(curvature / CREASE), CHEAPEST, DEAREST)
-    both = (np.concatenate([a, b]), np.concatenate([b, a]))
     way = np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
-    ways = coo_array((np.tile(way, 2), both), shape=(mesh.n_faces,) * 2).tocsr()
+    ways = symmetric_matrix(mesh.edges.pairs, way, mesh.n_faces)
     free = np.ones(len(a), bool) if within is None else within[a] == within[b]
     for first, second in _cuts_by_length(part, a[free], b[free], length[free]):
         on_cut = ((part[a] == first) & (part[b] == second)) | ((part[a] == second) & (part[b] == first))
@@ -72,25 +72,25 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
     hierarchy : Hierarchy
         Over the candidates.
     curvature, reach
-        As ``refine_cuts`` takes them.
+        As ``minimum_cuts`` takes them.
     details : tuple of float
         Rising; cuts that an earlier one has moved stay there.
 
     Returns
     -------
     label : (m,) int64
-        Faces that changed part follow a neighbour in their new part, from the cut outwards.
+        Faces that changed part follow a neighbor in their new part, from the cut outwards.
     """
-    a, b = np.concatenate([mesh.edges.pairs, mesh.edges.pairs[:, ::-1]]).T
+    a, b = both_ways(mesh.edges.pairs).T
     coarser = None
     for detail in details:
         parts = hierarchy.parts(hierarchy.n_parts(detail))
         part = parts[label]
-        moved = refine_cuts(mesh, curvature, part, reach, coarser)
+        moved = minimum_cuts(mesh, curvature, part, reach, coarser)
         before, label = label, np.where(moved == part, label, -1)
         together = moved[a] == moved[b]
         label = spread(label, a[together], b[together])
-        label = np.where(label < 0, before, label)  # an island with no such neighbour stays
+        label = np.where(label < 0, before, label)  # an island with no such neighbor stays
         coarser = moved
     return label
 
@@ -114,7 +114,7 @@ def _cut_anew(mesh, part, first, second, on_cut, cost, ways, reach) -> np.ndarra
     place = np.full(mesh.n_faces, -1)
     faces = np.flatnonzero(band)
     place[faces] = np.arange(len(faces))
-    # Faces with a neighbour of the same part outside the band hold the ends of the band.
+    # Faces with a neighbor of the same part outside the band hold the ends of the band.
     edge = np.flatnonzero((band[a] != band[b]) & (part[a] == part[b]))
     held = np.unique(np.where(band[a[edge]], a[edge], b[edge]))
     if not ((part[held] == first).any() and (part[held] == second).any()):
@@ -137,7 +137,7 @@ def _minimum_cut(a, b, cost, held, is_source, n) -> np.ndarray:
     values = np.concatenate([capacity, capacity, np.full(len(held), endless)])
     graph = coo_array((np.minimum(values, endless).astype(np.int32), (rows, columns)),
                       shape=(n + 2, n + 2)).tocsr()
-    flow = maximum_flow(csr_array(graph), source, sink).flow
+    flow = maximum_flow(graph, source, sink).flow
     left = graph - flow
     left.data = (left.data > 0).astype(np.int8)
     left.eliminate_zeros()

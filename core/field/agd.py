@@ -8,14 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.coarsening import Coarsening, coarsen, prolong
-from ..surface.mesh import TriMesh, first_largest, frozen
+from ..surface.arrays import first_largest, frozen
+from ..surface.coarsening import Pyramid, prolong
+from ..surface.mesh import TriMesh
 from .geodesic import GeodesicSolver
 
 HISTOGRAM_BINS = 100  # the paper's bin width of 0.01
 # Paths are searched on at most so many vertices: five or more lie on the radius of a base
 # vertex's disc then, and the field is smooth at that scale.
 FIELD_VERTICES = 20_000
+# Below this share of its maximum, the variation of the AGD is the error of the distances.
+FLAT_FIELD = 0.03
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,15 +46,15 @@ class ScalarField:
     Attributes
     ----------
     values : (n,) float64
-        What level sets are taken of: normalised, and equalised where asked for, 0..1.
-    normalised : (n,) float64
-        Eq. (3): the AGD mapped to 0..1, before equalisation.
+        What level sets are taken of: normalized, and equalized where asked for, 0..1.
+    normalized : (n,) float64
+        Eq. (3): the AGD mapped to 0..1, before equalization.
     agd : (n,) float64
         Eq. (2), in the unit of the vertices.
     """
 
     values: np.ndarray
-    normalised: np.ndarray
+    normalized: np.ndarray
     agd: np.ndarray
 
 
@@ -118,7 +121,7 @@ def average_geodesic_distance(base: BaseVertices) -> np.ndarray:
     Returns
     -------
     agd : (n,) float64
-        In the unit of the vertices; scales with the mesh. Not normalised.
+        In the unit of the vertices; scales with the mesh. Not normalized.
     """
     agd = np.zeros(base.distances.shape[1])
     for area, row in zip(base.areas, base.distances, strict=True):
@@ -126,7 +129,7 @@ def average_geodesic_distance(base: BaseVertices) -> np.ndarray:
     return agd / base.areas.sum()
 
 
-def normalise(values: np.ndarray) -> np.ndarray:
+def normalize(values: np.ndarray) -> np.ndarray:
     """Map values to 0..1, eq. (3); 0 everywhere where they do not differ.
 
     Differences below a millionth of the largest value are rounding, not shape.
@@ -137,19 +140,19 @@ def normalise(values: np.ndarray) -> np.ndarray:
     return (values - low) / (high - low)
 
 
-def equalise(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def equalize(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Share of the area at or below each value, eq. (7), on a histogram of 100 bins.
 
     Parameters
     ----------
     values : (n,) float64
-        Normalised, 0..1.
+        Normalized, 0..1.
     weights : (n,) float64
         Area of each vertex; counting vertices, as the paper does, would favour dense regions.
 
     Returns
     -------
-    equalised : (n,) float64
+    equalized : (n,) float64
         Monotone in ``values``; 0 at their minimum and 1 at their maximum, or all 0.
     """
     if values.max() <= 0:
@@ -162,44 +165,80 @@ def equalise(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
 
 
 def coarse_agd(
-    mesh: TriMesh, radius: float, progress=None, first: Coarsening | None = None
+    pyramid: Pyramid, radius: float, progress: Callable[[float], None] | None = None
 ) -> np.ndarray:
-    """AGD by paths on a coarse copy where the mesh is dense.
+    """AGD of a mesh, by paths on a coarse copy where the mesh is dense.
 
     Parameters
     ----------
-    mesh : TriMesh
-        n vertices, one connected component.
+    pyramid : Pyramid
+        Of the mesh, n vertices.
     radius : float
         Of the discs that base vertices stand for, in the unit of the vertices.
     progress : callable, optional
         Called with the share done, 0..1.
-    first : Coarsening, optional
-        Of the mesh, if it is known already.
 
     Returns
     -------
     agd : (n,) float64
         In the unit of the vertices.
 
+    Raises
+    ------
+    DisconnectedMeshError
+        The mesh is more than one component.
+
     Notes
     -----
     Path searches run on at most FIELD_VERTICES vertices; the rest is O(n).
     """
-    levels, fine, area, links = [], mesh, mesh.vertex_area, None
-    while fine.n_vertices > FIELD_VERTICES:
-        coarsening = first if first and fine is mesh else coarsen(fine, area, links)
-        levels.append((fine, coarsening))
-        fine, area, links = coarsening.mesh, coarsening.area, coarsening.links
-    base = spread_base_vertices(fine, GeodesicSolver(fine, links), area, radius, progress)
+    steps = pyramid.until(lambda mesh: mesh.n_vertices <= FIELD_VERTICES)
+    meshes = [pyramid.mesh, *(step.mesh for step in steps)]
+    coarsest, area, links = meshes[-1], pyramid.mesh.vertex_area, None
+    if steps:
+        area, links = steps[-1].area, steps[-1].links
+    base = spread_base_vertices(coarsest, GeodesicSolver(coarsest, links), area, radius, progress)
     agd = average_geodesic_distance(base)
-    for fine, coarsening in reversed(levels):
-        agd = prolong(fine, coarsening, agd)
+    for fine, step in zip(reversed(meshes[:-1]), reversed(steps), strict=True):
+        agd = prolong(fine, step, agd)
     return agd
 
 
-def agd_field(mesh: TriMesh, agd: np.ndarray, equalised: bool) -> ScalarField:
+def agd_field(mesh: TriMesh, agd: np.ndarray, equalized: bool) -> ScalarField:
     """The field that level sets are taken of, eqs. (2), (3) and (7)."""
-    normalised = normalise(agd)
-    values = equalise(normalised, mesh.vertex_area) if equalised else normalised
-    return ScalarField(*(frozen(a, np.float64) for a in (values, normalised, agd)))
+    normalized = normalize(agd)
+    values = equalize(normalized, mesh.vertex_area) if equalized else normalized
+    return ScalarField(*(frozen(a, np.float64) for a in (values, normalized, agd)))
+
+
+def protrusion_field(
+    pyramid: Pyramid, base_spacing: float, equalized: bool, progress: Callable[[float], None] | None = None
+) -> ScalarField:
+    """The field of a component: low on its body, high where it protrudes, 0 everywhere if nothing does.
+
+    Parameters
+    ----------
+    pyramid : Pyramid
+        Of the component's mesh.
+    base_spacing : float
+        Share of the area that the square of a base vertex's radius is (paper: 0.005).
+    equalized : bool
+        Whether every range of values gets the same area, eq. (7).
+    progress : callable, optional
+        Called with the share done, 0..1.
+
+    Returns
+    -------
+    field : ScalarField
+
+    Raises
+    ------
+    DisconnectedMeshError
+        The mesh is more than one component.
+    """
+    mesh = pyramid.mesh
+    field = agd_field(mesh, coarse_agd(pyramid, np.sqrt(base_spacing * mesh.area), progress), equalized)
+    if np.ptp(field.agd) < FLAT_FIELD * field.agd.max():
+        nothing = np.zeros(mesh.n_vertices)
+        return ScalarField(nothing, nothing, field.agd)
+    return field

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from ..errors import DisconnectedMeshError
 from ..sentence import Sentence
+from ..surface.arrays import symmetric_matrix
 from ..surface.mesh import TriMesh
 
 
@@ -82,11 +83,7 @@ def _shortest_of(rows, columns, length, n) -> csr_array:
     first = np.ones(len(low), bool)
     first[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
     first &= low != high
-    low, high, length = low[first], high[first], length[first]
-    both = coo_array(
-        (np.concatenate([length, length]),
-         (np.concatenate([low, high]), np.concatenate([high, low]))), shape=(n, n))
-    return both.tocsr()
+    return symmetric_matrix(np.stack([low, high], axis=1)[first], length[first], n)
 
 
 def _unfolded_lines(mesh: TriMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..surface.arrays import components, renumbered, sums_by
 from ..surface.labels import FaceGraph, connect, straighten
-from ..surface.mesh import components
 
 STRAIGHTEN = 10  # rounds, as many as after a decomposition
 
@@ -44,7 +44,7 @@ class Contours:
         length = np.linalg.norm(self.segments[:, 0] - self.segments[:, 1], axis=1) + 1e-300
         middle = self.segments.mean(axis=1)
         total = np.bincount(self.label, length, self.count)
-        centroid = np.stack([np.bincount(self.label, length * x, self.count) / total for x in middle.T], axis=1)
+        centroid = sums_by(self.label, length[:, None] * middle, self.count) / total[:, None]
         return int(np.linalg.norm(centroid - point, axis=1).argmin())
 
     def through(self, face: int) -> int:
@@ -92,11 +92,11 @@ def contours(
     point = vertices[low] + share[:, None] * (vertices[high] - vertices[low])
     # Around a face the field changes sides an even number of times.
     edge, face = edge.reshape(-1, 2), face.reshape(-1, 2)[:, 0]
-    names, index = np.unique(edge, return_inverse=True)
-    faces, of_face = np.unique(face, return_inverse=True)
-    index, of_face = index.reshape(-1, 2), of_face.reshape(-1) + len(names)
+    edges_crossed, index = renumbered(edge)
+    faces_crossed, of_face = renumbered(face)
+    of_face += len(edges_crossed)
     count, label = components(
-        len(names) + len(faces), np.concatenate([index[:, 0], index[:, 1]]), np.tile(of_face, 2))
+        len(edges_crossed) + len(faces_crossed), np.concatenate([index[:, 0], index[:, 1]]), np.tile(of_face, 2))
     return Contours(count, point.reshape(-1, 2, 3), face, label[of_face])
 
 

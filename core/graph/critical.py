@@ -64,7 +64,7 @@ def critical_points(mesh: TriMesh, rank: np.ndarray) -> CriticalPoints:
 
     Notes
     -----
-    O(n + m). The Euler characteristic of a vertex's lower link (lower neighbours minus edges
+    O(n + m). The Euler characteristic of a vertex's lower link (lower neighbors minus edges
     between them, opposite the vertex) is 1 at a regular vertex, 0 at a minimum or a maximum
     inside, and k + 1 at a saddle of multiplicity k.
     """

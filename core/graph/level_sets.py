@@ -14,7 +14,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..surface.mesh import TriMesh, components
+from ..surface.arrays import components, sums_by
+from ..surface.mesh import TriMesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,23 +149,22 @@ class LevelSets:
         return np.bincount(self.segment_contour, self.segment_length, self.n_contours)
 
     @cached_property
-    def contour_centre(self) -> np.ndarray:
+    def contour_center(self) -> np.ndarray:
         """(C, 3) float64, centroid of each contour, weighted by length."""
         return self._contour_mean(self.segment_points.mean(axis=1))
 
     @cached_property
     def contour_radius(self) -> np.ndarray:
         """(C,) float64, mean distance of each contour from its centroid."""
-        offset = self.segment_points.mean(axis=1) - self.contour_centre[self.segment_contour]
+        offset = self.segment_points.mean(axis=1) - self.contour_center[self.segment_contour]
         return self._contour_mean(np.linalg.norm(offset, axis=1))
 
     def _contour_mean(self, of_segments: np.ndarray) -> np.ndarray:
         # A contour through one vertex has no length; its segments then count alike.
         weight = self.segment_length + 1e-9 * np.sqrt(self.mesh.area)
-        columns = np.atleast_2d(of_segments.T)
-        sums = [np.bincount(self.segment_contour, weight * c, self.n_contours) for c in columns]
         total = np.bincount(self.segment_contour, weight, self.n_contours)
-        return (np.stack(sums, axis=-1) / total[:, None]).reshape(-1, *of_segments.shape[1:])
+        # Transposed, so that one column or several are weighted alike.
+        return (sums_by(self.segment_contour, (weight * of_segments.T).T, self.n_contours).T / total).T
 
 
 def uniform_levels(n_slabs: int) -> np.ndarray:

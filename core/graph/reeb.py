@@ -14,29 +14,29 @@ from functools import cached_property
 
 import numpy as np
 
-from ..surface.mesh import components
+from ..surface.arrays import components, last_of_each, sums_by
 from .critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from .level_sets import LevelSets
 
 
 @dataclass(frozen=True, eq=False)
 class ReebGraph:
-    """Nodes and arcs of the Reeb graph, with centre lines to draw them by.
+    """Nodes and arcs of the Reeb graph, with center lines to draw them by.
 
-    With k nodes, q arcs and r centre points:
+    With k nodes, q arcs and r center points:
 
     Attributes
     ----------
     node_kind : (k,) int8
         MINIMUM, SADDLE or MAXIMUM (core.critical.KINDS names them).
     node_value : (k,) float64
-        Of the field whose levels were taken, 0..1; in a Decomposition, of the normalised field.
+        Of the field whose levels were taken, 0..1; in a Decomposition, of the normalized field.
     node_position : (k, 3) float64
         Tips lie on the surface, saddles inside.
     arcs : (q, 2) int64
         Lower and upper node. Two nodes may share several arcs: a loop.
     arc_points : (q + 1,) int64
-        Arc i owns the centre points arc_points[i]:arc_points[i + 1], from low to high.
+        Arc i owns the center points arc_points[i]:arc_points[i + 1], from low to high.
     point_position : (r, 3) float64
         Centroids of the contours.
     point_radius, point_length, point_value : (r,) float64
@@ -70,7 +70,7 @@ class ReebGraph:
 
     @cached_property
     def point_arc(self) -> np.ndarray:
-        """(r,) int64, the arc of each centre point."""
+        """(r,) int64, the arc of each center point."""
         return np.repeat(np.arange(self.n_arcs), np.diff(self.arc_points))
 
     @classmethod
@@ -98,7 +98,7 @@ class ReebGraph:
 
 
 @dataclass(frozen=True, eq=False)
-class ReebStructure:
+class ReebTopology:
     """The Reeb graph as what it is made of: pieces for nodes, chains of contours for arcs.
 
     With P pieces, C contours, k nodes and q arcs:
@@ -122,8 +122,22 @@ class ReebStructure:
     arcs: np.ndarray
     n_nodes: int
 
+    def arc_contours(self, sets: LevelSets) -> tuple[np.ndarray, np.ndarray]:
+        """The contours of every arc from low to high, one arc after the other.
 
-def reeb_structure(sets: LevelSets) -> ReebStructure:
+        Returns
+        -------
+        contours : (r,) int64
+        start : (q + 1,) int64
+            Arc i owns contours[start[i]:start[i + 1]].
+        """
+        kept = np.flatnonzero(self.contour_arc >= 0)
+        order = np.lexsort((sets.contour_level[kept], self.contour_arc[kept]))
+        contours = kept[order]
+        return contours, np.searchsorted(self.contour_arc[contours], np.arange(len(self.arcs) + 1))
+
+
+def reeb_topology(sets: LevelSets) -> ReebTopology:
     """Contract chains of two-sided pieces to arcs.
 
     Parameters
@@ -133,7 +147,7 @@ def reeb_structure(sets: LevelSets) -> ReebStructure:
 
     Returns
     -------
-    structure : ReebStructure
+    topology : ReebTopology
 
     Notes
     -----
@@ -157,85 +171,76 @@ def reeb_structure(sets: LevelSets) -> ReebStructure:
     bottom, top = piece_node[lower] >= 0, piece_node[upper] >= 0
     arcs[contour_arc[bottom], 0] = piece_node[lower[bottom]]
     arcs[contour_arc[top], 1] = piece_node[upper[top]]
-    return ReebStructure(piece_node, piece_arc, contour_arc, arcs, int((~regular).sum()))
+    return ReebTopology(piece_node, piece_arc, contour_arc, arcs, int((~regular).sum()))
 
 
-def reeb_graph(sets: LevelSets, structure: ReebStructure) -> ReebGraph:
-    """Kinds, values, positions and centre lines of a Reeb graph.
+def reeb_graph(sets: LevelSets, topology: ReebTopology) -> ReebGraph:
+    """Kinds, values, positions and center lines of a Reeb graph.
 
     Parameters
     ----------
     sets : LevelSets
         Of one connected component.
-    structure : ReebStructure
+    topology : ReebTopology
         Of those level sets, simplified or not.
 
     Returns
     -------
     graph : ReebGraph
     """
-    n_below = np.bincount(structure.arcs[:, 1], minlength=structure.n_nodes)
-    n_above = np.bincount(structure.arcs[:, 0], minlength=structure.n_nodes)
+    n_below = np.bincount(topology.arcs[:, 1], minlength=topology.n_nodes)
+    n_above = np.bincount(topology.arcs[:, 0], minlength=topology.n_nodes)
     kind = np.where(n_below == 0, MINIMUM, np.where(n_above == 0, MAXIMUM, SADDLE)).astype(np.int8)
-    tip = _tip_vertices(sets, structure, kind)
-    middle, position = _node_means(sets, structure)
-    value = _saddle_values(sets, structure, middle)
+    tip = _tip_vertices(sets, topology, kind)
+    middle, position = _node_means(sets, topology)
+    value = _saddle_values(sets, topology, middle)
     has_tip = tip >= 0
     value[has_tip] = sets.values[tip[has_tip]]
     position[has_tip] = sets.mesh.vertices[tip[has_tip]]
 
-    kept = np.flatnonzero(structure.contour_arc >= 0)
-    arc = structure.contour_arc[kept]
-    order = np.lexsort((sets.contour_level[kept], arc))
-    contour = kept[order]
+    contour, arc_points = topology.arc_contours(sets)
     return ReebGraph(
-        node_kind=kind, node_value=value, node_position=position, arcs=structure.arcs,
-        arc_points=np.searchsorted(arc[order], np.arange(len(structure.arcs) + 1)),
-        point_position=sets.contour_centre[contour], point_radius=sets.contour_radius[contour],
+        node_kind=kind, node_value=value, node_position=position, arcs=topology.arcs,
+        arc_points=arc_points,
+        point_position=sets.contour_center[contour], point_radius=sets.contour_radius[contour],
         point_length=sets.contour_length[contour],
         point_value=sets.levels[sets.contour_level[contour]],
-        n_components=components(structure.n_nodes, *structure.arcs.T)[0])
+        n_components=components(topology.n_nodes, *topology.arcs.T)[0])
 
 
-def _tip_vertices(sets: LevelSets, structure: ReebStructure, kind: np.ndarray) -> np.ndarray:
+def _tip_vertices(sets: LevelSets, topology: ReebTopology, kind: np.ndarray) -> np.ndarray:
     """The vertex of lowest or highest value of each minimum and maximum; -1 for saddles."""
-    node = structure.piece_node[sets.vertex_piece]
+    node = topology.piece_node[sets.vertex_piece]
     inside = np.flatnonzero(node >= 0)
-    order = inside[np.lexsort((inside, sets.values[inside]))]
-    tip = np.full(len(kind), -1)
-    tip[node[order]] = order  # the last one written is the highest
-    lowest = np.full(len(kind), -1)
-    lowest[node[order[::-1]]] = order[::-1]
-    tip = np.where(kind == MINIMUM, lowest, tip)
-    tip[kind == SADDLE] = -1
-    return tip
+    value = sets.values[inside]
+    highest = last_of_each(node[inside], value, inside, count=len(kind))
+    lowest = last_of_each(node[inside], -value, -inside, count=len(kind))
+    tip = np.append(inside, -1)[np.where(kind == MINIMUM, lowest, highest)]
+    return np.where(kind == SADDLE, -1, tip)
 
 
-def _saddle_values(sets: LevelSets, structure: ReebStructure, middle: np.ndarray) -> np.ndarray:
+def _saddle_values(sets: LevelSets, topology: ReebTopology, middle: np.ndarray) -> np.ndarray:
     """Value of each node's saddle vertex: the one of most arcs, then nearest the middle level.
 
     Nodes without one (a loop thinner than a slab, a border) keep the middle level.
     """
     critical = critical_points(sets.mesh, total_order(sets.values))
-    node = structure.piece_node[sets.vertex_piece[critical.vertex]]
+    node = topology.piece_node[sets.vertex_piece[critical.vertex]]
     saddle = (critical.kind == SADDLE) & (node >= 0)
     node, vertex = node[saddle], critical.vertex[saddle]
     off = np.abs(sets.values[vertex] - middle[node])
-    order = np.lexsort((vertex, -off, critical.multiplicity[saddle]))
-    value = middle.copy()
-    value[node[order]] = sets.values[vertex[order]]  # the last one written is the best
-    return value
+    best = last_of_each(node, critical.multiplicity[saddle], -off, vertex, count=len(middle))
+    return np.where(best >= 0, np.append(sets.values[vertex], 0.0)[best], middle)
 
 
-def _node_means(sets: LevelSets, structure: ReebStructure) -> tuple[np.ndarray, np.ndarray]:
+def _node_means(sets: LevelSets, topology: ReebTopology) -> tuple[np.ndarray, np.ndarray]:
     """Middle level and area centroid of each node's pieces."""
-    node = structure.piece_node[sets.element_piece]
+    node = topology.piece_node[sets.element_piece]
     inside = node >= 0
     weight = sets.element_area[inside] + 1e-12 * sets.mesh.area
     node = node[inside]
-    total = np.bincount(node, weight, structure.n_nodes)
+    total = np.bincount(node, weight, topology.n_nodes)
     middles = (sets.element_slab[inside] + 0.5) / (len(sets.levels) + 1)
-    centres = sets.mesh.face_centroids[sets.element_face[inside]]
-    columns = [middles, *centres.T]
-    means = [np.bincount(node, weight * c, structure.n_nodes) / total for c in columns]
-    return means[0], np.stack(means[1:], axis=1)
+    centers = sets.mesh.face_centroids[sets.element_face[inside]]
+    means = sums_by(node, weight[:, None] * np.column_stack([middles, centers]), topology.n_nodes) / total[:, None]
+    return means[:, 0], means[:, 1:]

@@ -10,20 +10,59 @@ import heapq
 
 import numpy as np
 
+from ..field.agd import ScalarField
 from .level_sets import LevelSets
-from .reeb import ReebStructure
+from .reeb import ReebTopology
 
+# Leaves that cover less than this share of a component, or cross fewer levels than this, are ripples.
+MIN_LEAF_AREA = 0.0025
+MIN_LEAF_LEVELS = 1
+# Leaves over which the AGD changes by less than this share of its maximum are errors of the distances.
+MIN_LEAF_HEIGHT = 0.005
 LOWER, UPPER = 0, 1
+
+
+def without_ripples(sets: LevelSets, topology: ReebTopology, field: ScalarField) -> ReebTopology:
+    """Cancel the leaves that are ripples of the surface or errors of the distances.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        Of the field.
+    topology : ReebTopology
+        As ``reeb_topology`` made it.
+    field : ScalarField
+
+    Returns
+    -------
+    topology : ReebTopology
+        See ``simplify``.
+    """
+    return simplify(sets, topology, MIN_LEAF_AREA, MIN_LEAF_LEVELS, level_height(field, sets.levels), MIN_LEAF_HEIGHT)
+
+
+def level_height(field: ScalarField, levels: np.ndarray) -> np.ndarray:
+    """How much of the AGD each level stands for: half the way from the level below to the one above.
+
+    levels : (K,) float64, of ``field.values``. Returns (K,) float64, as shares of the largest AGD.
+    """
+    if len(levels) == 0:
+        return np.empty(0)
+    order = np.argsort(field.values, kind="stable")
+    at = np.interp(np.append(levels, [0.0, 1.0]), field.values[order], field.agd[order])
+    *inner, low, high = at
+    ends = np.concatenate([[low], inner, [high]])
+    return (ends[2:] - ends[:-2]) / 2 / high
 
 
 def simplify(
     sets: LevelSets,
-    structure: ReebStructure,
+    topology: ReebTopology,
     min_area: float,
     min_levels: int,
     level_height: np.ndarray | None = None,
     min_height: float = 0.0,
-) -> ReebStructure:
+) -> ReebTopology:
     """Cancel leaf arcs that are small, short or flat, smallest first.
 
     A leaf can go where its saddle keeps another arc on the same side: the pair (extremum,
@@ -32,21 +71,21 @@ def simplify(
     Parameters
     ----------
     sets : LevelSets
-    structure : ReebStructure
-        As ``reeb_structure`` made it.
+    topology : ReebTopology
+        As ``reeb_topology`` made it.
     min_area : float
         Leaves of less area go; share of the surface, 0..1.
     min_levels : int
         Leaves that span fewer levels go.
     level_height : (K,) float64, optional
-        What each level adds to the height of a leaf that crosses it. Equalised levels lie close
+        What each level adds to the height of a leaf that crosses it. Equalized levels lie close
         where the field hardly changes: a leaf of many levels may be flat all the same.
     min_height : float
         Leaves of less height go.
 
     Returns
     -------
-    structure : ReebStructure
+    topology : ReebTopology
         Pieces of cancelled leaves belong to what they were attached to; their contours to
         no arc.
 
@@ -56,7 +95,7 @@ def simplify(
     """
     if level_height is None:
         level_height = np.ones(len(sets.levels))
-    work = _WorkGraph(sets, structure, level_height)
+    work = _WorkGraph(sets, topology, level_height)
     work.min_area, work.min_levels, work.min_height = min_area * sets.mesh.area, min_levels, min_height
     work.cancel_leaves()
     return work.result()
@@ -68,17 +107,17 @@ class _WorkGraph:
     min_area = min_height = 0.0
     min_levels = 0
 
-    def __init__(self, sets, structure, level_height):
-        self.structure = structure
-        n, q = structure.n_nodes, len(structure.arcs)
-        owner = np.where(structure.piece_node >= 0, structure.piece_node, n + structure.piece_arc)
+    def __init__(self, sets, topology, level_height):
+        self.topology = topology
+        n, q = topology.n_nodes, len(topology.arcs)
+        owner = np.where(topology.piece_node >= 0, topology.piece_node, n + topology.piece_arc)
         self.piece_owner = owner
         self.area = np.bincount(owner, sets.piece_area, n + q).tolist()
         # An arc with one contour joins two slabs directly: it spans no whole slab.
-        self.span = np.bincount(structure.contour_arc, minlength=q).tolist()
+        self.span = np.bincount(topology.contour_arc, minlength=q).tolist()
         height = level_height[sets.contour_level]
-        self.height = np.bincount(structure.contour_arc, height, q).tolist()
-        self.arcs = structure.arcs.tolist()
+        self.height = np.bincount(topology.contour_arc, height, q).tolist()
+        self.arcs = topology.arcs.tolist()
         self.at_node = [(set(), set()) for _ in range(n)]  # arcs below, arcs above
         for arc, (lower, upper) in enumerate(self.arcs):
             self.at_node[upper][LOWER].add(arc)
@@ -131,8 +170,8 @@ class _WorkGraph:
         if [len(s) for s in self.at_node[node]] == [1, 1]:
             self._dissolve(node)
         else:
-            for neighbour in self.at_node[node][LOWER] | self.at_node[node][UPPER]:
-                self._push_if_leaf(neighbour)
+            for neighbor in self.at_node[node][LOWER] | self.at_node[node][UPPER]:
+                self._push_if_leaf(neighbor)
 
     def _dissolve(self, node):
         """Turn a two-sided node into the middle of an arc."""
@@ -150,7 +189,7 @@ class _WorkGraph:
         self.at_node[upper][LOWER].add(below)
         self._push_if_leaf(below)
 
-    def result(self) -> ReebStructure:
+    def result(self) -> ReebTopology:
         n = len(self.at_node)
         root = np.array(self.parent)
         while (root[root] != root).any():
@@ -162,10 +201,10 @@ class _WorkGraph:
         arc_id = np.where(kept_arcs, np.cumsum(kept_arcs) - 1, -1)
         at_node = owner < n
         arcs = [arc for arc in self.arcs if arc is not None]
-        contour_arc = self.structure.contour_arc
+        contour_arc = self.topology.contour_arc
         contour_arc = np.where(self.contours_dropped[contour_arc], -1,
                                arc_id[self.arc_alias[contour_arc]])
-        return ReebStructure(
+        return ReebTopology(
             piece_node=np.where(at_node, node_id[np.minimum(owner, n - 1)], -1),
             piece_arc=np.where(at_node, -1, arc_id[np.maximum(owner - n, 0)]) if len(arc_id)
             else np.full(len(owner), -1),

@@ -15,8 +15,8 @@ from ..errors import ReebError
 from ..graph.reeb import ReebGraph
 from ..parameters import Parameters
 from ..sentence import Sentence
+from ..surface.arrays import distinct_pairs, renumbered, sums_by
 from ..surface.labels import majority
-from ..uses.colors import part_colors
 
 VERSION = "0.1.0"
 _FORMAT = 1  # of to_bytes
@@ -24,52 +24,94 @@ _FORMAT = 1  # of to_bytes
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """Parts at one level of detail.
+    """Parts at one level of detail; everything but ``candidate_part`` is read off when it is first asked for.
 
-    With p faces and n vertices of the caller:
+    With p faces, n vertices and c candidates of the caller's mesh, and a graph of k nodes, q arcs and r center
+    points:
 
     Attributes
     ----------
-    labels : (p,) int64
-        Part of each face, 0..count-1. Part 0 is the largest; the others follow the order of
-        their faces, so that poses of one mesh number their parts alike.
-    vertex_labels : (n,) int64
-        Part of each vertex; -1 for a vertex of no face.
+    decomposition : Decomposition
+        What the parts are read from.
     candidate_part : (c,) int64
-        Part of each candidate.
-    area, share : (count,) float64
-        In squared units of the vertices, and of the whole.
-    cuts : (e, 2) int64
-        Parts that touch, smaller number first.
-    cut_length, cut_salience : (e,) float64
-        In units of the vertices; how much the cut deserves to be there, 0..1.
-    colors : (count, 3) float64
-        sRGB, 0..1.
-    node_part, arc_part, point_part : (k,), (q,), (r,) int64
-        Part of each node, arc and centre point of the graph.
+        Part of each candidate, 0..count-1.
     """
 
-    labels: np.ndarray
-    vertex_labels: np.ndarray
+    decomposition: Decomposition
     candidate_part: np.ndarray
-    area: np.ndarray
-    share: np.ndarray
-    cuts: np.ndarray
-    cut_length: np.ndarray
-    cut_salience: np.ndarray
-    colors: np.ndarray
-    node_part: np.ndarray
-    arc_part: np.ndarray
-    point_part: np.ndarray
+
+    @cached_property
+    def labels(self) -> np.ndarray:
+        """(p,) int64, part of each face."""
+        return self.candidate_part[self.decomposition.candidates]
+
+    @cached_property
+    def vertex_labels(self) -> np.ndarray:
+        """(n,) int64, part of each vertex; -1 for a vertex of no face."""
+        candidate = self.decomposition.vertex_candidates
+        return np.where(candidate >= 0, self.candidate_part[candidate], -1)
+
+    @cached_property
+    def area(self) -> np.ndarray:
+        """(count,) float64, in squared units of the vertices."""
+        return np.bincount(self.candidate_part, self.decomposition.candidate_area)
+
+    @property
+    def share(self) -> np.ndarray:
+        """(count,) float64, share of the whole area."""
+        return self.area / self.area.sum()
 
     @property
     def count(self) -> int:
+        """Number of parts."""
         return len(self.area)
 
     @property
     def names(self) -> tuple[str, ...]:
         """Part 01, Part 02 and so on."""
         return tuple(f"Part {i + 1:02d}" for i in range(self.count))
+
+    @cached_property
+    def _boundaries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Pairs of parts that touch, length and salience of each boundary."""
+        d = self.decomposition
+        low, high = np.sort(self.candidate_part[d.candidate_pairs], axis=1).reshape(-1, 2).T
+        apart = low != high
+        cuts, cut = distinct_pairs(low[apart], high[apart])
+        salience = np.zeros(len(cuts))
+        np.maximum.at(salience, cut, d.pair_salience[apart])
+        return cuts, sums_by(cut, d.candidate_pair_length[apart], len(cuts)), salience
+
+    @property
+    def cuts(self) -> np.ndarray:
+        """(e, 2) int64, parts that touch, the smaller number first."""
+        return self._boundaries[0]
+
+    @property
+    def cut_length(self) -> np.ndarray:
+        """(e,) float64, in units of the vertices."""
+        return self._boundaries[1]
+
+    @property
+    def cut_salience(self) -> np.ndarray:
+        """(e,) float64, how much each cut deserves to be there, 0..1."""
+        return self._boundaries[2]
+
+    @property
+    def node_part(self) -> np.ndarray:
+        """(k,) int64, part of each node of the graph."""
+        return self.candidate_part[self.decomposition.node_candidate]
+
+    @property
+    def point_part(self) -> np.ndarray:
+        """(r,) int64, part of each center point of the graph."""
+        return self.candidate_part[self.decomposition.point_candidate]
+
+    @cached_property
+    def arc_part(self) -> np.ndarray:
+        """(q,) int64, the part that most center points of each arc lie in; every arc has a point."""
+        graph = self.decomposition.graph
+        return majority(graph.point_arc, self.point_part, np.ones(len(self.point_part)), graph.n_arcs)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,10 +132,10 @@ class Decomposition:
     candidate_pair_length : (e,) float64
     hierarchy : Hierarchy
     field : (n,) float64
-        Normalised average geodesic distance, 0..1; nan for a vertex of no face.
+        Normalized average geodesic distance, 0..1; nan for a vertex of no face.
     graph : ReebGraph
     node_candidate, point_candidate : (k,), (r,) int64
-        The candidate in which each node and centre point of the graph lies.
+        The candidate in which each node and center point of the graph lies.
     parameters : Parameters
     notes : tuple of str
         What is odd about the mesh, one ``Sentence`` each; plain text after ``from_bytes``.
@@ -141,7 +183,8 @@ class Decomposition:
         return self.hierarchy.merge_of(*self.candidate_pairs.T)
 
     @cached_property
-    def _pair_salience(self) -> np.ndarray:
+    def pair_salience(self) -> np.ndarray:
+        """(e,) float64, salience of the merge that joins each pair of candidates that touch; 1 where none does."""
         return np.append(self.hierarchy.salience, 1.0)[self.pair_merge]
 
     def parts(self, detail: float | None = None, n_parts: int | None = None) -> Parts:
@@ -172,47 +215,21 @@ class Decomposition:
         return self.group(self.hierarchy.parts(count))
 
     def group(self, candidate_part: np.ndarray) -> Parts:
-        """Parts from any grouping of the candidates: (c,) int64, whole numbers from 0."""
-        candidate_part = self._in_order(candidate_part)
-        area = np.bincount(candidate_part, self.candidate_area)
-        cuts, length, salience = self._cuts(candidate_part)
-        used = self.vertex_candidates >= 0
-        vertex = np.where(used, candidate_part[self.vertex_candidates], -1)
-        points = candidate_part[self.point_candidate]
-        return Parts(
-            labels=candidate_part[self.candidates], vertex_labels=vertex,
-            candidate_part=candidate_part, area=area, share=area / area.sum(), cuts=cuts,
-            cut_length=length, cut_salience=salience, colors=part_colors(len(area), cuts),
-            node_part=candidate_part[self.node_candidate],
-            arc_part=self._arc_parts(points), point_part=points)
+        """Parts from any grouping of the candidates.
 
-    def _in_order(self, part: np.ndarray) -> np.ndarray:
-        """Number parts: the largest first, then by the mean index of their faces."""
-        _, part = np.unique(part, return_inverse=True)
-        part = part.reshape(-1)
+        Part 0 is the largest; the others follow the order of their faces, so that poses of one mesh number their
+        parts alike.
+
+        candidate_part : (c,) int64, whole numbers from 0, equal for the candidates of one part.
+        """
+        names, part = renumbered(candidate_part)
         area = np.bincount(part, self.candidate_area)
-        weight = np.bincount(self.candidates, minlength=self.n_candidates)
-        middle = np.bincount(part, weight * self._face_order) / np.bincount(part, weight)
+        n_faces = np.bincount(self.candidates, minlength=self.n_candidates)
+        middle = np.bincount(part, n_faces * self._face_order) / np.bincount(part, n_faces)
         middle[np.lexsort((middle, -area))[0]] = -1.0
-        place = np.empty(len(area), np.int64)
-        place[np.argsort(middle, kind="stable")] = np.arange(len(area))
-        return place[part]
-
-    def _cuts(self, part: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Pairs of parts that touch, length and salience of each."""
-        ends = np.sort(part[self.candidate_pairs], axis=1).reshape(-1, 2)
-        apart = ends[:, 0] != ends[:, 1]
-        cuts, where = np.unique(ends[apart], axis=0, return_inverse=True)
-        where = where.reshape(-1)
-        length = np.bincount(where, self.candidate_pair_length[apart], len(cuts))
-        salience = np.zeros(len(cuts))
-        np.maximum.at(salience, where, self._pair_salience[apart])
-        return cuts.reshape(-1, 2), length, salience
-
-    def _arc_parts(self, point_part: np.ndarray) -> np.ndarray:
-        """The part that most centre points of each arc lie in; every arc has a point."""
-        return majority(self.graph.point_arc, point_part, np.ones(len(point_part)),
-                        self.graph.n_arcs)
+        place = np.empty(len(names), np.int64)
+        place[np.argsort(middle, kind="stable")] = np.arange(len(names))
+        return Parts(self, place[part])
 
     def to_bytes(self) -> bytes:
         """Everything, compressed; ``from_bytes`` reads it back."""

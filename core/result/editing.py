@@ -14,8 +14,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
 from ..cuts.hierarchy import Hierarchy
+from ..surface.arrays import components
 from ..surface.labels import label_boundaries
-from ..surface.mesh import components
 from .decomposition import Decomposition
 
 
@@ -185,12 +185,12 @@ def boundary_distance(
     face_pairs : (e, 2) int64
         Faces that share an edge.
     pair_length : (e,) float64
-        Distance of their centres, not negative.
+        Distance of their centers, not negative.
 
     Returns
     -------
     distance : (p,) float64
-        Along the surface, from the centre of the nearest face on the other side: positive outside,
+        Along the surface, from the center of the nearest face on the other side: positive outside,
         negative inside, infinite where the boundary cannot be reached.
     across : (p,) int64
         That face; -1 where there is none.

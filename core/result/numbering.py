@@ -1,72 +1,59 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Part numbers that last: through every level of detail, and from one decomposition to the next.
 
-A number is what a part is known by - its name, its colour, its lock, its vertex group - while a label is
-only its place in one result. Numbers start at 1, so that 0 can say "no part".
+A part's number is what its name, color, lock and vertex group are stored under; its label is only its place in
+one result. Numbers start at 1, so that 0 can say "no part".
 
-While the detail rises, a part that is split keeps its number on one side, and all others keep theirs; the
-other side takes a number of its own. So every candidate has a number: the last one born with it as the
-first of its part. A part is known by the number of the candidate in it whose number was born first. That
-depends on nothing but the part itself, and so nothing done elsewhere renumbers it.
+When the detail rises and a part is split, one side keeps the number of the part and the other side gets a new
+number, which is born with that split. So every candidate carries one number: the last one that was born for a part
+in which this candidate is the first to be mentioned. A part is known by the number that was born first among those
+of its candidates. That depends on the candidates of the part alone, so no change elsewhere renumbers it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
-from ..surface.mesh import frozen
-from ..uses.colors import PALETTE, chosen_colors
+from ..surface.arrays import distinct_pairs, sums_by
 from .decomposition import Decomposition, Parts
 from .splits import Splits
+
+# Added to areas that weigh votes, so that candidates without area vote, too.
+LEAST_AREA = 1e-300
 
 
 @dataclass(frozen=True, eq=False)
 class NumberGraph:
-    """Which numbers touch at some level of detail: what colours depend on.
+    """Which part numbers touch at some level of detail; colors are chosen by it.
 
     Attributes
     ----------
     numbers : (k,) int64
-        Of all levels, rising.
+        The numbers of the parts of all levels, rising.
     pairs : (e, 2) int64
-        Places in ``numbers`` of those that touch.
-    plain : NumberGraph or None
-        The same with nothing fixed, if something is.
-    origin : (k,) int64
-        The place of each number in ``plain``; -1 for one made by hand.
+        Indices into ``numbers``: which of them touch.
+    unpinned : NumberGraph or None
+        The graph of the same decomposition without pinned parts, if there are some.
+    unpinned_index : (k,) int64 or None
+        Index of each number in ``unpinned``; -1 for a number that was made by hand.
     """
 
     numbers: np.ndarray
     pairs: np.ndarray
-    plain: NumberGraph | None = None
-    origin: np.ndarray | None = None
+    unpinned: NumberGraph | None = None
+    unpinned_index: np.ndarray | None = None
 
     def including(self, numbers: np.ndarray) -> NumberGraph:
-        """The same with numbers of no level, which touch nothing."""
+        """The graph with further numbers that belong to no level and touch nothing."""
         if np.isin(numbers, self.numbers).all():
             return self
         every = np.union1d(self.numbers, numbers)
         place = np.searchsorted(every, self.numbers)
-        origin = np.full(len(every), -1)
-        origin[place] = np.arange(len(place))
-        return NumberGraph(every, place[self.pairs], self, origin)
-
-    def colors(self, palette: np.ndarray) -> np.ndarray:
-        """(k,) int64, place in the palette. What is done by hand changes no colour unless it makes two alike touch."""
-        return _chosen(self, palette.tobytes())
-
-
-@lru_cache(16)
-def _chosen(graph: NumberGraph, palette: bytes) -> np.ndarray:
-    """Chosen once for all levels of detail: they have one graph."""
-    palette = np.frombuffer(palette).reshape(-1, 3)
-    wanted = None
-    if graph.plain is not None:
-        wanted = np.where(graph.origin >= 0, graph.plain.colors(palette)[graph.origin], -1)
-    return frozen(chosen_colors(len(graph.numbers), graph.pairs, palette, wanted), np.int64)
+        index = np.full(len(every), -1)
+        index[place] = np.arange(len(place))
+        return NumberGraph(every, place[self.pairs], self, index)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,29 +66,28 @@ class NumberedParts:
         Label i is the part with the i-th smallest number.
     numbers : (count,) int64
         Rising, from 1; not all need to be in use.
-    candidates : (p,) int64
-        The candidate of each face.
     graph : NumberGraph
+        Of all levels of detail.
     """
 
     parts: Parts
     numbers: np.ndarray
-    candidates: np.ndarray
     graph: NumberGraph
 
     @property
-    def face_numbers(self) -> np.ndarray:
-        """(p,) int64, the number of each face's part."""
-        return self.candidate_numbers[self.candidates]
+    def candidates(self) -> np.ndarray:
+        """(p,) int64, the candidate of each face."""
+        return self.parts.decomposition.candidates
 
     @property
     def candidate_numbers(self) -> np.ndarray:
         """(c,) int64, the number of each candidate's part."""
         return self.numbers[self.parts.candidate_part]
 
-    def colors(self, palette: np.ndarray = PALETTE) -> np.ndarray:
-        """(count, 3) float64 sRGB. A number has one colour at all levels, and no other that touches it has it."""
-        return palette[self.graph.colors(palette)[np.searchsorted(self.graph.numbers, self.numbers)]]
+    @property
+    def face_numbers(self) -> np.ndarray:
+        """(p,) int64, the number of each face's part."""
+        return self.candidate_numbers[self.candidates]
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -110,22 +96,23 @@ class NumberedParts:
 
 
 def default_name(number: int) -> str:
-    """What a part is called until somebody names it."""
+    """The name of a part until the user gives it another."""
     return f"Part {number:02d}"
 
 
-def follow(part: np.ndarray, former: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Numbers for new parts, by their largest overlap with numbered old ones.
+def follow(part: np.ndarray, previous_number: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Number new parts by their largest overlap with numbered old ones.
 
-    Pairs are taken by falling overlap, each part and each number once; ties by part, then number. Parts
-    left over take the smallest numbers that ``former`` does not contain.
+    Pairs of a new part and an old number are taken by falling overlap, each part and each number once; ties go to
+    the smaller part, then to the smaller number. Parts that are left over take the smallest numbers that
+    ``previous_number`` does not contain.
 
     Parameters
     ----------
     part : (e,) int64
         New part of each element, 0..count-1, all in use.
-    former : (e,) int64
-        Number of the part each element belonged to; 0 for none.
+    previous_number : (e,) int64
+        Number of the part that each element belonged to; 0 for none.
     weight : (e,) float64
         Size of each element.
 
@@ -135,39 +122,17 @@ def follow(part: np.ndarray, former: np.ndarray, weight: np.ndarray) -> np.ndarr
     """
     count = int(part.max(initial=-1)) + 1
     numbers = np.zeros(count, np.int64)
-    known = former > 0
-    pairs, where = np.unique(np.stack([part[known], former[known]], axis=1), axis=0, return_inverse=True)
-    overlap = np.bincount(where.reshape(-1), weight[known], len(pairs))
+    known = previous_number > 0
+    pairs, pair = distinct_pairs(part[known], previous_number[known])
+    overlap = sums_by(pair, weight[known], len(pairs))
     taken = set()
-    for new, old in pairs[np.argsort(-overlap, kind="stable")].tolist():
-        if not numbers[new] and old not in taken:
-            numbers[new] = old
-            taken.add(old)
-    open_parts = np.flatnonzero(numbers == 0)
-    free = np.setdiff1d(np.arange(1, count + len(pairs) + len(open_parts) + 1), former)
-    numbers[open_parts] = free[: len(open_parts)]
-    return numbers
-
-
-def transfer(part: np.ndarray, former: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """The number that most of each part's elements had, 0 where most had none.
-
-    Unlike ``follow``, several parts may get the same number.
-
-    Parameters
-    ----------
-    part, former, weight
-        As in ``follow``.
-
-    Returns
-    -------
-    numbers : (count,) int64
-    """
-    pairs, where = np.unique(np.stack([part, former], axis=1), axis=0, return_inverse=True)
-    size = np.bincount(where.reshape(-1), weight, len(pairs))
-    order = np.lexsort((-pairs[:, 1], size, pairs[:, 0]))
-    numbers = np.zeros(int(part.max(initial=-1)) + 1, np.int64)
-    numbers[pairs[order, 0]] = pairs[order, 1]
+    for new, number in pairs[np.argsort(-overlap, kind="stable")].tolist():
+        if not numbers[new] and number not in taken:
+            numbers[new] = number
+            taken.add(number)
+    left_over = np.flatnonzero(numbers == 0)
+    free = np.setdiff1d(np.arange(1, count + len(pairs) + len(left_over) + 1), previous_number)
+    numbers[left_over] = free[: len(left_over)]
     return numbers
 
 
@@ -180,74 +145,80 @@ class Numbering:
     decomposition : Decomposition
         With c candidates.
     splits : Splits
-    own : (c,) int64
-        The number of each candidate; one for all of a fixed part.
-    rank : (c,) int64
-        When that number was born, 0..c-1.
+    candidate_number : (c,) int64
+        The number that each candidate carries; the same for all candidates of a pinned part.
+    birth_order : (c,) int64
+        Which candidate's number was born first, second ...: 0..c-1.
     graph : NumberGraph
     """
 
     decomposition: Decomposition
     splits: Splits
-    own: np.ndarray
-    rank: np.ndarray
+    candidate_number: np.ndarray
+    birth_order: np.ndarray
     graph: NumberGraph
 
     @classmethod
-    def of(cls, decomposition: Decomposition, former: np.ndarray, fixed: np.ndarray) -> Numbering:
-        """Numbers around those that are known.
+    def of(cls, decomposition: Decomposition, previous_number: np.ndarray, pinned: np.ndarray) -> Numbering:
+        """Number the parts of all levels so that parts known already keep their numbers.
 
         Parameters
         ----------
         decomposition : Decomposition
-        former : (c,) int64
-            The number that each candidate was given at some level, see ``inherited``; 0 for none. At that
-            level the parts have these numbers.
-        fixed : (c,) int64
-            Candidates of one number above 0 are one part whatever the detail; 0 leaves them to it.
+        previous_number : (c,) int64
+            The number of the part that each candidate belonged to at some level, see ``inherited``; 0 for none.
+            At that level the parts get these numbers again.
+        pinned : (c,) int64
+            Candidates with the same number above 0 are one part at every level, with that number.
+
+        Returns
+        -------
+        numbering : Numbering
         """
-        splits = Splits.of(decomposition, np.zeros_like(fixed))
-        plain_own, rank = _born(decomposition, splits, former)
-        graph = _graph(decomposition, splits, plain_own, rank)
-        if not fixed.any():
-            return cls(decomposition, splits, plain_own, rank, graph)
-        own, rank = _around(plain_own, rank, former, fixed)
-        splits = Splits.of(decomposition, fixed)
-        fixed_graph = _graph(decomposition, splits, own, rank)
-        # A fixed part goes by its number, any other by the candidate that its number is of.
-        origin = np.where(np.isin(fixed_graph.numbers, fixed), fixed_graph.numbers, 0)
-        free = fixed == 0
-        origin[np.searchsorted(fixed_graph.numbers, own[free])] = plain_own[free]
-        place = np.minimum(np.searchsorted(graph.numbers, origin), len(graph.numbers) - 1)
-        place = np.where(graph.numbers[place] == origin, place, -1)
-        return cls(decomposition, splits, own, rank, replace(fixed_graph, plain=graph, origin=place))
+        splits = Splits.of(decomposition, np.zeros_like(pinned))
+        unpinned_number, birth_order = _births(decomposition, splits, previous_number)
+        unpinned = _number_graph(decomposition, splits, unpinned_number, birth_order)
+        if not pinned.any():
+            return cls(decomposition, splits, unpinned_number, birth_order, unpinned)
+        candidate_number, birth_order = _make_room(unpinned_number, birth_order, previous_number, pinned)
+        splits = Splits.of(decomposition, pinned)
+        graph = _number_graph(decomposition, splits, candidate_number, birth_order)
+        # A pinned part has its own number in the other graph, any other part that of the candidate it is known by.
+        origin = np.where(np.isin(graph.numbers, pinned), graph.numbers, 0)
+        free = pinned == 0
+        origin[np.searchsorted(graph.numbers, candidate_number[free])] = unpinned_number[free]
+        index = np.minimum(np.searchsorted(unpinned.numbers, origin), len(unpinned.numbers) - 1)
+        index = np.where(unpinned.numbers[index] == origin, index, -1)
+        graph = replace(graph, unpinned=unpinned, unpinned_index=index)
+        return cls(decomposition, splits, candidate_number, birth_order, graph)
 
     def parts(self, detail: float, n_parts: int = 0) -> NumberedParts:
-        """Parts at a level of detail, or of an exact number if that is not 0 (fixed parts may be more)."""
-        part = self.splits.parts(self.splits.done(self.decomposition, detail, n_parts))
-        first = np.full(part.max() + 1, len(part))
-        np.minimum.at(first, part, self.rank)
-        return self.shown(self.own[np.argsort(self.rank)][first][part])
+        """Parts at a level of detail, or of an exact number if that is not 0 (pinned parts may be more)."""
+        part = self.splits.parts(self.splits.n_done(self.decomposition, detail, n_parts))
+        first_born = np.full(part.max() + 1, len(part))
+        np.minimum.at(first_born, part, self.birth_order)
+        return self.numbered(self.candidate_number[np.argsort(self.birth_order)][first_born][part])
 
-    def shown(self, candidate_numbers: np.ndarray) -> NumberedParts:
-        """Parts by the number of each candidate, (c,) int64."""
-        parts = self.decomposition.group(candidate_numbers)
-        numbers = np.zeros(parts.count, np.int64)
-        numbers[parts.candidate_part] = candidate_numbers
-        graph = self.graph.including(numbers)
-        return _in_number_order(NumberedParts(parts, numbers, self.decomposition.candidates, graph))
+    def numbered(self, candidate_numbers: np.ndarray) -> NumberedParts:
+        """Parts by the number of each candidate's part, (c,) int64."""
+        numbers = np.unique(candidate_numbers)
+        parts = Parts(self.decomposition, np.searchsorted(numbers, candidate_numbers))
+        return NumberedParts(parts, numbers, self.graph.including(numbers))
 
 
-def _born(decomposition, splits, former) -> tuple[np.ndarray, np.ndarray]:
-    """The number of each candidate with nothing fixed, and when it was born.
+def _births(
+    decomposition: Decomposition, splits: Splits, previous_number: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The number that each candidate carries where nothing is pinned, and the order in which these were born.
 
-    A new part takes, of the former numbers, the one that it has the most of, if it has most of that and it is
-    free; or else as many as there are parts by then, or the next that nobody has.
+    A new part takes a previous number if it has most of the area that had this number and no part has it yet; of
+    several such numbers the one that it has the most area of. Otherwise it takes the number of parts there are at
+    that level, or the next that is not taken.
     """
-    area = decomposition.candidate_area[splits.order] + 1e-300
-    former = former[splits.order]
-    known = np.unique(former[former > 0])
-    code = np.where(former > 0, np.searchsorted(known, former), len(known))
+    area = decomposition.candidate_area[splits.order] + LEAST_AREA
+    previous_number = previous_number[splits.order]
+    known = np.unique(previous_number[previous_number > 0])
+    code = np.where(previous_number > 0, np.searchsorted(known, previous_number), len(known))
 
     def overlap(start, end):
         return np.bincount(code[start:end], area[start:end], len(known) + 1)[:-1]
@@ -267,118 +238,106 @@ def _born(decomposition, splits, former) -> tuple[np.ndarray, np.ndarray]:
         return count
 
     number, births = np.zeros(len(code), np.int64), []
-    for start, end in splits.root_runs.tolist():
+    for start, end in splits.root_intervals.tolist():
         births.append(give(start, end, len(births) + 1))
         number[start:end] = births[-1]
     counts = (decomposition.n_candidates - splits.merge).tolist()
-    for (start, middle, end), count in zip(splits.runs.tolist(), counts, strict=True):
+    for (start, middle, end), count in zip(splits.intervals.tolist(), counts, strict=True):
         sides = (start, middle), (middle, end)
-        held = np.flatnonzero(known == number[start])
-        weights = [(overlap(*side)[held].sum(), area[slice(*side)].sum()) for side in sides]
+        kept = np.flatnonzero(known == number[start])
+        weights = [(overlap(*side)[kept].sum(), area[slice(*side)].sum()) for side in sides]
         new = sides[1] if weights[0] >= weights[1] else sides[0]
         births.append(give(*new, count))
         number[slice(*new)] = births[-1]
     order = np.argsort(births)
-    rank = order[np.searchsorted(np.array(births)[order], number)]
+    birth_order = order[np.searchsorted(np.array(births)[order], number)]
     place = np.argsort(splits.order)
-    return _former_first(number[place], rank[place], former[place], known[free])
+    return _previous_first(number[place], birth_order[place], previous_number[place], known[free])
 
 
-def _former_first(own, rank, former, lost) -> tuple[np.ndarray, np.ndarray]:
-    """The same with former numbers born before all others, and those that no part had most of given, too."""
-    own, new = own.copy(), ~np.isin(own, former[former > 0])
-    for number in lost.tolist():
-        place = np.flatnonzero(new & (former == number))
-        if len(place):  # to the first that has a new one
-            place = place[rank[place].argmin()]
-            own[place], new[place] = number, False
-    return own, np.argsort(np.lexsort((rank, new)))
+def _previous_first(
+    number: np.ndarray, birth_order: np.ndarray, previous_number: np.ndarray, left_over: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Let previous numbers be born before all new ones, and give away those that are left over.
+
+    left_over : (l,) int64. Previous numbers that no part had most of. Each goes to the candidate that had it and
+    whose new number was born first.
+    """
+    number, new = number.copy(), ~np.isin(number, previous_number[previous_number > 0])
+    for previous in left_over.tolist():
+        place = np.flatnonzero(new & (previous_number == previous))
+        if len(place):
+            place = place[birth_order[place].argmin()]
+            number[place], new[place] = previous, False
+    return number, np.argsort(np.lexsort((birth_order, new)))
 
 
-def _around(own, rank, former, fixed) -> tuple[np.ndarray, np.ndarray]:
-    """The same where fixed parts have numbers of their own: new numbers make room for these."""
-    own, order = own.copy(), np.argsort(rank)
-    taken, known, last = set(fixed.tolist()), set(former.tolist()), 0
-    for candidate in order[~np.isin(own[order], former[former > 0])].tolist():
-        number = max(int(own[candidate]), last + 1)
-        while number in known or (number in taken and not fixed[candidate]):
-            number += 1
-        own[candidate] = last = number
-    # A number that a fixed part took away from its candidate: another one, born last.
-    lost = np.isin(own, fixed[fixed > 0]) & (own != fixed)
-    own[lost] = max(own.max(), fixed.max()) + 1 + np.arange(lost.sum())
-    return np.where(fixed > 0, fixed, own), np.argsort(order[np.argsort(lost[order], kind="stable")])
+def _make_room(
+    number: np.ndarray, birth_order: np.ndarray, previous_number: np.ndarray, pinned: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers and their order of birth with those of pinned parts kept for the pinned parts."""
+    number, order = number.copy(), np.argsort(birth_order)
+    taken, known, last = set(pinned.tolist()), set(previous_number.tolist()), 0
+    for candidate in order[~np.isin(number[order], previous_number[previous_number > 0])].tolist():
+        free = max(int(number[candidate]), last + 1)
+        while free in known or (free in taken and not pinned[candidate]):
+            free += 1
+        number[candidate] = last = free
+    # A candidate outside a pinned part that carries the part's number gets another one, born last.
+    robbed = np.isin(number, pinned[pinned > 0]) & (number != pinned)
+    number[robbed] = max(number.max(), pinned.max()) + 1 + np.arange(robbed.sum())
+    return np.where(pinned > 0, pinned, number), np.argsort(order[np.argsort(robbed[order], kind="stable")])
 
 
-def _graph(decomposition, splits, own, rank) -> NumberGraph:
-    """The numbers that touch at some level: those that a new part touches when it is born."""
-    own, rank = own[splits.order], rank[splits.order]
+def _number_graph(
+    decomposition: Decomposition, splits: Splits, candidate_number: np.ndarray, birth_order: np.ndarray
+) -> NumberGraph:
+    """Which numbers touch at some level: what touches later touches already when the later of both is born."""
+    own, born = candidate_number[splits.order], birth_order[splits.order]
     pairs = np.argsort(splits.order)[decomposition.candidate_pairs]
     number, found = np.zeros_like(own), []
 
-    def name(start, end):
-        number[start:end] = own[start + rank[start:end].argmin()]
+    def known_by(start, end):
+        number[start:end] = own[start + born[start:end].argmin()]
         return int(number[start])
 
-    def neighbours(born):
+    def add_neighbors(new):
         ends = number[pairs]
-        others = np.unique(ends[(ends == born).any(axis=1)])
-        found.append(np.stack([np.full(len(others), born), others], axis=1)[others != born])
+        others = np.unique(ends[(ends == new).any(axis=1)])
+        found.append(np.stack([np.full(len(others), new), others], axis=1)[others != new])
 
-    for born in [name(start, end) for start, end in splits.root_runs.tolist()]:
-        neighbours(born)
-    for start, middle, end in splits.runs.tolist():
+    for new in [known_by(start, end) for start, end in splits.root_intervals.tolist()]:
+        add_neighbors(new)
+    for start, middle, end in splits.intervals.tolist():
         kept = int(number[start])
-        neighbours(next(born for born in (name(start, middle), name(middle, end)) if born != kept))
+        add_neighbors(next(new for new in (known_by(start, middle), known_by(middle, end)) if new != kept))
     numbers = np.unique(own)
-    pairs = np.unique(np.sort(np.concatenate(found), axis=1), axis=0)
+    pairs, _ = distinct_pairs(*np.sort(np.concatenate(found), axis=1).T)
     return NumberGraph(numbers, np.searchsorted(numbers, pairs))
 
 
-def inherited(decomposition: Decomposition, detail: float, n_parts: int, former: np.ndarray,
-              fixed: np.ndarray) -> np.ndarray:
-    """Numbers for the parts of a new decomposition, by what its candidates were part of before.
+def inherited(
+    decomposition: Decomposition, detail: float, n_parts: int, previous_number: np.ndarray, pinned: np.ndarray
+) -> np.ndarray:
+    """Number the parts of a new decomposition by what its candidates were part of before.
 
     Parameters
     ----------
     decomposition : Decomposition
     detail, n_parts
-        As ``Numbering.parts``: the level at which numbers are given.
-    former, fixed : (c,) int64
-        The number that each candidate had, or is tied to; 0 for none. Numbers go where the most of them is,
-        see ``follow``.
+        The level at which numbers are given, as ``Numbering.parts`` takes it.
+    previous_number, pinned : (c,) int64
+        The number of the part that each candidate belonged to, or is pinned to; 0 for none. Each number goes to the
+        part that has the most of it, see ``follow``.
 
     Returns
     -------
     numbers : (c,) int64
-        Of the part of each candidate; ``former`` for ``Numbering.of``.
+        Of the part of each candidate; ``previous_number`` for ``Numbering.of``.
     """
-    level = Numbering.of(decomposition, np.zeros_like(former), fixed).parts(detail, n_parts)
+    level = Numbering.of(decomposition, np.zeros_like(previous_number), pinned).parts(detail, n_parts)
     part = decomposition.group(level.candidate_numbers).candidate_part
-    return follow(part, _without_held(former, fixed), decomposition.candidate_area + 1e-300)[part]
-
-
-def _without_held(former, fixed) -> np.ndarray:
-    """Former numbers, those of fixed parts where they are fixed and nowhere else."""
-    return np.where(fixed > 0, fixed, np.where(np.isin(former, fixed), 0, former))
-
-
-def _in_number_order(numbered: NumberedParts) -> NumberedParts:
-    """The same with labels in the order of the numbers."""
-    parts = numbered.parts
-    order = np.argsort(numbered.numbers, kind="stable")
-    place = np.empty_like(order)
-    place[order] = np.arange(len(order))
-    numbered = replace(numbered, numbers=numbered.numbers[order])
-    parts = replace(
-        parts,
-        labels=place[parts.labels],
-        vertex_labels=np.where(parts.vertex_labels >= 0, place[parts.vertex_labels], -1),
-        candidate_part=place[parts.candidate_part],
-        area=parts.area[order], share=parts.share[order],
-        cuts=np.sort(place[parts.cuts], axis=1).reshape(-1, 2),
-        colors=numbered.colors(),
-        node_part=place[parts.node_part], arc_part=place[parts.arc_part],
-        point_part=place[parts.point_part],
-    )
-    return replace(numbered, parts=parts)
+    # The number of a pinned part counts where candidates are pinned to it, and nowhere else.
+    elsewhere = np.where(np.isin(previous_number, pinned), 0, previous_number)
+    known = np.where(pinned > 0, pinned, elsewhere)
+    return follow(part, known, decomposition.candidate_area + LEAST_AREA)[part]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How parts come apart as the detail rises: one split after the other, around what is fixed."""
+"""How parts come apart as the detail rises: one split after the other, around pinned parts."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..cuts.hierarchy import Dendrogram
+from ..surface.arrays import renumbered
 from .decomposition import Decomposition
 
 
@@ -14,93 +16,80 @@ from .decomposition import Decomposition
 class Splits:
     """All levels of detail of a decomposition, from the coarsest on.
 
-    The candidates are in an order in which every part of every level is a run, so that a split is three
-    places: the first of one side, the first of the other, and the end.
+    With c candidates, r parts at the coarsest level and s splits:
 
     Attributes
     ----------
     order : (c,) int64
-        The candidate at each place.
-    root_runs : (r, 2) int64
+        The candidate at each place. Every part of every level is an interval of places.
+    root_intervals : (r, 2) int64
         Start and end of each of the coarsest parts.
-    runs : (s, 3) int64
-        Start, middle and end of each split, coarsest first.
+    intervals : (s, 3) int64
+        Start, middle and end of each split, coarsest first: it parts [start, middle) from [middle, end).
     merge : (s,) int64
-        The merge of the hierarchy that the split undoes, never rising.
+        The merge of the hierarchy that each split undoes; never rising.
     """
 
     order: np.ndarray
-    root_runs: np.ndarray
-    runs: np.ndarray
+    root_intervals: np.ndarray
+    intervals: np.ndarray
     merge: np.ndarray
 
     @classmethod
-    def of(cls, decomposition: Decomposition, fixed: np.ndarray) -> Splits:
-        """The splits of a hierarchy.
+    def of(cls, decomposition: Decomposition, pinned: np.ndarray) -> Splits:
+        """Read the splits off the hierarchy of a decomposition.
 
-        fixed : (c,) int64. Candidates of one number above 0 are one part at every level; the others are
-        parted as the hierarchy has it, in connected pieces. With 0 alone it is the hierarchy's own sequence.
+        Parameters
+        ----------
+        decomposition : Decomposition
+        pinned : (c,) int64
+            Candidates with the same number above 0 are one part at every level. The candidates with 0 are
+            split as the hierarchy says, and stay apart where a pinned part lies between them.
+
+        Returns
+        -------
+        splits : Splits
         """
-        count = decomposition.n_candidates
-        runs = [[candidate] for candidate in range(count)]
-        run_of = list(range(count))
-        joins = []
-        for a, b, merge in _joins(decomposition, fixed).tolist():
-            first, second = run_of[a], run_of[b]
-            if first == second:
-                continue
-            if merge >= 0:
-                joins.append((first, second, len(runs[second]), merge))
-            for candidate in runs[second]:
-                run_of[candidate] = first
-            runs[first] += runs[second]
-        roots = [runs[candidate] for candidate in range(count) if run_of[candidate] == candidate]
-        order = np.concatenate(roots).astype(np.int64)
-        place = np.empty(count, np.int64)
-        place[order] = np.arange(count)
-        start, middle, size, merge = np.array(joins, np.int64).reshape(-1, 4)[::-1].T
-        bounds = np.stack([place[start], place[middle], place[middle] + size], axis=1)
-        ends = np.cumsum([0, *(len(run) for run in roots)])
-        return cls(order, np.stack([ends[:-1], ends[1:]], axis=1), bounds, merge)
+        pairs, merge = _joins(decomposition, pinned)
+        tree = Dendrogram.of(decomposition.n_candidates, pairs)
+        merge = merge[tree.rows]
+        undone = np.flatnonzero(merge >= 0)[::-1]
+        return cls(tree.order, tree.roots, tree.joins[undone], merge[undone])
 
     @property
     def n_roots(self) -> int:
         """The fewest parts possible."""
-        return len(self.root_runs)
+        return len(self.root_intervals)
 
-    def done(self, decomposition: Decomposition, detail: float, n_parts: int = 0) -> int:
+    def n_done(self, decomposition: Decomposition, detail: float, n_parts: int = 0) -> int:
         """How many splits are done at a level of detail, or for an exact number of parts if that is not 0."""
         if n_parts:
-            return min(max(n_parts - self.n_roots, 0), len(self.runs))
+            return min(max(n_parts - self.n_roots, 0), len(self.intervals))
         merged = decomposition.n_candidates - decomposition.hierarchy.n_parts(detail)
         return int((self.merge >= merged).sum())
 
-
-    def parts(self, done: int) -> np.ndarray:
-        """The part of each candidate after some splits, (c,) int64, from 0."""
-        part = np.repeat(np.arange(self.n_roots), np.diff(self.root_runs, axis=1)[:, 0])
-        for index, (_, middle, end) in enumerate(self.runs[:done].tolist()):
+    def parts(self, n_done: int) -> np.ndarray:
+        """The part of each candidate after the first splits, (c,) int64, from 0."""
+        part = np.repeat(np.arange(self.n_roots), np.diff(self.root_intervals, axis=1)[:, 0])
+        for index, (_, middle, end) in enumerate(self.intervals[:n_done].tolist()):
             part[middle:end] = self.n_roots + index
         found = np.empty_like(part)
         found[self.order] = part
         return found
 
 
-def _joins(decomposition, fixed) -> np.ndarray:
-    """Candidates to be joined, weakest first, and the merge of the hierarchy that each stands for.
+def _joins(decomposition: Decomposition, pinned: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of candidates to be joined, weakest cut first, and the merge of the hierarchy that each stands for.
 
-    Returns
-    -------
-    joins : (k, 3) int64
-        Some join what is joined already. The merge is -1 between candidates of one fixed part.
+    Some pairs are joined already by earlier ones. The merge is -1 between candidates of one pinned part.
     """
     hierarchy, pairs, merge = decomposition.hierarchy, decomposition.candidate_pairs, decomposition.pair_merge
-    if not fixed.any():
-        return np.column_stack([hierarchy.merges, np.arange(len(hierarchy.merges))])
-    free = (fixed[pairs] == 0).all(axis=1) & (merge < len(hierarchy.merges))
-    joins = np.column_stack([pairs[free], merge[free]])
-    _, first, inverse = np.unique(fixed, return_index=True, return_inverse=True)
-    held = np.flatnonzero(fixed)
-    held = np.column_stack([first[inverse.reshape(-1)[held]], held, np.full(len(held), -1)])
-    joins = np.concatenate([held, joins])
-    return joins[np.argsort(joins[:, 2], kind="stable")]
+    if not pinned.any():
+        return hierarchy.merges, np.arange(len(hierarchy.merges))
+    free = (pinned[pairs] == 0).all(axis=1) & (merge < len(hierarchy.merges))
+    first = np.unique(pinned, return_index=True)[1][renumbered(pinned)[1]]
+    held = np.flatnonzero(pinned)
+    pairs = np.concatenate([np.stack([first[held], held], axis=1), pairs[free]])
+    merge = np.concatenate([np.full(len(held), -1), merge[free]])
+    order = np.argsort(merge, kind="stable")
+    return pairs[order], merge[order]

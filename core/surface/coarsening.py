@@ -7,10 +7,12 @@ searching paths on a coarse copy makes its cost nearly independent of the size o
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from .arrays import both_ways, sums_by
 from .mesh import TriMesh
 
 SMOOTHING_STEPS = 3  # rounds of averaging that close the seams between cells
@@ -67,7 +69,7 @@ def coarsen(
     of vertices or faces.
     """
     links = mesh.edges.vertices if links is None else links
-    a, b = np.concatenate([links, links[:, ::-1]]).T
+    a, b = both_ways(links).T
     order = np.argsort(a, kind="stable")
     a, b = a[order], b[order]
     length = np.linalg.norm(mesh.vertices[a] - mesh.vertices[b], axis=1)
@@ -84,6 +86,32 @@ def coarsen(
     between = np.unique(between[between[:, 0] != between[:, 1]], axis=0)
     return Coarsening(TriMesh(mesh.vertices[seed], faces[np.sort(once)]), between, links, owner,
                       np.bincount(owner, vertex_area, int(seed.sum())))
+
+
+class Pyramid:
+    """Coarser and coarser copies of one mesh, each made when it is first asked for and then kept.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        One connected component.
+    """
+
+    def __init__(self, mesh: TriMesh):
+        self.mesh = mesh
+        self._steps: list[Coarsening] = []
+
+    def until(self, coarse_enough: Callable[[TriMesh], bool]) -> list[Coarsening]:
+        """The steps from the mesh to the first copy that is coarse enough; none if the mesh itself is."""
+        chosen: list[Coarsening] = []
+        mesh = self.mesh
+        while not coarse_enough(mesh):
+            if len(chosen) == len(self._steps):
+                last = self._steps[-1] if self._steps else None
+                self._steps.append(coarsen(mesh, last.area, last.links) if last else coarsen(mesh, mesh.vertex_area))
+            chosen.append(self._steps[len(chosen)])
+            mesh = chosen[-1].mesh
+        return chosen
 
 
 def prolong(mesh: TriMesh, coarsening: Coarsening, values: np.ndarray) -> np.ndarray:
@@ -117,16 +145,16 @@ def prolong(mesh: TriMesh, coarsening: Coarsening, values: np.ndarray) -> np.nda
 
 
 def _gradients(mesh: TriMesh, links: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """(c, 3) least-squares gradient of the values over each vertex's linked neighbours."""
-    a, b = np.concatenate([links, links[:, ::-1]]).T
+    """(c, 3) least-squares gradient of the values over each vertex's linked neighbors."""
+    a, b = both_ways(links).T
     step = mesh.vertices[b] - mesh.vertices[a]
     rise = values[b] - values[a]
     weight = 1.0 / np.maximum((step**2).sum(axis=1), np.finfo(float).tiny)
     n = len(values)
-    normal = np.stack([np.bincount(a, weight * step[:, i] * step[:, j], n)
-                       for i in range(3) for j in range(3)], axis=1).reshape(n, 3, 3)
-    right = np.stack([np.bincount(a, weight * step[:, i] * rise, n) for i in range(3)], axis=1)
-    # A flat neighbourhood says nothing about the normal direction: damp it to zero.
+    weighted = weight[:, None] * step
+    normal = sums_by(a, (weighted[:, :, None] * step[:, None, :]).reshape(-1, 9), n).reshape(n, 3, 3)
+    right = sums_by(a, weighted * rise[:, None], n)
+    # A flat neighborhood says nothing about the normal direction: damp it to zero.
     damping = 1e-3 * np.trace(normal, axis1=1, axis2=2) + np.finfo(float).tiny
     return np.linalg.solve(normal + damping[:, None, None] * np.eye(3), right[:, :, None])[:, :, 0]
 

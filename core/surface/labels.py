@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the working copy back to the caller's faces and vertices."""
+"""Labels on faces: votes, boundaries, connectedness, and boundaries without saw teeth."""
 
 from __future__ import annotations
 
@@ -7,44 +7,115 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..cuts.hierarchy import Hierarchy
-from .mesh import components
+from .arrays import both_ways, components, distinct_pairs, last_of_each, sums_by
 
 
 def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners: int) -> np.ndarray:
-    """The label with the most weight in each owner; the smallest label of equals.
+    """Let weighted votes decide which label each owner gets.
 
     Parameters
     ----------
     owner, label : (r,) int64
-        Labels 0 or more.
+        Who the vote is for and which label it names; both 0 or more.
     weight : (r,) float64
+        What the vote counts.
     n_owners : int
 
     Returns
     -------
     winner : (n_owners,) int64
-        -1 for owners without a row.
+        The label with the most weight, the smallest of equals; -1 for an owner without a vote.
     """
-    n_labels = int(label.max(initial=0)) + 1
-    cell, where = np.unique(owner * np.int64(n_labels) + label, return_inverse=True)
-    total = np.bincount(where.reshape(-1), weight, len(cell))
-    of, name = np.divmod(cell, n_labels)
-    order = np.lexsort((-name, total, of))
-    winner = np.full(n_owners, -1)
-    winner[of[order]] = name[order]  # the last one written has the most weight
-    return winner
+    cells, cell = distinct_pairs(owner, label)
+    of, name = cells.T
+    last = last_of_each(of, sums_by(cell, weight, len(cells)), -name, count=n_owners)
+    return np.where(last >= 0, np.append(name, -1)[last], -1)
+
+
+def label_boundaries(
+    label: np.ndarray, pairs: np.ndarray, length: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Find which labels touch, and along what length.
+
+    Parameters
+    ----------
+    label : (n,) int64
+        Of each element; -1 for none.
+    pairs : (e, 2) int64
+        Elements that touch.
+    length : (e,) float64
+        Along which each pair touches.
+
+    Returns
+    -------
+    touching : (c, 2) int64
+        Labels, the smaller first, in lexicographic order.
+    total : (c,) float64
+        Length of their common boundary.
+    """
+    low, high = np.sort(label[pairs], axis=1).reshape(-1, 2).T
+    apart = (low != high) & (low >= 0)
+    touching, boundary = distinct_pairs(low[apart], high[apart])
+    return touching, sums_by(boundary, length[apart], len(touching))
+
+
+def longest_neighbor(touching: np.ndarray, length: np.ndarray, count: int) -> np.ndarray:
+    """Find the neighbor that each label shares its longest boundary with.
+
+    Parameters
+    ----------
+    touching : (c, 2) int64
+        Labels that touch, each pair once.
+    length : (c,) float64
+    count : int
+        Of labels.
+
+    Returns
+    -------
+    neighbor : (count,) int64
+        The smallest of equals; -1 for a label that touches no other.
+    """
+    label, other = both_ways(touching).T
+    last = last_of_each(label, np.concatenate([length, length]), -other, count=count)
+    return np.where(last >= 0, np.append(other, -1)[last], -1)
+
+
+def spread(label: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Give unlabelled elements the label of an element beside them, outwards from the labelled ones.
+
+    Parameters
+    ----------
+    label : (n,) int64
+        -1 for an element without a label.
+    a, b : (e,) int64
+        Element a may take the label of element b.
+
+    Returns
+    -------
+    label : (n,) int64
+        Still -1 where no label arrives.
+    """
+    label = label.copy()
+    unlabelled = label[a] < 0  # labelled elements keep what they have
+    a, b = a[unlabelled], b[unlabelled]
+    while True:
+        reached = (label[a] < 0) & (label[b] >= 0)
+        if not reached.any():
+            return label
+        label[a[reached]] = label[b[reached]]
 
 
 @dataclass(frozen=True, eq=False)
 class FaceGraph:
-    """Which faces of the caller touch, and along what length.
+    """Which faces touch, along what length, and how large they are.
 
     Attributes
     ----------
     n_faces : int
     pairs : (e, 2) int64
+        Faces that share an edge.
     length : (e,) float64
+        Of that edge.
     area : (n_faces,) float64
     """
 
@@ -58,72 +129,26 @@ class FaceGraph:
         return label_boundaries(label, self.pairs, self.length)
 
 
-def label_boundaries(
-    label: np.ndarray, pairs: np.ndarray, length: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Which labels touch, and along what length.
-
-    Parameters
-    ----------
-    label : (n,) int64
-        -1 for none.
-    pairs : (e, 2) int64
-        Elements that touch.
-    length : (e,) float64
-
-    Returns
-    -------
-    touching : (c, 2) int64
-        The smaller label first, in lexicographic order.
-    total : (c,) float64
-    """
-    low, high = np.sort(label[pairs], axis=1).reshape(-1, 2).T
-    apart = (low != high) & (low >= 0)
-    n = int(label.max(initial=0)) + 1
-    cell, where = np.unique(low[apart] * np.int64(n) + high[apart], return_inverse=True)
-    total = np.bincount(where.reshape(-1), length[apart], len(cell))
-    return np.stack(np.divmod(cell, n), axis=1), total
-
-
-def spread(label: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Give elements labelled -1 the label of an element beside them, outwards from the labelled.
-
-    Parameters
-    ----------
-    label : (n,) int64
-    a, b : (e,) int64
-        Element a may take the label of element b.
-
-    Returns
-    -------
-    label : (n,) int64
-        Still -1 where no label comes.
-    """
-    label = label.copy()
-    beside = label[a] < 0  # the others keep what they have
-    a, b = a[beside], b[beside]
-    while True:
-        reach = (label[a] < 0) & (label[b] >= 0)
-        if not reach.any():
-            return label
-        label[a[reach]] = label[b[reach]]
-
-
 def fill_unlabelled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
-    """Give faces labelled -1 the label of a neighbour, outwards from the labelled ones.
+    """Give faces labelled -1 the label of a neighbor; faces that touch no labelled face get label 0.
 
-    What touches no labelled face gets label 0.
+    label : (n_faces,) int64. Returns the same with no -1.
     """
-    label = spread(label, *np.concatenate([graph.pairs, graph.pairs[:, ::-1]]).T)
+    label = spread(label, *both_ways(graph.pairs).T)
     label[label < 0] = 0
     return label
 
 
-def connect(graph: FaceGraph, label: np.ndarray, min_faces: int = 1) -> np.ndarray:
+def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
     """Make every label one connected set of faces.
 
-    Of each label the component of most area keeps it; the others, and components of fewer than
-    ``min_faces`` faces, go to the neighbour along the longest boundary.
+    Of each label the component of most area keeps it; every other component joins the neighbor
+    along its longest boundary.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+    label : (n_faces,) int64
 
     Returns
     -------
@@ -135,18 +160,30 @@ def connect(graph: FaceGraph, label: np.ndarray, min_faces: int = 1) -> np.ndarr
         same = label[graph.pairs[:, 0]] == label[graph.pairs[:, 1]]
         count, part = components(graph.n_faces, *graph.pairs[same].T)
         area = np.bincount(part, graph.area, count)
-        size = np.bincount(part, minlength=count)
         name = np.empty(count, np.int64)
         name[part] = label
         order = np.lexsort((np.arange(count), -area, name))
         largest = np.append(True, name[order][1:] != name[order][:-1])
         stray = np.ones(count, bool)
         stray[order[largest]] = False
-        stray |= size < min_faces
-        goal = _best_neighbour(graph, part, area, stray)
+        goal = _goal_of_strays(graph, part, area, stray)
         if not (goal >= 0).any():
             return label
         label = name[np.where(goal >= 0, goal, np.arange(count))][part]
+
+
+def _goal_of_strays(graph: FaceGraph, part: np.ndarray, area: np.ndarray, stray: np.ndarray) -> np.ndarray:
+    """For each stray component, the neighbor it joins; -1 for the others.
+
+    Where two strays would join each other, only the smaller one does.
+    """
+    goal = np.where(stray, longest_neighbor(*graph.boundaries(part), len(area)), -1)
+    mover = np.flatnonzero(goal >= 0)
+    mutual = mover[goal[goal[mover]] == mover]
+    larger = mutual[(area[mutual] > area[goal[mutual]])
+                    | ((area[mutual] == area[goal[mutual]]) & (mutual < goal[mutual]))]
+    goal[larger] = -1
+    return goal
 
 
 def straighten(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
@@ -166,7 +203,7 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
     label : (n_faces,) int64
     """
     label = label.copy()
-    a, b = np.concatenate([graph.pairs, graph.pairs[:, ::-1]]).T
+    a, b = both_ways(graph.pairs).T
     length = np.concatenate([graph.length, graph.length])
     for _ in range(rounds):
         edge = label[a] != label[b]  # only faces at a boundary can gain
@@ -176,8 +213,9 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
         toward = other == best[owner]
         gain = np.bincount(owner[toward], weight[toward], graph.n_faces) - inside
         gain[best < 0] = 0.0
-        # A hair above rounding; of two neighbours that gain, the one that gains more goes.
+        # Below a billionth of the longest edge a gain is rounding.
         gain[gain <= 1e-9 * length.max(initial=0.0)] = 0.0
+        # Of two neighbors that gain, the one that gains more changes; of equals the one with the higher index.
         rank = np.empty(graph.n_faces, np.int64)
         rank[np.lexsort((np.arange(graph.n_faces), gain))] = np.arange(graph.n_faces)
         beaten = np.zeros(graph.n_faces, bool)
@@ -187,63 +225,3 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
             break
         label[flip] = best[flip]
     return label
-
-
-def _best_neighbour(graph, part, area, stray) -> np.ndarray:
-    """For each stray component, the neighbour it joins; -1 for the others.
-
-    Where two stray ones are each other's best, only the smaller moves.
-    """
-    boundary, length = graph.boundaries(part)
-    both = np.concatenate([boundary, boundary[:, ::-1]])
-    length = np.concatenate([length, length])
-    keep = stray[both[:, 0]]
-    both, length = both[keep], length[keep]
-    order = np.lexsort((-both[:, 1], length, both[:, 0]))
-    goal = np.full(len(area), -1)
-    goal[both[order, 0]] = both[order, 1]
-    mover = np.flatnonzero(goal >= 0)
-    mutual = mover[goal[goal[mover]] == mover]
-    larger = mutual[(area[mutual] > area[goal[mutual]])
-                    | ((area[mutual] == area[goal[mutual]]) & (mutual < goal[mutual]))]
-    goal[larger] = -1
-    return goal
-
-
-def settle(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -> tuple[np.ndarray, Hierarchy]:
-    """Candidates that exist on the caller's faces, and a hierarchy that only merges neighbours.
-
-    Parameters
-    ----------
-    graph : FaceGraph
-    label : (n_faces,) int64
-        Candidate of each face; each candidate connected.
-    hierarchy : Hierarchy
-        Of all candidates, present on faces or not.
-
-    Returns
-    -------
-    label : (n_faces,) int64
-        0..c-1, all present.
-    hierarchy : Hierarchy
-        Of the c candidates. Merges follow the given order; one whose two sides do not touch on
-        the caller's faces waits until they do.
-    """
-    present, label = np.unique(label, return_inverse=True)
-    label = label.reshape(-1)
-    touching, _ = graph.boundaries(label)
-    group = np.arange(hierarchy.n_candidates)  # merged by the hierarchy as given
-    joined = np.arange(len(present))  # merged on the faces
-    merges, salience = [], []
-    for (a, b), strength in zip(hierarchy.merges, hierarchy.salience, strict=True):
-        group[group == group[b]] = group[a]
-        together = group[present]
-        waiting = (together[touching[:, 0]] == together[touching[:, 1]]) & (
-            joined[touching[:, 0]] != joined[touching[:, 1]])
-        while waiting.any():
-            first, second = touching[waiting.argmax()]
-            merges.append((first, second))
-            salience.append(strength)
-            joined[joined == joined[second]] = joined[first]
-            waiting &= joined[touching[:, 0]] != joined[touching[:, 1]]
-    return label, Hierarchy.of(len(present), merges, salience)

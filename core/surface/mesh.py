@@ -3,23 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from ..errors import EmptyMeshError, MeshError
+from ..errors import MeshError
 from ..sentence import Sentence
-
-MIN_FACES = 4  # a closed surface has at least the four faces of a tetrahedron
-
-
-def frozen(array, dtype) -> np.ndarray:
-    """A read-only copy in C order."""
-    copy = np.array(array, dtype=dtype, order="C")
-    copy.flags.writeable = False
-    return copy
+from .arrays import components, frozen, renumbered
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,9 +177,8 @@ class TriMesh:
         vertex_index : (n',) int64
             For each of its vertices, the vertex of this mesh.
         """
-        faces = self.faces[face_mask]
-        vertex_index, inverse = np.unique(faces, return_inverse=True)
-        return TriMesh(self.vertices[vertex_index], inverse.reshape(faces.shape)), vertex_index
+        vertex_index, faces = renumbered(self.faces[face_mask])
+        return TriMesh(self.vertices[vertex_index], faces), vertex_index
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,133 +230,3 @@ class EdgeTable:
             pairs=frozen(np.stack([first, second], axis=1)[distinct], np.int64),
             pair_edge=frozen(edge_sorted[1:][together][distinct], np.int64),
         )
-
-
-def first_largest(values: np.ndarray) -> int:
-    """Index of the largest value; the first of those that differ from it by rounding only.
-
-    On a symmetric shape two sides are equally far from its middle. Their last bit depends on
-    the processor and on where the shape stands, the order of the vertices does not.
-    """
-    return int((values >= (1 - 1e-9) * values.max()).argmax())
-
-
-def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
-    """Connected components of n elements joined by the pairs (a, b).
-
-    Returns
-    -------
-    count : int
-    label : (n,) int64
-        0..count-1, numbered by each component's lowest element, so that the numbering does
-        not depend on the library.
-    """
-    # Not above: Blender's panel reads stored parts also where SciPy is missing, to say that it is.
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    graph = coo_array((np.ones(len(a), np.int8), (a, b)), shape=(n, n))
-    count, label = connected_components(graph, directed=False)
-    first = np.full(count, n, np.int64)
-    np.minimum.at(first, label, np.arange(n))
-    rank = np.empty(count, np.int64)
-    rank[np.argsort(first, kind="stable")] = np.arange(count)
-    return count, rank[label]
-
-
-@dataclass(frozen=True, eq=False)
-class PolygonMesh:
-    """What the caller gave: polygons, cut into triangles.
-
-    Attributes
-    ----------
-    triangles : TriMesh
-        All of the caller's vertices; triangles of the polygons.
-    polygon : (m,) int64
-        The polygon each triangle belongs to.
-    n_polygons : int
-    """
-
-    triangles: TriMesh
-    polygon: np.ndarray
-    n_polygons: int
-
-    @classmethod
-    def of(cls, vertices, faces, polygon=None) -> PolygonMesh:
-        """Read triangles, quads or polygons.
-
-        Parameters
-        ----------
-        vertices : (n, 3) array_like
-        faces : (m, k) array_like of int, or a sequence of index sequences
-            Polygons are cut into the fan of their first corner.
-        polygon : (m,) array_like of int, optional
-            Only for triangles: the caller's own triangulation of polygons, as the
-            polygon of each triangle.
-
-        Raises
-        ------
-        MeshError
-            Not a mesh (shapes, indices, values).
-        EmptyMeshError
-            Fewer than four faces, or no area.
-        """
-        if polygon is None:
-            faces, polygon, n_polygons = _fan(faces)
-        else:
-            faces = np.asarray(faces)
-            polygon = frozen(polygon, np.int64)
-            if polygon.shape != (len(faces),) or (polygon < 0).any():
-                raise MeshError(Sentence(
-                    "Polygon numbers must be {n} whole numbers from 0, one per triangle.",
-                    n=len(faces)))
-            n_polygons = int(polygon.max(initial=-1)) + 1
-        if n_polygons == 0:
-            raise EmptyMeshError(
-                Sentence("The mesh has no faces. Add some, or choose another object."))
-        mesh = cls(TriMesh(vertices, faces), frozen(polygon, np.int64), n_polygons)
-        mesh._check_size()
-        return mesh
-
-    def _check_size(self):
-        if self.n_polygons < MIN_FACES:
-            raise EmptyMeshError(
-                Sentence(
-                    "The mesh has only {n} of the {least} faces that the smallest solid has. "
-                    "Choose a larger mesh.",
-                    n=self.n_polygons, least=MIN_FACES),
-                faces=np.arange(self.n_polygons),
-            )
-        used = np.zeros(self.triangles.n_vertices, bool)
-        used[self.triangles.faces] = True
-        extent = np.ptp(self.triangles.vertices[used], axis=0).max()
-        # Below the rounding error of the coordinates an area is noise.
-        if not self.triangles.area > 1e-14 * extent**2:
-            raise EmptyMeshError(Sentence(
-                "All {n} faces have zero area. Check the scale of the object.", n=self.n_polygons))
-
-
-def _fan(faces) -> tuple[np.ndarray, np.ndarray, int]:
-    """Triangles of polygons, the polygon of each, and how many polygons there are."""
-    if not isinstance(faces, np.ndarray) and isinstance(faces, Sequence) and len(faces):
-        sizes = np.array([len(face) for face in faces], np.int64)
-        flat = np.concatenate([np.asarray(face) for face in faces])
-    else:
-        faces = np.asarray(faces)
-        if faces.size == 0:
-            return np.empty((0, 3), np.int64), np.empty(0, np.int64), 0
-        if faces.ndim != 2:
-            raise MeshError(
-                Sentence("Faces must have shape (m, corners), not {shape}.", shape=faces.shape))
-        sizes = np.full(len(faces), faces.shape[1], np.int64)
-        flat = faces.ravel()
-    if (sizes < 3).any():
-        bad = np.flatnonzero(sizes < 3)
-        raise MeshError(
-            Sentence("{n} faces have fewer than three corners.", n=len(bad)), faces=bad)
-    start = np.cumsum(sizes) - sizes
-    polygon = np.repeat(np.arange(len(sizes)), sizes - 2)
-    step = np.arange(len(polygon)) - np.repeat(np.cumsum(sizes - 2) - (sizes - 2), sizes - 2)
-    first = start[polygon]
-    corners = np.stack([first, first + step + 1, first + step + 2], axis=1)
-    return flat[corners], polygon, len(sizes)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The working copy: the caller's surface, repaired and refined until a field can live on it.
 
-The paper triangulates and regularises first (section 3). Labels found on the copy go back
+The paper triangulates and regularizes first (section 3). Labels found on the copy go back
 to the caller's own faces and vertices, which are never touched: ``polygon`` and
 ``vertex_source`` are the way back.
 """
@@ -13,7 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..sentence import Sentence
-from .mesh import PolygonMesh, TriMesh, components, frozen
+from .arrays import components, distinct_pairs, frozen
+from .mesh import TriMesh
+from .polygons import MIN_FACES, PolygonMesh
 
 # No edge of the copy is longer than this share of the square root of the component's area:
 # half the radius of a base vertex's disc, so that a field of its own fits into every disc.
@@ -48,6 +50,53 @@ class WorkingMesh:
     notes: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, eq=False)
+class Component:
+    """One connected component of the working mesh, its long edges split.
+
+    Attributes
+    ----------
+    faces : (k,) int64
+        Its faces in the working mesh.
+    mesh : TriMesh
+        m faces and n vertices.
+    polygon : (m,) int64
+        The caller's face that each triangle lies in.
+    vertex_source : (n,) int64
+        The caller's vertex of each vertex, -1 for one that splitting added.
+    """
+
+    faces: np.ndarray
+    mesh: TriMesh
+    polygon: np.ndarray
+    vertex_source: np.ndarray
+
+    @classmethod
+    def of(cls, working: WorkingMesh, label: int) -> Component:
+        """Cut out the component with a label of ``working.mesh.face_components`` and split its long edges."""
+        mask = working.mesh.face_components[1] == label
+        mesh, index = (working.mesh, slice(None)) if mask.all() else working.mesh.submesh(mask)
+        source = working.vertex_source[index]
+        fine, parent = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area))
+        added = np.full(fine.n_vertices - len(source), -1)
+        faces = np.flatnonzero(mask)
+        return cls(faces, fine, working.polygon[faces][parent], np.concatenate([source, added]))
+
+
+def components_worth_cutting(working: WorkingMesh, loose_part: float) -> list[int]:
+    """Labels of the components that are decomposed: large enough, and with faces enough for parts.
+
+    loose_part : float. Least share of the whole area.
+    """
+    count, component = working.mesh.face_components
+    area = np.bincount(component, working.mesh.face_area, count)
+    pairs, _ = distinct_pairs(component, working.polygon)
+    n_polygons = np.bincount(pairs[:, 0], minlength=count)
+    # A component a million times smaller in length than the largest one is rounding of its coordinates.
+    large = (area >= max(loose_part * area.sum(), 1e-12 * area.max())) & (n_polygons >= MIN_FACES)
+    return np.flatnonzero(large).tolist()
+
+
 def repair(given: PolygonMesh) -> WorkingMesh:
     """Copy the caller's mesh without what would break the field.
 
@@ -67,7 +116,7 @@ def repair(given: PolygonMesh) -> WorkingMesh:
                        _notes(given) + note_joined + note_turned)
 
 
-def refine(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndarray]:
+def split_long_edges(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndarray]:
     """Split edges at their middle until none is longer than ``max_length``.
 
     Conforming: a split edge is split for all its faces, so no gaps appear. The shape of the
@@ -166,7 +215,7 @@ def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
 
 
 def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
-    """Turn faces so that neighbours agree, and closed components enclose a positive volume."""
+    """Turn faces so that neighbors agree, and closed components enclose a positive volume."""
     pairs, edge = mesh.edges.pairs, mesh.edges.pair_edge
     same_way = _edge_direction(mesh, pairs[:, 0], edge) == _edge_direction(mesh, pairs[:, 1], edge)
     flip = np.zeros(mesh.n_faces, bool)
@@ -181,8 +230,8 @@ def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
         flip = orientable & (sheet[:m] > sheet[m:])
     count, component = mesh.face_components
     sign = np.where(flip, -1.0, 1.0)
-    centre = mesh.vertices.mean(axis=0)  # near the origin, where volumes do not cancel
-    volume = sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - centre)
+    center = mesh.vertices.mean(axis=0)  # near the origin, where volumes do not cancel
+    volume = sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - center)
     as_given = np.bincount(component, sign * mesh.face_area, count)
     borders = mesh.edges.n_faces[mesh.edges.face_edges] == 1
     closed = np.bincount(component, borders.any(axis=1), count) == 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A bone for each part, from where it is joined to the body along its centre line to its end."""
+"""A bone for each part, from where it is joined to the body along its center line to its end."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
+
+from ..surface.arrays import distinct_pairs, sums_by
 
 # A bone shorter than this share of the mesh's extent would have no direction to speak of.
 _SHORTEST = 0.01
@@ -51,7 +53,7 @@ def part_bones(
     cut_center : (e, 3) float64
     cut_length : (e,) float64
     points : (r, 3) float64
-        On the centre lines.
+        On the center lines.
     point_part : (r,) int64
 
     Returns
@@ -61,7 +63,7 @@ def part_bones(
     count = int(labels.max()) + 1
     weight = np.maximum(area, 1e-12 * max(area.sum(), 1e-300))
     share = np.bincount(labels, weight, count)
-    middle = np.stack([np.bincount(labels, weight * axis, count) for axis in center.T], axis=1) / share[:, None]
+    middle = sums_by(labels, weight[:, None] * center, count) / share[:, None]
     pairs, joint, length = _joints(cut_parts, cut_center, cut_length)
     parent, order = _tree(count, pairs, length, np.bincount(labels, weight * height, count) / share)
     at = {(a, b): place for (a, b), place in zip(pairs.tolist(), joint, strict=True)}
@@ -84,11 +86,10 @@ def part_bones(
 
 def _joints(cut_parts, cut_center, cut_length):
     """The pairs of parts that touch, the middle of what they have in common, and its length."""
-    pairs, which = np.unique(cut_parts, axis=0, return_inverse=True)
-    which = which.reshape(-1)
+    pairs, which = distinct_pairs(*cut_parts.T)
     weight = np.maximum(cut_length, 1e-300)
     length = np.bincount(which, weight, len(pairs))
-    joint = np.stack([np.bincount(which, weight * axis, len(pairs)) for axis in cut_center.T], axis=1)
+    joint = sums_by(which, weight[:, None] * cut_center, len(pairs))
     return pairs, joint / np.maximum(length, 1e-300)[:, None], length
 
 
@@ -110,7 +111,7 @@ def _tree(count, pairs, length, height):
 
 
 def _end(head, children, line, middle, is_root):
-    """Where a bone ends: at its only child, amid several, or at the far end of its centre line."""
+    """Where a bone ends: at its only child, amid several, or at the far end of its center line."""
     if len(children) == 1:
         return children[0]
     if len(children) and not is_root:

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colours for parts: told apart by colour-blind people, and never alike at a cut."""
+"""Colors for parts: told apart by color-blind people, and never alike at a cut."""
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
+from ..result.numbering import NumberedParts, NumberGraph
+from ..surface.arrays import frozen
+
 # Okabe & Ito's palette without black, then Paul Tol's muted scheme, as sRGB bytes: both made
-# to stay distinct under the common kinds of colour blindness. Tol's colours are in the order in which
+# to stay distinct under the common kinds of color blindness. Tol's colors are in the order in which
 # each differs most from those before it, so that a model of ten parts has no two that look alike.
 PALETTE = np.array([
     (86, 180, 233), (230, 159, 0), (0, 158, 115), (204, 121, 167), (240, 228, 66),
@@ -14,15 +19,15 @@ PALETTE = np.array([
     (17, 119, 51), (136, 204, 238), (170, 68, 153), (68, 170, 153), (204, 102, 119),
 ]) / 255.0
 
-# Kelly (1965), colours of maximum contrast, without black, white and grey; bright, but not all of
-# them are told apart by colour-blind people.
+# Kelly (1965), colors of maximum contrast, without black, white and grey; bright, but not all of
+# them are told apart by color-blind people.
 _KELLY = np.array([
     (0, 103, 165), (243, 195, 0), (190, 0, 50), (141, 182, 0), (135, 86, 146), (243, 132, 0),
     (161, 202, 241), (0, 136, 86), (230, 143, 172), (136, 45, 23), (220, 211, 0), (96, 78, 151),
     (249, 147, 121), (179, 68, 108), (101, 69, 34), (194, 178, 128),
 ]) / 255.0
 
-#: What parts can be coloured with: a name, and (c, 3) sRGB, 0..1.
+#: What parts can be colored with: a name, and (c, 3) sRGB, 0..1.
 PALETTES = {
     "Colour-blind safe": PALETTE,
     "Pastel": 0.5 + 0.5 * PALETTE,
@@ -37,43 +42,43 @@ _DEFICIENCIES = np.array([
 
 
 def distance_matrix(colors: np.ndarray = PALETTE) -> np.ndarray:
-    """(c, c) smallest difference of two colours over normal, protan and deutan vision."""
+    """(c, c) smallest difference of two colors over normal, protan and deutan vision."""
     linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
     views = [linear] + [linear @ m.T for m in _DEFICIENCIES]
     views = [np.cbrt(np.clip(view, 0.0, 1.0)) for view in views]  # about even to the eye
     return np.min([np.linalg.norm(v[:, None] - v[None], axis=2) for v in views], axis=0)
 
 
-def part_colors(count: int, neighbours: np.ndarray, palette: np.ndarray = PALETTE) -> np.ndarray:
-    """One colour per part; each new part takes what differs most from its neighbours.
+def part_colors(count: int, neighbors: np.ndarray, palette: np.ndarray = PALETTE) -> np.ndarray:
+    """One color per part; each new part takes what differs most from its neighbors.
 
     Parameters
     ----------
     count : int
-    neighbours : (e, 2) int64
+    neighbors : (e, 2) int64
         Pairs of parts that touch.
     palette : (c, 3) float64
-        Colours to choose from.
+        Colors to choose from.
 
     Returns
     -------
     colors : (count, 3) float64
         sRGB, 0..1. The first c parts differ all; later ones repeat, but not beside each other.
     """
-    return palette[chosen_colors(count, neighbours, palette)]
+    return palette[chosen_colors(count, neighbors, palette)]
 
 
 def chosen_colors(
-    count: int, neighbours: np.ndarray, palette: np.ndarray, wanted: np.ndarray | None = None
+    count: int, neighbors: np.ndarray, palette: np.ndarray, wanted: np.ndarray | None = None
 ) -> np.ndarray:
-    """Which colour of the palette each part has; see ``part_colors``.
+    """Which color of the palette each part has; see ``part_colors``.
 
     Parameters
     ----------
-    count, neighbours, palette
+    count, neighbors, palette
         As in ``part_colors``.
     wanted : (count,) int64, optional
-        Which colour each part is to have unless a neighbour has it; -1 for any.
+        Which color each part is to have unless a neighbor has it; -1 for any.
 
     Returns
     -------
@@ -83,7 +88,7 @@ def chosen_colors(
     chosen = np.full(count, -1)
     used = np.zeros(len(palette), np.int64)
     around = [[] for _ in range(count)]
-    for a, b in neighbours.tolist():
+    for a, b in neighbors.tolist():
         around[a].append(b)
         around[b].append(a)
     for part in range(count):
@@ -92,8 +97,39 @@ def chosen_colors(
         if wanted is not None and wanted[part] >= 0 and room[wanted[part]] > 0:
             chosen[part] = wanted[part]
         else:
-            # Least used first, then clearly unlike the neighbours, then palette order.
+            # Least used first, then clearly unlike the neighbors, then palette order.
             rank = np.lexsort((np.arange(len(palette)), -np.minimum(room, 0.25), used + 99 * (room == 0)))
             chosen[part] = rank[0]
         used[chosen[part]] += 1
     return chosen
+
+
+def number_colors(numbered: NumberedParts, palette: np.ndarray = PALETTE) -> np.ndarray:
+    """One color per part, the same at every level of detail, and never that of a part it touches at some level.
+
+    Changes by hand change no other part's color unless they make two parts of one color touch.
+
+    Parameters
+    ----------
+    numbered : NumberedParts
+    palette : (c, 3) float64
+        Colors to choose from.
+
+    Returns
+    -------
+    colors : (count, 3) float64
+        sRGB, 0..1.
+    """
+    chosen = _chosen_by_number(numbered.graph, palette.tobytes())
+    return palette[chosen[np.searchsorted(numbered.graph.numbers, numbered.numbers)]]
+
+
+@lru_cache(16)
+def _chosen_by_number(graph: NumberGraph, palette_bytes: bytes) -> np.ndarray:
+    """(k,) int64, place in the palette of each number; kept, as all levels of detail share one graph."""
+    palette = np.frombuffer(palette_bytes).reshape(-1, 3)
+    wanted = None
+    if graph.unpinned is not None:
+        before = _chosen_by_number(graph.unpinned, palette_bytes)
+        wanted = np.where(graph.unpinned_index >= 0, before[graph.unpinned_index], -1)
+    return frozen(chosen_colors(len(graph.numbers), graph.pairs, palette, wanted), np.int64)

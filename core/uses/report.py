@@ -11,6 +11,7 @@ import scipy
 
 from ..graph.critical import KINDS
 from ..result.decomposition import VERSION, Decomposition, Parts
+from .colors import part_colors
 
 SCHEMA_VERSION = 1
 
@@ -40,6 +41,7 @@ def report(
     *,
     numbers=None,
     names=None,
+    colors=None,
     boxes=None,
     transform=None,
     labels: bool = False,
@@ -55,6 +57,8 @@ def report(
         Of the object or file.
     numbers, names : (count,) sequences, optional
         Of the parts, if they are not numbered from 1 and named by number.
+    colors : (count, 3) array_like, optional
+        sRGB, 0..1; see ``part_colors`` without.
     boxes : (count, 2, 3) array_like, optional
         Lowest and highest corner of each part, see ``bounding_boxes``; null without.
     transform : (4, 4) array_like, optional
@@ -68,7 +72,7 @@ def report(
         "vertices": decomposition.n_vertices,
         "faces": decomposition.n_faces,
         "area": float(parts.area.sum()),
-        "parts": _parts(parts, numbers, names, boxes),
+        "parts": _parts(parts, numbers, names, colors, boxes),
         "cuts": [{"parts": pair, "length": length, "salience": salience}
                  for pair, length, salience in zip(parts.cuts.tolist(), parts.cut_length.tolist(),
                                                    parts.cut_salience.tolist(), strict=True)],
@@ -102,9 +106,10 @@ def bounding_boxes(labels, points, count: int) -> np.ndarray:
     return boxes
 
 
-def _parts(parts, numbers, names, boxes) -> list[dict]:
+def _parts(parts, numbers, names, colors, boxes) -> list[dict]:
     numbers = range(1, parts.count + 1) if numbers is None else numbers
     names = parts.names if names is None else names
+    colors = part_colors(parts.count, parts.cuts) if colors is None else np.asarray(colors)
     faces = np.bincount(parts.labels, minlength=parts.count)
     beside = [[] for _ in range(parts.count)]
     for a, b in parts.cuts.tolist():
@@ -118,7 +123,7 @@ def _parts(parts, numbers, names, boxes) -> list[dict]:
             "faces": int(faces[index]),
             "area": float(parts.area[index]),
             "share": float(parts.share[index]),
-            "color": parts.colors[index].tolist(),
+            "color": colors[index].tolist(),
             "bounding_box": None if boxes is None else np.asarray(boxes)[index].tolist(),
             "neighbours": sorted(beside[index]),
         }

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
-from ...core.uses.colors import PALETTE, PALETTES
+from ...core.uses.colors import PALETTE, PALETTES, number_colors
 from .. import bridge, store
 from . import vertex_groups
 
@@ -149,7 +149,7 @@ def _list_parts(mesh, numbered) -> list:
 
 def palette_colors(mesh, numbered: NumberedParts) -> np.ndarray:
     """The colour of each part from the mesh's palette, (count, 3) float64 sRGB."""
-    return numbered.colors(PALETTES.get(mesh.reeb_parts.palette, PALETTE))
+    return number_colors(numbered, PALETTES.get(mesh.reeb_parts.palette, PALETTE))
 
 
 def _colors(mesh, numbered) -> np.ndarray:

@@ -9,7 +9,8 @@ import pytest
 import shapes
 
 from core import PRESETS, Cancelled, EmptyMeshError, MeshError, Parameters, TriMesh, decompose
-from core.surface.mesh import components
+from core.surface.arrays import components
+from core.uses.colors import part_colors
 
 PAPER = "Berretti 2009"
 # What a user would read in Blender's console is an error here.
@@ -54,7 +55,8 @@ def assert_sound(result, n_faces, n_vertices, pairs):
         assert parts.share.sum() == pytest.approx(1)
         a, b = parts.cuts.T
         assert (a < b).all()
-        assert (parts.colors[a] != parts.colors[b]).any(axis=1).all()
+        colors = part_colors(parts.count, parts.cuts)
+        assert (colors[a] != colors[b]).any(axis=1).all()
         touching = np.sort(parts.labels[pairs[~same]], axis=1)
         assert {tuple(t) for t in touching.tolist()} == {tuple(c) for c in parts.cuts.tolist()}
         assert ((parts.cut_salience >= 0) & (parts.cut_salience <= 1)).all()
@@ -118,10 +120,10 @@ def test_models(name, preset):
 def test_a_tree_of_tubes_is_cut_where_its_branches_are(preset):
     shape = model("tree")
     labels = known("tree", preset).parts().labels
-    centre = shape.vertices[shape.faces].mean(axis=1)
-    tips = [labels[np.linalg.norm(centre - tip, axis=1).argmin()] for tip in shapes.TREE_TIPS]
+    center = shape.vertices[shape.faces].mean(axis=1)
+    tips = [labels[np.linalg.norm(center - tip, axis=1).argmin()] for tip in shapes.TREE_TIPS]
     assert len(set(tips)) == 4
-    assert len(set(tips) - {labels[np.linalg.norm(centre, axis=1).argmin()]}) == 4
+    assert len(set(tips) - {labels[np.linalg.norm(center, axis=1).argmin()]}) == 4
 
 
 def test_a_dumbbell_is_cut_in_two_at_its_neck(preset):
@@ -139,8 +141,8 @@ def test_amphora_has_two_loops_and_handles_of_their_own(preset):
     result = sound_triangles(shape, preset)
     assert result.graph.n_loops == 2
     labels = result.parts().labels
-    centre = shape.vertices[shape.faces].mean(axis=1)
-    at = [labels[np.linalg.norm(centre - p, axis=1).argmin()]
+    center = shape.vertices[shape.faces].mean(axis=1)
+    at = [labels[np.linalg.norm(center - p, axis=1).argmin()]
           for p in ((0.99, 0, 1.1), (-0.99, 0, 1.1), (0, 0.8, 0), (0, 0.46, -1.5))]
     assert len(set(at[:3])) == 3  # two handles and a body
     assert at[3] not in at[:2]
@@ -263,11 +265,11 @@ def test_prism_of_long_quads(preset):
     result = decompose(vertices, polygons, parameters=preset)
     assert_sound(result, 10, 16, polygon_pairs(polygons))
     assert result.graph.n_loops == 0
-    centre = result.graph.point_position
+    center = result.graph.point_position
     # Near the lowest value a contour need not go round yet.
-    middle = (np.abs(centre[:, 2] - 4) < 3) & (result.graph.point_value > 0.05)
+    middle = (np.abs(center[:, 2] - 4) < 3) & (result.graph.point_value > 0.05)
     assert middle.sum() > 20
-    np.testing.assert_allclose(centre[middle, :2], 0, atol=0.08)
+    np.testing.assert_allclose(center[middle, :2], 0, atol=0.08)
     # Two ends and a middle: lowest half way up, highest at both ends.
     high = result.graph.node_position[result.graph.node_value > 0.9][:, 2]
     assert high.min() < 0.5
@@ -353,7 +355,7 @@ def test_vertices_of_no_face(preset):
     np.testing.assert_array_equal(known("tree", preset).parts().labels, result.parts().labels)
 
 
-def test_zero_area_faces_follow_a_neighbour(preset):
+def test_zero_area_faces_follow_a_neighbor(preset):
     shape = shapes.with_flat_faces(shapes.tube_tree())
     result = sound_triangles(shape, preset)
     assert noted(result, "10 faces have zero area")
@@ -535,7 +537,7 @@ def test_values_of_the_graph_are_those_of_the_field(equalise):
     at = np.linalg.norm(vertices[None] - graph.node_position[tips][:, None], axis=2).argmin(axis=1)
     # A tip may be a vertex of the finer working copy, between the caller's.
     np.testing.assert_allclose(graph.node_value[tips], result.field[at], atol=0.015)
-    # Along the branches, before their round ends, the centre points lie as high as the surface around them.
+    # Along the branches, before their round ends, the center points lie as high as the surface around them.
     length = np.linalg.norm(graph.point_position, axis=1)
     along = graph.point_position @ (shapes.TREE_TIPS / np.linalg.norm(shapes.TREE_TIPS, axis=1)[:, None]).T
     reach = np.linalg.norm(shapes.TREE_TIPS, axis=1)[along.argmax(axis=1)]

@@ -9,8 +9,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import depth_first_order
 
 from ...graph.level_sets import LevelSets
-from ...graph.reeb import ReebStructure
-from ...surface.mesh import components
+from ...graph.reeb import ReebTopology
+from ...surface.arrays import components, renumbered
 
 SAMPLES = 128  # points along a boundary; finer than any sigma in the range of parameters
 # A boundary as concave as a circle of its own radius is worth a move over a tenth of the range
@@ -32,8 +32,7 @@ def contour_curve(sets: LevelSets, contour: int) -> tuple[np.ndarray, np.ndarray
         False for a contour that ends at borders.
     """
     segments = np.flatnonzero(sets.segment_contour == contour)
-    edge, local = np.unique(sets.segment_edges[segments], return_inverse=True)
-    local = local.reshape(-1, 2)
+    edge, local = renumbered(sets.segment_edges[segments])
     degree = np.bincount(local.ravel())
     n = len(edge)
     graph = coo_array((np.ones(len(local), np.int8), tuple(local.T)), shape=(n, n)).tocsr()
@@ -49,7 +48,7 @@ def contour_curve(sets: LevelSets, contour: int) -> tuple[np.ndarray, np.ndarray
 def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) -> float:
     """E_concave of a contour, eq. (9), without unit.
 
-    k_min is sampled along the curve, smoothed by a Gaussian over its normalised arc length, and
+    k_min is sampled along the curve, smoothed by a Gaussian over its normalized arc length, and
     its minimum is taken times the radius of a circle as long as the curve. The paper leaves the
     scale of k_min open: CREASE_WORTH and MAX_WORTH are ours (docs/method.md, section 4).
 
@@ -87,7 +86,7 @@ def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) ->
 
 def search_boundaries(
     sets: LevelSets,
-    structure: ReebStructure,
+    topology: ReebTopology,
     k_min: np.ndarray,
     piece_region: np.ndarray,
     alpha: float,
@@ -102,7 +101,7 @@ def search_boundaries(
     ----------
     sets : LevelSets
         P pieces.
-    structure : ReebStructure
+    topology : ReebTopology
         Simplified: its arcs say how far a cut may go.
     k_min : (n,) float64
     piece_region : (P,) int64
@@ -117,11 +116,11 @@ def search_boundaries(
         With the pieces between the old and the new place of each cut relabelled.
     """
     lower, upper = piece_region[sets.contour_pieces].T
-    cuts = np.flatnonzero((lower != upper) & (structure.contour_arc >= 0))
-    link = _links(sets, structure)
+    cuts = np.flatnonzero((lower != upper) & (topology.contour_arc >= 0))
+    link = _links(sets, topology)
     moved = piece_region.copy()
     energies: dict[int, float] = {}
-    for cut, run in _search_runs(sets, structure, cuts):
+    for cut, run in _search_runs(sets, topology, cuts):
         value = sets.levels[sets.contour_level[run]]
         for contour in run.tolist():
             if contour not in energies:
@@ -139,17 +138,17 @@ def search_boundaries(
     return moved
 
 
-def _links(sets: LevelSets, structure: ReebStructure) -> np.ndarray:
+def _links(sets: LevelSets, topology: ReebTopology) -> np.ndarray:
     """(P,) the stretch between consecutive contours of the graph that each piece lies in."""
-    inner = sets.contour_pieces[structure.contour_arc < 0]
+    inner = sets.contour_pieces[topology.contour_arc < 0]
     return components(sets.n_pieces, *inner.T)[1]
 
 
-def _search_runs(sets: LevelSets, structure: ReebStructure, cuts: np.ndarray):
+def _search_runs(sets: LevelSets, topology: ReebTopology, cuts: np.ndarray):
     """For each cut, the contours of its arc it may move to, from low to high."""
-    order = np.lexsort((sets.contour_level, structure.contour_arc))
-    for arc in np.unique(structure.contour_arc[cuts]).tolist():
-        run = order[structure.contour_arc[order] == arc]
+    order = np.lexsort((sets.contour_level, topology.contour_arc))
+    for arc in np.unique(topology.contour_arc[cuts]).tolist():
+        run = order[topology.contour_arc[order] == arc]
         places = np.flatnonzero(np.isin(run, cuts))
         middles = (places[1:] + places[:-1]) // 2
         starts = np.append(0, middles + 1)

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ...surface.mesh import frozen
+from ...surface.arrays import frozen
 
 ROWS = 64  # at once: what they need stays in the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
-class Trees:
+class BoostedTrees:
     """A sum of regression trees, mapped to 0..1 by the logistic function.
 
     With T trees of at most L <= 16 leaves, numbered from left to right:
@@ -38,7 +38,7 @@ class Trees:
     leaf: np.ndarray
 
     @classmethod
-    def read(cls, path: Path) -> Trees:
+    def read(cls, path: Path) -> BoostedTrees:
         """From the arrays of an .npz file."""
         with np.load(path, allow_pickle=False) as stored:
             return cls(frozen(stored["feature"], np.int64), frozen(stored["threshold"], np.float32),
@@ -83,6 +83,6 @@ class Trees:
 
 
 @cache
-def cut_model() -> Trees:
+def cut_model() -> BoostedTrees:
     """The trees that judge cuts; benchmarks/train.py made them."""
-    return Trees.read(Path(__file__).parent / "cut_model.npz")
+    return BoostedTrees.read(Path(__file__).parent / "cut_model.npz")

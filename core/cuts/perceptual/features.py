@@ -12,17 +12,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array, diags_array
 
-from ...field.agd import ScalarField, equalise
+from ...field.agd import ScalarField, equalize
 from ...graph.level_sets import LevelSets
-from ...surface.mesh import TriMesh
+from ...surface.curvature import angle_defect, curvature_across
 from .thickness import LARGEST, thickness
 
-SCALES = (0.01, 0.02, 0.04)  # widths over which normals are smoothed
-MAX_CURVATURE = 60.0  # one over the radius; sharper is as sharp
-SOLVER_STEPS = 60
-MAX_CONDUCTANCE = 20.0  # edge length over the way across; an equilateral pair has 1.7
 CREASE = -3.0  # below this curvature a cut counts as creased
 THICKNESS_BINS = 8
 
@@ -41,7 +36,7 @@ REGION = Columns(area=1, centroid=3, spread=6, normal=3, normal_spread=6, level=
                  inside=1, inside2=1, outside=1, outside2=1, reach=1, contour=1, contour2=1,
                  gauss=1, inside_bins=THICKNESS_BINS)
 BORDER = Columns(length=1, curvature=3, hollow=3, creased=3, turn=1, level=1, agd=1, inside=1,
-                 outside=1, contour=1, centre=3, spread=1)
+                 outside=1, contour=1, center=3, spread=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +50,7 @@ class SurfaceMeasures:
     pair : (p, BORDER.width) float64
         Weighted by the length of the edge.
     level, agd : (m,) float64
-        Equalised AGD, 0..1, and the AGD above its minimum, relative to the surface.
+        Equalized AGD, 0..1, and the AGD above its minimum, relative to the surface.
     """
 
     face: np.ndarray
@@ -75,20 +70,20 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
         Its AGD.
     """
     mesh = sets.mesh
-    level = equalise(field.normalised, mesh.vertex_area)[mesh.faces].mean(axis=1)
+    level = equalize(field.normalized, mesh.vertex_area)[mesh.faces].mean(axis=1)
     unit = np.sqrt(mesh.area)
     agd = (field.agd[mesh.faces].mean(axis=1) - field.agd.min()) / unit
     inside, outside = (np.log(t / LARGEST) for t in thickness(mesh, agd))
     contour = np.log(_contour_length(sets))
     share = mesh.face_area / mesh.area
-    centre = (mesh.face_centroids - share @ mesh.face_centroids) / unit
+    center = (mesh.face_centroids - share @ mesh.face_centroids) / unit
     normal = mesh.face_normals
     face = np.column_stack([
-        np.ones(mesh.n_faces), centre, _products(centre), normal, _products(normal),
+        np.ones(mesh.n_faces), center, _products(center), normal, _products(normal),
         level, level**2, agd, inside, inside**2, outside, outside**2,
-        (centre * normal).sum(axis=1), contour, contour**2,
+        (center * normal).sum(axis=1), contour, contour**2,
     ]) * share[:, None]
-    face = np.column_stack([face, _gauss_curvature(mesh), _bins(inside) * share[:, None]])
+    face = np.column_stack([face, angle_defect(mesh), _bins(inside) * share[:, None]])
     curvature = curvature_across(mesh)
     a, b = mesh.edges.pairs.T
     middle = mesh.vertices[mesh.edges.vertices[mesh.edges.pair_edge]].mean(axis=1)
@@ -102,67 +97,6 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
     return SurfaceMeasures(face, pair, level, agd)
 
 
-def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.ndarray:
-    """Change of the smoothed normal across each pair of faces, per way.
-
-    Parameters
-    ----------
-    mesh : TriMesh
-    scales : tuple of float
-        Widths of the smoothing, in units of the square root of the area.
-
-    Returns
-    -------
-    curvature : (len(scales), p) float64
-        Dimensionless: times the square root of the area. Negative in concavities.
-    """
-    unit = np.sqrt(mesh.area)
-    a, b = mesh.edges.pairs.T
-    way = mesh.face_centroids[b] - mesh.face_centroids[a]
-    square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-12 * mesh.area)
-    exchange = _exchange(mesh)
-    normal, curvature = mesh.face_normals, []
-    for scale in scales:
-        normal = _diffuse(mesh, exchange, (scale * unit) ** 2, normal)
-        change = np.einsum("ij,ij->i", normal[b] - normal[a], way) / square * unit
-        curvature.append(np.clip(change, -MAX_CURVATURE, MAX_CURVATURE))
-    return np.array(curvature)
-
-
-def _exchange(mesh: TriMesh):
-    """Symmetric (m, m) conductances between faces: edge length over way."""
-    a, b = mesh.edges.pairs.T
-    flow = mesh.pair_length / np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
-    # A sliver exchanges with its neighbours in no time; bounded, or the solver would stall.
-    flow = np.minimum(flow, MAX_CONDUCTANCE)
-    both = (np.concatenate([a, b]), np.concatenate([b, a]))
-    return coo_array((np.concatenate([flow, flow]), both), shape=(mesh.n_faces,) * 2).tocsr()
-
-
-def _diffuse(mesh: TriMesh, exchange, time: float, guess: np.ndarray) -> np.ndarray:
-    """Unit normals after one implicit step of heat flow from face to face."""
-    mass = mesh.face_area + 1e-9 * mesh.area / mesh.n_faces
-    diagonal = mass + time * exchange.sum(axis=1)
-    system = diags_array(diagonal).tocsr() - time * exchange
-    start, x = mass[:, None] * mesh.face_normals, guess
-    residual = start - system @ x
-    goal = 2e-3 * np.linalg.norm(start)
-    step = gradient = residual / diagonal[:, None]
-    power = np.vdot(residual, gradient)
-    # Conjugate gradients; the three coordinates as one unknown, so that turning changes nothing.
-    for _ in range(SOLVER_STEPS):
-        if np.linalg.norm(residual) <= goal:
-            break
-        image = system @ step
-        length = power / max(np.vdot(step, image), 1e-300)
-        x = x + length * step
-        residual = residual - length * image
-        gradient = residual / diagonal[:, None]
-        last, power = power, np.vdot(residual, gradient)
-        step = gradient + step * (power / max(last, 1e-300))
-    return x / np.maximum(np.linalg.norm(x, axis=1, keepdims=True), 1e-300)
-
-
 def _contour_length(sets: LevelSets) -> np.ndarray:
     """(m,) mean length of the contours that bound each face's pieces, relative to the surface."""
     pieces = sets.contour_pieces.T
@@ -174,20 +108,6 @@ def _contour_length(sets: LevelSets) -> np.ndarray:
     of_face = np.bincount(sets.element_face, area * length[sets.element_piece], sets.mesh.n_faces)
     of_face /= np.bincount(sets.element_face, area, sets.mesh.n_faces)
     return np.clip(of_face / np.sqrt(sets.mesh.area), 0.01, 20.0)
-
-
-def _gauss_curvature(mesh: TriMesh) -> np.ndarray:
-    """(m,) angle defect of the vertices, shared among their faces by angle."""
-    side = np.roll(mesh.corners, -1, axis=1) - mesh.corners
-    back = -np.roll(side, 1, axis=1)
-    sine = np.linalg.norm(np.cross(side, back), axis=2)
-    angle = np.arctan2(sine, (side * back).sum(axis=2))
-    total = np.bincount(mesh.faces.ravel(), angle.ravel(), mesh.n_vertices)
-    border = np.zeros(mesh.n_vertices, bool)
-    border[mesh.edges.vertices[mesh.edges.n_faces == 1]] = True
-    defect = np.where(border, np.pi, 2 * np.pi) - total
-    share = np.divide(defect, total, out=np.zeros_like(total), where=total > 0)
-    return (angle * share[mesh.faces]).sum(axis=1)
 
 
 def _bins(inside: np.ndarray) -> np.ndarray:
@@ -230,9 +150,9 @@ def region_shape(sums: np.ndarray, perimeter: np.ndarray, level_min, level_max) 
     area = np.maximum(sums[:, c.area], 1e-9)
     mean = sums / area[:, None]
     size = np.sqrt(area)
-    centre = mean[:, c.centroid]
+    center = mean[:, c.centroid]
     extent = np.sqrt(np.maximum(np.linalg.eigvalsh(
-        _matrices(mean[:, c.spread] - _products(centre))), 0.0))
+        _matrices(mean[:, c.spread] - _products(center))), 0.0))
     long = np.maximum(extent[:, 2], 1e-9)
     facing = np.linalg.eigvalsh(_matrices(mean[:, c.normal_spread]))
     inside, outside, contour, level = (mean[:, k] for k in (c.inside, c.outside, c.contour, c.level))
@@ -240,7 +160,7 @@ def region_shape(sums: np.ndarray, perimeter: np.ndarray, level_min, level_max) 
     def deviation(square, of):
         return np.sqrt(np.maximum(mean[:, square] - of**2, 0.0))
 
-    volume = (sums[:, c.reach] - (centre * sums[:, c.normal]).sum(axis=1)) / 3
+    volume = (sums[:, c.reach] - (center * sums[:, c.normal]).sum(axis=1)) / 3
     log_size = 0.5 * np.log(area)
     return np.stack([
         2 * log_size, perimeter / size, extent[:, 2] / size, extent[:, 1] / long,
@@ -266,14 +186,14 @@ FEATURES = (*CUT, *(f"small_{s}" for s in SHAPE), *(f"large_{s}" for s in SHAPE)
 
 
 @dataclass(frozen=True, eq=False)
-class Regions:
+class RegionMeasures:
     """Live regions and borders while they merge, as their sums.
 
     Attributes
     ----------
     sums : (r, REGION.width) float64
     level_min, level_max, agd_max, perimeter, degree : (r,) float64
-        Degree is the number of neighbours; perimeters leave out the borders of the surface.
+        Degree is the number of neighbors; perimeters leave out the borders of the surface.
     around : (r, BORDER.width) float64
         Sums over all borders of each region.
     shape : (r, len(SHAPE)) float64
@@ -292,12 +212,12 @@ class Regions:
     alive: np.ndarray
 
 
-def cut_features(regions: Regions, ends: np.ndarray, border: np.ndarray) -> np.ndarray:
+def cut_features(regions: RegionMeasures, ends: np.ndarray, border: np.ndarray) -> np.ndarray:
     """What the cut between two regions looks like.
 
     Parameters
     ----------
-    regions : Regions
+    regions : RegionMeasures
     ends : (k, 2) int64
         The two regions of each cut.
     border : (k, BORDER.width) float64
@@ -333,7 +253,7 @@ class _Side:
     other: np.ndarray  # means over the region's other borders
 
     @classmethod
-    def of(cls, regions: Regions, index: np.ndarray, border: np.ndarray) -> _Side:
+    def of(cls, regions: RegionMeasures, index: np.ndarray, border: np.ndarray) -> _Side:
         area = np.maximum(regions.sums[index, REGION.area], 1e-9)
         rest = regions.around[index] - border
         least = 1e-3 * border[:, BORDER.length] + 1e-12
@@ -346,7 +266,7 @@ def _cut_columns(regions, small, large, mean, length, union) -> list[np.ndarray]
     """The columns named CUT."""
     r, b = REGION, BORDER
     u = dict(zip(SHAPE, union.T, strict=True))
-    middle = mean[:, b.centre]
+    middle = mean[:, b.center]
     inside, outside, contour, level = (
         mean[:, k] for k in (b.inside, b.outside, b.contour, b.level))
     curvature, hollow = mean[:, b.curvature], mean[:, b.hollow]
@@ -381,7 +301,7 @@ def _cut_columns(regions, small, large, mean, length, union) -> list[np.ndarray]
     ]
 
 
-def _siblings(regions: Regions, shape: dict, small, large) -> np.ndarray:
+def _siblings(regions: RegionMeasures, shape: dict, small, large) -> np.ndarray:
     """How many other live regions are as large, as thick and as far out: legs have siblings."""
     live = np.flatnonzero(regions.alive)
     like = (live != small[:, None]) & (live != large[:, None])

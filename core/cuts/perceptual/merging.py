@@ -7,8 +7,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ...surface.arrays import distinct_pairs, sums_by
 from ...surface.mesh import TriMesh
-from .features import BORDER, Regions, SurfaceMeasures, cut_features, region_shape
+from .features import BORDER, RegionMeasures, SurfaceMeasures, cut_features, region_shape
 
 # So long as there are more regions than this, or cuts weaker than this, all regions merge at once
 # that are each other's weakest cut; then one at a time.
@@ -16,45 +17,44 @@ MANY_REGIONS = 60
 WEAK_CUT = 0.12
 WEAKEST_SHARE = 0.2
 
-Judge = Callable[["RegionGraph", np.ndarray], np.ndarray]
+Judge = Callable[["RegionAdjacencyGraph", np.ndarray], np.ndarray]
 
 
-class RegionGraph:
-    """Regions, the borders between them, and what is measured on both; merging changes it.
+class RegionAdjacencyGraph:
+    """RegionMeasures, the borders between them, and what is measured on both; merging changes it.
 
     Attributes
     ----------
-    regions : Regions
+    regions : RegionMeasures
         A merged region keeps the row of one of the two.
     ends : (b, 2) int64
         The two regions of each border.
     border : (b, BORDER.width) float64
-    neighbours : list of dict
-        For each region, border by neighbour.
+    neighbors : list of dict
+        For each region, border by neighbor.
     """
 
     def __init__(self, mesh: TriMesh, measures: SurfaceMeasures, label: np.ndarray):
         n = int(label.max()) + 1
         low, high = np.sort(label[mesh.edges.pairs], axis=1).T
         apart = low != high
-        key, where = np.unique(low[apart] * np.int64(n) + high[apart], return_inverse=True)
-        self.ends = np.stack(np.divmod(key, n), axis=1)
-        self.border = _sums(where.reshape(-1), measures.pair[apart], len(key))
-        around = sum(_sums(end, self.border, n) for end in self.ends.T)
+        self.ends, border = distinct_pairs(low[apart], high[apart])
+        self.border = sums_by(border, measures.pair[apart], len(self.ends))
+        around = sum(sums_by(end, self.border, n) for end in self.ends.T)
         level_min, level_max = np.full(n, np.inf), np.full(n, -np.inf)
         np.minimum.at(level_min, label, measures.level)
         np.maximum.at(level_max, label, measures.level)
         agd_max = np.full(n, -np.inf)
         np.maximum.at(agd_max, label, measures.agd)
-        sums = _sums(label, measures.face, n)
+        sums = sums_by(label, measures.face, n)
         perimeter = around[:, BORDER.length].copy()
         degree = np.bincount(self.ends.ravel(), minlength=n).astype(float)
         shape = region_shape(sums, perimeter, level_min, level_max)
-        self.regions = Regions(sums, level_min, level_max, agd_max, perimeter, degree, around,
+        self.regions = RegionMeasures(sums, level_min, level_max, agd_max, perimeter, degree, around,
                                shape, np.ones(n, bool))
-        self.neighbours: list[dict[int, int]] = [{} for _ in range(n)]
+        self.neighbors: list[dict[int, int]] = [{} for _ in range(n)]
         for index, (a, b) in enumerate(self.ends.tolist()):
-            self.neighbours[a][b] = self.neighbours[b][a] = index
+            self.neighbors[a][b] = self.neighbors[b][a] = index
 
     @property
     def n_alive(self) -> int:
@@ -76,20 +76,20 @@ class RegionGraph:
         r.level_max[a] = max(r.level_max[a], r.level_max[b])
         r.agd_max[a] = max(r.agd_max[a], r.agd_max[b])
         r.alive[b] = False
-        del self.neighbours[a][b], self.neighbours[b][a]
+        del self.neighbors[a][b], self.neighbors[b][a]
         gone = [border]
-        for other, index in self.neighbours[b].items():
-            del self.neighbours[other][b]
-            kept = self.neighbours[a].get(other)
+        for other, index in self.neighbors[b].items():
+            del self.neighbors[other][b]
+            kept = self.neighbors[a].get(other)
             if kept is None:
                 self.ends[index] = (a, other)
-                self.neighbours[a][other] = self.neighbours[other][a] = index
+                self.neighbors[a][other] = self.neighbors[other][a] = index
             else:
                 self.border[kept] += self.border[index]
                 r.degree[other] -= 1
                 gone.append(index)
-        self.neighbours[b] = {}
-        r.degree[a] = len(self.neighbours[a])
+        self.neighbors[b] = {}
+        r.degree[a] = len(self.neighbors[a])
         return gone
 
     def measure_(self, changed: list[int]):
@@ -99,12 +99,12 @@ class RegionGraph:
                                         r.level_min[changed], r.level_max[changed])
 
 
-def merge_all_(graph: RegionGraph, judge: Judge) -> tuple[np.ndarray, np.ndarray]:
+def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, np.ndarray]:
     """Merge until every region is alone; changes the graph.
 
     Parameters
     ----------
-    graph : RegionGraph
+    graph : RegionAdjacencyGraph
         c regions of one connected surface.
     judge : callable
         judge(graph, borders) gives the salience of some borders, 0..1.
@@ -128,7 +128,7 @@ def merge_all_(graph: RegionGraph, judge: Judge) -> tuple[np.ndarray, np.ndarray
             strength[gone] = np.inf
             region = int(merges[-1][0])
             grown.append(region)
-            again.update(graph.neighbours[region].values())
+            again.update(graph.neighbors[region].values())
             again.difference_update(gone)
         graph.measure_(grown)
         if again:
@@ -137,7 +137,7 @@ def merge_all_(graph: RegionGraph, judge: Judge) -> tuple[np.ndarray, np.ndarray
     return np.reshape(merges, (-1, 2)).astype(np.int64), np.array(salience, float)
 
 
-def _next(graph: RegionGraph, strength: np.ndarray, n_regions: int) -> list[int]:
+def _next(graph: RegionAdjacencyGraph, strength: np.ndarray, n_regions: int) -> list[int]:
     """Borders that may merge together, weakest first: no region twice."""
     weakest = int(strength.argmin())
     if n_regions <= MANY_REGIONS and strength[weakest] >= WEAK_CUT:
@@ -155,8 +155,3 @@ def _next(graph: RegionGraph, strength: np.ndarray, n_regions: int) -> list[int]
     once = np.zeros(2 * len(chosen), bool)
     once[first] = True
     return chosen[once.reshape(-1, 2).all(axis=1)].tolist()
-
-
-def _sums(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
-    """(count, k) sums of the rows of (n, k) values by index."""
-    return np.stack([np.bincount(index, column, count) for column in values.T], axis=1)

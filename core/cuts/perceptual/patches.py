@@ -8,19 +8,19 @@ concavity most: borders of patches come to lie in the concave creases where peop
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
 from ...graph.level_sets import LevelSets, cut_at_levels, uniform_levels
-from ...surface.labels import majority
-from ...surface.mesh import TriMesh, components, first_largest
+from ...surface.arrays import components, first_largest, last_of_each, renumbered, symmetric_matrix
+from ...surface.labels import label_boundaries, longest_neighbor, majority
+from ...surface.mesh import TriMesh
 
 N_PATCHES = 220
 ROUNDS = 3  # a third of the seeds are spread by straight distance, the others in so many rounds
 TURN = 0.1  # one radian of convex turning is as far as this share of the square root of the area
 CONCAVE = 20.0  # how much more a concave turn costs
 SLABS = 24  # where patches are to follow level sets
-SMALLEST = 0.0004  # share of the area below which a patch joins a neighbour
+SMALLEST = 0.0004  # share of the area below which a patch joins a neighbor
 
 
 def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
@@ -45,8 +45,8 @@ def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
         distance, _, cell = dijkstra(
             distances, directed=True, indices=seeds, min_only=True, return_predecessors=True)
         # The farthest face of each of the widest cells becomes a seed.
-        order = np.lexsort((np.arange(len(cell)), -distance, cell))
-        farthest = order[np.append(True, cell[order][1:] != cell[order][:-1])]
+        numbers, cell_number = renumbered(cell)
+        farthest = last_of_each(cell_number, distance, -np.arange(len(cell)), count=len(numbers))
         widest = farthest[np.argsort(-distance[farthest], kind="stable")][:more]
         seeds = np.concatenate([seeds, np.setdiff1d(widest, seeds)])
     return absorb_small(mesh, _connected(mesh, cell), SMALLEST * mesh.area)
@@ -61,7 +61,7 @@ def level_set_patches(sets: LevelSets) -> np.ndarray:
 
 
 def absorb_small(mesh: TriMesh, label: np.ndarray, least_area: float) -> np.ndarray:
-    """Let regions below an area join the neighbour along the longest border.
+    """Let regions below an area join the neighbor along the longest border.
 
     Parameters
     ----------
@@ -77,7 +77,8 @@ def absorb_small(mesh: TriMesh, label: np.ndarray, least_area: float) -> np.ndar
     """
     while True:
         area = np.bincount(label, mesh.face_area)
-        goal = _best_neighbour(mesh, label, area)
+        goal = longest_neighbor(*label_boundaries(label, mesh.edges.pairs, mesh.pair_length), len(area))
+        goal = np.where(goal >= 0, goal, np.arange(len(area)))
         # Only into the larger one, so that no two swap.
         larger = (area[goal] > area) | ((area[goal] == area) & (goal > np.arange(len(area))))
         goal = np.where((area < least_area) & larger, goal, np.arange(len(area)))
@@ -85,44 +86,25 @@ def absorb_small(mesh: TriMesh, label: np.ndarray, least_area: float) -> np.ndar
             return label
         while (goal[goal] != goal).any():
             goal = goal[goal]
-        label = np.unique(goal[label], return_inverse=True)[1].reshape(-1)
-
-
-def _best_neighbour(mesh: TriMesh, label: np.ndarray, area: np.ndarray) -> np.ndarray:
-    """The neighbour along the longest border of each region; itself if it has none."""
-    a, b = label[mesh.edges.pairs.T]
-    apart = a != b
-    n = len(area)
-    key = np.concatenate([a * np.int64(n) + b, b * np.int64(n) + a])[np.tile(apart, 2)]
-    cell, where = np.unique(key, return_inverse=True)
-    length = np.bincount(where.reshape(-1), np.tile(mesh.pair_length[apart], 2), len(cell))
-    of, neighbour = np.divmod(cell, n)
-    order = np.lexsort((-neighbour, length, of))
-    goal = np.arange(n)
-    goal[of[order]] = neighbour[order]  # the last one written has the longest border
-    return goal
+        label = renumbered(goal[label])[1]
 
 
 def _crease_graph(mesh: TriMesh):
     """Symmetric (m, m) lengths between faces: way plus turning, which add up along any path."""
     turn = mesh.dihedral
     length = mesh.pair_distance / np.sqrt(mesh.area) + TURN * np.where(turn < 0, -CONCAVE * turn, turn)
-    a, b = mesh.edges.pairs.T
-    both = (np.concatenate([a, b]), np.concatenate([b, a]))
-    shape = (mesh.n_faces, mesh.n_faces)
     # A stored zero would read as "no edge".
-    length = np.maximum(np.concatenate([length, length]), 1e-9)
-    return coo_array((length, both), shape=shape).tocsr()
+    return symmetric_matrix(mesh.edges.pairs, np.maximum(length, 1e-9), mesh.n_faces)
 
 
 def _first_seeds(mesh: TriMesh, count: int) -> np.ndarray:
     """Faces far from each other in a straight line."""
-    centre = mesh.face_centroids
-    middle = mesh.face_area @ centre / mesh.area
-    seeds = [first_largest(((centre - middle) ** 2).sum(axis=1))]
+    center = mesh.face_centroids
+    middle = mesh.face_area @ center / mesh.area
+    seeds = [first_largest(((center - middle) ** 2).sum(axis=1))]
     nearest = np.full(mesh.n_faces, np.inf)
     while len(seeds) < min(count, mesh.n_faces):
-        nearest = np.minimum(nearest, ((centre - centre[seeds[-1]]) ** 2).sum(axis=1))
+        nearest = np.minimum(nearest, ((center - center[seeds[-1]]) ** 2).sum(axis=1))
         farthest = first_largest(nearest)
         if nearest[farthest] <= 0:
             break

@@ -14,9 +14,9 @@ from ...surface.mesh import TriMesh
 
 LARGEST = 0.2  # of the square root of the area: a wider ball tells nothing about a part
 N_SURFACE = 12_000  # points that stand for the surface
-N_PROBES = 2_500  # faces that are measured; the others take their neighbours' mean
+N_PROBES = 2_500  # faces that are measured; the others take their neighbors' mean
 STEPS = 12
-# A ball that touches two points closer than this angle, seen from its centre, rests on a bump.
+# A ball that touches two points closer than this angle, seen from its center, rests on a bump.
 SEPARATION = np.cos(np.deg2rad(50.0))
 
 
@@ -37,16 +37,16 @@ def thickness(mesh: TriMesh, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]
         In units of the square root of the area, at most ``LARGEST``.
     """
     unit = np.sqrt(mesh.area)
-    centre, normal = mesh.face_centroids / unit, mesh.face_normals
-    surface = centre[_spread(mesh.face_area, order, N_SURFACE)]
+    center, normal = mesh.face_centroids / unit, mesh.face_normals
+    surface = center[_spread(mesh.face_area, order, N_SURFACE)]
     probe = _spread(mesh.face_area, order, N_PROBES)
     tree = cKDTree(surface)
     # Normals tell the two sides of a thin wall apart.
-    place = np.hstack([centre, 0.05 * normal])
+    place = np.hstack([center, 0.05 * normal])
     _, near = cKDTree(place[probe]).query(place, k=min(3, len(probe)))
     near = near.reshape(len(place), -1)
     return tuple(
-        np.exp(np.log(_ball_radius(tree, centre[probe], side * normal[probe]))[near].mean(axis=1))
+        np.exp(np.log(_ball_radius(tree, center[probe], side * normal[probe]))[near].mean(axis=1))
         for side in (-1.0, 1.0))
 
 
@@ -59,13 +59,13 @@ def _spread(area: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:
 
 
 def _ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Radius of the empty ball that touches each point, its centre in the given direction."""
+    """Radius of the empty ball that touches each point, its center in the given direction."""
     radius = np.full(len(point), LARGEST)
     active = np.arange(len(point))
     for _ in range(STEPS):
         p, d = point[active], direction[active]
-        centre = p + radius[active, None] * d
-        distance, nearest = tree.query(centre)
+        center = p + radius[active, None] * d
+        distance, nearest = tree.query(center)
         offset = tree.data[nearest] - p
         height = (offset * d).sum(axis=1)
         smaller = (offset**2).sum(axis=1) / np.maximum(2 * height, 1e-12)
@@ -78,8 +78,8 @@ def _ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray) -> np.
     return np.maximum(radius, 1e-3 * LARGEST)
 
 
-def _cosine(point, offset, to_centre) -> np.ndarray:
-    """Cosine of the angle between a point and another, seen from the centre of a ball."""
-    a, b = -to_centre, offset - to_centre
+def _cosine(point, offset, to_center) -> np.ndarray:
+    """Cosine of the angle between a point and another, seen from the center of a ball."""
+    a, b = -to_center, offset - to_center
     length = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
     return (a * b).sum(axis=1) / np.maximum(length, 1e-300)

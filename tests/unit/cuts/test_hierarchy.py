@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from core.cuts.hierarchy import Hierarchy
+from core.cuts.hierarchy import Dendrogram, Hierarchy
 
 
 def random_hierarchy(rng, n=30, loose=1):
@@ -38,7 +38,7 @@ def test_by_hand():
     # Cuts of salience 1 - detail and above stay.
     assert [hierarchy.n_parts(d) for d in (0, 0.05, 0.1, 0.5, 0.6, 0.8, 0.9, 1)] == [1, 1, 2, 2, 3, 4, 4, 4]
     a, b = np.array([(2, 3), (0, 1), (0, 3), (1, 2)]).T
-    assert hierarchy.cut_salience(a, b).tolist() == [0.2, 0.4, 0.9, 0.9]
+    assert hierarchy.merge_of(a, b).tolist() == [0, 1, 2, 2]
 
 
 def test_detail_in_decimal_tenths_meets_salience_in_tenths():
@@ -73,16 +73,14 @@ def test_salience_never_falls_and_detail_never_merges(hierarchy):
         assert (hierarchy.salience[kept:] >= 1 - detail - 1e-9).all()
 
 
-def test_cut_salience_is_that_of_the_level_that_joins(hierarchy):
+def test_the_merge_of_a_pair_is_the_first_level_that_joins_it(hierarchy):
     a, b = (x.ravel() for x in np.meshgrid(*[np.arange(hierarchy.n_candidates)] * 2))
-    salience = hierarchy.cut_salience(a, b)
-    np.testing.assert_allclose(salience, hierarchy.cut_salience(b, a))
-    for n in range(hierarchy.n_loose, hierarchy.n_candidates):
-        merged_by_then = hierarchy.parts(n)[a] == hierarchy.parts(n)[b]
-        last = hierarchy.salience[hierarchy.n_candidates - n - 1]
-        assert (salience[merged_by_then & (a != b)] <= last).all()
-    never = hierarchy.parts(1)[a] != hierarchy.parts(1)[b]
-    assert (salience[never] == 1).all()
+    a, b = a[a != b], b[a != b]
+    merge = hierarchy.merge_of(a, b)
+    np.testing.assert_array_equal(merge, hierarchy.merge_of(b, a))
+    for n in range(hierarchy.n_loose, hierarchy.n_candidates + 1):
+        part = hierarchy.parts(n)
+        np.testing.assert_array_equal(part[a] == part[b], merge < hierarchy.n_candidates - n)
 
 
 def test_salience_becomes_its_running_maximum_within_zero_and_one():
@@ -112,3 +110,14 @@ def test_one_candidate():
     assert hierarchy.n_parts(0) == hierarchy.n_parts(1) == 1
     assert hierarchy.parts(5).tolist() == [0]
     assert Hierarchy.join([hierarchy, hierarchy]).parts(1).tolist() == [0, 1]
+
+
+def test_dendrogram_by_hand():
+    """2-0 and 3-1 join, 0-2 is joined already, 1-2 joins all but 4."""
+    tree = Dendrogram.of(5, np.array([(2, 0), (3, 1), (0, 2), (1, 2)]))
+    assert tree.order.tolist() == [3, 1, 2, 0, 4]
+    assert tree.roots.tolist() == [[0, 4], [4, 5]]
+    assert tree.joins.tolist() == [[2, 3, 4], [0, 1, 2], [0, 2, 4]]
+    assert tree.rows.tolist() == [0, 1, 3]
+    never = np.iinfo(np.int64).max
+    assert tree.row_of(np.array([0, 3, 0, 4]), np.array([2, 1, 3, 0])).tolist() == [0, 1, 3, never]

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.cuts.minimum_cut import refine_cuts
+from core.cuts.minimum_cut import minimum_cuts
 from core.surface.mesh import TriMesh
 
 
@@ -23,14 +23,14 @@ def ragged_grid(n=24):
 
 def test_saw_teeth_become_a_straight_line():
     mesh, part = ragged_grid()
-    moved = refine_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.5)
+    moved = minimum_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.5)
     assert border_length(mesh, moved) < 0.6 * border_length(mesh, part)
     assert border_length(mesh, moved) == pytest.approx(24, rel=0.1)
 
 
 def test_nothing_moves_without_reach():
     mesh, part = ragged_grid()
-    assert (refine_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.0) == part).all()
+    assert (minimum_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.0) == part).all()
 
 
 def test_a_cut_falls_into_the_crease_beside_it():
@@ -41,7 +41,7 @@ def test_a_cut_falls_into_the_crease_beside_it():
     part = (x > n / 2).astype(np.int64)
     a, b = mesh.edges.pairs.T
     crease = (x[a] > n / 2 + 1) != (x[b] > n / 2 + 1)
-    moved = refine_cuts(mesh, np.where(crease, -30.0, 0.0), part, 0.5)
+    moved = minimum_cuts(mesh, np.where(crease, -30.0, 0.0), part, 0.5)
     assert (moved == (x > n / 2 + 1)).all()
 
 
@@ -49,6 +49,6 @@ def test_cuts_between_coarser_parts_stay():
     mesh, part = ragged_grid()
     y = mesh.face_centroids[:, 1]
     finer = part + 2 * (y > 10 + np.where(np.floor(mesh.face_centroids[:, 0]) % 2 > 0, 1, 0))
-    moved = refine_cuts(mesh, np.zeros(len(mesh.edges.pairs)), finer, 0.5, part)
+    moved = minimum_cuts(mesh, np.zeros(len(mesh.edges.pairs)), finer, 0.5, part)
     assert (moved % 2 == part).all()
     assert border_length(mesh, moved) < border_length(mesh, finer)

@@ -11,11 +11,12 @@ from core.field.agd import (
     agd_field,
     average_geodesic_distance,
     coarse_agd,
-    equalise,
-    normalise,
+    equalize,
+    normalize,
     spread_base_vertices,
 )
 from core.field.geodesic import GeodesicSolver
+from core.surface.coarsening import Pyramid
 from core.surface.mesh import TriMesh
 
 
@@ -91,18 +92,18 @@ def test_agd_scales_with_the_mesh(scale):
     np.testing.assert_allclose(other, scale * agd, rtol=1e-5)
 
 
-def test_normalise():
-    assert normalise(np.array([2.0, 4.0, 3.0])).tolist() == [0, 1, 0.5]
-    assert normalise(np.array([5.0, 5.0, 5.0 + 1e-9])).tolist() == [0, 0, 0]
-    assert normalise(np.zeros(3)).tolist() == [0, 0, 0]
+def test_normalize():
+    assert normalize(np.array([2.0, 4.0, 3.0])).tolist() == [0, 1, 0.5]
+    assert normalize(np.array([5.0, 5.0, 5.0 + 1e-9])).tolist() == [0, 0, 0]
+    assert normalize(np.zeros(3)).tolist() == [0, 0, 0]
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_equalise_is_monotone_with_ends_zero_and_one(seed):
+def test_equalize_is_monotone_with_ends_zero_and_one(seed):
     rng = np.random.default_rng(seed)
-    values = normalise(rng.beta(0.4, 3, size=500))
+    values = normalize(rng.beta(0.4, 3, size=500))
     weights = rng.random(500)
-    result = equalise(values, weights)
+    result = equalize(values, weights)
     order = values.argsort()
     assert (np.diff(result[order])[np.diff(values[order]) > 0] > 0).all()
     assert result.min() == 0
@@ -113,25 +114,25 @@ def test_equalise_is_monotone_with_ends_zero_and_one(seed):
         assert np.interp(border, values[order], result[order]) == pytest.approx(expected, abs=0.01)
 
 
-def test_equalise_of_even_values_changes_nothing():
+def test_equalize_of_even_values_changes_nothing():
     values = np.linspace(0, 1, 10_001)
-    np.testing.assert_allclose(equalise(values, np.ones(10_001)), values, atol=2e-4)
+    np.testing.assert_allclose(equalize(values, np.ones(10_001)), values, atol=2e-4)
 
 
-def test_equalise_counts_area_not_vertices():
-    # All weight low: the equalised field rises there and is nearly flat above.
+def test_equalize_counts_area_not_vertices():
+    # All weight low: the equalized field rises there and is nearly flat above.
     values = np.linspace(0, 1, 1001)
-    result = equalise(values, np.where(values < 0.1, 1.0, 1e-9))
+    result = equalize(values, np.where(values < 0.1, 1.0, 1e-9))
     assert result[100] == pytest.approx(1, abs=1e-3)
-    assert equalise(np.zeros(5), np.ones(5)).tolist() == [0] * 5
+    assert equalize(np.zeros(5), np.ones(5)).tolist() == [0] * 5
 
 
 def test_field_keeps_what_it_is_made_of():
     mesh = TriMesh(*shapes.tube_tree(3, step=0.2))
     agd = average_geodesic_distance(base_of(mesh)[0])
     plain, even = agd_field(mesh, agd, False), agd_field(mesh, agd, True)
-    np.testing.assert_array_equal(plain.values, plain.normalised)
-    np.testing.assert_array_equal(even.normalised, plain.normalised)
+    np.testing.assert_array_equal(plain.values, plain.normalized)
+    np.testing.assert_array_equal(even.normalized, plain.normalized)
     np.testing.assert_array_equal(np.argsort(even.values, kind="stable"), np.argsort(agd, kind="stable"))
     for share in (0.1, 0.5, 0.9):
         assert mesh.vertex_area[even.values <= share].sum() / mesh.area == pytest.approx(share, abs=0.02)
@@ -142,9 +143,9 @@ def test_field_of_a_dense_mesh_is_that_of_the_mesh_itself():
     mesh = TriMesh(*shapes.tube_tree(4, step=0.027))
     assert mesh.n_vertices > FIELD_VERTICES
     radius = np.sqrt(0.02 * mesh.area)
-    fast = coarse_agd(mesh, radius)
+    fast = coarse_agd(Pyramid(mesh), radius)
     base = spread_base_vertices(mesh, GeodesicSolver(mesh), mesh.vertex_area, radius)
     exact = average_geodesic_distance(base)
-    error = normalise(fast) - normalise(exact)
+    error = normalize(fast) - normalize(exact)
     assert np.abs(error).max() < 0.04
     assert np.sqrt((error**2).mean()) < 0.01

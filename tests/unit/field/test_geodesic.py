@@ -43,7 +43,7 @@ def test_no_line_where_it_would_leave_the_surface():
 
 def test_plane_exactly():
     # Edges and lines across pairs run along (1,0), (2,1), (1,1), (1,2), (0,1) and (1,-1): the
-    # length of a vector is the shortest way to put it together from two neighbouring ones.
+    # length of a vector is the shortest way to put it together from two neighboring ones.
     n = 12
     mesh = TriMesh(*shapes.flat_grid(2 * n, 2 * n))
     distance = GeodesicSolver(mesh).distances(n * (2 * n + 1) + n)

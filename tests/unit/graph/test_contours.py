@@ -6,8 +6,8 @@ import pytest
 import shapes
 
 from core.graph.contours import contour_sides, contours
+from core.surface.arrays import components
 from core.surface.labels import FaceGraph
-from core.surface.mesh import components
 
 
 class Surface:
@@ -93,7 +93,7 @@ def test_a_cut_at_one_branch_leaves_the_other_branches_alone(tree):
     found = tree.contours(1.2)
     assert found.count == 4
     for tip in shapes.TREE_TIPS:
-        # Where the branch's centre line is 1.2 from the middle.
+        # Where the branch's center line is 1.2 from the middle.
         chosen = found.around(1.2 * tip / np.linalg.norm(tip))
         side = tree.sides(1.2, found, chosen)
         center = tree.vertices[tree.faces].mean(axis=1)

@@ -51,7 +51,7 @@ def test_a_constant_field_has_one_minimum_and_one_maximum_on_a_sphere():
     # the octahedron 0-1 and 2-3 are opposite, so 1 touches 2, 3, 4, 5 and not 0.
     mesh = TriMesh(*shapes.octahedron())
     points = points_of(mesh, np.zeros(6))
-    # 0 is lowest. 1 has no lower neighbour: a second minimum. 2 and 3 touch 0 and 1, which do
+    # 0 is lowest. 1 has no lower neighbor: a second minimum. 2 and 3 touch 0 and 1, which do
     # not touch: saddles. 4 and 5 are opposite and above all others: maxima.
     assert points.vertex.tolist() == [0, 1, 2, 3, 4, 5]
     assert points.kind.tolist() == [MINIMUM, MINIMUM, SADDLE, SADDLE, MAXIMUM, MAXIMUM]

@@ -6,7 +6,8 @@ import pytest
 import shapes
 
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.surface.mesh import TriMesh, components
+from core.surface.arrays import components
+from core.surface.mesh import TriMesh
 
 SURFACES = {
     **{f"genus {g}": (lambda g=g: shapes.surface_of_genus(g, 0.2)) for g in range(4)},
@@ -43,7 +44,7 @@ def test_one_triangle():
     assert sets.n_contours == 1
     assert sets.contour_pieces.tolist() == [[0, 1]]
     assert sets.contour_length == pytest.approx([np.sqrt(0.5)])
-    np.testing.assert_allclose(sets.contour_centre, [(0.25, 0.25, 0)])
+    np.testing.assert_allclose(sets.contour_center, [(0.25, 0.25, 0)])
     assert sorted(sets.segment_points[0].tolist()) == [[0, 0.5, 0], [0.5, 0, 0]]
     assert sets.vertex_piece.tolist() == [0, 1, 1]
 
@@ -63,7 +64,7 @@ def test_square_in_strips():
     assert sets.piece_area == pytest.approx([0.25] * 4)
     assert sets.contour_length == pytest.approx([1, 1, 1])
     order = sets.contour_level.argsort()
-    np.testing.assert_allclose(sets.contour_centre[order], [(0.25, 0.5, 0), (0.5, 0.5, 0), (0.75, 0.5, 0)])
+    np.testing.assert_allclose(sets.contour_center[order], [(0.25, 0.5, 0), (0.5, 0.5, 0), (0.75, 0.5, 0)])
     assert sets.piece_slab[sets.contour_pieces[order]].tolist() == [[0, 1], [1, 2], [2, 3]]
     assert sets.n_loops == 0
 
@@ -78,7 +79,7 @@ def test_octahedron_at_half_height():
     side = np.sqrt(3) / 2
     area = sets.piece_area[np.argsort(sets.piece_slab)]
     assert area == pytest.approx([4 * side / 4, 8 * side - 2 * side, 4 * side / 4])
-    np.testing.assert_allclose(np.sort(sets.contour_centre, axis=0), [(0, 0, -0.5), (0, 0, 0.5)], atol=1e-12)
+    np.testing.assert_allclose(np.sort(sets.contour_center, axis=0), [(0, 0, -0.5), (0, 0, 0.5)], atol=1e-12)
     np.testing.assert_allclose(sets.segment_length, np.sqrt(0.5))
     np.testing.assert_allclose(sets.contour_radius, np.sqrt(2) / 4)  # middles of the sides
 

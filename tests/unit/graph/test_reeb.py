@@ -7,16 +7,17 @@ import shapes
 
 from core.graph.critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.graph.reeb import ReebGraph, reeb_graph, reeb_structure
-from core.surface.mesh import TriMesh, components
+from core.graph.reeb import ReebGraph, reeb_graph, reeb_topology
+from core.surface.arrays import components
+from core.surface.mesh import TriMesh
 
 UNIT = 1e-9
 
 
 def graph_of(shape, values, levels):
     sets = cut_at_levels(TriMesh(*shape), np.asarray(values, float), np.asarray(levels, float))
-    structure = reeb_structure(sets)
-    return sets, structure, reeb_graph(sets, structure)
+    topology = reeb_topology(sets)
+    return sets, topology, reeb_graph(sets, topology)
 
 
 def along(shape, direction, n_slabs=60):
@@ -26,8 +27,8 @@ def along(shape, direction, n_slabs=60):
 
 def test_three_valleys_and_two_hills_by_hand():
     # Heights 0 1 0 1 0 along a strip, one level: every piece is a node, every contour an arc.
-    _, structure, graph = graph_of(shapes.flat_grid(4, 1), np.repeat([0, 1, 0, 1, 0], 2), [0.5])
-    assert structure.n_nodes == 5
+    _, topology, graph = graph_of(shapes.flat_grid(4, 1), np.repeat([0, 1, 0, 1, 0], 2), [0.5])
+    assert topology.n_nodes == 5
     assert sorted(graph.node_kind.tolist()) == [MINIMUM, MINIMUM, MINIMUM, MAXIMUM, MAXIMUM]
     assert graph.n_arcs == 4
     assert graph.n_loops == 0
@@ -39,8 +40,8 @@ def test_three_valleys_and_two_hills_by_hand():
 
 
 def test_square_in_strips_is_one_arc():
-    _, structure, graph = graph_of(shapes.flat_grid(1, 1), [0, 0, 1, 1], [0.25, 0.5, 0.75])
-    assert structure.n_nodes == 2
+    _, topology, graph = graph_of(shapes.flat_grid(1, 1), [0, 0, 1, 1], [0.25, 0.5, 0.75])
+    assert topology.n_nodes == 2
     assert graph.arcs.shape == (1, 2)
     assert graph.node_kind[graph.arcs[0]].tolist() == [MINIMUM, MAXIMUM]
     np.testing.assert_allclose(graph.point_position, [(x, 0.5, 0) for x in (0.25, 0.5, 0.75)])
@@ -86,7 +87,7 @@ def test_a_tree_of_tubes_has_a_leaf_for_each_branch(n_branches):
     shape = shapes.tube_tree(n_branches)
     distance = np.linalg.norm(shape.vertices, axis=1)
     sets = cut_at_levels(TriMesh(*shape), distance, np.linspace(0.55, distance.max(), 40)[:-1])
-    graph = reeb_graph(sets, reeb_structure(sets))
+    graph = reeb_graph(sets, reeb_topology(sets))
     assert graph.n_loops == 0
     tips = graph.node_position[graph.node_kind == MAXIMUM]
     assert len(tips) == n_branches
@@ -113,21 +114,21 @@ def made(request):
 
 
 def test_arcs_are_maximal_chains(made):
-    sets, structure, _ = made
+    sets, topology, _ = made
     lower, upper = sets.contour_pieces.T
     below = np.bincount(upper, minlength=sets.n_pieces)
     above = np.bincount(lower, minlength=sets.n_pieces)
-    np.testing.assert_array_equal(structure.piece_node < 0, (below == 1) & (above == 1))
-    np.testing.assert_array_equal(structure.piece_node < 0, structure.piece_arc >= 0)
-    assert (structure.contour_arc >= 0).all()
+    np.testing.assert_array_equal(topology.piece_node < 0, (below == 1) & (above == 1))
+    np.testing.assert_array_equal(topology.piece_node < 0, topology.piece_arc >= 0)
+    assert (topology.contour_arc >= 0).all()
     # Each contour's pieces belong to its arc, or are the arc's ends.
     for side, piece in enumerate((lower, upper)):
-        node, arc = structure.piece_node[piece], structure.piece_arc[piece]
+        node, arc = topology.piece_node[piece], topology.piece_arc[piece]
         inside = node < 0
-        np.testing.assert_array_equal(arc[inside], structure.contour_arc[inside])
-        np.testing.assert_array_equal(node[~inside], structure.arcs[structure.contour_arc[~inside], side])
+        np.testing.assert_array_equal(arc[inside], topology.contour_arc[inside])
+        np.testing.assert_array_equal(node[~inside], topology.arcs[topology.contour_arc[~inside], side])
     # One contour of each level at most: an arc is a path that rises.
-    keys = structure.contour_arc * (len(sets.levels) + 1) + sets.contour_level
+    keys = topology.contour_arc * (len(sets.levels) + 1) + sets.contour_level
     assert len(np.unique(keys)) == len(keys)
 
 
@@ -148,7 +149,7 @@ def test_nodes_are_what_their_arcs_make_them(made):
     assert (below[saddle] + above[saddle] >= 3).all()
 
 
-def test_arcs_rise_and_so_do_their_centre_lines(made):
+def test_arcs_rise_and_so_do_their_center_lines(made):
     _, _, graph = made
     low, high = graph.node_value[graph.arcs].T
     assert (low <= high).all()
@@ -199,7 +200,7 @@ def test_joined_graphs_stay_what_they_were():
 
 
 def test_a_flat_field_is_one_node():
-    _, structure, graph = graph_of(shapes.icosphere(1), np.zeros(42), [])
-    assert structure.n_nodes == graph.n_nodes == 1
+    _, topology, graph = graph_of(shapes.icosphere(1), np.zeros(42), [])
+    assert topology.n_nodes == graph.n_nodes == 1
     assert graph.n_arcs == graph.n_loops == 0
     assert graph.arc_points.tolist() == [0]

@@ -6,9 +6,10 @@ import pytest
 import shapes
 
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.graph.reeb import reeb_graph, reeb_structure
+from core.graph.reeb import reeb_graph, reeb_topology
 from core.graph.simplify import simplify
-from core.surface.mesh import TriMesh, components
+from core.surface.arrays import components
+from core.surface.mesh import TriMesh
 
 
 def noisy(genus, seed, noise=0.3):
@@ -20,16 +21,16 @@ def noisy(genus, seed, noise=0.3):
     return cut_at_levels(mesh, values / values.max(), uniform_levels(30))
 
 
-def leaves(structure):
-    degree = np.bincount(structure.arcs.ravel(), minlength=structure.n_nodes)
-    return np.flatnonzero((degree[structure.arcs] == 1).any(axis=1))
+def leaves(topology):
+    degree = np.bincount(topology.arcs.ravel(), minlength=topology.n_nodes)
+    return np.flatnonzero((degree[topology.arcs] == 1).any(axis=1))
 
 
-def arc_area(sets, structure, arc):
+def arc_area(sets, topology, arc):
     """Area of an arc and of its leaf nodes."""
-    degree = np.bincount(structure.arcs.ravel(), minlength=structure.n_nodes)
-    ends = structure.arcs[arc][degree[structure.arcs[arc]] == 1]
-    inside = (structure.piece_arc == arc) | np.isin(structure.piece_node, ends)
+    degree = np.bincount(topology.arcs.ravel(), minlength=topology.n_nodes)
+    ends = topology.arcs[arc][degree[topology.arcs[arc]] == 1]
+    inside = (topology.piece_arc == arc) | np.isin(topology.piece_node, ends)
     return sets.piece_area[inside].sum()
 
 
@@ -43,13 +44,13 @@ def test_by_hand():
     # 0 1 0 1 0: areas of the pieces 1/2, 1, 1, 1, 1/2. The valleys at the ends are leaves of
     # hills with another valley beside: the smaller ones go, and a strip with one valley is left.
     sets = strip([0, 1, 0, 1, 0])
-    done = simplify(sets, reeb_structure(sets), 0.2, 0)  # a leaf below 0.8 of 4 goes
+    done = simplify(sets, reeb_topology(sets), 0.2, 0)  # a leaf below 0.8 of 4 goes
     assert len(done.arcs) == 2
     assert done.n_nodes == 3
     graph = reeb_graph(sets, done)
     assert sorted(graph.node_position[:, 0]) == pytest.approx([1, 2, 3])
     # Above the area of everything else, the last hill and the last valley stay all the same.
-    last = simplify(sets, reeb_structure(sets), 1.0, 0)
+    last = simplify(sets, reeb_topology(sets), 1.0, 0)
     assert (last.n_nodes, len(last.arcs)) == (2, 1)
 
 
@@ -60,20 +61,20 @@ def test_an_arc_put_together_from_two_is_as_long_as_both():
     right = [(x, -4) for x in range(-5, 7)]
     shape = shapes.flat_cells([*left, *right, *((7, y) for y in range(-4, 1)), (8, -2), (9, -2)])
     sets = cut_at_levels(TriMesh(*shape), shape.vertices[:, 0], np.arange(-5, 10) + 0.5)
-    structure = reeb_structure(sets)
-    assert sorted(np.bincount(structure.contour_arc).tolist()) == [2, 3, 3, 4, 12]
+    topology = reeb_topology(sets)
+    assert sorted(np.bincount(topology.contour_arc).tolist()) == [2, 3, 3, 4, 12]
     # With leaves of fewer than five levels gone, the twig is no more and the leg of seven stays.
-    done = simplify(sets, structure, 0.0, 5)
+    done = simplify(sets, topology, 0.0, 5)
     assert sorted(np.bincount(done.contour_arc[done.contour_arc >= 0]).tolist()) == [3, 7, 12]
     assert done.n_nodes == 4
 
 
 def test_nothing_below_the_limits_nothing_changes():
     sets = noisy(1, 0)
-    structure = reeb_structure(sets)
-    same = simplify(sets, structure, 0.0, 0)
+    topology = reeb_topology(sets)
+    same = simplify(sets, topology, 0.0, 0)
     for name in ("piece_node", "piece_arc", "contour_arc", "arcs"):
-        np.testing.assert_array_equal(getattr(same, name), getattr(structure, name))
+        np.testing.assert_array_equal(getattr(same, name), getattr(topology, name))
 
 
 CASES = [(genus, seed) for genus in range(4) for seed in range(3)]
@@ -83,7 +84,7 @@ CASES = [(genus, seed) for genus in range(4) for seed in range(3)]
 def made(request):
     genus, seed = request.param
     sets = noisy(genus, seed)
-    before = reeb_structure(sets)
+    before = reeb_topology(sets)
     return genus, sets, before, simplify(sets, before, 0.01, 2)
 
 
@@ -94,10 +95,10 @@ def test_there_was_something_to_do(made):
 
 def test_loops_and_components_stay(made):
     genus, _, before, after = made
-    for structure in (before, after):
-        count, _ = components(structure.n_nodes, *structure.arcs.T)
+    for topology in (before, after):
+        count, _ = components(topology.n_nodes, *topology.arcs.T)
         assert count == 1
-        assert len(structure.arcs) - structure.n_nodes + count == genus
+        assert len(topology.arcs) - topology.n_nodes + count == genus
 
 
 def test_every_piece_is_on_one_node_or_one_arc(made):
@@ -159,15 +160,15 @@ def test_contours_end_where_their_arc_says(made):
 
 def test_more_simplified_is_a_coarser_graph():
     sets = noisy(2, 1)
-    structure = reeb_structure(sets)
-    sizes = [len(simplify(sets, structure, area, 1).arcs) for area in (0.0, 0.001, 0.01, 0.05, 0.3)]
+    topology = reeb_topology(sets)
+    sizes = [len(simplify(sets, topology, area, 1).arcs) for area in (0.0, 0.001, 0.01, 0.05, 0.3)]
     assert sizes == sorted(sizes, reverse=True)
     assert sizes[0] > sizes[-1]
 
 
 def test_a_graph_of_one_node_stays():
     sets = cut_at_levels(TriMesh(*shapes.icosphere(1)), np.zeros(42), np.empty(0))
-    done = simplify(sets, reeb_structure(sets), 0.1, 1)
+    done = simplify(sets, reeb_topology(sets), 0.1, 1)
     assert done.n_nodes == 1
     assert len(done.arcs) == 0
     assert done.piece_node.tolist() == [0]

@@ -85,7 +85,7 @@ def test_every_number_of_parts(tree):
         first = [np.flatnonzero(parts.labels == i).mean() for i in range(1, n)]
         assert first == sorted(first)
         assert parts.share.sum() == pytest.approx(1)
-        assert len(parts.names) == len(parts.colors) == n
+        assert len(parts.names) == n
         assert parts.node_part.shape == (tree.graph.n_nodes,)
         assert parts.arc_part.shape == (tree.graph.n_arcs,)
         assert parts.point_part.shape == tree.graph.point_value.shape

@@ -77,7 +77,7 @@ def test_pieces_are_numbered_by_area(result):
     assert area == sorted(area, reverse=True)
 
 
-def test_growing_takes_a_neighbour_until_nothing_is_left(result):
+def test_growing_takes_a_neighbor_until_nothing_is_left(result):
     mask = np.arange(result.n_candidates) == 0
     everything = np.ones(result.n_candidates, bool)
     while (taken := growth(result, mask, everything)) is not None:
@@ -113,7 +113,7 @@ def test_finer_candidates_change_no_parts(result, seed):
     vertices, faces = shapes.tube_tree()
     corners = vertices[faces]
     area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    pairs, length = _neighbours(vertices, faces)
+    pairs, length = _neighbors(vertices, faces)
     chosen = np.random.default_rng(seed).random(len(faces)) < 0.5
     finer = split_candidates(result, chosen, area, pairs, length)
     assert finer.n_candidates == 2 * result.n_candidates
@@ -141,7 +141,7 @@ def test_boundary_distance_on_a_strip_by_hand():
 
 def test_boundary_distance_has_the_sign_of_the_side(result):
     vertices, faces = shapes.tube_tree()
-    pairs, _ = _neighbours(vertices, faces)
+    pairs, _ = _neighbors(vertices, faces)
     center = vertices[faces].mean(axis=1)
     inside = result.candidates == 1
     length = np.linalg.norm(center[pairs[:, 0]] - center[pairs[:, 1]], axis=1)
@@ -153,7 +153,7 @@ def test_boundary_distance_has_the_sign_of_the_side(result):
     assert (np.abs(np.diff(distance[pairs[same]], axis=1)[:, 0]) <= length[same] * (1 + 1e-9)).all()
 
 
-def _neighbours(vertices, faces):
+def _neighbors(vertices, faces):
     """Pairs of triangles that share an edge, and its length, of a closed manifold."""
     edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     order = np.lexsort(edges.T)

@@ -6,8 +6,10 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
-from core.result.numbering import Numbering, follow, inherited, transfer
-from core.surface.mesh import components
+from core.result.numbering import Numbering, follow, inherited
+from core.surface.arrays import components
+from core.surface.labels import majority
+from core.uses.colors import number_colors
 
 
 def test_follow_takes_the_largest_overlap_first():
@@ -40,7 +42,7 @@ def test_follow_of_the_same_parts_is_the_identity(seed):
 def test_transfer_is_a_majority_and_allows_zero():
     part = np.array([0, 0, 0, 1, 1, 1])
     former = np.array([4, 4, 1, 0, 0, 1])
-    assert transfer(part, former, np.ones(6)).tolist() == [4, 0]
+    assert majority(part, former, np.ones(6), 2).tolist() == [4, 0]
 
 
 @pytest.fixture(params=["plain", "loose"], scope="module")
@@ -67,8 +69,8 @@ def settled(result, detail=0.5, n_parts=0):
 
 def levels(numbering):
     """Parts at every number of parts there is."""
-    return [numbering.parts(0.0, count)
-            for count in range(numbering.splits.n_roots, numbering.splits.n_roots + len(numbering.splits.runs) + 1)]
+    fewest = numbering.splits.n_roots
+    return [numbering.parts(0.0, count) for count in range(fewest, fewest + len(numbering.splits.intervals) + 1)]
 
 
 def test_first_numbers_are_the_labels(result):
@@ -106,10 +108,10 @@ def test_a_split_gives_one_new_number_and_changes_no_other(result, seed):
         assert set(coarse.numbers) <= set(fine.numbers)
         assert len(born) == 1
         assert set(fine.candidate_numbers[changed]) == set(born)
-        # What it was split from keeps its number, and the colours are those of the numbers.
+        # What it was split from keeps its number, and the colors are those of the numbers.
         assert len(set(coarse.candidate_numbers[changed])) == 1
         stayed = np.isin(fine.numbers, coarse.numbers)
-        assert (fine.colors()[stayed] == coarse.colors()).all()
+        assert (number_colors(fine)[stayed] == number_colors(coarse)).all()
 
 
 def test_coarser_parts_take_a_number_from_inside_and_the_level_comes_back(result):
@@ -154,7 +156,7 @@ def test_merging_by_hand_moves_no_other_number(result):
         merged = np.where(shown.candidate_numbers == b, a, shown.candidate_numbers)
         after = Numbering.of(result, *tied(given, merged, [a])).parts(detail)
         assert (after.candidate_numbers == merged).all()
-        assert (after.colors() == shown.colors()[np.isin(shown.numbers, merged)]).all()
+        assert (number_colors(after) == number_colors(shown)[np.isin(shown.numbers, merged)]).all()
 
 
 def test_splitting_by_hand_moves_no_other_number(result):
@@ -168,7 +170,7 @@ def test_splitting_by_hand_moves_no_other_number(result):
         others = shown.candidate_numbers != number
         assert (after.parts(detail).candidate_numbers[others] == split[others]).all()
         parts = after.parts(detail)
-        assert (parts.colors()[np.isin(parts.numbers, shown.numbers)] == shown.colors()).all()
+        assert (number_colors(parts)[np.isin(parts.numbers, shown.numbers)] == number_colors(shown)).all()
         # Finer parts that come later make room for the new number.
         finest = after.parts(1.0)
         assert (finest.candidate_numbers[split == new] == new).all()
@@ -180,7 +182,7 @@ def test_fixing_a_part_moves_no_number(result):
     for number in shown.numbers.tolist():
         after = Numbering.of(result, *tied(given, shown.candidate_numbers, [number]))
         assert (after.parts(detail).candidate_numbers == shown.candidate_numbers).all()
-        assert (after.parts(detail).colors() == shown.colors()).all()
+        assert (number_colors(after.parts(detail)) == number_colors(shown)).all()
 
 
 def test_whatever_is_fixed_no_two_alike_touch(result):
@@ -194,24 +196,24 @@ def test_whatever_is_fixed_no_two_alike_touch(result):
             assert (numbered.candidate_numbers[fixed > 0] == fixed[fixed > 0]).all()
             assert (numbered.candidate_numbers > 0).all()
             a, b = numbered.parts.cuts.T
-            assert (numbered.parts.colors[a] != numbered.parts.colors[b]).any(axis=1).all()
+            assert (number_colors(numbered)[a] != number_colors(numbered)[b]).any(axis=1).all()
 
 
-def test_a_number_of_no_level_has_a_colour_and_changes_no_other(result):
+def test_a_number_of_no_level_has_a_color_and_changes_no_other(result):
     numbering = Numbering.of(result, settled(result), none(result))
     shown = numbering.parts(0.5)
     strange = np.where(shown.candidate_numbers == 1, 1000, shown.candidate_numbers)
-    other = numbering.shown(strange)
+    other = numbering.numbered(strange)
     assert other.numbers[-1] == 1000
-    assert (other.colors()[:-1] == shown.colors()[1:]).all()
+    assert (number_colors(other)[:-1] == number_colors(shown)[1:]).all()
 
 
-def test_no_level_shows_one_colour_on_both_sides_of_a_cut(result):
+def test_no_level_shows_one_color_on_both_sides_of_a_cut(result):
     for numbered in levels(Numbering.of(result, settled(result), none(result))):
         a, b = numbered.parts.cuts.T
-        assert (numbered.parts.colors[a] != numbered.parts.colors[b]).any(axis=1).all()
+        assert (number_colors(numbered)[a] != number_colors(numbered)[b]).any(axis=1).all()
         if numbered.numbers.max() <= 16:
-            assert len(np.unique(numbered.parts.colors, axis=0)) == numbered.parts.count
+            assert len(np.unique(number_colors(numbered), axis=0)) == numbered.parts.count
 
 
 def test_another_decomposition_takes_over_numbers_by_overlap(result):
@@ -219,7 +221,7 @@ def test_another_decomposition_takes_over_numbers_by_overlap(result):
     # Numbers of the old parts, with one in a hundred faces astray.
     astray = np.random.default_rng(0).random(result.n_faces) < 0.01
     faces = np.where(astray, 3, numbers[result.candidates] + 20)
-    former = transfer(result.candidates, faces, np.ones(result.n_faces))
+    former = majority(result.candidates, faces, np.ones(result.n_faces), result.n_candidates)
     assert (inherited(result, 0.5, 8, former, none(result)) == numbers + 20).all()
 
 

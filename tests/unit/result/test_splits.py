@@ -39,9 +39,9 @@ def test_nothing_fixed(chain):
     assert splits.merge.tolist() == [2, 1, 0]
     for done, level in enumerate(([0, 0, 0, 0], [0, 0, 1, 1], [0, 1, 2, 2], [0, 1, 2, 3])):
         assert same(splits.parts(done).tolist(), level)
-    assert [splits.done(chain, 0.0, count) for count in (1, 2, 4, 9)] == [0, 1, 3, 3]
+    assert [splits.n_done(chain, 0.0, count) for count in (1, 2, 4, 9)] == [0, 1, 3, 3]
     # Cuts of salience 1 - detail and above stay.
-    assert [splits.done(chain, detail) for detail in (0.0, 0.1, 0.5, 0.6, 0.8)] == [0, 1, 1, 2, 3]
+    assert [splits.n_done(chain, detail) for detail in (0.0, 0.1, 0.5, 0.6, 0.8)] == [0, 1, 1, 2, 3]
 
 
 def test_what_is_fixed_is_apart_from_the_start_and_leaves_pieces(chain):
@@ -55,5 +55,5 @@ def test_what_is_fixed_is_apart_from_the_start_and_leaves_pieces(chain):
 def test_fixed_candidates_stay_together_though_they_do_not_touch(chain):
     splits = Splits.of(chain, np.array([5, 0, 5, 0]))
     assert splits.n_roots == 3
-    assert len(splits.runs) == 0
+    assert len(splits.intervals) == 0
     assert same(splits.parts(0).tolist(), [0, 1, 0, 2])

@@ -6,8 +6,9 @@ import pytest
 import shapes
 
 from core.field.geodesic import GeodesicSolver
+from core.surface.arrays import components
 from core.surface.coarsening import coarsen, prolong
-from core.surface.mesh import TriMesh, components
+from core.surface.mesh import TriMesh
 
 SURFACES = {"sphere": lambda: shapes.icosphere(3), "genus 2": lambda: shapes.surface_of_genus(2),
             "tree": shapes.tube_tree, "border": lambda: shapes.flat_grid(20, 15),

@@ -43,8 +43,8 @@ def test_saddle_is_negative_from_both_sides(upside_down):
     vertices, faces = shapes.flat_grid(40, 40, 0.02)
     x, y = vertices[:, 0] - 0.4, vertices[:, 1] - 0.4
     mesh = TriMesh(np.stack([x, y, (x**2 - y**2) / 2], axis=1), faces[:, ::-1] if upside_down else faces)
-    centre = np.hypot(x, y) < 0.1
-    np.testing.assert_allclose(k_min(mesh)[centre], -1, rtol=0.1)
+    center = np.hypot(x, y) < 0.1
+    np.testing.assert_allclose(k_min(mesh)[center], -1, rtol=0.1)
 
 
 def test_torus():

@@ -4,38 +4,10 @@
 import numpy as np
 import pytest
 import shapes
+from face_graphs import boundary_length, graph_of, n_connected, patches, path
 
-from core.cuts.hierarchy import Hierarchy
-from core.surface.labels import FaceGraph, connect, fill_unlabelled, majority, settle, straighten
-from core.surface.mesh import TriMesh, components
-
-
-def path(n, lengths=None, areas=None):
-    """n faces in a row."""
-    pairs = np.stack([np.arange(n - 1), np.arange(1, n)], axis=1)
-    return FaceGraph(n, pairs, np.ones(n - 1) if lengths is None else np.asarray(lengths, float),
-                     np.ones(n) if areas is None else np.asarray(areas, float))
-
-
-def graph_of(shape):
-    mesh = TriMesh(*shape)
-    return FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.edge_length[mesh.edges.pair_edge], mesh.face_area)
-
-
-def boundary_length(graph, label):
-    return graph.length[label[graph.pairs[:, 0]] != label[graph.pairs[:, 1]]].sum()
-
-
-def n_connected(graph, label):
-    same = label[graph.pairs[:, 0]] == label[graph.pairs[:, 1]]
-    return components(graph.n_faces, *graph.pairs[same].T)[0]
-
-
-def patches(graph, rng, count):
-    """Random connected labels grown from seeds."""
-    label = np.full(graph.n_faces, -1)
-    label[rng.choice(graph.n_faces, count, replace=False)] = np.arange(count)
-    return fill_unlabelled(graph, label)
+from core.surface.labels import connect, fill_unlabelled, majority, straighten
+from core.surface.mesh import TriMesh
 
 
 def test_majority_by_hand():
@@ -82,14 +54,6 @@ def test_connected_whatever_the_labels(seed):
     np.testing.assert_array_equal(connect(graph_of(shapes.icosphere(2)), already), already)
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_components_of_few_faces_go(seed):
-    graph = graph_of(shapes.icosphere(2))
-    label = connect(graph, np.random.default_rng(seed).integers(0, 40, graph.n_faces), min_faces=5)
-    assert np.bincount(label)[np.unique(label)].min() >= 5
-    assert n_connected(graph, label) == len(np.unique(label))
-
-
 @pytest.mark.parametrize("seed", range(4))
 def test_every_round_of_straightening_shortens_the_boundaries(seed):
     graph = graph_of(shapes.icosphere(3))
@@ -104,48 +68,10 @@ def test_every_round_of_straightening_shortens_the_boundaries(seed):
 def test_straightening_takes_saw_teeth():
     # A grid cut along x = 5, with four squares on the wrong side.
     graph = graph_of(shapes.flat_grid(10, 10))
-    centre = TriMesh(*shapes.flat_grid(10, 10)).face_centroids
-    straight = (centre[:, 0] > 5).astype(int)
-    row = np.floor(centre[:, 1])
-    teeth = np.where((np.floor(centre[:, 0]) == 5) & np.isin(row, (1, 3, 5, 7)), 0, straight)
+    center = TriMesh(*shapes.flat_grid(10, 10)).face_centroids
+    straight = (center[:, 0] > 5).astype(int)
+    row = np.floor(center[:, 1])
+    teeth = np.where((np.floor(center[:, 0]) == 5) & np.isin(row, (1, 3, 5, 7)), 0, straight)
     assert boundary_length(graph, teeth) == 18  # ten down, and one across at both sides of four teeth
     np.testing.assert_array_equal(straighten(graph, teeth, 20), straight)
     np.testing.assert_array_equal(straighten(graph, straight, 20), straight)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_settle_merges_only_what_touches(seed):
-    rng = np.random.default_rng(seed)
-    graph = graph_of(shapes.icosphere(2))
-    count = 20
-    label = patches(graph, rng, count)
-    label[label == 3] = 4  # a candidate that got no face
-    label = connect(graph, label)
-    merges = [(a, a + 1) for a in rng.permutation(count - 1)]  # in any order, touching or not
-    given = Hierarchy.of(count, merges, np.sort(rng.random(count - 1)))
-    settled, hierarchy = settle(graph, label, given)
-    assert np.unique(settled).tolist() == list(range(hierarchy.n_candidates))
-    assert hierarchy.n_candidates == len(np.unique(label))
-    assert len(np.unique(settled * 1000 + label)) == hierarchy.n_candidates  # renamed only
-    assert hierarchy.n_loose == 1
-    for n in range(1, hierarchy.n_candidates + 1):
-        assert n_connected(graph, hierarchy.parts(n)[settled]) == n
-
-
-def test_settle_keeps_the_order_of_merges_where_they_touch():
-    given = Hierarchy.of(4, [(1, 2), (0, 1), (2, 3)], [0.1, 0.2, 0.3])
-    _, hierarchy = settle(path(4), np.arange(4), given)
-    assert [set(m) for m in hierarchy.merges.tolist()] == [{1, 2}, {0, 1}, {2, 3}]
-    assert hierarchy.salience.tolist() == [0.1, 0.2, 0.3]
-    # Candidates 0 and 2 do not touch: their merge waits for 1.
-    _, hierarchy = settle(path(3), np.arange(3), Hierarchy.of(3, [(0, 2), (1, 2)], [0.1, 0.2]))
-    assert len(hierarchy.merges) == 2
-    assert hierarchy.salience.tolist() == [0.2, 0.2]
-
-
-def test_settle_leaves_loose_parts_apart():
-    graph = FaceGraph(4, np.array([(0, 1), (2, 3)]), np.ones(2), np.ones(4))
-    given = Hierarchy.join([Hierarchy.of(2, [(0, 1)], [0.5]), Hierarchy.of(2, [(0, 1)], [0.2])])
-    _, hierarchy = settle(graph, np.arange(4), given)
-    assert hierarchy.n_loose == 2
-    assert hierarchy.salience.tolist() == [0.2, 0.5]

@@ -6,7 +6,9 @@ import pytest
 import shapes
 
 from core.errors import EmptyMeshError, MeshError
-from core.surface.mesh import EdgeTable, PolygonMesh, TriMesh, components, first_largest
+from core.surface.arrays import components, first_largest
+from core.surface.mesh import EdgeTable, TriMesh
+from core.surface.polygons import PolygonMesh
 
 CLOSED = {
     "tetrahedron": (shapes.tetrahedron, 2), "octahedron": (shapes.octahedron, 2),
@@ -92,8 +94,8 @@ def test_areas_and_normals_of_a_box_by_hand():
     assert mesh.area == pytest.approx(2 * (2 + 3 + 6))
     assert sorted(mesh.face_area) == pytest.approx([1] * 4 + [1.5] * 4 + [3] * 4)
     assert mesh.vertex_area.sum() == pytest.approx(mesh.area)
-    centre = np.array((0.5, 1, 1.5))
-    assert (((mesh.face_centroids - centre) * mesh.face_normals).sum(axis=1) > 0).all()
+    center = np.array((0.5, 1, 1.5))
+    assert (((mesh.face_centroids - center) * mesh.face_normals).sum(axis=1) > 0).all()
     np.testing.assert_allclose(np.sort(np.abs(mesh.face_normals), axis=1), [(0, 0, 1)] * 12)
 
 

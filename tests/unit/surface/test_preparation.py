@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.mesh import PolygonMesh, TriMesh
-from core.surface.preparation import refine, repair
+from core.surface.mesh import TriMesh
+from core.surface.polygons import PolygonMesh
+from core.surface.preparation import repair, split_long_edges
 
 
 def repaired(shape, polygon=None):
@@ -158,7 +159,7 @@ def test_faces_with_a_repeated_corner_go():
 def test_refined(make, share):
     mesh = TriMesh(*make())
     limit = share * np.sqrt(mesh.area)
-    fine, parent = refine(mesh, limit)
+    fine, parent = split_long_edges(mesh, limit)
     assert fine.edge_length.max() <= limit * (1 + 1e-9)
     np.testing.assert_array_equal(fine.vertices[: mesh.n_vertices], mesh.vertices)
     # Each face keeps its area, its plane and its side.
@@ -174,7 +175,7 @@ def test_refined(make, share):
 
 def test_fine_enough_is_left_alone():
     mesh = TriMesh(*shapes.icosphere(2))
-    fine, parent = refine(mesh, 10.0)
+    fine, parent = split_long_edges(mesh, 10.0)
     assert fine is mesh
     assert parent.tolist() == list(range(mesh.n_faces))
 
@@ -184,7 +185,7 @@ def test_needles_do_not_multiply_past_bounds():
     start = rng.random((3000, 1, 3))
     corners = start + np.stack([0 * start[:, 0], rng.normal(size=(3000, 3)), 1e-5 * rng.normal(size=(3000, 3))], 1)
     mesh = TriMesh(corners.reshape(-1, 3), np.arange(9000).reshape(-1, 3))
-    fine, _ = refine(mesh, 1e-4)
+    fine, _ = split_long_edges(mesh, 1e-4)
     assert fine.n_faces < 4 * 50_000
     assert fine.area == pytest.approx(mesh.area)
 
@@ -192,6 +193,6 @@ def test_needles_do_not_multiply_past_bounds():
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
 def test_refinement_scales(scale):
     vertices, faces = shapes.box((1, 2, 5))
-    one, _ = refine(TriMesh(vertices, faces), 0.3)
-    two, _ = refine(TriMesh(scale * vertices, faces), 0.3 * scale)
+    one, _ = split_long_edges(TriMesh(vertices, faces), 0.3)
+    two, _ = split_long_edges(TriMesh(scale * vertices, faces), 0.3 * scale)
     np.testing.assert_array_equal(one.faces, two.faces)

@@ -40,7 +40,7 @@ def test_a_palm_ends_amid_its_fingers():
                  [(2, 0, 0), (4, 1, 0), (4, -1, 0)])
     assert made.tail[1].tolist() == [4, 0, 0]
     assert made.connected.tolist() == [False, True, False, False]
-    # Without a centre line a bone goes through the middle of its part.
+    # Without a center line a bone goes through the middle of its part.
     assert made.tail[2].tolist() == [6, 1, 0]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colours differ where parts touch, and the first sixteen all do."""
+"""Colors differ where parts touch, and the first sixteen all do."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ def test_first_sixteen_are_distinct():
 @pytest.mark.parametrize("name", PALETTES)
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("count", [2, 16, 17, 60, 300])
-def test_neighbours_differ(count, seed, name):
+def test_neighbors_differ(count, seed, name):
     rng = np.random.default_rng(seed)
     pairs = np.sort(rng.integers(0, count, (3 * count, 2)), axis=1)
     pairs = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
@@ -28,8 +28,8 @@ def test_neighbours_differ(count, seed, name):
         assert len(np.unique(colors, axis=0)) == count
 
 
-def test_neighbours_are_told_apart_by_colour_blind_people():
-    # A star: the centre against fifteen others, all in the distance of the palette itself.
+def test_neighbors_are_told_apart_by_color_blind_people():
+    # A star: the center against fifteen others, all in the distance of the palette itself.
     apart = distance_matrix()
     assert apart[~np.eye(len(PALETTE), dtype=bool)].min() > 0.02
     pairs = np.stack([np.zeros(3, int), np.arange(1, 4)], axis=1)
@@ -37,10 +37,10 @@ def test_neighbours_are_told_apart_by_colour_blind_people():
     assert distance_matrix(colors)[0, 1:].min() > 0.2
 
 
-def test_the_first_colours_differ_most():
+def test_the_first_colors_differ_most():
     apart = distance_matrix()
     nearest = [apart[index, :index].min() for index in range(1, len(PALETTE))]
-    assert min(nearest[:10]) > 0.12  # eleven colours for most models
+    assert min(nearest[:10]) > 0.12  # eleven colors for most models
     for index in range(7, len(PALETTE)):
         assert nearest[index - 1] >= apart[index:, :index].min(axis=1).max() - 1e-12
 
@@ -54,7 +54,7 @@ def test_distance_is_a_symmetric_difference():
     assert apart[0, 2] < 0.75
 
 
-def test_same_answer_twice_and_more_parts_keep_the_colours_of_the_first():
+def test_same_answer_twice_and_more_parts_keep_the_colors_of_the_first():
     none = np.empty((0, 2), int)
     np.testing.assert_array_equal(part_colors(40, none), part_colors(40, none))
     np.testing.assert_array_equal(part_colors(40, none)[:20], part_colors(20, none))

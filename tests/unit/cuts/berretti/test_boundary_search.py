@@ -7,9 +7,10 @@ import shapes
 
 from core.cuts.berretti.boundary_search import concavity, contour_curve, search_boundaries
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.graph.reeb import reeb_structure
+from core.graph.reeb import reeb_topology
+from core.surface.arrays import components
 from core.surface.curvature import k_min
-from core.surface.mesh import TriMesh, components
+from core.surface.mesh import TriMesh
 
 
 def upright(shape, n_slabs=60):
@@ -30,7 +31,7 @@ def cut_heights(sets, region):
 
 
 def moved(sets, region, alpha, sigma=0.1):
-    return search_boundaries(sets, reeb_structure(sets), k_min(sets.mesh), region, alpha, sigma)
+    return search_boundaries(sets, reeb_topology(sets), k_min(sets.mesh), region, alpha, sigma)
 
 
 @pytest.mark.parametrize("make", [shapes.dumbbell, lambda: shapes.surface_of_genus(2), shapes.tube_tree])
@@ -70,7 +71,7 @@ def test_concavity_has_no_unit_and_its_sign_is_that_of_k_min():
         vertices, faces = shapes.dumbbell()
         sets = upright(shapes.Shape(scale * vertices, faces), 31)
         curvature = k_min(sets.mesh)
-        z = sets.contour_centre[:, 2] / scale
+        z = sets.contour_center[:, 2] / scale
         energy = np.array([concavity(sets, curvature, c, 0.1) for c in range(sets.n_contours)])
         order = np.argsort(z)
         if scale == 1e-3:
@@ -142,10 +143,10 @@ def test_regions_stay_connected_and_none_is_lost(make, seed):
     rng = np.random.default_rng(seed)
     values = shape.vertices @ np.array([1.0, 0.7, 0.2])
     sets = cut_at_levels(TriMesh(*shape), (values - values.min()) / np.ptp(values), uniform_levels(40))
-    structure = reeb_structure(sets)
-    region = np.where(structure.piece_node >= 0, structure.piece_node, structure.n_nodes + structure.piece_arc)
-    region = rng.permutation(structure.n_nodes + len(structure.arcs))[region]
-    after = search_boundaries(sets, structure, k_min(sets.mesh), region, 0.7, 0.1)
+    topology = reeb_topology(sets)
+    region = np.where(topology.piece_node >= 0, topology.piece_node, topology.n_nodes + topology.piece_arc)
+    region = rng.permutation(topology.n_nodes + len(topology.arcs))[region]
+    after = search_boundaries(sets, topology, k_min(sets.mesh), region, 0.7, 0.1)
     same = after[sets.contour_pieces[:, 0]] == after[sets.contour_pieces[:, 1]]
     count, _ = components(sets.n_pieces, *sets.contour_pieces[same].T)
     assert count == len(np.unique(after))

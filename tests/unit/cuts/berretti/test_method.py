@@ -9,11 +9,12 @@ from core.cuts.berretti.boundary_search import concavity
 from core.cuts.berretti.method import berretti_candidates
 from core.cuts.berretti.regions import berretti_regions
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.graph.reeb import reeb_structure
+from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
 from core.parameters import Parameters
+from core.surface.arrays import components
 from core.surface.curvature import k_min
-from core.surface.mesh import TriMesh, components
+from core.surface.mesh import TriMesh
 
 PAPER = Parameters.preset("Berretti 2009")
 
@@ -21,9 +22,10 @@ PAPER = Parameters.preset("Berretti 2009")
 def candidates(shape, direction, **changes):
     values = shape.vertices @ np.asarray(direction, float)
     sets = cut_at_levels(TriMesh(*shape), (values - values.min()) / np.ptp(values), uniform_levels(50))
-    structure = simplify(sets, reeb_structure(sets), 0.0025, 1)
+    topology = simplify(sets, reeb_topology(sets), 0.0025, 1)
     parameters = Parameters.preset("Berretti 2009", **changes)
-    return sets, structure, *berretti_candidates(sets, structure, parameters)
+    found = berretti_candidates(sets, topology, parameters)
+    return sets, topology, found.element_candidate, found.hierarchy
 
 
 @pytest.fixture(params=["tree", "genus 2", "dumbbell", "border"])
@@ -60,8 +62,8 @@ def test_parts_of_the_papers_decision_are_connected(made):
 
 
 def test_without_concavity_the_regions_stay():
-    sets, structure, element, hierarchy = candidates(shapes.tube_tree(), (0.3, 1, 0.2), alpha=0.0)
-    regions = berretti_regions(sets, structure, PAPER.small_region)
+    sets, topology, element, hierarchy = candidates(shapes.tube_tree(), (0.3, 1, 0.2), alpha=0.0)
+    regions = berretti_regions(sets, topology, PAPER.small_region)
     np.testing.assert_array_equal(element, regions.piece_region[sets.element_piece])
     np.testing.assert_array_equal(hierarchy.merges, regions.hierarchy.merges)
 
@@ -71,15 +73,16 @@ def test_concavity_pulls_cuts_into_creases():
     shape = shapes.tube_tree()
     distance = np.linalg.norm(shape.vertices, axis=1)
     sets = cut_at_levels(TriMesh(*shape), distance, np.linspace(distance.min(), distance.max(), 51)[1:-1])
-    structure = simplify(sets, reeb_structure(sets), 0.0025, 1)
+    topology = simplify(sets, reeb_topology(sets), 0.0025, 1)
     curvature = k_min(sets.mesh)
 
     def cuts(alpha):
-        element, hierarchy = berretti_candidates(sets, structure, Parameters.preset("Berretti 2009", alpha=alpha))
+        found = berretti_candidates(sets, topology, Parameters.preset("Berretti 2009", alpha=alpha))
+        element, hierarchy = found.element_candidate, found.hierarchy
         piece = np.empty(sets.n_pieces, np.int64)
         piece[sets.element_piece] = hierarchy.parts(hierarchy.n_parts(0.5))[element]
         lower, upper = piece[sets.contour_pieces].T
-        return np.flatnonzero((lower != upper) & (structure.contour_arc >= 0))
+        return np.flatnonzero((lower != upper) & (topology.contour_arc >= 0))
 
     def energy(contours):
         return [concavity(sets, curvature, c, PAPER.sigma) for c in contours.tolist()]

@@ -6,16 +6,17 @@ import pytest
 import shapes
 
 from core.cuts.berretti.regions import (
-    RegionGraph,
+    FusionGraph,
     berretti_regions,
     fuse_equal_adjacency,
     fuse_intervals,
     fuse_small,
 )
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.graph.reeb import reeb_structure
+from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
-from core.surface.mesh import TriMesh, components
+from core.surface.arrays import components
+from core.surface.mesh import TriMesh
 
 
 def along(shape, direction, n_slabs=40, noise=0.0):
@@ -45,23 +46,23 @@ def test_a_y_by_hand():
     sets = y_shape()
     # One piece in slabs 0..4 (the bar ends at 4, the arms are free from 4.5 on), two in 5 and 6
     # (the short arm ends at 6, inside slab 6), one in 7.
-    count, region = fuse_intervals(sets, reeb_structure(sets))
+    count, region = fuse_intervals(sets, reeb_topology(sets))
     stem = ([0, 1, 2, 3, 4], 7.0)  # stem 3, bar 3, two halves of arms
     assert described(sets, count, region) == [stem, ([5, 6], 1.5), ([5, 6], 2.0), ([7], 0.5)]
-    # Neighbours: tip 1, long arm 2, stem 2, short arm 1. Arm and stem fuse; then 1, 2, 1.
+    # Neighbors: tip 1, long arm 2, stem 2, short arm 1. Arm and stem fuse; then 1, 2, 1.
     count, region = fuse_equal_adjacency(sets, count, region)
     assert described(sets, count, region) == [([0, 1, 2, 3, 4, 5, 6], 9.0), ([5, 6], 1.5), ([7], 0.5)]
     # The tip goes first, at 0.5 of 9, then the short arm at 1.5 of 9.5.
     _, ratio = fuse_small(sets, count, region)
     assert ratio == pytest.approx([0.5 / 9, 1.5 / 9.5])
-    regions = berretti_regions(sets, reeb_structure(sets), 0.1)
+    regions = berretti_regions(sets, reeb_topology(sets), 0.1)
     assert regions.hierarchy.n_parts(0.5) == 2  # the threshold 0.1 lies between
 
 
 def test_contiguous_intervals_differ():
     for shape, direction in ((shapes.surface_of_genus(2), (1, 0.1, 0)), (shapes.tube_tree(), (0.3, 1, 0.2))):
         sets = along(shape, direction)
-        _, region = fuse_intervals(sets, reeb_structure(sets))
+        _, region = fuse_intervals(sets, reeb_topology(sets))
         # Count regions over each slab: consecutive slabs differ only where an interval ends.
         starts = [set(region[sets.piece_slab == s].tolist()) for s in range(len(sets.levels) + 1)]
         ends = [s for s in range(len(starts) - 1) if starts[s].isdisjoint(starts[s + 1])]
@@ -81,7 +82,7 @@ def made(request):
         "dumbbell": lambda: along(shapes.dumbbell(), (0, 0, 1)),
         "noise": lambda: along(shapes.tube_tree(), (0.3, 1, 0.2), noise=0.4),
     }[request.param]()
-    return sets, simplify(sets, reeb_structure(sets), 0.0025, 1)
+    return sets, simplify(sets, reeb_topology(sets), 0.0025, 1)
 
 
 def region_pairs(sets, region):
@@ -96,15 +97,15 @@ def assert_connected(sets, count, region):
 
 
 def test_regions_are_connected(made):
-    sets, structure = made
-    count, region = fuse_intervals(sets, structure)
+    sets, topology = made
+    count, region = fuse_intervals(sets, topology)
     assert_connected(sets, count, region)
     assert_connected(sets, *fuse_equal_adjacency(sets, count, region))
 
 
 def test_no_two_regions_of_equal_adjacency_touch(made):
-    sets, structure = made
-    count, region = fuse_equal_adjacency(sets, *fuse_intervals(sets, structure))
+    sets, topology = made
+    count, region = fuse_equal_adjacency(sets, *fuse_intervals(sets, topology))
     pairs = region_pairs(sets, region)
     degree = np.bincount(pairs.ravel(), minlength=count)
     if count > 2:
@@ -112,8 +113,8 @@ def test_no_two_regions_of_equal_adjacency_touch(made):
 
 
 def test_small_regions_go_smallest_first(made):
-    sets, structure = made
-    count, region = fuse_equal_adjacency(sets, *fuse_intervals(sets, structure))
+    sets, topology = made
+    count, region = fuse_equal_adjacency(sets, *fuse_intervals(sets, topology))
     merges, ratio = fuse_small(sets, count, region)
     assert merges.shape == (count - 1, 2)
     area, part = np.bincount(region, sets.piece_area, count), np.arange(count)
@@ -122,7 +123,7 @@ def test_small_regions_go_smallest_first(made):
         now = np.bincount(total.reshape(-1), area)
         assert share == pytest.approx(now.min() / now.max())
         assert now[np.flatnonzero(alive == part[gone])[0]] == pytest.approx(now.min())
-        # The neighbour along the longest boundary.
+        # The neighbor along the longest boundary.
         lower, upper = part[region[sets.contour_pieces]].T
         mine = (lower == part[gone]) != (upper == part[gone])
         other = np.where(lower == part[gone], upper, lower)[mine]
@@ -136,8 +137,8 @@ def test_the_decision_is_the_papers_threshold():
     # Salience 0.5 where the ratio is the threshold: what is left has no region below it.
     for threshold in (0.02, 0.05, 0.2):
         sets = along(shapes.tube_tree(), (0.3, 1, 0.2))
-        structure = simplify(sets, reeb_structure(sets), 0.0025, 1)
-        regions = berretti_regions(sets, structure, threshold)
+        topology = simplify(sets, reeb_topology(sets), 0.0025, 1)
+        regions = berretti_regions(sets, topology, threshold)
         kept = regions.hierarchy.parts(regions.hierarchy.n_parts(0.5))[regions.piece_region]
         area = np.bincount(kept, sets.piece_area)
         assert area.min() >= threshold * area.max() or len(area) == 1
@@ -149,13 +150,13 @@ def test_region_graph_by_hand():
     left_to_right = sets.vertex_piece[::2]
     region = np.empty(5, np.int64)
     region[left_to_right] = np.arange(5)
-    graph = RegionGraph(sets, 5, region)
+    graph = FusionGraph(sets, 5, region)
     assert graph.area == pytest.approx([0.5, 1, 1, 1, 0.5])
-    assert graph.neighbours[2] == pytest.approx({1: 1.0, 3: 1.0})
+    assert graph.neighbors[2] == pytest.approx({1: 1.0, 3: 1.0})
     graph.merge(1, 2)
-    assert graph.neighbours[1] == pytest.approx({0: 1.0, 3: 1.0})
-    graph.merge(3, 0)  # not a neighbour of 3: only the bookkeeping is asked for
-    assert graph.neighbours[1] == pytest.approx({3: 2.0})
+    assert graph.neighbors[1] == pytest.approx({0: 1.0, 3: 1.0})
+    graph.merge(3, 0)  # not a neighbor of 3: only the bookkeeping is asked for
+    assert graph.neighbors[1] == pytest.approx({3: 2.0})
     assert graph.alive == {1, 3, 4}
     assert sum(graph.area[r] for r in graph.alive) == pytest.approx(4)
     assert graph.longest_boundary(3) == 1
@@ -163,6 +164,6 @@ def test_region_graph_by_hand():
 
 def test_flat_field_is_one_region():
     sets = cut_at_levels(TriMesh(*shapes.icosphere(1)), np.zeros(42), np.empty(0))
-    regions = berretti_regions(sets, reeb_structure(sets), 0.05)
+    regions = berretti_regions(sets, reeb_topology(sets), 0.05)
     assert regions.count == 1
     assert regions.hierarchy.n_candidates == 1

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Trees in whole arrays against trees walked by hand."""
+"""BoostedTrees in whole arrays against trees walked by hand."""
 
 from pathlib import Path
 
 import numpy as np
 
-from core.cuts.perceptual.boosted_trees import ROWS, Trees, cut_model
+from core.cuts.perceptual.boosted_trees import ROWS, BoostedTrees, cut_model
 from core.cuts.perceptual.features import FEATURES
 
 
-def two_trees() -> Trees:
+def two_trees() -> BoostedTrees:
     """x0 <= 1 ? (x1 <= 2 ? 0.1 : 0.2) : 0.4, and x1 <= 0 ? -1 : 1 with one node to spare."""
-    return Trees(
+    return BoostedTrees(
         feature=np.array([[0, 1], [1, 0]]),
         threshold=np.array([[1, 2], [0, np.inf]], np.float32),
         mask=np.array([[0b100, 0b110], [0b10, 0xFFFF]], np.uint16) | np.uint16(0xFFF8),
@@ -33,7 +33,7 @@ def test_answers_are_those_of_the_trainer():
     path = Path(__file__).resolve().parents[3] / "data" / "trees_by_trainer.npz"
     with np.load(path, allow_pickle=False) as stored:
         rows, expected = stored["rows"], stored["expected"]
-    np.testing.assert_allclose(Trees.read(path).predict(rows), expected, rtol=1e-9)
+    np.testing.assert_allclose(BoostedTrees.read(path).predict(rows), expected, rtol=1e-9)
 
 
 def test_many_rows_are_each_row_alone():
@@ -47,7 +47,7 @@ def test_many_rows_are_each_row_alone():
 
 def test_reading_gives_back_what_was_written(tmp_path):
     two_trees().write(tmp_path / "trees.npz")
-    again = Trees.read(tmp_path / "trees.npz")
+    again = BoostedTrees.read(tmp_path / "trees.npz")
     rows = np.random.default_rng(1).normal(size=(50, 2))
     np.testing.assert_allclose(again.predict(rows), two_trees().predict(rows), rtol=1e-6)
 

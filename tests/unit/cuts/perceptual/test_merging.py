@@ -6,15 +6,17 @@ import pytest
 import shapes
 
 from core.cuts.perceptual.features import BORDER, FEATURES, REGION, surface_measures
-from core.cuts.perceptual.merging import RegionGraph, merge_all_
+from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
 from core.cuts.perceptual.patches import absorb_small, concave_patches
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.surface.mesh import TriMesh, components
+from core.surface.arrays import components
+from core.surface.coarsening import Pyramid
+from core.surface.mesh import TriMesh
 
 
 def measured(mesh):
-    field = agd_field(mesh, coarse_agd(mesh, np.sqrt(0.02 * mesh.area)), True)
+    field = agd_field(mesh, coarse_agd(Pyramid(mesh), np.sqrt(0.02 * mesh.area)), True)
     return surface_measures(cut_at_levels(mesh, field.values, uniform_levels(30)), field)
 
 
@@ -73,23 +75,23 @@ def test_small_regions_join_the_longest_border():
 def test_sums_of_merged_regions_are_those_of_a_new_start(tree):
     """After any merges the graph equals one made from the merged labels."""
     mesh, measures, label = tree
-    graph = RegionGraph(mesh, measures, label)
+    graph = RegionAdjacencyGraph(mesh, measures, label)
     n = len(graph.regions.alive)
     merges, _ = merge_all_(graph, by_length)
     for steps in (1, n // 2, n - 3):
-        again = RegionGraph(mesh, measures, label)
+        again = RegionAdjacencyGraph(mesh, measures, label)
         for a, b in merges[:steps]:
-            again.merge_(again.neighbours[a][b])
+            again.merge_(again.neighbors[a][b])
             again.measure_([a])
         group = groups_after(merges, n, steps)
-        fresh = RegionGraph(mesh, measures, group[label])
+        fresh = RegionAdjacencyGraph(mesh, measures, group[label])
         alive = np.flatnonzero(again.regions.alive)
         to = group[alive]
         for name in ("sums", "around", "perimeter", "level_min", "level_max", "agd_max", "degree", "shape"):
             old, new = getattr(again.regions, name)[alive], getattr(fresh.regions, name)[to]
             np.testing.assert_allclose(old, new, rtol=1e-6, atol=1e-6, err_msg=name)
-        borders = [(index, fresh.neighbours[group[a]][group[b]])
-                   for a in alive for b, index in again.neighbours[a].items() if a < b]
+        borders = [(index, fresh.neighbors[group[a]][group[b]])
+                   for a in alive for b, index in again.neighbors[a].items() if a < b]
         assert len(borders) == len(fresh.ends)
         old, new = np.transpose(borders)
         np.testing.assert_allclose(again.features(old), fresh.features(new), rtol=1e-5, atol=1e-5)
@@ -97,7 +99,7 @@ def test_sums_of_merged_regions_are_those_of_a_new_start(tree):
 
 def test_merging_leaves_one_region_and_every_step_is_a_partition(tree):
     mesh, measures, label = tree
-    graph = RegionGraph(mesh, measures, label)
+    graph = RegionAdjacencyGraph(mesh, measures, label)
     n = len(graph.regions.alive)
     merges, salience = merge_all_(graph, by_length)
     assert merges.shape == (n - 1, 2)
@@ -111,7 +113,7 @@ def test_merging_leaves_one_region_and_every_step_is_a_partition(tree):
 
 def test_whole_surface_has_the_sums_of_the_whole(tree):
     mesh, measures, label = tree
-    graph = RegionGraph(mesh, measures, label)
+    graph = RegionAdjacencyGraph(mesh, measures, label)
     merge_all_(graph, by_length)
     sums = graph.regions.sums[graph.regions.alive][0]
     assert sums[REGION.area] == pytest.approx(1)
@@ -131,8 +133,8 @@ def test_features_do_not_depend_on_scale_pose_or_order(tree, seed):
     faces, vertices = rng.permutation(mesh.n_faces), rng.permutation(mesh.n_vertices)
     place = np.argsort(vertices)
     moved = TriMesh(7.0 * (mesh.vertices @ turn.T + 3.0)[vertices], place[mesh.faces[faces]])
-    graph = RegionGraph(mesh, measures, label)
-    other = RegionGraph(moved, measured(moved), label[faces])
+    graph = RegionAdjacencyGraph(mesh, measures, label)
+    other = RegionAdjacencyGraph(moved, measured(moved), label[faces])
     assert other.ends.tolist() == graph.ends.tolist()
     rows = [g.features(np.arange(len(g.ends))) for g in (graph, other)]
     # Thickness is measured at probes, and which face is a probe depends on rounding.
@@ -144,5 +146,5 @@ def test_features_do_not_depend_on_scale_pose_or_order(tree, seed):
 def test_every_feature_is_finite_on_awkward_meshes():
     for shape in (shapes.tetrahedron(), shapes.flat_grid(3, 2), shapes.box(), shapes.cylinder(4, 8, capped=False)):
         mesh = TriMesh(*shape)
-        graph = RegionGraph(mesh, measured(mesh), np.arange(mesh.n_faces))
+        graph = RegionAdjacencyGraph(mesh, measured(mesh), np.arange(mesh.n_faces))
         assert np.isfinite(graph.features(np.arange(len(graph.ends)))).all()

@@ -7,7 +7,7 @@ import shapes
 
 from core import Parameters, TriMesh, decompose
 from core.cuts.perceptual.method import DECISION, MAX_FACES, salience_of
-from core.surface.mesh import components
+from core.surface.arrays import components
 
 
 def halves(shape, labels):

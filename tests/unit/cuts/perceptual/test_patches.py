@@ -7,7 +7,8 @@ import shapes
 
 from core.cuts.perceptual.patches import N_PATCHES, SLABS, concave_patches, level_set_patches
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.surface.mesh import TriMesh, components
+from core.surface.arrays import components
+from core.surface.mesh import TriMesh
 
 
 def mesh_of(shape) -> TriMesh:

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The caller's mesh as it was given, polygons cut into triangles; and the checks of what decompose was given."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import EmptyMeshError, MeshError
+from ..sentence import Sentence
+from .arrays import frozen
+from .mesh import TriMesh
+
+MIN_FACES = 4  # a closed surface has at least the four faces of a tetrahedron
+
+
+@dataclass(frozen=True, eq=False)
+class PolygonMesh:
+    """What the caller gave: polygons, cut into triangles.
+
+    Attributes
+    ----------
+    triangles : TriMesh
+        All of the caller's vertices; triangles of the polygons.
+    polygon : (m,) int64
+        The polygon each triangle belongs to.
+    n_polygons : int
+    """
+
+    triangles: TriMesh
+    polygon: np.ndarray
+    n_polygons: int
+
+    @classmethod
+    def of(cls, vertices, faces, polygon=None) -> PolygonMesh:
+        """Read triangles, quads or polygons.
+
+        Parameters
+        ----------
+        vertices : (n, 3) array_like
+        faces : (m, k) array_like of int, or a sequence of index sequences
+            Polygons are cut into the fan of their first corner.
+        polygon : (m,) array_like of int, optional
+            Only for triangles: the caller's own triangulation of polygons, as the
+            polygon of each triangle.
+
+        Raises
+        ------
+        MeshError
+            Not a mesh (shapes, indices, values).
+        EmptyMeshError
+            Fewer than four faces, or no area.
+        """
+        if polygon is None:
+            faces, polygon, n_polygons = _fan(faces)
+        else:
+            faces = np.asarray(faces)
+            polygon = frozen(polygon, np.int64)
+            if polygon.shape != (len(faces),) or (polygon < 0).any():
+                raise MeshError(Sentence(
+                    "Polygon numbers must be {n} whole numbers from 0, one per triangle.",
+                    n=len(faces)))
+            n_polygons = int(polygon.max(initial=-1)) + 1
+        if n_polygons == 0:
+            raise EmptyMeshError(
+                Sentence("The mesh has no faces. Add some, or choose another object."))
+        mesh = cls(TriMesh(vertices, faces), frozen(polygon, np.int64), n_polygons)
+        mesh._check_size()
+        return mesh
+
+    def _check_size(self):
+        if self.n_polygons < MIN_FACES:
+            raise EmptyMeshError(
+                Sentence(
+                    "The mesh has only {n} of the {least} faces that the smallest solid has. "
+                    "Choose a larger mesh.",
+                    n=self.n_polygons, least=MIN_FACES),
+                faces=np.arange(self.n_polygons),
+            )
+        used = np.zeros(self.triangles.n_vertices, bool)
+        used[self.triangles.faces] = True
+        extent = np.ptp(self.triangles.vertices[used], axis=0).max()
+        # Below the rounding error of the coordinates an area is noise.
+        if not self.triangles.area > 1e-14 * extent**2:
+            raise EmptyMeshError(Sentence(
+                "All {n} faces have zero area. Check the scale of the object.", n=self.n_polygons))
+
+
+def _fan(faces) -> tuple[np.ndarray, np.ndarray, int]:
+    """Triangles of polygons, the polygon of each, and how many polygons there are."""
+    if not isinstance(faces, np.ndarray) and isinstance(faces, Sequence) and len(faces):
+        sizes = np.array([len(face) for face in faces], np.int64)
+        flat = np.concatenate([np.asarray(face) for face in faces])
+    else:
+        faces = np.asarray(faces)
+        if faces.size == 0:
+            return np.empty((0, 3), np.int64), np.empty(0, np.int64), 0
+        if faces.ndim != 2:
+            raise MeshError(
+                Sentence("Faces must have shape (m, corners), not {shape}.", shape=faces.shape))
+        sizes = np.full(len(faces), faces.shape[1], np.int64)
+        flat = faces.ravel()
+    if (sizes < 3).any():
+        bad = np.flatnonzero(sizes < 3)
+        raise MeshError(
+            Sentence("{n} faces have fewer than three corners.", n=len(bad)), faces=bad)
+    start = np.cumsum(sizes) - sizes
+    polygon = np.repeat(np.arange(len(sizes)), sizes - 2)
+    step = np.arange(len(polygon)) - np.repeat(np.cumsum(sizes - 2) - (sizes - 2), sizes - 2)
+    first = start[polygon]
+    corners = np.stack([first, first + step + 1, first + step + 2], axis=1)
+    return flat[corners], polygon, len(sizes)
