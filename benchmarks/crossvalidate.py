@@ -26,7 +26,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from people import Subject, rand_index_error
 from train import N_MODELS, add_variants, by_category, fit_many, folds_of, learn, read_subjects
 
-from core.cuts.perceptual import method
 from core.cuts.perceptual.boosted_trees import BoostedTrees
 from core.pipeline import decompose
 
@@ -67,8 +66,7 @@ def main():
     for number, model in models_by_fold(subjects, variants, options.kind, options.rounds).items():
         with np.load(options.meshes / f"{number}.npz") as stored:
             vertices, faces, human = (stored[k] for k in ("vertices", "faces", "human"))
-        method.cut_model = lambda model=model: model  # the stages take it from here
-        labels = decompose(vertices, faces).parts().labels
+        labels = decompose(vertices, faces, model=model).parts().labels
         np.save(options.out / f"{number}.npy", labels)
         errors[number] = rand_index_error(labels, human)
         parts[number] = abs(np.log2((labels.max() + 1) / subjects[number].median_parts))

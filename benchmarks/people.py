@@ -12,7 +12,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from core.cuts.perceptual.features import SurfaceMeasures, surface_measures
+from core.cuts.perceptual.measures import SurfaceMeasures, surface_measures
 from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
 from core.cuts.perceptual.patches import concave_patches
 from core.field.agd import agd_field, coarse_agd

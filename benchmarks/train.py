@@ -60,7 +60,8 @@ def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES) -> BoostedTrees:
     weight = np.concatenate(weight)
     weight *= len(weight) / weight.sum()
     kept = weight > 0.2  # the others are half of the rows and four per cent of the weight
-    data = lightgbm.Dataset(rows[kept], np.clip(share[kept], 0, 1), weight=weight[kept])
+    data = lightgbm.Dataset(rows[kept], np.clip(share[kept], 0, 1), weight=weight[kept],
+                            feature_name=list(FEATURES))
     return trees_of(lightgbm.train(SETTINGS | {"seed": seed}, data, n_trees))
 
 
@@ -70,7 +71,7 @@ def fit_many(runs: list[Run], count: int) -> BoostedTrees:
     joined = (np.concatenate([getattr(m, name) for m in models])
               for name in ("feature", "threshold", "mask", "leaf"))
     feature, threshold, mask, leaf = joined
-    return BoostedTrees(feature, threshold, mask, leaf / count)
+    return BoostedTrees(feature, threshold, mask, leaf / count, models[0].names)
 
 
 def trees_of(booster) -> BoostedTrees:
@@ -78,8 +79,9 @@ def trees_of(booster) -> BoostedTrees:
     infos = booster.dump_model()["tree_info"]
     n_leaves = max(t["num_leaves"] for t in infos)
     shape = (len(infos), n_leaves - 1)
-    trees = BoostedTrees(np.zeros(shape, np.int64), np.full(shape, np.inf, np.float32),
-                  np.full(shape, 0xFFFF, np.uint16), np.zeros((len(infos), n_leaves)))
+    trees = BoostedTrees(
+        np.zeros(shape, np.int64), np.full(shape, np.inf, np.float32), np.full(shape, 0xFFFF, np.uint16),
+        np.zeros((len(infos), n_leaves)), tuple(booster.feature_name()))
     for tree, info in enumerate(infos):
         _add_nodes(trees, tree, info["tree_structure"], 0, 0)
     return trees

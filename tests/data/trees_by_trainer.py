@@ -28,4 +28,5 @@ nodes = np.isfinite(trees.threshold)
 column, edge = trees.feature[nodes][:40], trees.threshold[nodes][:40]
 asked[np.arange(40), column] = edge  # exactly on a threshold
 np.savez_compressed(HERE / "trees_by_trainer.npz", rows=asked, expected=booster.predict(asked),
-                    feature=trees.feature, threshold=trees.threshold, mask=trees.mask, leaf=trees.leaf)
+                    feature=trees.feature, threshold=trees.threshold, mask=trees.mask, leaf=trees.leaf,
+                    names=np.array(trees.names))

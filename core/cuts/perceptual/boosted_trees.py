@@ -5,11 +5,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from itertools import zip_longest
 from pathlib import Path
 
 import numpy as np
 
+from ...errors import ReebError
+from ...sentence import Sentence
 from ...surface.arrays import frozen
+from .features import FEATURES
 
 ROWS = 64  # at once: what they need stays in the processor's cache
 
@@ -30,24 +34,45 @@ class BoostedTrees:
         Leaves that are still possible when the value goes right, one bit each.
     leaf : (T, L) float64
         What each leaf adds.
+    names : tuple of str
+        What each column of the rows holds.
     """
 
     feature: np.ndarray
     threshold: np.ndarray
     mask: np.ndarray
     leaf: np.ndarray
+    names: tuple[str, ...]
 
     @classmethod
-    def read(cls, path: Path) -> BoostedTrees:
-        """From the arrays of an .npz file."""
+    def read(cls, path: Path, names: tuple[str, ...]) -> BoostedTrees:
+        """Read an .npz file that ``write`` made.
+
+        Parameters
+        ----------
+        path : Path
+        names : tuple of str
+            What the columns of the rows to be judged hold.
+
+        Raises
+        ------
+        ReebError
+            The model was trained on other columns, or on these in another order.
+        """
         with np.load(path, allow_pickle=False) as stored:
+            trained_on = tuple(stored["names"].tolist())
+            if trained_on != names:
+                different = [a or b for a, b in zip_longest(trained_on, names) if a != b]
+                raise ReebError(Sentence(
+                    "The model {file} was trained on other features (first: {name}). Train it again.",
+                    file=path.name, name=different[0]))
             return cls(frozen(stored["feature"], np.int64), frozen(stored["threshold"], np.float32),
-                       frozen(stored["mask"], np.uint16), frozen(stored["leaf"], np.float64))
+                       frozen(stored["mask"], np.uint16), frozen(stored["leaf"], np.float64), names)
 
     def write(self, path: Path):
         """Compressed; the coefficients of the leaves keep 32 bits."""
         np.savez_compressed(path, feature=self.feature.astype(np.uint8), threshold=self.threshold,
-                            mask=self.mask, leaf=self.leaf.astype(np.float32))
+                            mask=self.mask, leaf=self.leaf.astype(np.float32), names=np.array(self.names))
 
     def predict(self, rows: np.ndarray) -> np.ndarray:
         """Value of each row.
@@ -85,4 +110,4 @@ class BoostedTrees:
 @cache
 def cut_model() -> BoostedTrees:
     """The trees that judge cuts; benchmarks/train.py made them."""
-    return BoostedTrees.read(Path(__file__).parent / "cut_model.npz")
+    return BoostedTrees.read(Path(__file__).parent / "cut_model.npz", FEATURES)

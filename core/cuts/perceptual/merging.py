@@ -9,7 +9,8 @@ import numpy as np
 
 from ...surface.arrays import distinct_pairs, sums_by
 from ...surface.mesh import TriMesh
-from .features import BORDER, RegionMeasures, SurfaceMeasures, cut_features, region_shape
+from .features import RegionMeasures, cut_features, region_shape
+from .measures import BORDER, SurfaceMeasures
 
 # So long as there are more regions than this, or cuts weaker than this, all regions merge at once
 # that are each other's weakest cut; then one at a time.

@@ -17,7 +17,7 @@ from ...surface.mesh import TriMesh
 from ..hierarchy import Candidates, Hierarchy
 from ..minimum_cut import move_cuts
 from .boosted_trees import BoostedTrees, cut_model
-from .features import BORDER, surface_measures
+from .measures import BORDER, surface_measures
 from .merging import Judge, RegionAdjacencyGraph, merge_all_
 from .patches import concave_patches, level_set_patches
 

@@ -4,7 +4,9 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 
+from core import ReebError
 from core.cuts.perceptual.boosted_trees import ROWS, BoostedTrees, cut_model
 from core.cuts.perceptual.features import FEATURES
 
@@ -15,7 +17,7 @@ def two_trees() -> BoostedTrees:
         feature=np.array([[0, 1], [1, 0]]),
         threshold=np.array([[1, 2], [0, np.inf]], np.float32),
         mask=np.array([[0b100, 0b110], [0b10, 0xFFFF]], np.uint16) | np.uint16(0xFFF8),
-        leaf=np.array([[0.1, 0.2, 0.4], [-1.0, 1.0, 0.0]]))
+        leaf=np.array([[0.1, 0.2, 0.4], [-1.0, 1.0, 0.0]]), names=("x", "y"))
 
 
 def by_hand(x, y):
@@ -33,7 +35,8 @@ def test_answers_are_those_of_the_trainer():
     path = Path(__file__).resolve().parents[3] / "data" / "trees_by_trainer.npz"
     with np.load(path, allow_pickle=False) as stored:
         rows, expected = stored["rows"], stored["expected"]
-    np.testing.assert_allclose(BoostedTrees.read(path).predict(rows), expected, rtol=1e-9)
+    model = BoostedTrees.read(path, tuple(f"Column_{i}" for i in range(rows.shape[1])))
+    np.testing.assert_allclose(model.predict(rows), expected, rtol=1e-9)
 
 
 def test_many_rows_are_each_row_alone():
@@ -47,9 +50,16 @@ def test_many_rows_are_each_row_alone():
 
 def test_reading_gives_back_what_was_written(tmp_path):
     two_trees().write(tmp_path / "trees.npz")
-    again = BoostedTrees.read(tmp_path / "trees.npz")
+    again = BoostedTrees.read(tmp_path / "trees.npz", ("x", "y"))
     rows = np.random.default_rng(1).normal(size=(50, 2))
     np.testing.assert_allclose(again.predict(rows), two_trees().predict(rows), rtol=1e-6)
+
+
+@pytest.mark.parametrize(("names", "first"), [(("y", "x"), "x"), (("x", "y", "z"), "z"), (("x",), "y")])
+def test_a_model_of_other_features_is_refused(tmp_path, names, first):
+    two_trees().write(tmp_path / "trees.npz")
+    with pytest.raises(ReebError, match=rf"trees.npz was trained on other features \(first: {first}\)"):
+        BoostedTrees.read(tmp_path / "trees.npz", names)
 
 
 def test_shipped_coefficients_are_trees_on_these_features():

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 import shapes
 
-from core.cuts.perceptual.features import BORDER, FEATURES, REGION, surface_measures
+from core.cuts.perceptual.features import FEATURES
+from core.cuts.perceptual.measures import BORDER, REGION, surface_measures
 from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
 from core.cuts.perceptual.patches import absorb_small, concave_patches
 from core.field.agd import agd_field, coarse_agd
@@ -117,11 +118,11 @@ def test_whole_surface_has_the_sums_of_the_whole(tree):
     merge_all_(graph, by_length)
     sums = graph.regions.sums[graph.regions.alive][0]
     assert sums[REGION.area] == pytest.approx(1)
-    assert sums[REGION.gauss] == pytest.approx(2 * np.pi * mesh.euler_characteristic)
+    assert sums[REGION.angle_defect] == pytest.approx(2 * np.pi * mesh.euler_characteristic)
     np.testing.assert_allclose(sums[REGION.normal], 0, atol=1e-9)  # a closed surface
     a, b, c = mesh.corners.transpose(1, 0, 2)
     volume = (a * np.cross(b, c)).sum() / 6
-    assert sums[REGION.reach] / 3 == pytest.approx(volume / mesh.area**1.5)
+    assert sums[REGION.support] / 3 == pytest.approx(volume / mesh.area**1.5)
 
 
 @pytest.mark.parametrize("seed", [0, 1])
@@ -139,7 +140,7 @@ def test_features_do_not_depend_on_scale_pose_or_order(tree, seed):
     rows = [g.features(np.arange(len(g.ends))) for g in (graph, other)]
     # Thickness is measured at probes, and which face is a probe depends on rounding.
     exact = [i for i, name in enumerate(FEATURES)
-             if not any(word in name for word in ("inside", "outside", "hollowness", "siblings"))]
+             if not any(word in name for word in ("thickness", "clearance", "hollowness", "siblings"))]
     np.testing.assert_allclose(rows[1][:, exact], rows[0][:, exact], rtol=2e-3, atol=2e-3)
 
 
