@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..surface.arrays import components, renumbered, sums_by
+from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, connect, straighten
 
 STRAIGHTEN = 10  # rounds, as many as after a decomposition
@@ -37,11 +38,16 @@ class Contours:
     face: np.ndarray
     label: np.ndarray
 
+    @property
+    def length(self) -> np.ndarray:
+        """(s,) float64, of each segment; above 0."""
+        return np.linalg.norm(self.segments[:, 0] - self.segments[:, 1], axis=1) + 1e-300
+
     def around(self, point: np.ndarray) -> int:
         """The contour whose centroid is nearest to a (3,) point; -1 if there is none."""
         if not self.count:
             return -1
-        length = np.linalg.norm(self.segments[:, 0] - self.segments[:, 1], axis=1) + 1e-300
+        length = self.length
         middle = self.segments.mean(axis=1)
         total = np.bincount(self.label, length, self.count)
         centroid = sums_by(self.label, length[:, None] * middle, self.count) / total[:, None]
@@ -53,48 +59,37 @@ class Contours:
         return int(found[0]) if len(found) else -1
 
 
-def contours(
-    field: np.ndarray,
-    level: float,
-    vertices: np.ndarray,
-    edges: np.ndarray,
-    corner_edge: np.ndarray,
-    corner_face: np.ndarray,
-    inside: np.ndarray,
-) -> Contours:
-    """Connected components of a level set within some faces.
+def contours(field: np.ndarray, level: float, table: CornerTable) -> Contours:
+    """Connected components of a level set.
 
     Parameters
     ----------
     field : (n,) float64
+        Of each vertex; nan for a vertex of no face.
     level : float
-    vertices : (n, 3) float64
-    edges : (e, 2) int64
-    corner_edge : (c,) int64
-        The edge from each corner of a face to the next, face by face.
-    corner_face : (c,) int64
-        Rising.
-    inside : (p,) bool
+    table : CornerTable
         The faces to look at.
 
     Returns
     -------
     contours : Contours
+
+    Notes
+    -----
+    O(corners of the table).
     """
-    above = field >= level
-    crossed = above[edges[:, 0]] != above[edges[:, 1]]
-    on = np.flatnonzero(crossed[corner_edge])
-    on = on[inside[corner_face[on]]]
-    edge, face = corner_edge[on], corner_face[on]
-    low, high = edges[edge].T
-    with np.errstate(invalid="ignore"):  # a vertex of no face has no value, and no corner
-        share = (level - field[low]) / (field[high] - field[low])
-    point = vertices[low] + share[:, None] * (vertices[high] - vertices[low])
+    low, high = field[table.edges].T
+    crossed = (low >= level) != (high >= level)
+    on = np.flatnonzero(crossed[table.corner_edge])
+    edge, face = table.corner_edge[on], table.corner_face[on]
+    share = (level - low[edge]) / (high[edge] - low[edge])
+    start, end = table.vertices[table.edges[edge]].transpose(1, 0, 2)
+    point = start + share[:, None] * (end - start)
     # Around a face the field changes sides an even number of times.
     edge, face = edge.reshape(-1, 2), face.reshape(-1, 2)[:, 0]
     edges_crossed, index = renumbered(edge)
     faces_crossed, of_face = renumbered(face)
-    of_face += len(edges_crossed)
+    of_face = of_face + len(edges_crossed)
     count, label = components(
         len(edges_crossed) + len(faces_crossed), np.concatenate([index[:, 0], index[:, 1]]), np.tile(of_face, 2))
     return Contours(count, point.reshape(-1, 2, 3), face, label[of_face])

@@ -10,12 +10,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
-from ..cuts.hierarchy import Hierarchy
-from ..surface.arrays import components
-from ..surface.labels import label_boundaries
+from ..cuts.hierarchy import Dendrogram, Hierarchy
+from ..graph.contours import contours
+from ..graph.critical import SADDLE
+from ..surface.arrays import components, symmetric_matrix
+from ..surface.corners import CornerTable
+from ..surface.labels import FaceGraph, majority
 from .decomposition import Decomposition
 
 
@@ -54,17 +56,8 @@ def best_split(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray | N
     """
     if mask.sum() < 2:
         return None
-    pairs = _inside(decomposition, mask)
-    order = np.argsort(decomposition.hierarchy.merge_of(*pairs.T), kind="stable")
-    part = np.arange(decomposition.n_candidates)
-    for a, b in pairs[order].tolist():
-        if part[a] != part[b]:
-            last = part == part[b]
-            part[last] = part[a]
-    # The last two sides to be joined; nothing else was left to join.
-    other = mask & ~last
-    area = decomposition.candidate_area
-    return last if area[last].sum() <= area[other].sum() else other
+    pairs, tree = _merging_inside(decomposition, mask)
+    return _smaller_side(decomposition, mask, _side_without(pairs, tree.rows[:-1], tree.order[tree.joins[-1, 0]], mask))
 
 
 def node_split(decomposition: Decomposition, mask: np.ndarray, node: int) -> np.ndarray | None:
@@ -96,26 +89,37 @@ def node_split(decomposition: Decomposition, mask: np.ndarray, node: int) -> np.
     return _strongest_cut(decomposition, mask, start, rest & reached if (rest & reached).any() else rest)
 
 
-def _strongest_cut(decomposition, mask, start, targets) -> np.ndarray | None:
+def _strongest_cut(
+    decomposition: Decomposition, mask: np.ndarray, start: int, targets: np.ndarray
+) -> np.ndarray | None:
     """The side of a candidate at the last merge that joins it with one of some others in a part."""
+    pairs, tree = _merging_inside(decomposition, mask)
+    targets = np.flatnonzero(targets)
+    rows = tree.row_of(np.full(len(targets), start), targets)
+    rows = rows[np.isin(rows, tree.rows)]
+    if not len(rows):
+        return None
+    return _side_without(pairs, tree.rows[tree.rows != rows.max()], start, mask)
+
+
+def _merging_inside(decomposition: Decomposition, mask: np.ndarray) -> tuple[np.ndarray, Dendrogram]:
+    """Pairs of candidates that touch inside a part, weakest cut first, and how they merge."""
     pairs = _inside(decomposition, mask)
     pairs = pairs[np.argsort(decomposition.hierarchy.merge_of(*pairs.T), kind="stable")]
-    part = np.arange(decomposition.n_candidates)
-    joins, cut = [], None
-    for a, b in pairs.tolist():
-        if part[a] == part[b]:
-            continue
-        other = {part[a]: part[b], part[b]: part[a]}.get(part[start])
-        if other is not None and targets[part == other].any():
-            cut = len(joins)
-        joins.append((a, b))
-        part[part == part[b]] = part[a]
-    if cut is None:
-        return None
-    # All joins but that one leave two sides.
-    kept = np.array(joins[:cut] + joins[cut + 1 :], np.int64).reshape(-1, 2)
-    label = components(decomposition.n_candidates, *kept.T)[1]
+    return pairs, Dendrogram.of(decomposition.n_candidates, pairs)
+
+
+def _side_without(pairs: np.ndarray, joins: np.ndarray, start: int, mask: np.ndarray) -> np.ndarray:
+    """What is together with a candidate when only some of the pairs are joined, (c,) bool."""
+    label = components(len(mask), *pairs[joins].T)[1]
     return label == label[start]
+
+
+def _smaller_side(decomposition: Decomposition, mask: np.ndarray, side: np.ndarray) -> np.ndarray:
+    """A side of a part, or what it leaves of the part if that has less area."""
+    other = mask & ~side
+    area = decomposition.candidate_area
+    return side if area[side].sum() <= area[other].sum() else other
 
 
 def growth(decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray) -> int | None:
@@ -207,10 +211,9 @@ def boundary_distance(
         border = border[inside[border] != side]
         if not len(border):
             continue
-        a, b = face_pairs[usable].T
-        graph = coo_array((length[usable], (a, b)), shape=(count, count)).tocsr()
+        graph = symmetric_matrix(face_pairs[usable], length[usable], count)
         found, _, source = dijkstra(
-            graph, directed=False, indices=border, min_only=True, return_predecessors=True)
+            graph, directed=True, indices=border, min_only=True, return_predecessors=True)
         here = (inside == side) & np.isfinite(found)
         distance[here] = -found[here] if side else found[here]
         across[here] = source[here]
@@ -218,16 +221,12 @@ def boundary_distance(
 
 
 def split_candidates(
-    decomposition: Decomposition,
-    faces: np.ndarray,
-    face_area: np.ndarray,
-    face_pairs: np.ndarray,
-    pair_length: np.ndarray,
+    decomposition: Decomposition, faces: np.ndarray, graph: FaceGraph, table: CornerTable
 ) -> Decomposition:
-    """The same decomposition with candidates cut along the outline of some faces.
+    """Cut candidates in two along the outline of some faces.
 
-    The new candidates are the first to merge again, so that no level of detail shows the new cuts unless
-    somebody ties the candidates to different parts.
+    The two halves of a candidate are the first to merge again, so that no level of detail shows the new cuts unless
+    the halves are pinned to different parts.
 
     Parameters
     ----------
@@ -235,16 +234,16 @@ def split_candidates(
         Of p faces, with c candidates.
     faces : (p,) bool
         Faces to be separable from the others.
-    face_area : (p,) float64
-    face_pairs : (e, 2) int64
-        Faces that share an edge.
-    pair_length : (e,) float64
-        Length of the edge.
+    graph : FaceGraph
+        Which of the p faces touch, and their areas.
+    table : CornerTable
+        Of the same faces, in the coordinates of the decomposition's graph.
 
     Returns
     -------
     finer : Decomposition
-        Old candidates keep their number, less the faces that now belong to new ones from c on.
+        Old candidates keep their number, less the faces, vertices, nodes and center points of the graph that now
+        belong to new ones from c on.
     """
     old = decomposition.candidates
     size = np.bincount(old, minlength=decomposition.n_candidates)
@@ -252,27 +251,87 @@ def split_candidates(
     cut = np.flatnonzero((inside > 0) & (inside < size))
     if not len(cut):
         return decomposition
-    new_index = np.arange(decomposition.n_candidates)
-    new_index[cut] = decomposition.n_candidates + np.arange(len(cut))
-    candidates = np.where(faces, new_index[old], old)
+    half = np.arange(decomposition.n_candidates)  # the candidate of those of its faces that are to be separable
+    half[cut] = decomposition.n_candidates + np.arange(len(cut))
+    candidates = np.where(faces, half[old], old)
     count = decomposition.n_candidates + len(cut)
-    pairs, length = label_boundaries(candidates, face_pairs, pair_length)
-    area = np.bincount(candidates, face_area, count)
+    pairs, length = graph.boundaries(candidates)
+    area = np.bincount(candidates, graph.area, count)
     area *= decomposition.candidate_area.sum() / area.sum()
     hierarchy = decomposition.hierarchy
-    merges = np.concatenate([np.stack([cut, new_index[cut]], axis=1), hierarchy.merges])
+    merges = np.concatenate([np.stack([cut, half[cut]], axis=1), hierarchy.merges])
     salience = np.concatenate([np.zeros(len(cut)), hierarchy.salience])
+    nodes, points = _graph_halves(decomposition, faces, cut, half, table)
     return replace(
         decomposition, candidates=candidates, candidate_area=area, candidate_pairs=pairs,
-        candidate_pair_length=length, hierarchy=Hierarchy.of(count, merges, salience))
+        vertex_candidates=_vertex_halves(decomposition, candidates, graph.area, table),
+        candidate_pair_length=length, hierarchy=Hierarchy.of(count, merges, salience),
+        node_candidate=nodes, point_candidate=points)
 
 
-def _inside(decomposition, mask) -> np.ndarray:
+def _vertex_halves(
+    decomposition: Decomposition, candidates: np.ndarray, area: np.ndarray, table: CornerTable
+) -> np.ndarray:
+    """The candidate of each vertex: of the two halves of its former one, that with more area around it."""
+    vertex, face = table.corner_vertex, table.corner_face
+    former = decomposition.vertex_candidates
+    votes = decomposition.candidates[face] == former[vertex]
+    vertex, face = vertex[votes], face[votes]
+    # Faces without area vote, too, after all others.
+    winner = majority(vertex, candidates[face], area[face] + 1e-12 * area.sum(), len(former))
+    return np.where(winner >= 0, winner, former)
+
+
+def _graph_halves(
+    decomposition: Decomposition, faces: np.ndarray, cut: np.ndarray, half: np.ndarray, table: CornerTable
+) -> tuple[np.ndarray, np.ndarray]:
+    """The candidate of each node and of each center point of the graph, after candidates were cut.
+
+    A center point goes where most of its contour lies, and so does a saddle; an extremum lies on the surface.
+    """
+    graph = decomposition.graph
+    nodes, points = decomposition.node_candidate.copy(), decomposition.point_candidate.copy()
+    for candidate in cut.tolist():
+        mine = table.within(decomposition.candidates == candidate)
+        for place in np.flatnonzero(points == candidate):
+            if _contour_is_on(mine, decomposition, graph.point_position[place], graph.point_value[place], faces):
+                points[place] = half[candidate]
+        for node in np.flatnonzero(nodes == candidate):
+            position = graph.node_position[node]
+            on = (_contour_is_on(mine, decomposition, position, graph.node_value[node], faces)
+                  if graph.node_kind[node] == SADDLE else _nearest_is_on(mine, position, faces))
+            if on:
+                nodes[node] = half[candidate]
+    return nodes, points
+
+
+def _contour_is_on(
+    table: CornerTable, decomposition: Decomposition, position: np.ndarray, level: float, faces: np.ndarray
+) -> bool:
+    """Whether most of the contour of a level around a position, within a table, lies on some faces."""
+    found = contours(decomposition.field, level, table)
+    chosen = found.label == found.around(position)
+    if not chosen.any():
+        return _nearest_is_on(table, position, faces)
+    length = found.length[chosen]
+    return bool(length[faces[found.face[chosen]]].sum() > length.sum() / 2)
+
+
+def _nearest_is_on(table: CornerTable, position: np.ndarray, faces: np.ndarray) -> bool:
+    """Whether most of the faces of a table that meet at the vertex nearest to a position are among some faces."""
+    offset = table.vertices[table.corner_vertex] - position
+    nearest = table.corner_vertex[np.einsum("ij,ij->i", offset, offset).argmin()]
+    around = faces[table.corner_face[table.corner_vertex == nearest]]
+    return bool(around.sum() > len(around) / 2)
+
+
+def _inside(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
+    """Pairs of touching candidates with both in a mask, (k, 2)."""
     pairs = decomposition.candidate_pairs
     return pairs[mask[pairs].all(axis=1)]
 
 
-def _border(decomposition, mask) -> tuple[np.ndarray, np.ndarray]:
+def _border(decomposition: Decomposition, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Pairs of touching candidates across the boundary: inner and outer ones."""
     pairs = decomposition.candidate_pairs
     across = pairs[mask[pairs].sum(axis=1) == 1]
@@ -281,5 +340,6 @@ def _border(decomposition, mask) -> tuple[np.ndarray, np.ndarray]:
             np.where(first_inside, across[:, 1], across[:, 0]))
 
 
-def _weakest(decomposition, a, b) -> int:
+def _weakest(decomposition: Decomposition, a: np.ndarray, b: np.ndarray) -> int:
+    """Which of some pairs of candidates merges first."""
     return int(decomposition.hierarchy.merge_of(a, b).argmin())

@@ -10,6 +10,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
 
 from ..surface.arrays import distinct_pairs, sums_by
+from ..surface.corners import CornerTable
 
 # A bone shorter than this share of the mesh's extent would have no direction to speak of.
 _SHORTEST = 0.01
@@ -35,37 +36,38 @@ class Bones:
 
 
 def part_bones(
-    labels: np.ndarray, area: np.ndarray, center: np.ndarray, height: np.ndarray,
-    cut_parts: np.ndarray, cut_center: np.ndarray, cut_length: np.ndarray,
-    points: np.ndarray, point_part: np.ndarray,
-) -> Bones:  # fmt: skip
+    table: CornerTable, labels: np.ndarray, area: np.ndarray, height: np.ndarray, line: np.ndarray,
+    line_part: np.ndarray,
+) -> Bones:
     """Bones of parts that hang together at their cuts.
 
     Parameters
     ----------
+    table : CornerTable
+        With p faces and n vertices.
     labels : (p,) int64
         Part of each face, 0..count-1, all in use.
-    area, height : (p,) float64
-        Of each face, its area and its value of the field: the body is lowest.
-    center : (p, 3) float64
-    cut_parts : (e, 2) int64
-        The parts on both sides of each edge on a cut, the smaller first.
-    cut_center : (e, 3) float64
-    cut_length : (e,) float64
-    points : (r, 3) float64
-        On the center lines.
-    point_part : (r,) int64
+    area : (p,) float64
+        Of each face.
+    height : (n,) float64
+        The field at each vertex: the body is lowest.
+    line : (r, 3) float64
+        Points on the center lines of the parts.
+    line_part : (r,) int64
+        The part of each.
 
     Returns
     -------
     bones : Bones
     """
     count = int(labels.max()) + 1
+    center = table.face_means(table.vertices)
     weight = np.maximum(area, 1e-12 * max(area.sum(), 1e-300))
     share = np.bincount(labels, weight, count)
     middle = sums_by(labels, weight[:, None] * center, count) / share[:, None]
-    pairs, joint, length = _joints(cut_parts, cut_center, cut_length)
-    parent, order = _tree(count, pairs, length, np.bincount(labels, weight * height, count) / share)
+    pairs, joint, length = _joints(table, labels)
+    of_part = np.bincount(labels, weight * table.face_means(height), count) / share
+    parent, order = _tree(count, pairs, length, of_part)
     at = {(a, b): place for (a, b), place in zip(pairs.tolist(), joint, strict=True)}
     head = middle.copy()
     for part in order:
@@ -76,7 +78,7 @@ def part_bones(
     shortest = _SHORTEST * float(np.linalg.norm(np.ptp(center, axis=0)))
     for part in order:
         children = np.flatnonzero(parent == part)
-        tail[part] = _end(head[part], head[children], points[point_part == part], middle[part], parent[part] < 0)
+        tail[part] = _end(head[part], head[children], line[line_part == part], middle[part], parent[part] < 0)
         if np.linalg.norm(tail[part] - head[part]) < shortest:
             tail[part] = head[part] + (0.0, 0.0, max(shortest, 1e-6))
         elif len(children) == 1:
@@ -84,12 +86,14 @@ def part_bones(
     return Bones(head, tail, parent, connected)
 
 
-def _joints(cut_parts, cut_center, cut_length):
+def _joints(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The pairs of parts that touch, the middle of what they have in common, and its length."""
-    pairs, which = distinct_pairs(*cut_parts.T)
-    weight = np.maximum(cut_length, 1e-300)
+    low, high = table.edge_labels(labels)
+    cut = np.flatnonzero(low < high)
+    pairs, which = distinct_pairs(low[cut], high[cut])
+    weight = np.maximum(table.edge_length(cut), 1e-300)
     length = np.bincount(which, weight, len(pairs))
-    joint = sums_by(which, weight[:, None] * cut_center, len(pairs))
+    joint = sums_by(which, weight[:, None] * table.vertices[table.edges[cut]].mean(axis=1), len(pairs))
     return pairs, joint / np.maximum(length, 1e-300)[:, None], length
 
 

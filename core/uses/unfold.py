@@ -7,14 +7,14 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components, dijkstra, minimum_spanning_tree
 
+from ..surface.corners import CornerTable
+
 # A disc is opened too, like the sleeve of a shirt, if it is deeper than this share of its border is long;
 # a hemisphere is as deep as a quarter.
 _DEEP = 0.5
 
 
-def opening_seams(
-    vertices: np.ndarray, edges: np.ndarray, corner_edge: np.ndarray, corner_face: np.ndarray, cut: np.ndarray
-) -> np.ndarray:
+def opening_seams(table: CornerTable, cut: np.ndarray) -> np.ndarray:
     """Edges to cut beside given ones so that every chart is a disc, and no deep one.
 
     Tubes are cut along, closed charts from one end to the other, handles open. The new seams are short:
@@ -23,11 +23,8 @@ def opening_seams(
 
     Parameters
     ----------
-    vertices : (n, 3) float64
-    edges : (e, 2) int
-        The vertices of each edge.
-    corner_edge, corner_face : (c,) int
-        Of each corner, the edge that starts there and the face; p faces are numbered 0..p-1.
+    table : CornerTable
+        With e edges.
     cut : (e,) bool
         Where charts end already. Edges that do not have two faces count as cut.
 
@@ -36,12 +33,14 @@ def opening_seams(
     seams : (e,) bool
         The new ones.
     """
+    vertices, edges, corner_edge, corner_face = table.vertices, table.edges, table.corner_edge, table.corner_face
     faces_at = np.bincount(corner_edge, minlength=len(edges))
     inner = np.flatnonzero((faces_at == 2) & ~cut)
     border = np.flatnonzero((faces_at > 0) & ((faces_at != 2) | cut))
-    length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
-    pairs = _faces_of(corner_edge, corner_face, inner)
-    n_faces = int(corner_face.max(initial=-1)) + 1
+    length = table.edge_length(np.arange(len(edges)))
+    pairs, edge = table.face_pairs()
+    pairs = pairs[np.searchsorted(edge, inner)]
+    n_faces = table.n_faces
     of_face, of_vertex = _charts(len(vertices), n_faces, pairs, edges[corner_edge], corner_face)
     roots = _roots(of_vertex, edges[border].ravel())
     distance, before, tree = _shortest_paths(len(vertices), edges, length, inner, roots)
@@ -55,13 +54,6 @@ def opening_seams(
     ends = np.concatenate([edges[inner[rest]].ravel(), _deep_ends(of_vertex, distance, around)])
     _follow(seams, ends, before, edges)
     return seams
-
-
-def _faces_of(corner_edge, corner_face, inner):
-    """The two faces at each of some edges, (i, 2)."""
-    order = np.argsort(corner_edge, kind="stable")
-    first = np.searchsorted(corner_edge[order], inner)
-    return np.stack([corner_face[order[first]], corner_face[order[first + 1]]], axis=1)
 
 
 def _charts(n, n_faces, pairs, corner_ends, corner_face):

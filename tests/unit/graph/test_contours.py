@@ -4,10 +4,11 @@
 import numpy as np
 import pytest
 import shapes
+from face_graphs import graph_of
 
 from core.graph.contours import contour_sides, contours
 from core.surface.arrays import components
-from core.surface.labels import FaceGraph
+from core.surface.corners import CornerTable
 
 
 class Surface:
@@ -16,22 +17,13 @@ class Surface:
     def __init__(self, shape, field):
         self.vertices, self.faces = shape
         self.field = field(self.vertices)
-        sides = np.sort(np.stack([self.faces, np.roll(self.faces, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-        self.edges, self.corner_edge = np.unique(sides, axis=0, return_inverse=True)
-        self.corner_edge = self.corner_edge.reshape(-1)
-        self.corner_face = np.repeat(np.arange(len(self.faces)), 3)
-        order = np.argsort(self.corner_edge, kind="stable")
-        ends = self.vertices[self.edges]
-        a, b, c = self.vertices[self.faces].transpose(1, 0, 2)
-        self.graph = FaceGraph(
-            len(self.faces), self.corner_face[order].reshape(-1, 2),
-            np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1),
-            0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1))
+        self.table = CornerTable.of(self.vertices, self.faces)
+        self.graph = graph_of(shape)
         self.everything = np.ones(len(self.faces), bool)
 
     def contours(self, level, inside=None):
         inside = self.everything if inside is None else inside
-        return contours(self.field, level, self.vertices, self.edges, self.corner_edge, self.corner_face, inside)
+        return contours(self.field, level, self.table.within(inside))
 
     def sides(self, level, found, chosen, inside=None):
         crossed = np.zeros(len(self.faces), bool)

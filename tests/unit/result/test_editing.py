@@ -4,8 +4,10 @@
 import numpy as np
 import pytest
 import shapes
+from face_graphs import graph_of
 
 from core import Parameters, decompose
+from core.graph.critical import MAXIMUM
 from core.result.editing import (
     best_split,
     boundary_distance,
@@ -15,6 +17,7 @@ from core.result.editing import (
     shrinkage,
     split_candidates,
 )
+from core.surface.corners import CornerTable
 
 
 @pytest.fixture(scope="module")
@@ -108,26 +111,63 @@ def test_shrinking_keeps_one_piece_and_never_everything(result):
         assert not rest.any() or pieces(result, rest).max() > 0
 
 
+@pytest.fixture(scope="module")
+def tree():
+    """Faces that touch and corners of the mesh of ``result``."""
+    shape = shapes.tube_tree()
+    return graph_of(shape), CornerTable.of(*shape)
+
+
 @pytest.mark.parametrize("seed", range(3))
-def test_finer_candidates_change_no_parts(result, seed):
-    vertices, faces = shapes.tube_tree()
-    corners = vertices[faces]
-    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    pairs, length = _neighbors(vertices, faces)
-    chosen = np.random.default_rng(seed).random(len(faces)) < 0.5
-    finer = split_candidates(result, chosen, area, pairs, length)
+def test_finer_candidates_change_no_parts(result, tree, seed):
+    graph, table = tree
+    chosen = np.random.default_rng(seed).random(graph.n_faces) < 0.5
+    finer = split_candidates(result, chosen, graph, table)
     assert finer.n_candidates == 2 * result.n_candidates
     for detail in (0.0, 0.4, 0.6, 0.99):
-        assert (finer.parts(detail).labels == result.parts(detail).labels).all()
+        fine, coarse = finer.parts(detail), result.parts(detail)
+        for name in ("labels", "vertex_labels", "node_part", "point_part", "arc_part", "cuts"):
+            np.testing.assert_array_equal(getattr(fine, name), getattr(coarse, name))
     # Candidates lie wholly inside or outside of the chosen faces.
     inside = np.bincount(finer.candidates, chosen)
     assert ((inside == 0) | (inside == np.bincount(finer.candidates))).all()
-    assert finer.candidate_area == pytest.approx(np.bincount(finer.candidates, area))
+    assert finer.candidate_area == pytest.approx(np.bincount(finer.candidates, graph.area))
+    # Of the two halves of its candidate, every vertex is of the one with more area around it.
+    area = np.zeros((len(table.vertices), finer.n_candidates))
+    np.add.at(area, (table.corner_vertex, finer.candidates[table.corner_face]), graph.area[table.corner_face])
+    rows, half = np.arange(len(area)), result.n_candidates + result.vertex_candidates  # all candidates are cut
+    both = np.stack([area[rows, result.vertex_candidates], area[rows, half]], axis=1)
+    np.testing.assert_allclose(area[rows, finer.vertex_candidates], both.max(axis=1), rtol=1e-9)
 
 
-def test_whole_candidates_need_no_splitting(result):
-    chosen = result.candidates == 1
-    assert split_candidates(result, chosen, np.ones(len(chosen)), np.empty((0, 2), int), np.empty(0)) is result
+def test_the_graph_follows_a_branch_that_is_cut_half_way(result, tree):
+    """Once they stayed with the old candidate: the graph's colors, picking and the JSON named the wrong part."""
+    graph, table = tree
+    tip = int(np.flatnonzero(result.graph.node_kind == MAXIMUM)[0])
+    branch = result.node_candidate[tip]
+    mine = np.flatnonzero(result.point_candidate == branch)
+    level = np.median(result.graph.point_value[mine])
+    beyond = (result.candidates == branch) & (table.face_means(result.field) > level)
+    finer = split_candidates(result, beyond, graph, table)
+    new = result.n_candidates
+    assert finer.node_candidate[tip] == new
+    # A contour goes where most of it lies: only at the cut itself, where faces lie on both sides, can that be open.
+    clear = mine[np.abs(result.graph.point_value[mine] - level) > 0.02]
+    assert len(clear) > 5
+    np.testing.assert_array_equal(finer.point_candidate[clear] == new, result.graph.point_value[clear] > level)
+    others = np.setdiff1d(np.arange(len(result.point_candidate)), mine)
+    np.testing.assert_array_equal(finer.point_candidate[others], result.point_candidate[others])
+    # Vertices with nothing but the new candidate around them, or nothing of it, are known by that.
+    low, high = (np.full(len(table.vertices), start) for start in (new, 0))
+    np.minimum.at(low, table.corner_vertex, finer.candidates[table.corner_face])
+    np.maximum.at(high, table.corner_vertex, finer.candidates[table.corner_face])
+    mine = result.vertex_candidates == branch
+    assert (finer.vertex_candidates[mine & (low == new)] == new).all()
+    assert (finer.vertex_candidates[~mine | (high < new)] == result.vertex_candidates[~mine | (high < new)]).all()
+
+
+def test_whole_candidates_need_no_splitting(result, tree):
+    assert split_candidates(result, result.candidates == 1, *tree) is result
 
 
 def test_boundary_distance_on_a_strip_by_hand():

@@ -4,19 +4,35 @@
 import numpy as np
 import pytest
 
+from core.surface.corners import CornerTable
 from core.uses.bones import part_bones
 
 
 def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None):
-    """Parts of one face each, with the given middles and joints."""
+    """Parts of one face each, with the given middles; an edge of the given middle and length at each cut."""
     count = len(centers)
-    return part_bones(
-        np.arange(count), np.ones(count), np.array(centers, float),
-        np.arange(count, dtype=float) if height is None else np.array(height, float),
-        np.array(cuts, int).reshape(-1, 2), np.array(joints, float).reshape(-1, 3),
-        np.ones(len(cuts)) if length is None else np.array(length, float),
-        np.array(line, float).reshape(-1, 3), np.array(line_part, int),
-    )  # fmt: skip
+    height = np.arange(count, dtype=float) if height is None else height
+    vertices, edges, at_vertex = [], [], []
+    corners = [[] for _ in range(count)]  # of each face: vertex, edge
+    for cut, joint, size in zip(cuts, joints, length or np.ones(len(cuts)), strict=True):
+        ends = len(vertices), len(vertices) + 1
+        vertices += [np.add(joint, (0, 0, size / 2)), np.add(joint, (0, 0, -size / 2))]
+        at_vertex += [0.0, 0.0]
+        edges.append(ends)
+        for face in cut:
+            corners[face] += [(ends[0], len(edges) - 1), (ends[1], len(edges))]
+        edges.append(ends[::-1])
+    for face, center in enumerate(centers):  # one more vertex brings the middle and the height to where they should be
+        n = len(corners[face]) + 1
+        vertices.append(n * np.array(center, float) - sum((vertices[v] for v, _ in corners[face]), np.zeros(3)))
+        at_vertex.append(n * height[face])
+        corners[face].append((len(vertices) - 1, len(edges)))
+        edges.append((len(vertices) - 1, len(vertices) - 1))
+    vertex, edge = np.array([corner for face in corners for corner in face]).T
+    face = np.repeat(np.arange(count), [len(found) for found in corners])
+    table = CornerTable(np.array(vertices), np.array(edges), vertex, edge, face, count)
+    return part_bones(table, np.arange(count), np.ones(count), np.array(at_vertex),
+                      np.array(line, float).reshape(-1, 3), np.array(line_part, int))
 
 
 def test_an_arm_of_three_parts_is_a_chain():

@@ -7,6 +7,7 @@ import shapes
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+from core.surface.corners import CornerTable
 from core.uses.unfold import opening_seams
 
 SHAPES = {
@@ -15,28 +16,24 @@ SHAPES = {
 }  # fmt: skip
 
 
-def topology(faces):
-    """Edges, and edge and face of each corner."""
-    sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
-    edges, corner_edge = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
-    return edges, corner_edge.reshape(-1), np.repeat(np.arange(len(faces)), faces.shape[1])
+def table_of(shape):
+    """The corners of a shape."""
+    return CornerTable.of(*shape)
 
 
 def around(vertices, faces, n_seeds):
     """Edges between the parts of a mesh that lie nearest to some of its faces."""
-    edges, corner_edge, corner_face = topology(faces)
     centers = vertices[faces].mean(axis=1)
     seeds = centers[np.random.default_rng(0).choice(len(centers), n_seeds, replace=False)]
-    labels = np.linalg.norm(centers[:, None] - seeds[None], axis=2).argmin(axis=1)
-    low, high = np.full(len(edges), len(faces)), np.full(len(edges), -1)
-    np.minimum.at(low, corner_edge, labels[corner_face])
-    np.maximum.at(high, corner_edge, labels[corner_face])
+    low, high = table_of((vertices, faces)).edge_labels(
+        np.linalg.norm(centers[:, None] - seeds[None], axis=2).argmin(axis=1))
     return low < high
 
 
 def euler(faces, cut):
     """Euler characteristic of each chart that the cuts leave, counted corner by corner."""
-    edges, corner_edge, corner_face = topology(faces)
+    table = table_of((np.zeros((faces.max() + 1, 3)), faces))
+    edges, corner_edge, corner_face = table.edges, table.corner_edge, table.corner_face
     vertex = faces.ravel()
     following = np.roll(np.arange(len(vertex)).reshape(faces.shape), -1, axis=1).ravel()
     corners = [np.flatnonzero(corner_edge == edge) for edge in range(len(edges))]
@@ -60,27 +57,28 @@ def euler(faces, cut):
 def test_every_chart_is_a_disc(name, n_seeds):
     vertices, faces = SHAPES[name]()
     cut = around(vertices, faces, n_seeds)
-    seams = opening_seams(vertices, *topology(faces), cut)
+    seams = opening_seams(table_of((vertices, faces)), cut)
     assert not (seams & cut).any()
     assert (euler(faces, cut | seams) == 1).all()
 
 
 def test_a_flat_disc_needs_no_seam():
     vertices, faces = shapes.flat_grid(8, 6)
-    assert not opening_seams(vertices, *topology(faces), around(vertices, faces, 1)).any()
+    assert not opening_seams(table_of((vertices, faces)), around(vertices, faces, 1)).any()
 
 
 def test_a_torus_is_opened_by_its_two_shortest_loops():
     vertices, faces = shapes.torus(48, 16, 1.0, 0.35)
-    edges, corner_edge, corner_face = topology(faces)
-    seams = opening_seams(vertices, edges, corner_edge, corner_face, np.zeros(len(edges), bool))
-    length = np.linalg.norm(vertices[edges[seams, 0]] - vertices[edges[seams, 1]], axis=1).sum()
+    table = table_of((vertices, faces))
+    seams = opening_seams(table, np.zeros(len(table.edges), bool))
+    length = table.edge_length(seams).sum()
     assert length <= 1.1 * 2 * np.pi * (0.65 + 0.35 + 1.0)
 
 
 def test_faces_with_four_corners_and_edges_of_three_faces():
     vertices, quads = shapes.box_quads()
-    assert (euler(quads, opening_seams(vertices, *topology(quads), np.zeros(12, bool))) == 1).all()
+    assert (euler(quads, opening_seams(table_of((vertices, quads)), np.zeros(12, bool))) == 1).all()
     vertices, faces = shapes.with_fin(shapes.icosphere(2))
-    seams = opening_seams(vertices, *topology(faces), np.zeros(len(topology(faces)[0]), bool))
+    table = table_of((vertices, faces))
+    seams = opening_seams(table, np.zeros(len(table.edges), bool))
     assert seams.any()
