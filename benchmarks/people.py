@@ -106,7 +106,7 @@ def prepare(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray,
     owner = working.polygon[parent]
     radius = np.sqrt(parameters.base_spacing * mesh.area)
     field = agd_field(mesh, coarse_agd(Pyramid(mesh), radius), True)
-    sets = cut_at_levels(mesh, field.values, uniform_levels(parameters.levels))
+    sets = cut_at_levels(mesh, field.values, uniform_levels(parameters.n_slabs))
     label = concave_patches(mesh, *([n_patches] if n_patches else []))
     weight = 1.0 / np.bincount(owner, minlength=len(faces))[owner]
     votes = []

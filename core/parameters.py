@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass, field, fields, replace
+from functools import wraps
 
 from .errors import ParameterError
 from .sentence import Sentence
@@ -13,11 +15,59 @@ PERCEPTUAL, BERRETTI = "perceptual", "berretti"
 METHODS = (PERCEPTUAL, BERRETTI)
 
 
+#: Names that version 0.1.0 had for parameters, and what they are called now. Its alpha was the weight of concavity in
+#: one method and the width of a band in the other.
+RENAMED = {"equalise": ("equalize",), "levels": ("n_slabs",), "alpha": ("concavity_weight", "band_ratio")}
+
+
+def present_names(values: dict) -> tuple[dict, tuple[Sentence, ...]]:
+    """Give values that a script or a file of version 0.1.0 names the names of today.
+
+    Parameters
+    ----------
+    values : dict of str -> object
+        By parameter, of then or of now.
+
+    Returns
+    -------
+    values : dict of str -> object
+        By parameter of now. A name of now wins over the name of then.
+    notes : tuple of Sentence
+        One for each name of then.
+    """
+    old = {name: values[name] for name in RENAMED if name in values}
+    present = {new: value for name, value in old.items() for new in RENAMED[name]}
+    present |= {name: value for name, value in values.items() if name not in RENAMED}
+    return present, tuple(
+        Sentence("The parameter {old} is called {new} now.", old=name, new=", ".join(RENAMED[name])) for name in old)
+
+
 def _number(default, low, high, label, text):
     return field(default=default,
                  metadata={"range": (low, high), "label": label, "description": text})
 
 
+def _with_warnings(values: dict) -> dict:
+    """``present_names`` of keyword arguments, the notes as DeprecationWarnings to who gave them."""
+    values, notes = present_names(values)
+    for note in notes:
+        warnings.warn(note, DeprecationWarning, stacklevel=3)
+    return values
+
+
+def _with_old_names(cls: type) -> type:
+    """Let a class of parameters be made with names of version 0.1.0, too, which is noted as a DeprecationWarning."""
+    made = cls.__init__
+
+    @wraps(made)
+    def init(self, *args, **values):
+        made(self, *args, **_with_warnings(values))
+
+    cls.__init__ = init
+    return cls
+
+
+@_with_old_names
 @dataclass(frozen=True)
 class Parameters:
     """What a decomposition may be asked for; ``Parameters.RANGES`` has the limits.
@@ -44,19 +94,23 @@ class Parameters:
         0.005, 0.0005, 0.05, "Base spacing",
         "Share of the area around each point that distances are measured from; smaller is "
         "slower and finer (the paper's 0.005 S)")
-    equalise: bool = field(default=True, metadata={
+    equalize: bool = field(default=True, metadata={
         "label": "Equalise",
         "description": "Give every range of distances the same area, so that long limbs do not "
                        "hide short ones (the paper's s(p))"})
-    levels: int = _number(
+    n_slabs: int = _number(
         100, 8, 1000, "Levels",
         "Number of slabs the surface is cut into before parts are formed (1 / epsilon)")
     small_region: float = _number(
         0.05, 0.0005, 0.5, "Small region",
         "Parts smaller than this share of the largest one join a neighbour; 0.01 keeps fingers")
-    alpha: float = _number(
+    concavity_weight: float = _number(
         0.5, 0.0, 1.0, "Concavity",
         "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)")
+    band_ratio: float = _number(
+        0.5, 0.0, 1.0, "Band",
+        "How far to either side a cut may move into a crease, as a share of the radius of a circle "
+        "as long as the cut; 0 leaves it where it is")
     sigma: float = _number(
         0.15, 0.0, 0.25, "Crease length",
         "How much of a cut's length must be concave to count (the paper's sigma)")
@@ -105,7 +159,7 @@ class Parameters:
             raise ParameterError(
                 Sentence("There is no preset {name!r}. Choose one of: {presets}.",
                          name=name, presets=", ".join(PRESETS)), "preset")
-        return replace(PRESETS[name], **changes)
+        return replace(PRESETS[name], **_with_warnings(changes))
 
 
 Parameters.RANGES = {f.name: f.metadata["range"] for f in fields(Parameters)

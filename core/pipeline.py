@@ -94,9 +94,9 @@ def _decompose_component(
         component = Component.of(working, label)
         pyramid = Pyramid(component.mesh)
     with watch.stage("distances", begin + 0.4 * width) as progress:
-        field = protrusion_field(pyramid, parameters.base_spacing, parameters.equalise, progress)
+        field = protrusion_field(pyramid, parameters.base_spacing, parameters.equalize, progress)
     with watch.stage("reeb graph", begin + 0.5 * width):
-        levels = uniform_levels(parameters.levels) if field.values.any() else np.empty(0)
+        levels = uniform_levels(parameters.n_slabs) if field.values.any() else np.empty(0)
         sets = cut_at_levels(component.mesh, field.values, levels)
         topology = without_ripples(sets, reeb_topology(sets), field)
         graph = reeb_graph(sets, topology)

@@ -22,7 +22,7 @@ CHEAPEST, DEAREST = 0.05, 3.0
 UNITS = 10_000  # capacities are whole numbers: the mean edge has so many
 
 
-def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, reach: float = 0.5,
+def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, band_ratio: float = 0.5,
                 within: np.ndarray | None = None) -> np.ndarray:
     """Move the borders of parts into the creases beside them.
 
@@ -33,7 +33,7 @@ def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, reach: 
     curvature : (p,) float64
         Across each pair of faces, times the square root of the area; negative in concavities.
     part : (m,) int64
-    reach : float
+    band_ratio : float
         Half the width of the band over the radius of a circle as long as the cut; 0 moves nothing.
     within : (m,) int64, optional
         Coarser parts: cuts between these stay.
@@ -44,7 +44,7 @@ def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, reach: 
         Parts may have come apart into pieces.
     """
     part = part.copy()
-    if reach <= 0:
+    if band_ratio <= 0:
         return part
     a, b = mesh.edges.pairs.T
     length = mesh.pair_length
@@ -55,12 +55,12 @@ def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, reach: 
     for first, second in _cuts_by_length(part, a[free], b[free], length[free]):
         on_cut = ((part[a] == first) & (part[b] == second)) | ((part[a] == second) & (part[b] == first))
         if on_cut.any():
-            part = _cut_anew(mesh, part, first, second, on_cut, cost, ways, reach)
+            part = _cut_anew(mesh, part, first, second, on_cut, cost, ways, band_ratio)
     return part
 
 
 def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature: np.ndarray,
-              reach: float, details: tuple[float, ...] = (0.5, 0.75)) -> np.ndarray:
+              band_ratio: float, details: tuple[float, ...] = (0.5, 0.75)) -> np.ndarray:
     """Candidates after the cuts of some levels of detail have moved into creases.
 
     Parameters
@@ -71,7 +71,7 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
         Candidate of each face.
     hierarchy : Hierarchy
         Over the candidates.
-    curvature, reach
+    curvature, band_ratio
         As ``minimum_cuts`` takes them.
     details : tuple of float
         Rising; cuts that an earlier one has moved stay there.
@@ -86,7 +86,7 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
     for detail in details:
         parts = hierarchy.parts(hierarchy.n_parts(detail))
         part = parts[label]
-        moved = minimum_cuts(mesh, curvature, part, reach, coarser)
+        moved = minimum_cuts(mesh, curvature, part, band_ratio, coarser)
         before, label = label, np.where(moved == part, label, -1)
         together = moved[a] == moved[b]
         label = spread(label, a[together], b[together])
@@ -101,12 +101,12 @@ def _cuts_by_length(part, a, b, length) -> np.ndarray:
     return touching[np.argsort(-total, kind="stable")]
 
 
-def _cut_anew(mesh, part, first, second, on_cut, cost, ways, reach) -> np.ndarray:
+def _cut_anew(mesh, part, first, second, on_cut, cost, ways, band_ratio) -> np.ndarray:
     """One minimum cut between two parts, in a band around their border."""
     a, b = mesh.edges.pairs.T
     unit = np.sqrt(mesh.area)
     border = mesh.pair_length[on_cut].sum()
-    half = min(reach * border / (2 * np.pi), WIDEST * unit)
+    half = min(band_ratio * border / (2 * np.pi), WIDEST * unit)
     sources = np.unique(mesh.edges.pairs[on_cut])
     distance = dijkstra(ways, directed=True, indices=sources, min_only=True, limit=half)
     band = np.isfinite(distance) & ((part == first) | (part == second))

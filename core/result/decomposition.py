@@ -13,12 +13,12 @@ import numpy as np
 from ..cuts.hierarchy import Hierarchy
 from ..errors import ReebError
 from ..graph.reeb import ReebGraph
-from ..parameters import Parameters
+from ..parameters import Parameters, present_names
 from ..sentence import Sentence
 from ..surface.arrays import distinct_pairs, renumbered, sums_by
 from ..surface.labels import majority
 
-VERSION = "0.1.0"
+VERSION = "0.2.0"
 _FORMAT = 1  # of to_bytes
 
 
@@ -263,7 +263,7 @@ class Decomposition:
         hierarchy = Hierarchy.of(len(arrays["candidate_area"]), arrays["hierarchy.merges"],
                                  arrays["hierarchy.salience"])
         return cls(hierarchy=hierarchy, graph=ReebGraph(**graph),
-                   parameters=Parameters(**head["parameters"]), notes=tuple(head["notes"]),
+                   parameters=Parameters(**present_names(head["parameters"])[0]), notes=tuple(head["notes"]),
                    seconds=head["seconds"], version=head["version"],
                    **{name: arrays[name] for name in _ARRAYS})
 

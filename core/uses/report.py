@@ -13,7 +13,7 @@ from ..graph.critical import KINDS
 from ..result.decomposition import VERSION, Decomposition, Parts
 from .colors import part_colors
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 
 
 def document(reports: list[dict], **more) -> dict:

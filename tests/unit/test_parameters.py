@@ -72,18 +72,18 @@ def test_preset_of_the_paper():
     paper = Parameters.preset("Berretti 2009")
     assert paper.method == "berretti"
     assert paper.base_spacing == 0.005
-    assert paper.equalise
-    assert paper.levels == 100
+    assert paper.equalize
+    assert paper.n_slabs == 100
     assert paper.small_region == 0.05
-    assert paper.alpha == 0.5
+    assert paper.concavity_weight == 0.5
     assert paper.follow_level_sets
     assert paper.detail == 0.5
 
 
 @pytest.mark.parametrize("name", list(PRESETS))
 def test_presets_can_be_changed(name):
-    changed = Parameters.preset(name, detail=0.25, levels=50)
-    assert (changed.detail, changed.levels) == (0.25, 50)
+    changed = Parameters.preset(name, detail=0.25, n_slabs=50)
+    assert (changed.detail, changed.n_slabs) == (0.25, 50)
     assert changed.method == PRESETS[name].method
     with pytest.raises(ParameterError):
         Parameters.preset(name, detail=2)
@@ -94,3 +94,23 @@ def test_unknown_preset_lists_the_known():
         Parameters.preset("Berretti 2010")
     assert caught.value.name == "preset"
     assert all(name in str(caught.value) for name in PRESETS)
+
+
+def test_names_of_the_first_version_are_understood_with_a_note():
+    with pytest.warns(DeprecationWarning, match="is called") as notes:
+        old = Parameters(levels=80, alpha=0.25, equalise=False)
+    assert old == Parameters(n_slabs=80, concavity_weight=0.25, band_ratio=0.25, equalize=False)
+    assert [str(note.message) for note in notes] == [
+        "The parameter equalise is called equalize now.", "The parameter levels is called n_slabs now.",
+        "The parameter alpha is called concavity_weight, band_ratio now."]
+    with pytest.warns(DeprecationWarning, match="is called"):
+        assert Parameters(alpha=0.25, band_ratio=1.0) == Parameters(concavity_weight=0.25, band_ratio=1.0)
+    with pytest.warns(DeprecationWarning, match="is called"), pytest.raises(ParameterError, match="^n_slabs must be a number"):
+        Parameters(levels="many")
+    with pytest.warns(DeprecationWarning, match="is called"):
+        assert Parameters.preset("Berretti 2009", levels=50).n_slabs == 50
+
+
+def test_todays_names_give_no_note(recwarn):
+    Parameters.preset("Perceptual", n_slabs=50, equalize=False)
+    assert not recwarn

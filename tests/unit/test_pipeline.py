@@ -528,10 +528,10 @@ def test_small_region_keeps_fingers():
     assert counts[0] < counts[-1]
 
 
-@pytest.mark.parametrize("equalise", [True, False])
-def test_values_of_the_graph_are_those_of_the_field(equalise):
+@pytest.mark.parametrize("equalize", [True, False])
+def test_values_of_the_graph_are_those_of_the_field(equalize):
     vertices, faces = shapes.tube_tree()
-    result = decompose(vertices, faces, Parameters(equalise=equalise))
+    result = decompose(vertices, faces, Parameters(equalize=equalize))
     graph = result.graph
     tips = graph.node_kind == 2
     at = np.linalg.norm(vertices[None] - graph.node_position[tips][:, None], axis=2).argmin(axis=1)

@@ -41,7 +41,7 @@ def berretti_candidates(
     curvature = k_min(sets.mesh)
     kept = regions.hierarchy.parts(regions.hierarchy.n_parts(1.0 - DECISION))
     piece_part = kept[regions.piece_region]
-    moved = search_boundaries(sets, topology, curvature, piece_part, parameters.alpha,
+    moved = search_boundaries(sets, topology, curvature, piece_part, parameters.concavity_weight,
                               parameters.sigma)
     # A cut may leave little of a region: what is small is decided where the cuts have come to lie.
     regions = rank_regions(sets, _follow(sets, regions.piece_region, piece_part, moved),
@@ -52,7 +52,7 @@ def berretti_candidates(
     area = sets.element_area + 1e-12 * sets.mesh.area
     label = majority(sets.element_face, candidate, area, sets.mesh.n_faces)
     across = curvature_across(sets.mesh, SCALES[:1])[0]
-    label = move_cuts(sets.mesh, label, regions.hierarchy, across, parameters.alpha)
+    label = move_cuts(sets.mesh, label, regions.hierarchy, across, parameters.band_ratio)
     return Candidates(label[sets.element_face], regions.hierarchy)
 
 

@@ -62,9 +62,9 @@ def perceptual_candidates(
         label = level_set_patches(sets)
         hierarchy, _ = _merge(sets, field, label, judge)
     elif sets.mesh.n_faces > MAX_FACES:
-        label, hierarchy = _on_coarse_copy(sets, field, pyramid, parameters.alpha, judge, progress)
+        label, hierarchy = _on_coarse_copy(sets, field, pyramid, parameters.band_ratio, judge, progress)
     else:
-        label, hierarchy = _cut_in_creases(sets, field, parameters.alpha, judge, progress)
+        label, hierarchy = _cut_in_creases(sets, field, parameters.band_ratio, judge, progress)
     return Candidates(label[sets.element_face], hierarchy)
 
 

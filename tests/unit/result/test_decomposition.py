@@ -148,3 +148,18 @@ def test_sizes(tree):
     assert tree.n_faces == len(shapes.tube_tree(step=0.2).faces)
     assert tree.n_vertices == len(shapes.tube_tree(step=0.2).vertices)
     assert tree.n_candidates == tree.candidates.max() + 1
+
+
+def test_a_result_stored_by_the_first_version_has_its_parameters():
+    with np.load(io.BytesIO(row().to_bytes())) as stored:
+        arrays = {name: stored[name] for name in stored.files}
+    head = json.loads(arrays["head"].tobytes())
+    now = head["parameters"]
+    then = {name: value for name, value in now.items() if name in {"method", "detail", "sigma"}}
+    head["parameters"] = then | {"levels": 80, "alpha": 0.25, "equalise": False}
+    arrays["head"] = np.frombuffer(json.dumps(head).encode(), np.uint8)
+    stream = io.BytesIO()
+    np.savez_compressed(stream, **arrays)
+    parameters = Decomposition.from_bytes(stream.getvalue()).parameters
+    assert parameters == Parameters(
+        **then, n_slabs=80, concavity_weight=0.25, band_ratio=0.25, equalize=False)

@@ -62,7 +62,7 @@ def test_parts_of_the_papers_decision_are_connected(made):
 
 
 def test_without_concavity_the_regions_stay():
-    sets, topology, element, hierarchy = candidates(shapes.tube_tree(), (0.3, 1, 0.2), alpha=0.0)
+    sets, topology, element, hierarchy = candidates(shapes.tube_tree(), (0.3, 1, 0.2), concavity_weight=0.0)
     regions = berretti_regions(sets, topology, PAPER.small_region)
     np.testing.assert_array_equal(element, regions.piece_region[sets.element_piece])
     np.testing.assert_array_equal(hierarchy.merges, regions.hierarchy.merges)
@@ -77,7 +77,7 @@ def test_concavity_pulls_cuts_into_creases():
     curvature = k_min(sets.mesh)
 
     def cuts(alpha):
-        found = berretti_candidates(sets, topology, Parameters.preset("Berretti 2009", alpha=alpha))
+        found = berretti_candidates(sets, topology, Parameters.preset("Berretti 2009", concavity_weight=alpha))
         element, hierarchy = found.element_candidate, found.hierarchy
         piece = np.empty(sets.n_pieces, np.int64)
         piece[sets.element_piece] = hierarchy.parts(hierarchy.n_parts(0.5))[element]

@@ -39,10 +39,10 @@ def test_scale_and_pose_change_nothing():
     assert (plain.parts().labels != moved.parts().labels).mean() < 0.02
 
 
-def test_nothing_moves_without_alpha():
+def test_nothing_moves_without_a_band():
     """Both are cut alike but for where the cuts run."""
     shape = shapes.tube_tree()
-    still, moved = (decompose(*shape, Parameters(alpha=a)) for a in (0.0, 0.5))
+    still, moved = (decompose(*shape, Parameters(band_ratio=a)) for a in (0.0, 0.5))
     assert still.parts().count == moved.parts().count
     assert (still.candidates != moved.candidates).any()
 
