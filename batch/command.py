@@ -21,7 +21,7 @@ import bpy
 from ..core.errors import ReebError
 from ..core.parameters import PRESETS, Parameters
 from ..operators import decompose
-from ..scene import bridge, export
+from ..scene import bridge, export, targets
 from ..scene.errors import SceneError, load_core
 from ..scene.properties import OutputProperties, OverlayProperties
 
@@ -174,7 +174,7 @@ def _open(path: Path) -> list:
 
 def decompose_object(obj, parameters):
     """Read and compute one object; raises what the user should hear."""
-    bridge.check_object(obj)
+    targets.check_object(obj)
     shape = bridge.read_shape(obj)
     last = [-1]
 

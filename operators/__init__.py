@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..scene import armature, bridge, compute, defaults, export, jobs, pieces, store, uv_map, watch
+from ..scene import armature, compute, defaults, export, jobs, mesh_arrays, pieces, store, uv_map, watch
 from ..scene.outputs import vertex_groups
 from ..viewport import graph_overlay, highlight
 from . import clear, cut, decompose, edit, graph, outputs, paint, parts, pick, slide
@@ -48,7 +48,7 @@ def unregister():
     defaults.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
-    bridge.forget()
+    mesh_arrays.forget()
     vertex_groups.forget()
     compute.forget()
     store.forget()

@@ -4,7 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import armature, bridge, explode, graph_objects, reactions, store, uv_map
+from ..scene import armature, explode, graph_objects, reactions, store, targets, uv_map
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.outputs import attributes
@@ -39,7 +39,7 @@ class REEB_PARTS_OT_clear(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            objects = bridge.targets(context)
+            objects = targets.chosen_objects(context)
         except SceneError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

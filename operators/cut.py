@@ -6,7 +6,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import bridge, store
+from ..scene import bridge, mesh_arrays, store
 from ..scene.errors import SceneError
 from ..viewport import pointing
 from ..viewport.view_tool import ViewTool
@@ -20,9 +20,9 @@ class Knife:
     def __init__(self, obj, model):
         mesh = obj.data
         self.model = model
-        self.edges = bridge.edge_ends(mesh)
-        self.corner_edge, (_, self.corner_face) = bridge.corner_edges(mesh), bridge.face_corners(mesh)
-        self.vertices = bridge.shown_points(obj).astype(np.float64)
+        self.edges = mesh_arrays.edge_ends(mesh)
+        self.corner_edge, (_, self.corner_face) = mesh_arrays.corner_edges(mesh), mesh_arrays.face_corners(mesh)
+        self.vertices = mesh_arrays.shown_points(obj).astype(np.float64)
 
     def contour(self, target):
         """The contour that a target asks for: all contours of its level in its part, and which one it is.
@@ -48,20 +48,18 @@ class Knife:
     def sides(self, target, face_graph):
         """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off.
 
-        face_graph : what bridge.face_graph says of the object.
+        face_graph : core.surface.labels.FaceGraph
         """
         from ..core.graph.contours import contour_sides
-        from ..core.surface.labels import FaceGraph
 
         found, chosen = self.contour(target)
         if chosen < 0:
             return None
-        area, pairs, length = face_graph
+        area = face_graph.area
         inside = self.model.numbers == self.model.number(target)
         crossed = np.zeros(len(inside), bool)
         crossed[found.face[found.label == chosen]] = True
-        graph = FaceGraph(len(inside), pairs, length, area)
-        side = contour_sides(graph, inside, self.model.face_value >= target.level, crossed)
+        side = contour_sides(face_graph, inside, self.model.face_value >= target.level, crossed)
         if side is not None and area[side].sum() > area[inside & ~side].sum():
             side = inside & ~side
         return side

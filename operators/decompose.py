@@ -7,7 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import Cancelled, ReebError
-from ..scene import bridge, compute, defaults, graph_objects, jobs, notes, store
+from ..scene import bridge, compute, defaults, graph_objects, jobs, notes, store, targets
 from ..scene.bridge import Shape
 from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
@@ -148,7 +148,7 @@ class REEB_PARTS_OT_decompose(
         """The parameters and the shapes; raises SceneError or ReebError."""
         load_core()
         parameters = self.parameters()
-        return parameters, [(obj.name, bridge.read_shape(obj)) for obj in bridge.targets(context)]
+        return parameters, [(obj.name, bridge.read_shape(obj)) for obj in targets.chosen_objects(context)]
 
     def _write(self, context, outcomes):
         """Write what was computed and report on it."""
@@ -234,7 +234,7 @@ class REEB_PARTS_OT_decompose(
             obj = bpy.data.objects.get(name)
             if obj is None or obj.type != "MESH":
                 raise SceneError(rpt_("{name} is gone; its parts were computed in vain.").format(name=name))
-            bridge.check_object(obj)
+            targets.check_object(obj)
             if bridge.read_shape(obj).digest != digest:
                 raise SceneError(
                     rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=name))

@@ -267,8 +267,8 @@ def assign_faces(context, obj, stored, face_numbers, graph=None):
     stored : store.Stored
     face_numbers : (p,) int64
         The part of each face from now on.
-    graph : optional
-        What ``bridge.face_graph`` says of the object, if it is known already.
+    graph : core.surface.labels.FaceGraph, optional
+        Of the object, if it is known already.
     """
     from ..core.result.editing import split_candidates
 
@@ -279,7 +279,9 @@ def assign_faces(context, obj, stored, face_numbers, graph=None):
     concerned = set(np.unique(np.concatenate([face_numbers[moved], before[moved]])).tolist())
     graph = graph or bridge.face_graph(obj)
     for number in np.unique(face_numbers[moved]).tolist():
-        stored = _finer(stored, split_candidates(stored.decomposition, moved & (face_numbers == number), *graph))
+        inside = moved & (face_numbers == number)
+        finer = split_candidates(stored.decomposition, inside, graph.area, graph.pairs, graph.length)
+        stored = _finer(stored, finer)
     with store.quiet():
         store.save(obj.data, stored)
     numbers = stored.shown.copy()

@@ -6,7 +6,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import bridge, store
+from ..scene import mesh_arrays, store
 from ..scene.errors import SceneError
 from ..viewport import pointing
 from ..viewport.view_tool import ColoredTool, active_number
@@ -30,7 +30,7 @@ class Brush:
     def __init__(self, obj, model, number):
         self.model, self.number = model, number
         count = len(model.face_value)
-        pairs, _ = bridge.face_pairs(obj.data)
+        pairs, _ = mesh_arrays.face_pairs(obj.data)
         first, second = np.concatenate([pairs, pairs[:, ::-1]]).T
         self.neighbors = second[np.argsort(first, kind="stable")]  # of each face, one face after the other
         self.start = np.append(0, np.cumsum(np.bincount(first, minlength=count)))

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import bridge, store
+from ..scene import store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 
@@ -18,7 +18,7 @@ def has_parts(cls, context, obj=None):
         cls.poll_message_set(rpt_("Decompose the mesh first"))
         return False
     try:
-        bridge.check_object(obj)
+        targets.check_object(obj)
     except SceneError as error:
         cls.poll_message_set(str(error))
         return False

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import bridge
+from ..scene import bridge, mesh_arrays
 from ..scene.errors import SceneError
 from ..viewport.view_tool import ColoredTool, active_number, turns_view
 from . import edit
@@ -30,7 +30,7 @@ class Boundary:
 
         self.number = number
         self.numbers = stored.shown[stored.decomposition.candidates]
-        pairs, _ = bridge.face_pairs(obj.data)
+        pairs, _ = mesh_arrays.face_pairs(obj.data)
         center = bridge.face_centers(obj)
         length = np.linalg.norm(center[pairs[:, 0]] - center[pairs[:, 1]], axis=1)
         locked = edit.locked_others(obj.data, number)

@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from ..operators.parts import PartOperator
-from . import bridge, pieces, reactions, store
+from . import bridge, mesh_arrays, pieces, reactions, store
 from .outputs import attributes
 
 NAME = "Reeb Parts Armature"
@@ -66,16 +66,16 @@ def _bones(obj, decomposition, numbered):
     world = obj.matrix_world
     place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
     turn = np.array(place.inverted() @ world, np.float64)
-    points = bridge.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3]
-    stretch = store.stretch_of(mesh)
-    line = decomposition.graph.point_position @ np.linalg.pinv(stretch).T @ turn[:3, :3].T + turn[:3, 3]
-    nodes = decomposition.graph.node_position @ np.linalg.pinv(stretch).T @ turn[:3, :3].T + turn[:3, 3]
-    center = bridge.face_means(mesh, points)
-    height = bridge.face_means(mesh, np.nan_to_num(decomposition.field))
+    points = mesh_arrays.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3]
+    back = turn[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
+    line = decomposition.graph.point_position @ back.T + turn[:3, 3]
+    nodes = decomposition.graph.node_position @ back.T + turn[:3, 3]
+    center = mesh_arrays.face_means(mesh, points)
+    height = mesh_arrays.face_means(mesh, np.nan_to_num(decomposition.field))
     edges, sides = _cut_edges(mesh, parts.labels)
     ends = points[edges]
     bones = part_bones(
-        parts.labels, bridge.face_graph(obj)[0], center, height,
+        parts.labels, bridge.face_graph(obj).area, center, height,
         sides, ends.mean(axis=1), np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1),
         np.concatenate([line, nodes]), np.concatenate([parts.point_part, parts.node_part]),
     )  # fmt: skip
@@ -84,9 +84,9 @@ def _bones(obj, decomposition, numbered):
 
 def _cut_edges(mesh, labels):
     """Vertices of the edges on cuts, (e, 2), and the parts on their sides, (e, 2)."""
-    low, high = bridge.edge_labels(mesh, labels)
+    low, high = mesh_arrays.edge_labels(mesh, labels)
     cut = low < high
-    return bridge.edge_ends(mesh)[cut], np.stack([low, high], axis=1)[cut]
+    return mesh_arrays.edge_ends(mesh)[cut], np.stack([low, high], axis=1)[cut]
 
 
 def _write_groups(obj, numbered):

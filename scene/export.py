@@ -11,7 +11,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..operators import parts
-from . import bridge, pieces, store
+from . import pieces, store, targets
 from .errors import SceneError
 from .modes import object_mode
 from .panel_settings import use_panel_settings, wanted
@@ -142,7 +142,7 @@ class REEB_PARTS_OT_export(bpy.types.Operator, WhichProperties):
             if not self.directory:
                 raise SceneError(rpt_("There is no folder to write to. Choose one and try again."))
             folder = Path(bpy.path.abspath(self.directory))
-            objects = [obj for obj in bridge.targets(context) if store.has_result(obj.data)]
+            objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
             with object_mode(context):
                 folder.mkdir(parents=True, exist_ok=True)
                 paths = [path for obj in objects for path in

@@ -8,7 +8,7 @@ carries them along. They are recognised by custom properties, never by name.
 import bpy
 import numpy as np
 
-from . import store
+from . import bridge, store
 from .outputs import attributes
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
@@ -60,7 +60,7 @@ def draw_graph(context, obj, graph, stretch, style):
         Has the values of ui.properties.OverlayProperties.
     """
     remove(obj)
-    back = np.linalg.pinv(stretch).T
+    back = bridge.unstretch(stretch).T
     collection = bpy.data.collections.new(f"Reeb Graph {obj.name}")
     collection[SOURCE] = obj
     collection.hide_render = True

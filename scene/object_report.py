@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..core.uses.report import bounding_boxes, report
-from . import bridge, store
+from . import bridge, mesh_arrays, store
 
 
 def object_report(obj, labels=False) -> dict:
@@ -23,9 +23,9 @@ def object_report(obj, labels=False) -> dict:
     world = np.array(obj.matrix_world, np.float64)
     stretch = store.stretch_of(mesh)
     from_result = world.copy()
-    from_result[:3, :3] = world[:3, :3] @ np.linalg.pinv(stretch)
-    vertex, face = bridge.face_corners(mesh)
-    points = bridge.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
+    from_result[:3, :3] = world[:3, :3] @ bridge.unstretch(stretch)
+    vertex, face = mesh_arrays.face_corners(mesh)
+    points = mesh_arrays.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
     boxes = bounding_boxes(numbered.parts.labels[face], points[vertex], numbered.parts.count)
     colors = store.number_colors(mesh)[numbered.numbers, :3].astype(np.float64)
     parts = replace(numbered.parts, colors=np.round(colors, 6))

@@ -15,7 +15,7 @@ from mathutils import Matrix, Vector
 from ..core.errors import ReebError
 from ..operators import parts
 from ..viewport import shading
-from . import bridge, caps, explode, graph_objects, store
+from . import caps, explode, graph_objects, mesh_arrays, store, targets
 from .errors import SceneError, translated
 from .modes import object_mode
 from .outputs import attributes
@@ -73,8 +73,8 @@ def part_meshes(mesh, face_numbers: np.ndarray, wanted, close=False):
     """
     plain = plain_copy(mesh)
     normals = _custom_normals(plain)
-    edge, (vertex, face) = bridge.corner_edges(plain), bridge.face_corners(plain)
-    cut = attributes.cut_edges(plain, face_numbers)
+    edge, (vertex, face) = mesh_arrays.corner_edges(plain), mesh_arrays.face_corners(plain)
+    cut = mesh_arrays.cut_edges(plain, face_numbers)
     meeting, joined = _around_cuts(plain, cut)
     wanted = [number for number in wanted if (face_numbers == number).any()]
     made, left_open = {}, 0
@@ -98,7 +98,7 @@ def _around_cuts(mesh, cut):
 
     cut : (e,) bool.
     """
-    ends = bridge.edge_ends(mesh)
+    ends = mesh_arrays.edge_ends(mesh)
     count = np.bincount(ends[cut].ravel(), minlength=len(mesh.vertices))
     return count > 2, ends[(count[ends] > 0).all(axis=1)]
 
@@ -139,10 +139,10 @@ def _with_faces(mesh, mask, loose):
 
 def _has_loose(mesh):
     """Whether there are edges or vertices of no face."""
-    vertex, _ = bridge.face_corners(mesh)
+    vertex, _ = mesh_arrays.face_corners(mesh)
     return any(
         np.bincount(corner, minlength=len(items)).min(initial=1) == 0
-        for corner, items in ((bridge.corner_edges(mesh), mesh.edges), (vertex, mesh.vertices))
+        for corner, items in ((mesh_arrays.corner_edges(mesh), mesh.edges), (vertex, mesh.vertices))
     )
 
 
@@ -275,7 +275,7 @@ def _looks(piece) -> str:
     place = [round(value, 6) for row in piece.matrix_basis for value in row]
     materials = [slot.material.name if slot.material else "" for slot in piece.material_slots]
     parent = piece.parent.name if piece.parent else ""
-    return str([piece.name, bridge.fingerprint(piece.data), place, parent, piece.modifiers.keys(), materials])
+    return str([piece.name, mesh_arrays.fingerprint(piece.data), place, parent, piece.modifiers.keys(), materials])
 
 
 def _piece(obj, mesh, name, style):
@@ -335,7 +335,7 @@ class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
 
     def execute(self, context):
         try:
-            objects = [obj for obj in bridge.targets(context) if store.has_result(obj.data)]
+            objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
             with object_mode(context):
                 found = [(obj, store.load(obj.data)) for obj in objects]
                 made = [(obj, *separate(context, obj, stored, wanted(obj.data, self.which), self))
@@ -399,7 +399,7 @@ class REEB_PARTS_OT_show_original(bpy.types.Operator):
             cls.poll_message_set(rpt_("Go to Object Mode first"))
             return False
         try:
-            bridge.check_object(original(piece))
+            targets.check_object(original(piece))
         except SceneError as error:
             cls.poll_message_set(str(error))
             return False

@@ -14,7 +14,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.result.numbering import NumberedParts, Numbering, default_name, inherited, transfer
-from . import bridge
+from . import mesh_arrays
 from .errors import SceneError, load_core, translated
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
@@ -102,7 +102,7 @@ def load(mesh) -> Stored:
     if mesh.is_editmode:
         raise SceneError(rpt_("{name} is being edited. Leave Edit Mode first.").format(name=mesh.name))
     result = mesh.reeb_parts
-    if bridge.fingerprint(mesh) != result.fingerprint:
+    if mesh_arrays.fingerprint(mesh) != result.fingerprint:
         raise SceneError(
             rpt_("{name} was edited since it was decomposed. Decompose it again.").format(name=mesh.name))
     return last(mesh)
@@ -121,7 +121,7 @@ def save(mesh, stored: Stored):
     _remember(data, stored.decomposition)
     result.data = data
     save_numbers(mesh, stored)
-    result.fingerprint = bridge.fingerprint(mesh)
+    result.fingerprint = mesh_arrays.fingerprint(mesh)
     result.n_vertices, result.n_faces = len(mesh.vertices), len(mesh.polygons)
     result.edited = False
     graph = stored.decomposition.graph

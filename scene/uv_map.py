@@ -7,9 +7,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
 from ..operators.parts import PartOperator
-from . import bridge, pieces, store
+from . import mesh_arrays, pieces, store
 from .errors import SceneError, translated
-from .outputs import attributes
 
 UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
@@ -62,13 +61,13 @@ def _seams(obj, face_numbers, open_parts):
     mesh = obj.data
     seams = np.empty(len(mesh.edges), bool)
     mesh.edges.foreach_get("use_seam", seams)
-    seams |= attributes.cut_edges(mesh, face_numbers)
+    seams |= mesh_arrays.cut_edges(mesh, face_numbers)
     if open_parts:
         from ..core.uses.unfold import opening_seams  # imports SciPy
 
-        points = bridge.shown_points(obj) @ store.stretch_of(mesh).T
-        _, face = bridge.face_corners(mesh)
-        seams |= opening_seams(points, bridge.edge_ends(mesh), bridge.corner_edges(mesh), face, seams)
+        points = mesh_arrays.shown_points(obj) @ store.stretch_of(mesh).T
+        _, face = mesh_arrays.face_corners(mesh)
+        seams |= opening_seams(points, mesh_arrays.edge_ends(mesh), mesh_arrays.corner_edges(mesh), face, seams)
     return seams
 
 
@@ -79,7 +78,7 @@ def _unwrapped(context, obj, seams, method):
     copy = pieces.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
     try:
-        _prepare(twin, bridge.shown_points(obj) @ store.stretch_of(obj.data).T, seams)
+        _prepare(twin, mesh_arrays.shown_points(obj) @ store.stretch_of(obj.data).T, seams)
         context.scene.collection.objects.link(twin)
         for other in selected:
             other.select_set(False)

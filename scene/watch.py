@@ -9,7 +9,7 @@ import time
 import bpy
 from bpy.app.handlers import persistent
 
-from . import bridge, store
+from . import mesh_arrays, store
 
 REST = 0.3  # seconds
 
@@ -20,7 +20,7 @@ _last = 0.0
 def check(mesh):
     """Set or take back the mark that a mesh differs from the one its result belongs to."""
     result = mesh.reeb_parts
-    edited = bridge.fingerprint(mesh) != result.fingerprint
+    edited = mesh_arrays.fingerprint(mesh) != result.fingerprint
     if result.edited != edited:
         result.edited = edited
         _redraw()

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..scene import bridge
+
 
 @dataclass(frozen=True, eq=False)
 class GraphLines:
@@ -33,7 +35,7 @@ class GraphLines:
     def of(cls, decomposition, stretch):
         """Lines of a decomposition's graph. stretch : (3, 3), of the mesh when it was decomposed."""
         graph = decomposition.graph
-        back = np.linalg.pinv(stretch).T
+        back = bridge.unstretch(stretch).T
         ends = [np.concatenate([node, point]) @ back if node.ndim > 1 else np.concatenate([node, point])
                 for node, point in (
                     (graph.node_position, graph.point_position), (graph.node_value, graph.point_value),

@@ -10,9 +10,8 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..operators import parts
-from ..scene import bridge, explode, store
+from ..scene import explode, mesh_arrays, store
 from ..scene.errors import SceneError
-from ..scene.outputs import attributes
 
 COLOR = (1.0, 1.0, 1.0, 0.9)
 WIDTH = 2.5
@@ -46,8 +45,8 @@ def outline(obj, numbers) -> np.ndarray:
     mesh = obj.data
     stored = store.load(mesh)
     mine = np.isin(stored.shown[stored.decomposition.candidates], numbers)
-    edges = bridge.edge_ends(mesh)[attributes.cut_edges(mesh, mine.astype(np.int64))]
-    return bridge.shown_points(obj)[edges.ravel()]
+    edges = mesh_arrays.edge_ends(mesh)[mesh_arrays.cut_edges(mesh, mine.astype(np.int64))]
+    return mesh_arrays.shown_points(obj)[edges.ravel()]
 
 
 def _draw():

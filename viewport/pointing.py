@@ -7,7 +7,7 @@ import numpy as np
 from bpy_extras import view3d_utils
 from mathutils import Vector
 
-from ..scene import bridge, graph_objects, store
+from ..scene import graph_objects, mesh_arrays, store
 from .graph_lines import GraphLines, nearest
 
 REACH = 10.0  # pixels around an arc, of a screen without scaling
@@ -53,8 +53,8 @@ class Model:
         self.stored = store.load(obj.data)
         self.stretch = store.stretch_of(obj.data)
         self.lines = GraphLines.of(self.stored.decomposition, self.stretch)
-        self.face_value = bridge.face_means(obj.data, np.nan_to_num(self.stored.decomposition.field))
-        self.face_center = bridge.face_means(obj.data, bridge.shown_points(obj).astype(np.float64))
+        self.face_value = mesh_arrays.face_means(obj.data, np.nan_to_num(self.stored.decomposition.field))
+        self.face_center = mesh_arrays.face_means(obj.data, mesh_arrays.shown_points(obj).astype(np.float64))
         self._tree = None
 
     @property

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import PALETTE, PALETTES
-from .. import bridge, store
+from .. import mesh_arrays, store
 from . import vertex_groups
 
 FACE_ATTRIBUTE = "reeb_part"
@@ -252,7 +252,7 @@ def color_faces(mesh, numbers, colors, changed=None):
     attribute = mesh.attributes.get(mesh.reeb_parts.color_attribute)
     if attribute is None:
         return
-    _, face = bridge.face_corners(mesh)
+    _, face = mesh_arrays.face_corners(mesh)
     if changed is not None and len(changed) <= FEW * len(numbers):
         _color_few(attribute, face, changed, colors[numbers[changed]].tolist())
     elif len(face) < MANY or not _color_many(mesh, attribute, numbers, colors):
@@ -430,16 +430,10 @@ def _seam_name(mesh):
     return next((name for name in (".uv_seam", "uv_seam") if name in mesh.attributes), None)
 
 
-def cut_edges(mesh, numbers: np.ndarray) -> np.ndarray:
-    """Whether faces of different parts meet at each edge, (e,) bool."""
-    low, high = bridge.edge_labels(mesh, numbers)
-    return low < high
-
-
 def _write_seams(mesh, numbers):
     seams = np.empty(len(mesh.edges), bool)
     mesh.attributes[_FORMER_SEAMS].data.foreach_get("value", seams)
-    mesh.edges.foreach_set("use_seam", seams | cut_edges(mesh, numbers))
+    mesh.edges.foreach_set("use_seam", seams | mesh_arrays.cut_edges(mesh, numbers))
 
 
 # What was there before

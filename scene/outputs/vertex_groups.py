@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import bridge
+from .. import mesh_arrays
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ _grains: list[tuple[np.ndarray, np.ndarray, Grains]] = []  # the last, with what
 
 def grains(mesh, candidates: np.ndarray) -> Grains:
     """The grains of a mesh, kept for the next step of a drag. candidates : (p,) int64, of each face."""
-    vertex, face = bridge.face_corners(mesh)
+    vertex, face = mesh_arrays.face_corners(mesh)
     if not _grains or _grains[0][0] is not vertex or _grains[0][1] is not candidates:
         _grains[:] = [(vertex, candidates, Grains.of(vertex, candidates.astype(np.int32)[face]))]
     return _grains[0][2]
