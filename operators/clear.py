@@ -4,10 +4,9 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import armature, explode, graph_objects, reactions, store, targets, uv_map
+from ..scene import armature, explode, graph_objects, outputs, reactions, store, targets, uv_map
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
-from ..scene.outputs import attributes
 from ..viewport import shading
 
 
@@ -17,7 +16,7 @@ def clear(obj):
         explode.forget(user)
         armature.remove_modifier(user)
     uv_map.remove(obj.data)
-    attributes.remove_outputs(obj)
+    outputs.remove_outputs(obj)
     graph_objects.remove(obj)
     obj.data.property_unset("reeb_parts")
 

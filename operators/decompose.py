@@ -7,11 +7,10 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import Cancelled, ReebError
-from ..scene import bridge, compute, defaults, graph_objects, jobs, notes, store, targets
+from ..scene import bridge, compute, defaults, graph_objects, jobs, notes, outputs, store, targets
 from ..scene.bridge import Shape
 from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
-from ..scene.outputs import attributes
 from ..scene.properties import (
     OUTPUTS,
     OVERLAY,
@@ -86,7 +85,7 @@ def write_result(context, obj, outcome: Outcome, settings):
         result.seconds = outcome.seconds
         notes.keep(result, decomposition.notes + outcome.shape.notes)
         result.detail, result.by_number = parameters.detail, parameters.n_parts > 0
-        attributes.write_outputs(obj, numbered, decomposition.field, settings)
+        outputs.write_outputs(obj, numbered, decomposition.field, settings)
     store.mark_pins(mesh, stored)
     if settings.graph:
         graph_objects.draw_graph(context, obj, decomposition.graph, outcome.shape.stretch, settings)

@@ -13,7 +13,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import bridge, reactions, store
 from ..scene.errors import SceneError
-from ..scene.outputs import attributes
+from ..scene.outputs import face_sets
 from .parts import PartOperator, chosen_numbers, make_active
 
 
@@ -237,7 +237,7 @@ class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):
 
     def work(self, context, obj, stored):
         mesh = obj.data
-        sets = mesh.attributes.get(attributes.FACE_SETS)
+        sets = mesh.attributes.get(face_sets.NAME)
         if not mesh.reeb_parts.has_face_sets or sets is None:
             raise SceneError(rpt_("The parts are not face sets yet. Press Face Sets, then paint them in Sculpt Mode."))
         painted = np.empty(len(mesh.polygons), np.int32)

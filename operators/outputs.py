@@ -5,8 +5,8 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import reactions, store
-from ..scene.outputs import attributes
+from ..scene import outputs, reactions, store
+from ..scene.outputs import face_sets, materials, seams
 from .parts import PartOperator
 
 
@@ -25,7 +25,7 @@ class OutputOperator(PartOperator):
             (remove if self.remove else add)(obj)
             if not self.remove:
                 numbered = stored.shown_parts()
-                attributes.update_outputs(obj, numbered, numbered.candidate_numbers)
+                outputs.update_outputs(obj, numbered, numbered.candidate_numbers)
         obj.data.update()
         return rpt_(undone) if self.remove else rpt_(done).format(n=len(obj.data.reeb_parts.parts))
 
@@ -35,7 +35,7 @@ class REEB_PARTS_OT_seams(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.seams"
     bl_label = "Mark Seams between Parts"
-    steps = (attributes.add_seams, attributes.remove_seams,
+    steps = (seams.add, seams.remove,
              n_("Seams around {n} parts"), n_("The seams are yours alone again"))
 
 
@@ -44,7 +44,7 @@ class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.face_sets"
     bl_label = "Make Face Sets of Parts"
-    steps = (attributes.add_face_sets, attributes.remove_face_sets,
+    steps = (face_sets.add, face_sets.remove,
              n_("{n} parts are face sets"), n_("The face sets are yours alone again"))
 
 
@@ -53,7 +53,7 @@ class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.materials"
     bl_label = "Give Each Part a Material"
-    steps = (attributes.add_materials, attributes.remove_materials,
+    steps = (materials.add, materials.remove,
              n_("{n} parts have materials"), n_("The materials are yours alone again"))
 
 

@@ -7,8 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from ..operators.parts import PartOperator
-from . import bridge, mesh_arrays, pieces, reactions, store
-from .outputs import attributes
+from . import bridge, mesh_arrays, outputs, pieces, reactions, store
 
 NAME = "Reeb Parts Armature"
 ROLE = "reeb_parts_role"  # on the armature, "armature"
@@ -95,7 +94,7 @@ def _write_groups(obj, numbered):
     if not result.has_groups:
         result.has_groups = True
         with store.quiet():
-            attributes.update_outputs(reactions.users(obj.data)[0], numbered)
+            outputs.update_outputs(reactions.users(obj.data)[0], numbered)
 
 
 def _remove_earlier(collection):

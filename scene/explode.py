@@ -7,9 +7,9 @@ the object, which drives a value in the modifier's nodes: so it can be dragged, 
 
 import bpy
 
-from . import reactions, store
+from . import outputs, reactions, store
 from .errors import SceneError
-from .outputs import attributes
+from .outputs import face_attribute
 
 NAME = "Reeb Parts Explode"
 PROPERTY = "reeb_parts_made.explode"
@@ -72,8 +72,8 @@ def _face_attribute(obj):
         except SceneError:  # the mesh was edited: the panel says so
             return ""
         with store.quiet():
-            attributes.add_face_attribute(obj)
-            attributes.update_outputs(reactions.users(obj.data)[0], numbered, numbered.candidate_numbers)
+            face_attribute.add(obj)
+            outputs.update_outputs(reactions.users(obj.data)[0], numbered, numbered.candidate_numbers)
     return result.face_attribute
 
 

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from . import bridge, store
-from .outputs import attributes
+from .outputs.colors import linear
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 ROLE = "reeb_parts_role"  # on our objects: "node" or "arcs"
@@ -114,7 +114,7 @@ def update_parts(obj, numbered):
     for item in collection.objects:
         if item.get(ROLE) == "node":
             item["part"] = numbers[item["node"]]
-            item.color = (*attributes.linear(colors[item["part"], :3].tolist()), 1.0)
+            item.color = (*linear(colors[item["part"], :3].tolist()), 1.0)
 
 
 def restyle(obj, style):

@@ -15,10 +15,10 @@ from mathutils import Matrix, Vector
 from ..core.errors import ReebError
 from ..operators import parts
 from ..viewport import shading
-from . import caps, explode, graph_objects, mesh_arrays, store, targets
+from . import caps, explode, graph_objects, mesh_arrays, outputs, store, targets
 from .errors import SceneError, translated
 from .modes import object_mode
-from .outputs import attributes
+from .outputs.colors import linear
 from .panel_settings import use_panel_settings, wanted
 from .use_properties import SeparateProperties
 
@@ -39,7 +39,7 @@ def plain_copy(mesh):
             result.has_materials = False
             for part in result.parts:
                 part.material = None
-            attributes.remove_outputs(twin)
+            outputs.remove_outputs(twin)
             copy.property_unset("reeb_parts")
     finally:
         bpy.data.objects.remove(twin)
@@ -232,7 +232,7 @@ def separate(context, obj, stored, numbers, style):
     made = []
     for number, mesh in meshes.items():
         piece = _piece(obj, mesh, store.part_name(obj.data, number), style)
-        piece.color = (*attributes.linear(colors[number]), 1.0)
+        piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER] = number
         collection.objects.link(piece)
         made.append(piece)

@@ -9,10 +9,10 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from . import graph_objects, store
+from . import graph_objects, outputs, store
 from .errors import SceneError
 from .modes import object_mode
-from .outputs import attributes, vertex_groups
+from .outputs import vertex_groups
 
 
 def show_detail(result, context):
@@ -38,7 +38,7 @@ def rename(part, context):
         if not part.name.strip():
             part.name = store.part_name(mesh, part.number)
         for obj in users(mesh)[:1]:
-            vertex_groups.rename_group(obj, part)
+            vertex_groups.rename(obj, part)
         store.keep_name(mesh, part.number, part.name)
 
 
@@ -77,12 +77,12 @@ def recolor(part, context):
 
     def keep(stored):
         numbered = stored.shown_parts()
-        own = attributes.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
+        own = outputs.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
         # Blender's popup, when it is cancelled, sets the colour back.
         chosen = np.abs(own - part.color).max() > 0.5 / 255
         store.keep_color(mesh, part.number, part.color[:] if chosen else None)
         # The list stays as it is: somebody has a hand on one of its colours.
-        attributes.update_colors(mesh, numbered)
+        outputs.update_colors(mesh, numbered)
         for obj in users(mesh):
             graph_objects.update_parts(obj, numbered)
 
@@ -112,7 +112,7 @@ def refresh(context, mesh, stored, numbered):
     objects = users(mesh)
     with store.quiet():
         store.save_numbers(mesh, stored)
-        attributes.update_outputs(objects[0], numbered, before)
+        outputs.update_outputs(objects[0], numbered, before)
     store.mark_pins(mesh, stored)
     for obj in objects:
         graph_objects.update_parts(obj, numbered)

@@ -11,7 +11,7 @@ from gpu_extras.batch import batch_for_shader
 from ..operators import edit
 from ..scene import store
 from ..scene.errors import SceneError
-from ..scene.outputs import attributes
+from ..scene.outputs import colors
 from . import pointing
 
 _CONFIRM = {"RET", "NUMPAD_ENTER"}
@@ -197,7 +197,7 @@ class ColoredTool(ViewTool):
     def show(self, obj, numbers):
         """Colour the faces as if they were in other parts. numbers : (p,) int64."""
         changed = np.flatnonzero(numbers != self._shown)
-        attributes.color_faces(obj.data, numbers, store.number_colors(obj.data), changed)
+        colors.write(obj.data, numbers, store.number_colors(obj.data), changed)
         obj.data.update()
         self._shown = numbers
 

@@ -4,10 +4,13 @@
 Blender has no way to write weights in bulk but a list of vertices per group, so only what changes is written.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
 
+from ...core.result.numbering import NumberedParts
 from .. import mesh_arrays
 
 
@@ -30,7 +33,7 @@ class Grains:
     shared: np.ndarray
 
     @classmethod
-    def of(cls, vertex: np.ndarray, candidate: np.ndarray) -> "Grains":
+    def of(cls, vertex: np.ndarray, candidate: np.ndarray) -> Grains:
         """From the vertex and the candidate of each corner, two (k,) integer arrays."""
         n_vertices, count = int(vertex.max(initial=-1)) + 1, int(candidate.max(initial=-1)) + 1
         # Small whole numbers are sorted much faster.
@@ -98,17 +101,18 @@ def forget():
     _grains.clear()
 
 
-def plan_groups(obj):
+def add(obj):
     """Let there be groups from the next update on."""
     obj.data.reeb_parts.has_groups = True
 
 
-def write_groups(obj, numbered, before):
-    """Make each part's group hold the part's vertices.
+def write(obj, numbered: NumberedParts, before: np.ndarray | None = None):
+    """Make each part's group hold the part's vertices, if there are to be groups.
 
-    numbered : core.numbering.NumberedParts. before : (c,) int64, the candidates' numbers as they are written
-    now, or None.
+    before : (c,) int64, the candidates' numbers as they are written now, if that is known.
     """
+    if not obj.data.reeb_parts.has_groups:
+        return
     parts = {part.number: part for part in obj.data.reeb_parts.parts}
     fresh = [number for number, part in parts.items() if part.group not in obj.vertex_groups]
     if before is None or np.isin(before, fresh).any():
@@ -128,28 +132,28 @@ def write_groups(obj, numbered, before):
         obj.vertex_groups.active_index = active
 
 
-def remove_group(obj, name):
+def remove_one(obj, name):
     """Remove a group, if it is there; the active one stays active."""
     group = obj.vertex_groups.get(name) if name else None
     if group is None:
         return
     active = obj.vertex_groups.active
-    former = active.name if active else ""
+    kept = active.name if active else ""
     obj.vertex_groups.remove(group)
-    if former in obj.vertex_groups:
-        obj.vertex_groups.active_index = obj.vertex_groups[former].index
+    if kept in obj.vertex_groups:
+        obj.vertex_groups.active_index = obj.vertex_groups[kept].index
 
 
-def remove_groups(obj):
+def remove(obj):
     """Remove the vertex groups that were made, and no other."""
     result = obj.data.reeb_parts
     for part in result.parts:
-        remove_group(obj, part.group)
+        remove_one(obj, part.group)
         part.group = ""
     result.has_groups = False
 
 
-def rename_group(obj, part):
+def rename(obj, part):
     """Give the part's vertex group the part's name, or the nearest that is free."""
     if part.group in obj.vertex_groups:
         group = obj.vertex_groups[part.group]
