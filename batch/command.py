@@ -20,10 +20,10 @@ import bpy
 
 from ..core.errors import ReebError
 from ..core.parameters import PRESETS, Parameters
-from ..operators import decompose
-from ..scene import bridge, export, targets
+from ..scene import bridge, export, graph_objects, results, targets
+from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
-from ..scene.properties import OutputProperties, OverlayProperties
+from ..scene.settings import OutputProperties, OverlayProperties
 
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
@@ -34,7 +34,7 @@ IMPORTERS = {
     ".fbx": lambda path: bpy.ops.import_scene.fbx(filepath=path),
 }
 
-FAILED, WRONG_USE = 1, 2
+FAILED = 1
 
 
 def main(arguments: list[str]) -> int:
@@ -135,7 +135,7 @@ def run(options) -> dict:
     reports = []
     for obj in objects:
         outcome = decompose_object(obj, parameters)
-        decompose.write_result(bpy.context, obj, outcome, options)
+        results.write_result(bpy.context, obj, outcome, options)
         reports.append(object_report(obj, options.labels))
     return write_files(options, objects, reports)
 
@@ -183,7 +183,7 @@ def decompose_object(obj, parameters):
             last[0] = round(20 * share)
             _say(f"{obj.name}: {stage} {share:.0%}")
 
-    (outcome,) = decompose.compute_all([(obj.name, shape)], parameters, progress)
+    (outcome,) = compute_all([(obj.name, shape)], parameters, progress)
     if outcome.decomposition is None:
         raise SceneError(f"{obj.name}: {outcome.problem}")
     return outcome
@@ -203,7 +203,6 @@ def write_files(options, objects, reports) -> dict:
             bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)
         written["save"] = str(options.save)
     if options.picture:
-        from ..scene import graph_objects
         from .picture import render_parts, view_from
 
         with _whole(options.picture) as path:

@@ -4,21 +4,10 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import armature, explode, graph_objects, outputs, reactions, store, targets, uv_map
+from ..scene import graph_objects, results, store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..viewport import shading
-
-
-def clear(obj):
-    """Remove parts, graph and stored result of an object; Object Mode."""
-    for user in reactions.users(obj.data):
-        explode.forget(user)
-        armature.remove_modifier(user)
-    uv_map.remove(obj.data)
-    outputs.remove_outputs(obj)
-    graph_objects.remove(obj)
-    obj.data.property_unset("reeb_parts")
 
 
 class REEB_PARTS_OT_clear(bpy.types.Operator):
@@ -44,6 +33,9 @@ class REEB_PARTS_OT_clear(bpy.types.Operator):
             return {"CANCELLED"}
         with object_mode(context):
             for obj in objects:
-                clear(obj)
+                results.clear(obj)
         shading.restore_colors(context)
         return {"FINISHED"}
+
+
+CLASSES = (REEB_PARTS_OT_clear,)

@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Decompose: read, compute, write. The scene is untouched until the result exists."""
 
-from dataclasses import dataclass
-
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.errors import Cancelled, ReebError
-from ..scene import bridge, compute, defaults, graph_objects, jobs, notes, outputs, store, targets
-from ..scene.bridge import Shape
+from ..core.errors import ReebError
+from ..scene import bridge, defaults, jobs, targets
+from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
-from ..scene.properties import (
+from ..scene.results import write_result
+from ..scene.settings import (
     OUTPUTS,
     OVERLAY,
     PARAMETERS,
@@ -20,78 +19,6 @@ from ..scene.properties import (
     ParameterProperties,
 )
 from ..viewport import shading
-
-
-@dataclass(frozen=True, eq=False)
-class Outcome:
-    """What became of one object: a decomposition, or the sentence why there is none."""
-
-    object_name: str
-    shape: Shape
-    decomposition: object = None
-    problem: str = ""  # a Sentence
-    seconds: float = 0.0
-
-
-def compute_all(shapes, parameters, progress) -> list[Outcome]:
-    """Decompose shapes one after the other; no Blender data is touched.
-
-    Parameters
-    ----------
-    shapes : list of (object name, Shape)
-    parameters : core.Parameters
-    progress : callable(stage, share, name of the object if there are several)
-        What it raises ends everything.
-    """
-    outcomes = []
-    for index, (name, shape) in enumerate(shapes):
-        of = (name,) if len(shapes) > 1 else ()
-
-        def step(stage, share, index=index, of=of):
-            progress(stage, (index + share) / len(shapes), *of)
-
-        try:
-            result = compute.decomposition(shape, parameters, step)
-        except Cancelled:
-            raise
-        except ReebError as error:
-            outcomes.append(Outcome(name, shape, problem=error.args[0]))
-        else:
-            outcomes.append(Outcome(name, shape, result, seconds=sum(result.seconds.values())))
-    return outcomes
-
-
-def write_result(context, obj, outcome: Outcome, settings):
-    """Write one object's parts and graph; Object Mode.
-
-    Parameters
-    ----------
-    context : bpy.types.Context
-    obj : bpy.types.Object
-    outcome : Outcome
-        With a decomposition.
-    settings
-        Has the values of OutputProperties and OverlayProperties.
-    """
-    mesh, decomposition = obj.data, outcome.decomposition
-    parameters = decomposition.parameters
-    stored = store.succeed(mesh, decomposition)
-    numbered = stored.shown_parts()
-    result = mesh.reeb_parts
-    with store.quiet():
-        store.save(mesh, stored)
-        result.object_name = obj.name
-        result.stretch = outcome.shape.stretch.ravel().tolist()
-        result.seconds = outcome.seconds
-        notes.keep(result, decomposition.notes + outcome.shape.notes)
-        result.detail, result.by_number = parameters.detail, parameters.n_parts > 0
-        outputs.write_outputs(obj, numbered, decomposition.field, settings)
-    store.mark_pins(mesh, stored)
-    if settings.graph:
-        graph_objects.draw_graph(context, obj, decomposition.graph, outcome.shape.stretch, settings)
-        graph_objects.update_parts(obj, numbered)
-    else:
-        graph_objects.remove(obj)
 
 
 class REEB_PARTS_OT_decompose(
@@ -281,3 +208,6 @@ def _redraw_sidebars(context):
                 for region in area.regions:
                     if region.type == "UI":
                         region.tag_redraw()
+
+
+CLASSES = (REEB_PARTS_OT_decompose, REEB_PARTS_OT_cancel)

@@ -11,7 +11,11 @@ from .parts import PartOperator
 
 
 class OutputOperator(PartOperator):
-    """For operators that write one thing more to the mesh, which then follows the parts until it is taken back."""
+    """For operators that write one thing more to the mesh, which then follows the parts until it is taken back.
+
+    A class that inherits gives ``output``: the module of scene.outputs, and the sentences said of it when it was
+    written and when it was taken back.
+    """
 
     remove: bpy.props.BoolProperty(
         name="Take back", options={"SKIP_SAVE"},
@@ -19,10 +23,10 @@ class OutputOperator(PartOperator):
     )
 
     def work(self, context, obj, stored):
-        add, remove, done, undone = self.steps
+        output, done, undone = self.output
         obj = reactions.users(obj.data)[0]
         with store.quiet():
-            (remove if self.remove else add)(obj)
+            (output.remove if self.remove else output.add)(obj)
             if not self.remove:
                 numbered = stored.shown_parts()
                 outputs.update_outputs(obj, numbered, numbered.candidate_numbers)
@@ -35,8 +39,7 @@ class REEB_PARTS_OT_seams(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.seams"
     bl_label = "Mark Seams between Parts"
-    steps = (seams.add, seams.remove,
-             n_("Seams around {n} parts"), n_("The seams are yours alone again"))
+    output = (seams, n_("Seams around {n} parts"), n_("The seams are yours alone again"))
 
 
 class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
@@ -44,8 +47,7 @@ class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.face_sets"
     bl_label = "Make Face Sets of Parts"
-    steps = (face_sets.add, face_sets.remove,
-             n_("{n} parts are face sets"), n_("The face sets are yours alone again"))
+    output = (face_sets, n_("{n} parts are face sets"), n_("The face sets are yours alone again"))
 
 
 class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
@@ -53,8 +55,7 @@ class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.materials"
     bl_label = "Give Each Part a Material"
-    steps = (materials.add, materials.remove,
-             n_("{n} parts have materials"), n_("The materials are yours alone again"))
+    output = (materials, n_("{n} parts have materials"), n_("The materials are yours alone again"))
 
 
 CLASSES = (REEB_PARTS_OT_seams, REEB_PARTS_OT_face_sets, REEB_PARTS_OT_materials)

@@ -6,9 +6,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
 from ..scene import store
+from ..scene.part_list import choose, toggle
 from ..viewport import pointing
 from ..viewport.view_tool import ViewTool
-from .parts import PartOperator, choose, toggle
+from .parts import PartOperator
 
 
 class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):
@@ -51,9 +52,9 @@ class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):
 
     def _choose(self, obj, number, extend):
         if extend:
-            toggle(obj, number)
+            toggle(obj.data, number)
         else:
-            choose(obj, [number])
+            choose(obj.data, [number])
 
 
 CLASSES = (REEB_PARTS_OT_pick,)

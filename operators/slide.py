@@ -5,49 +5,13 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import bridge, mesh_arrays
+from ..scene import edits
 from ..scene.errors import SceneError
-from ..viewport.view_tool import ColoredTool, active_number, turns_view
-from . import edit
+from ..scene.part_list import active_number
+from ..viewport.boundary import Boundary
+from ..viewport.colored_tool import ColoredTool
+from ..viewport.view_tool import turns_view
 from .parts import PartOperator
-
-
-class Boundary:
-    """The boundary of one part, ready to be slid.
-
-    Attributes
-    ----------
-    numbers : (p,) int64
-        The part of each face, before.
-    distance : (p,) float64
-        From the boundary, negative inside the part; nan for faces that must stay.
-    reach : (2,) float64
-        How far it can be slid inwards and outwards, as distances.
-    """
-
-    def __init__(self, obj, stored, number):
-        from ..core.result.editing import boundary_distance
-
-        self.number = number
-        self.numbers = stored.shown[stored.decomposition.candidates]
-        pairs, _ = mesh_arrays.face_pairs(obj.data)
-        center = bridge.face_centers(obj)
-        length = np.linalg.norm(center[pairs[:, 0]] - center[pairs[:, 1]], axis=1)
-        locked = edit.locked_others(obj.data, number)
-        inside = self.numbers == number
-        distance, across = boundary_distance(inside, pairs, length)
-        # What a face inside would go to; its own part for one that has nowhere to go.
-        self.receiver = np.where(inside & (across >= 0), self.numbers[across], self.numbers)
-        self.distance = np.where(np.isin(self.numbers, locked) | np.isin(self.receiver, locked), np.nan, distance)
-        known = self.distance[np.isfinite(self.distance)]
-        self.reach = np.array([known.min(initial=0.0), known.max(initial=0.0)])
-
-    def slid(self, offset) -> np.ndarray:
-        """The part of each face with the boundary moved outwards by a distance, (p,) int64."""
-        with np.errstate(invalid="ignore"):  # nan: the face stays
-            taken = (self.distance > 0) & (self.distance <= offset)
-            given = (self.distance < 0) & (self.distance >= offset)
-        return np.where(taken, self.number, np.where(given, self.receiver, self.numbers))
 
 
 class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
@@ -65,11 +29,11 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
     )
 
     def work(self, context, obj, stored):
-        boundary = Boundary(obj, stored, active_number(obj))
+        boundary = Boundary(obj, stored, active_number(obj.data))
         numbers = boundary.slid(self.offset)
         if (numbers == boundary.number).sum() == 0:
             raise SceneError(rpt_("Nothing would be left of the part. Slide the boundary less far."))
-        edit.assign_faces(context, obj, stored, numbers)
+        edits.assign_faces(context, obj, stored, numbers)
 
     def hint(self):
         return rpt_("Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel")

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An armature with a bone for each part, as a start for a rig; the parts' vertex groups are its weights."""
 
+from __future__ import annotations
+
 import bpy
 import numpy as np
-from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
-from ..operators.parts import PartOperator
-from . import bridge, mesh_arrays, outputs, pieces, reactions, store
+from . import bridge, mesh_arrays, outputs, piece_objects, reactions, store
+from .selection import nothing_selected
 
 NAME = "Reeb Parts Armature"
 ROLE = "reeb_parts_role"  # on the armature, "armature"
@@ -28,7 +29,7 @@ def make(context, obj, stored, deform):
     ----------
     context : bpy.types.Context
     obj : bpy.types.Object
-    stored : store.Stored
+    stored : Stored
     deform : bool
         Give the object a modifier, so that the bones move it.
 
@@ -40,7 +41,7 @@ def make(context, obj, stored, deform):
     place, bones = _bones(obj, stored.decomposition, numbered)
     names = [store.part_name(obj.data, number) for number in numbered.numbers.tolist()]
     _write_groups(obj, numbered)
-    collection = pieces.make_collection(context, obj)
+    collection = piece_objects.make_collection(context, obj)
     _remove_earlier(collection)
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
     rig = bpy.data.objects.new(data.name, data)
@@ -113,23 +114,18 @@ def _remove_earlier(collection):
 def _add_bones(context, rig, bones, names):
     """Write the bones, in the Edit Mode that they can only be written in."""
     layer = context.view_layer
-    active, selected = layer.objects.active, list(layer.objects.selected)
-    for other in selected:
-        other.select_set(False)
-    layer.objects.active = rig
-    with context.temp_override(active_object=rig, object=rig):
-        bpy.ops.object.mode_set(mode="EDIT")
-        made = [rig.data.edit_bones.new(name) for name in names]
-        for index, bone in enumerate(made):
-            bone.head, bone.tail = Vector(bones.head[index]), Vector(bones.tail[index])
-        for index, bone in enumerate(made):
-            if bones.parent[index] >= 0:
-                bone.parent = made[bones.parent[index]]
-                bone.use_connect = bool(bones.connected[index])
-        bpy.ops.object.mode_set(mode="OBJECT")
-    for other in selected:
-        other.select_set(True)
-    layer.objects.active = active
+    with nothing_selected(layer):
+        layer.objects.active = rig
+        with context.temp_override(active_object=rig, object=rig):
+            bpy.ops.object.mode_set(mode="EDIT")
+            made = [rig.data.edit_bones.new(name) for name in names]
+            for index, bone in enumerate(made):
+                bone.head, bone.tail = Vector(bones.head[index]), Vector(bones.tail[index])
+            for index, bone in enumerate(made):
+                if bones.parent[index] >= 0:
+                    bone.parent = made[bones.parent[index]]
+                    bone.use_connect = bool(bones.connected[index])
+            bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def _looks(rig) -> str:
@@ -141,22 +137,3 @@ def _looks(rig) -> str:
     posed = [bone.name for bone in rig.pose.bones if len(bone.constraints) or bone.matrix_basis != Matrix()] \
         if rig.pose else []
     return str([rig.name, place, animated, posed, bones])
-
-
-class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
-    """Make an armature with a bone for each part, along the part's centre line, as a start for a rig"""
-
-    bl_idname = "reeb_parts.armature"
-    bl_label = "Make Armature from Parts"
-
-    deform: bpy.props.BoolProperty(
-        name="Move the mesh", default=False,
-        description="Add an Armature modifier, so that posing the bones moves the parts",
-    )
-
-    def work(self, context, obj, stored):
-        rig = make(context, obj, stored, self.deform)
-        return rpt_("{name} has {n} bones").format(name=rig.name, n=len(rig.data.bones))
-
-
-CLASSES = (REEB_PARTS_OT_armature,)

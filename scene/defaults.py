@@ -5,13 +5,21 @@ A scene takes it over once, when it is first seen, at the latest with its first 
 in it later is the scene's own, and a file looks the same whatever the preferences are where it is opened.
 """
 
+from __future__ import annotations
+
 import bpy
 from bpy.app.handlers import persistent
 
+from .. import __package__ as base_package
 from ..core.parameters import PRESETS
-from ..ui import preferences
 from . import store
-from .properties import OUTPUTS, OVERLAY, PARAMETERS
+from .settings import OUTPUTS, OVERLAY, PARAMETERS
+
+
+def preferences() -> bpy.types.AddonPreferences | None:
+    """The preferences of the extension; None when it runs without being listed in Blender's preferences."""
+    addon = bpy.context.preferences.addons.get(base_package)
+    return addon.preferences if addon else None
 
 
 def adopt(scene):
@@ -27,7 +35,7 @@ def adopt(scene):
 
 def use(settings, names):
     """Take over some settings from the preferences."""
-    chosen = preferences.get()
+    chosen = preferences()
     if chosen is None:
         return
     # No graph is drawn anew by this.
@@ -40,54 +48,13 @@ def use(settings, names):
 
 def complete(operator):
     """Give an operator the preferences' value of every property that its caller left out."""
-    chosen = preferences.get()
+    chosen = preferences()
     if chosen is None:
         return
     for source, names in ((PRESETS[chosen.preset], PARAMETERS), (chosen, (*OUTPUTS, *OVERLAY))):
         for name in names:
             if not operator.properties.is_property_set(name):
                 setattr(operator, name, getattr(source, name))
-
-
-class SceneOperator:
-    """For operators on the settings of the scene."""
-
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        return context.scene.is_editable
-
-
-class REEB_PARTS_OT_use_preferences(SceneOperator, bpy.types.Operator):
-    """Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons"""
-
-    bl_idname = "reeb_parts.use_preferences"
-    bl_label = "Use Preferences in This Scene"
-
-    def execute(self, context):
-        settings = context.scene.reeb_parts
-        use(settings, ("preset", *OUTPUTS, *OVERLAY))
-        # Also what was changed after the preset was chosen.
-        settings.preset = settings.preset
-        return {"FINISHED"}
-
-
-class REEB_PARTS_OT_reset_parameters(SceneOperator, bpy.types.Operator):
-    """Set the parameters back to those of the preset; some of them were changed"""
-
-    bl_idname = "reeb_parts.reset_parameters"
-    bl_label = "Reset Parameters to Preset"
-
-    def execute(self, context):
-        settings = context.scene.reeb_parts
-        detail, n_parts = settings.detail, settings.n_parts
-        settings.use_parameters(PRESETS[settings.preset])
-        settings.detail, settings.n_parts = detail, n_parts
-        return {"FINISHED"}
-
-
-CLASSES = (REEB_PARTS_OT_use_preferences, REEB_PARTS_OT_reset_parameters)
 
 
 @persistent

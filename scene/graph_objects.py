@@ -57,7 +57,7 @@ def draw_graph(context, obj, graph, stretch, style):
     stretch : (3, 3) float64
         What took the mesh's coordinates to the graph's; undone here.
     style
-        Has the values of ui.properties.OverlayProperties.
+        Has the values of settings.OverlayProperties.
     """
     remove(obj)
     back = bridge.unstretch(stretch).T
@@ -148,3 +148,27 @@ def remove(obj):
             del collection[SOURCE]  # the user put something in it: it is the user's now
         else:
             bpy.data.collections.remove(collection)
+
+
+def part_of(item) -> tuple[bpy.types.Object, int] | None:
+    """The decomposed object and the part's number that an object of a graph stands for, or None."""
+    if item is None or item.get(ROLE) != "node" or item.parent is None:
+        return None
+    source = item.parent
+    if source.type != "MESH" or not store.has_result(source.data):
+        return None
+    return source, item["part"]
+
+
+def source_of_arcs(item) -> bpy.types.Object | None:
+    """The decomposed object that a curve of arcs stands for, or None."""
+    if item is None or item.get(ROLE) != "arcs" or item.parent is None or item.parent.type != "MESH":
+        return None
+    return item.parent if store.has_result(item.parent.data) else None
+
+
+def select_nodes(obj, numbers):
+    """Select the nodes of some parts, and no other node."""
+    for item in find(obj).objects:
+        if item.get(ROLE) == "node":
+            item.select_set(item["part"] in numbers)

@@ -96,13 +96,13 @@ def lock(part, context):
     mesh = part.id_data
     number, locked = part.number, part.locked
 
-    def fix(stored):
-        fixed = np.where(stored.shown == number, number if locked else 0, stored.fixed)
+    def pin(stored):
+        pinned = np.where(stored.shown == number, number if locked else 0, stored.pinned)
         with store.quiet():
-            store.save_numbers(mesh, replace(stored, fixed=fixed))
+            store.save_numbers(mesh, replace(stored, pinned=pinned))
         show(mesh.reeb_parts, context)
 
-    _with_result(mesh, context, fix)
+    _with_result(mesh, context, pin)
 
 
 def refresh(context, mesh, stored, numbered):

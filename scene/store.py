@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The result kept with its mesh: in the .blend file, through undo, until the mesh is edited.
 
-With it goes what is known of the candidate parts: ``former``, the number each was last known by;
-``fixed``, the number of the locked part that it is tied to whatever the detail; ``shown``, the number of
-the part that it is in now.
+Beside the decomposition, three numbers of each candidate are stored: ``previous_number``, which it was given when
+the mesh was decomposed; ``pinned``, the number of the part that it stays in whatever the detail, 0 for none;
+``shown``, the number of the part that it is in now.
 """
 
 from contextlib import contextmanager
@@ -49,19 +49,25 @@ class Stored:
     ----------
     decomposition : core.Decomposition
         With c candidates.
-    former, fixed, shown : (c,) int64
-        Part numbers; see core.numbering.Numbering for the first two.
+    previous_number, pinned, shown : (c,) int64
+        Numbers of parts, 0 for none; see core.result.numbering.Numbering.of for the first two. They are stored in
+        this order, as int32.
     """
 
     decomposition: object
-    former: np.ndarray
-    fixed: np.ndarray
+    previous_number: np.ndarray
+    pinned: np.ndarray
     shown: np.ndarray
 
     @cached_property
     def numbering(self) -> Numbering:
         """The numbers of the parts at every level of detail."""
-        return _numbering(self.decomposition, self.former.tobytes(), self.fixed.tobytes())
+        return _numbering(self.decomposition, self.previous_number.tobytes(), self.pinned.tobytes())
+
+    @cached_property
+    def face_numbers(self) -> np.ndarray:
+        """(p,) int64, the number of the part that each face is in now."""
+        return self.shown[self.decomposition.candidates]
 
     def parts(self, detail, n_parts) -> NumberedParts:
         """Parts at a level of detail, or of an exact number if that is not 0."""
@@ -130,43 +136,43 @@ def save(mesh, stored: Stored):
 
 def save_numbers(mesh, stored: Stored):
     """Keep which candidate has which number."""
-    rows = np.stack([stored.former, stored.fixed, stored.shown])
+    rows = np.stack([stored.previous_number, stored.pinned, stored.shown])
     mesh.reeb_parts.numbers = rows.astype(np.int32).tobytes()
 
 
 def succeed(mesh, decomposition) -> Stored:
     """A new result for a mesh; its parts take over the numbers of those that the faces were in until now."""
-    former = fixed = np.zeros(decomposition.n_candidates, np.int64)
+    previous = pinned = np.zeros(decomposition.n_candidates, np.int64)
     if has_result(mesh):
-        faces, fixed_faces = _face_numbers(mesh)
-        if len(faces) == decomposition.n_faces and faces.any():
-            weight = np.ones(len(faces))
-            former = transfer(decomposition.candidates, faces, weight)
-            fixed = transfer(decomposition.candidates, fixed_faces, weight)
+        face_previous, face_pinned = _face_numbers(mesh)
+        if len(face_previous) == decomposition.n_faces and face_previous.any():
+            weight = np.ones(len(face_previous))
+            previous = transfer(decomposition.candidates, face_previous, weight)
+            pinned = transfer(decomposition.candidates, face_pinned, weight)
     parameters = decomposition.parameters
-    numbers = inherited(decomposition, parameters.detail, parameters.n_parts, former, fixed)
-    return Stored(decomposition, former=numbers, fixed=fixed, shown=numbers)
+    numbers = inherited(decomposition, parameters.detail, parameters.n_parts, previous, pinned)
+    return Stored(decomposition, previous_number=numbers, pinned=pinned, shown=numbers)
 
 
 def _face_numbers(mesh) -> tuple[np.ndarray, np.ndarray]:
-    """The number that each face has, and the one that it is tied to; 0 for none. Survives edits."""
+    """The number of each face's part, and of the part that it is pinned to; 0 for none. Survives edits of the mesh."""
     result = mesh.reeb_parts
     try:
         old = load(mesh)
     except SceneError:  # edited, or from another version: what is left is on the faces
         pass
     else:
-        # A finer part that somebody named or coloured is one to find again, too.
-        ours = np.isin(old.shown, [entry.number for entry in result.names])
+        # A part of a finer level that the user has named or colored is found again by the next run, too.
+        kept = np.isin(old.shown, [entry.number for entry in result.names])
         candidates = old.decomposition.candidates
-        return np.where(ours, old.shown, old.former)[candidates], old.fixed[candidates]
+        return np.where(kept, old.shown, old.previous_number)[candidates], old.pinned[candidates]
     attribute = mesh.attributes.get(result.face_attribute)
     faces = np.zeros(len(mesh.polygons), np.int32)
     if attribute is not None and attribute.domain == "FACE" and len(attribute.data) == len(faces):
         attribute.data.foreach_get("value", faces)
     faces = faces.astype(np.int64)
-    tied = [part.number for part in result.parts if part.pinned]
-    return faces, np.where(np.isin(faces, tied), faces, 0)
+    pinned = [part.number for part in result.parts if part.pinned]
+    return faces, np.where(np.isin(faces, pinned), faces, 0)
 
 
 def stretch_of(mesh) -> np.ndarray:
@@ -245,9 +251,9 @@ def _remember(data: bytes, decomposition):
 
 
 @lru_cache(_KEEP)
-def _numbering(decomposition, former: bytes, fixed: bytes) -> Numbering:
+def _numbering(decomposition, previous: bytes, pinned: bytes) -> Numbering:
     """While the detail is dragged, the numbers of all levels stay the same."""
-    return Numbering.of(decomposition, np.frombuffer(former, np.int64), np.frombuffer(fixed, np.int64))
+    return Numbering.of(decomposition, np.frombuffer(previous, np.int64), np.frombuffer(pinned, np.int64))
 
 
 def forget():
@@ -258,7 +264,7 @@ def forget():
 
 def mark_pins(mesh, stored: Stored):
     """Tell the list which parts stay whatever the detail."""
-    pinned = set(stored.fixed.tolist())
+    pinned = set(stored.pinned.tolist())
     with quiet():
         for part in mesh.reeb_parts.parts:
             part.pinned = part.number in pinned

@@ -7,8 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
-from ..operators import graph
-from ..scene import jobs, notes, store
+from ..scene import graph_objects, jobs, notes, store
 
 
 def _result(context):
@@ -68,8 +67,9 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
             row.scale_y = 1.5
             row.operator("reeb_parts.decompose", text="Decompose", icon="MOD_EXPLODE")
         result = _result(context)
-        if result is None and graph.part_of(context.object) is not None:
-            source, number = graph.part_of(context.object)
+        found = graph_objects.part_of(context.object) if result is None else None
+        if found is not None:
+            source, number = found
             text = iface_("{part} of {name}").format(part=store.part_name(source.data, number), name=source.name)
             layout.label(text=text, icon="EMPTY_AXIS")
             layout.operator("reeb_parts.from_nodes")

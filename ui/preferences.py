@@ -5,7 +5,7 @@ import bpy
 from bpy.props import EnumProperty
 
 from .. import __package__ as base_package
-from ..scene.properties import OUTPUTS, OVERLAY, PRESET_ITEMS, OutputProperties, OverlayProperties
+from ..scene.settings import OUTPUTS, OVERLAY, PRESET_ITEMS, OutputProperties, OverlayProperties
 
 
 def _without_update(prop):
@@ -40,12 +40,6 @@ class ReebPartsPreferences(bpy.types.AddonPreferences, OutputProperties, Overlay
         for name in OVERLAY:
             column.prop(self, name)
         layout.operator("reeb_parts.use_preferences")
-
-
-def get():
-    """The preferences; None when the extension runs without being listed in them."""
-    addon = bpy.context.preferences.addons.get(base_package)
-    return addon.preferences if addon else None
 
 
 def register():

@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
-from ..scene import pieces, store
+from ..scene import piece_objects, store
 from .panel import ReebPanel
 
 
@@ -51,10 +51,10 @@ class REEB_PARTS_PT_piece(ReebPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        return context.object is not None and pieces.original(context.object) is not None
+        return context.object is not None and piece_objects.original(context.object) is not None
 
     def draw(self, context):
-        obj = pieces.original(context.object)
+        obj = piece_objects.original(context.object)
         self.layout.label(text=iface_("A part of {name}").format(name=obj.name), icon="MESH_DATA")
         show = iface_("Show {name}").format(name=obj.name)
         self.layout.operator("reeb_parts.show_original", text=show, icon="HIDE_OFF")

@@ -9,9 +9,9 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..operators import parts
 from ..scene import explode, mesh_arrays, store
 from ..scene.errors import SceneError
+from ..scene.part_list import chosen_numbers
 
 COLOR = (1.0, 1.0, 1.0, 0.9)
 WIDTH = 2.5
@@ -44,7 +44,7 @@ def outline(obj, numbers) -> np.ndarray:
     """
     mesh = obj.data
     stored = store.load(mesh)
-    mine = np.isin(stored.shown[stored.decomposition.candidates], numbers)
+    mine = np.isin(stored.face_numbers, numbers)
     edges = mesh_arrays.edge_ends(mesh)[mesh_arrays.cut_edges(mesh, mine.astype(np.int64))]
     return mesh_arrays.shown_points(obj)[edges.ravel()]
 
@@ -59,7 +59,7 @@ def _draw():
             or explode.find(obj)):  # the parts are elsewhere then
         return
     result = obj.data.reeb_parts
-    numbers = parts.chosen_numbers(obj.data)
+    numbers = chosen_numbers(obj.data)
     key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers))
     if key != _built:
         _built = key

@@ -60,7 +60,7 @@ class Model:
     @property
     def numbers(self) -> np.ndarray:
         """(p,) int64, the part of each face."""
-        return self.stored.shown[self.stored.decomposition.candidates]
+        return self.stored.face_numbers
 
     @property
     def tree(self):

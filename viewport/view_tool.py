@@ -3,21 +3,17 @@
 
 import bpy
 import gpu
-import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 from gpu_extras.batch import batch_for_shader
 
-from ..operators import edit
-from ..scene import store
 from ..scene.errors import SceneError
-from ..scene.outputs import colors
 from . import pointing
 
 _CONFIRM = {"RET", "NUMPAD_ENTER"}
 _CANCEL = {"ESC", "RIGHTMOUSE"}
 _MOVES = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}
-_CHANGED = n_("The object was changed meanwhile.")
+CHANGED = n_("The object was changed meanwhile.")
 _TURNS = {"view3d.rotate", "view3d.move", "view3d.zoom", "view3d.dolly"}
 
 
@@ -140,7 +136,7 @@ class ViewTool:
         """What is under the pointer; everything is read again if parts or object have changed."""
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH" or obj.mode != "OBJECT":
-            raise SceneError(rpt_(_CHANGED))
+            raise SceneError(rpt_(CHANGED))
         if not self.is_current(obj):
             self._read(context, obj)
         self.preview.matrix = obj.matrix_world.copy()
@@ -148,11 +144,11 @@ class ViewTool:
 
     def is_current(self, obj) -> bool:
         """Whether an object is the one that was read, with the parts that it had then; it may be None."""
-        return obj is not None and obj.type == "MESH" and self._key == _key(obj)
+        return obj is not None and obj.type == "MESH" and self._key == result_key(obj)
 
     def _read(self, context, obj):
         self.model = pointing.Model(obj)
-        self._key = _key(obj)
+        self._key = result_key(obj)
         self.begin(context, obj)
 
     def _redraw(self, context):
@@ -168,59 +164,10 @@ class ViewTool:
         self._redraw(context)
 
 
-def _key(obj):
+def result_key(obj):
     """Changes with the object, its mesh and its parts."""
     result = obj.data.reeb_parts
     return obj.name, obj.data.session_uid, result.fingerprint, result.numbers
-
-
-class ColoredTool(ViewTool):
-    """Shows in colours what the active part would be; all else is written once that is confirmed.
-
-    A class that inherits gives ``finish(context, obj)``, too.
-    """
-
-    _shown = None  # (p,) int64, the part that each face has the colour of
-
-    def finish(self, context, obj):
-        """It was confirmed; the operator's result. Raises SceneError."""
-        raise NotImplementedError
-
-    def begin(self, context, obj):
-        if self._shown is not None:  # another command has written its parts, and maybe not over all that was shown
-            self._shown = np.full(len(self.model.numbers), -1)
-            self.restore()
-        self._shown = self.model.numbers
-        self.number = active_number(obj)
-        edit.check_unlocked(obj, [self.number])
-
-    def show(self, obj, numbers):
-        """Colour the faces as if they were in other parts. numbers : (p,) int64."""
-        changed = np.flatnonzero(numbers != self._shown)
-        colors.write(obj.data, numbers, store.number_colors(obj.data), changed)
-        obj.data.update()
-        self._shown = numbers
-
-    def restore(self):
-        """Show the parts as they are."""
-        obj = bpy.data.objects.get(self.model.name)
-        if self.is_current(obj):
-            self.show(obj, self.model.numbers)
-
-    def confirm(self, context):
-        self.restore()
-        obj = context.view_layer.objects.active
-        if not self.is_current(obj):
-            raise SceneError(rpt_(_CHANGED))
-        return self.finish(context, obj)
-
-    def give_up(self, context):
-        self.restore()
-        return {"CANCELLED"}
-
-    def cancel(self, context):
-        self.restore()
-        super().cancel(context)
 
 
 def turns_view(context, event) -> bool:
@@ -228,9 +175,3 @@ def turns_view(context, event) -> bool:
     keymap = context.window_manager.keyconfigs.user.keymaps["3D View"]
     found = keymap.keymap_items.match_event(event)
     return found is not None and (found.idname in _TURNS or found.idname.startswith(("view3d.view_", "view3d.ndof_")))
-
-
-def active_number(obj) -> int:
-    """The part that is active in the list."""
-    result = obj.data.reeb_parts
-    return result.parts[result.active].number

@@ -182,7 +182,7 @@ def test_without_custom_normals_none_are_made(obj):
 @pytest.fixture
 def separate(package):
     """The module behind the operator, to try parts that no decomposition would give."""
-    return importlib.import_module(f"{package}.scene.pieces")
+    return importlib.import_module(f"{package}.scene.part_meshes")
 
 
 @pytest.mark.parametrize("seed", range(4))
