@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Caps: faces that close what a cut has opened."""
 
+from __future__ import annotations
+
 import bmesh
 import numpy as np
 from mathutils.geometry import tessellate_polygon
@@ -127,26 +129,44 @@ def _simple(vertices):
 def _sheets(bm, hole, meeting, opened):
     """Take a hole apart where cuts meet: a closed walk for each stretch, and one for what is between them."""
     at = [i for i, vertex in enumerate(hole) if vertex in meeting]
-    if len(at) < 2 or any(_edge(a, b) not in opened for a, b in zip(hole, [*hole[1:], hole[0]], strict=True)):
-        return [hole]  # along a border nobody is on the other side
-    hole = hole[at[0] :] + hole[: at[0] + 1]
-    at = [i - at[0] for i in at] + [len(hole) - 1]
-    stretches = [hole[i : j + 1] for i, j in zip(at, at[1:], strict=False)]
-    if len(stretches) == 2:
-        if any(_is_straight(stretch) for stretch in stretches):
-            return [hole[:-1]]
-        middle = _between(bm, (hole[0], stretches[1][0]), (0.5, 0.5))
-        return [[*stretch, middle] for stretch in stretches]
+    if len(at) < 2 or _has_border(hole, opened):
+        return [hole]
+    # Round the hole from the first place where cuts meet, back to it.
+    around = hole[at[0] :] + hole[: at[0] + 1]
+    at = [i - at[0] for i in at] + [len(hole)]
+    stretches = [around[i : j + 1] for i, j in zip(at, at[1:], strict=False)]
+    return _two_sheets(bm, stretches) if len(stretches) == 2 else _many_sheets(bm, stretches)
+
+
+def _has_border(hole, opened):
+    """Whether an edge of the hole was a border before the cut: no other piece lies on its other side."""
+    return any(_edge(a, b) not in opened for a, b in zip(hole, [*hole[1:], hole[0]], strict=True))
+
+
+def _two_sheets(bm, stretches):
+    """One closed walk for each of two stretches; for both together if one of them is the straight line."""
+    if any(_is_straight(stretch) for stretch in stretches):
+        return [[vertex for stretch in stretches for vertex in stretch[:-1]]]
+    middle = _half_way(bm, stretches[0])
+    return [[*stretch, middle] for stretch in stretches]
+
+
+def _many_sheets(bm, stretches):
+    """A closed walk for each stretch that is not straight, and one along the straight lines between all ends."""
     sheets, inner = [], []
     for stretch in stretches:
         if _is_straight(stretch):
             inner += stretch[:-1]
         else:
-            # A vertex half way, so that there is no second edge between the ends.
-            middle = _between(bm, (stretch[0], stretch[-1]), (0.5, 0.5))
+            middle = _half_way(bm, stretch)
             sheets.append([*stretch, middle])
             inner += [stretch[0], middle]
     return [*sheets, inner]
+
+
+def _half_way(bm, stretch):
+    """A new vertex half way between the ends of a stretch, so that no second edge joins the ends."""
+    return _between(bm, (stretch[0], stretch[-1]), (0.5, 0.5))
 
 
 def _is_straight(stretch):
@@ -217,25 +237,46 @@ def _is_star(points):
 def _triangles(hole, points, joined):
     """Triangles between the corners of a hole, or None if some edge would meet a third face on either side."""
     n = len(hole)
-    # From the same corner in the same direction on both sides of the cut.
-    first = min(range(n), key=lambda i: tuple(points[i]))
-    turn = 1 if tuple(points[first - 1]) < tuple(points[(first + 1) % n]) else -1
-    order = [(first + turn * i) % n for i in range(n)]
+    order = _common_order(points)
     triples = [tuple(order[i] for i in t) for t in tessellate_polygon([[hole[i].co for i in order]])]
     rim = {(i, (i + 1) % n) for i in range(n)}
-    if any((t[i - 2], t[i]) in rim for t in triples for i in range(3)):
-        triples = [t[::-1] for t in triples]
-    directed = {(t[i], t[i - 2]) for t in triples for i in range(3)}
+    if any((b, a) in rim for triple in triples for a, b in _edges_of(triple)):
+        triples = [triple[::-1] for triple in triples]
+    inner = _inner_edges(triples, rim)
+    if n == 3 or inner is None or _is_joined(hole, inner, joined):
+        return None
+    return [tuple(hole[i] for i in triple) for triple in triples]
+
+
+def _common_order(points):
+    """The corners from the same one in the same direction, whichever of the two sides of a cut asks."""
+    n = len(points)
+    first = min(range(n), key=lambda i: tuple(points[i]))
+    turn = 1 if tuple(points[first - 1]) < tuple(points[(first + 1) % n]) else -1
+    return [(first + turn * i) % n for i in range(n)]
+
+
+def _edges_of(triple):
+    a, b, c = triple
+    return (a, b), (b, c), (c, a)
+
+
+def _inner_edges(triples, rim):
+    """The edges between triangles, in both directions; None unless the triangles are one sheet that fills the rim."""
+    directed = {edge for triple in triples for edge in _edges_of(triple)}
     inner = directed - rim
-    neighbours = [{edge.other_vert(v) for edge in v.link_edges} | joined.get(v, set()) for v in hole]
-    proper = (
-        n > 3
-        and len(directed) == 3 * len(triples) == 3 * (n - 2)
+    is_sheet = (
+        len(directed) == 3 * len(triples) == 3 * (len(rim) - 2)
         and rim <= directed
         and all((b, a) in inner for a, b in inner)
-        and not any(hole[b] in neighbours[a] for a, b in inner)
     )
-    return [tuple(hole[i] for i in t) for t in triples] if proper else None
+    return inner if is_sheet else None
+
+
+def _is_joined(hole, inner, joined):
+    """Whether an edge joins two of these pairs of corners already, in this piece or in another."""
+    near = [{edge.other_vert(v) for edge in v.link_edges} | joined.get(v, set()) for v in hole]
+    return any(hole[b] in near[a] for a, b in inner)
 
 
 def _fan(bm, hole):
