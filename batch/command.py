@@ -8,20 +8,24 @@ One JSON object goes to standard output, progress and Blender's own messages to 
 status is 0 only if every object was decomposed and every file written. Files appear whole or not at all.
 """
 
+from __future__ import annotations
+
 import argparse
 import json
 import os
 import sys
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields, replace
 from pathlib import Path
+from typing import TextIO
 
 import bpy
 
 from ..core.errors import ReebError
 from ..core.parameters import PRESETS, Parameters
 from ..scene import bridge, export, graph_objects, results, targets
-from ..scene.compute import compute_all
+from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core
 from ..scene.settings import OutputProperties, OverlayProperties
 
@@ -93,7 +97,7 @@ def parser() -> argparse.ArgumentParser:
     return made
 
 
-def _add_parameters(group):
+def _add_parameters(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--preset", choices=list(PRESETS), help="start from the parameters of a preset")
     for field in fields(Parameters):
         meta = field.metadata
@@ -109,7 +113,7 @@ def _add_parameters(group):
             group.add_argument(name, action=argparse.BooleanOptionalAction, **words)
 
 
-def _size(text):
+def _size(text: str) -> tuple[int, int]:
     """Width and height out of "960x540"; argparse turns the error into a sentence."""
     width, height = (int(number) for number in text.split("x"))
     if not (16 <= width <= 8192 and 16 <= height <= 8192):
@@ -117,11 +121,11 @@ def _size(text):
     return width, height
 
 
-def _dashed(name):
+def _dashed(name: str) -> str:
     return name.replace("_", "-")
 
 
-def run(options) -> dict:
+def run(options: argparse.Namespace) -> dict:
     """Do all that the options ask for; returns the JSON."""
     load_core()
     from ..scene.object_report import object_report  # imports SciPy
@@ -140,7 +144,7 @@ def run(options) -> dict:
     return write_files(options, objects, reports)
 
 
-def find_objects(options) -> list:
+def find_objects(options: argparse.Namespace) -> list:
     """Open what is asked for; the objects to decompose."""
     if options.model is None:
         meshes = []
@@ -172,13 +176,13 @@ def _open(path: Path) -> list:
     return meshes
 
 
-def decompose_object(obj, parameters):
+def decompose_object(obj: bpy.types.Object, parameters: Parameters) -> Outcome:
     """Read and compute one object; raises what the user should hear."""
     targets.check_object(obj)
     shape = bridge.read_shape(obj)
     last = [-1]
 
-    def progress(stage, share):
+    def progress(stage: str, share: float) -> None:
         if round(20 * share) > last[0]:  # twenty lines at most
             last[0] = round(20 * share)
             _say(f"{obj.name}: {stage} {share:.0%}")
@@ -189,7 +193,7 @@ def decompose_object(obj, parameters):
     return outcome
 
 
-def write_files(options, objects, reports) -> dict:
+def write_files(options: argparse.Namespace, objects: list[bpy.types.Object], reports: list[dict]) -> dict:
     """Write what is asked for; returns the JSON with what was written."""
     from ..core.uses.report import document
 
@@ -219,7 +223,7 @@ def write_files(options, objects, reports) -> dict:
 
 
 @contextmanager
-def _whole(path: Path):
+def _whole(path: Path) -> Iterator[Path]:
     """A name to write to beside the path; the file is moved to the path when it is complete."""
     path = path.resolve()
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -233,7 +237,7 @@ def _whole(path: Path):
 
 
 @contextmanager
-def _standard_output():
+def _standard_output() -> Iterator[TextIO]:
     """Standard output for the answer alone: all that Blender prints goes to standard error.
 
     That stays so to the end of the process, which has more to print.
@@ -245,5 +249,5 @@ def _standard_output():
         yield answer
 
 
-def _say(text):
+def _say(text: str) -> None:
     print(f"reeb_parts: {text}", file=sys.stderr, flush=True)

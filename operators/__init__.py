@@ -27,12 +27,12 @@ MODULES = (decompose, clear, settings, parts, pick, edit, slide, cut, paint, gra
 CLASSES = tuple(cls for module in MODULES for cls in module.CLASSES)
 
 
-def register():
+def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
 
 
-def unregister():
+def unregister() -> None:
     if jobs.current is not None:
         jobs.current.cancel()
     for cls in reversed(CLASSES):

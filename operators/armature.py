@@ -5,6 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import armature
+from ..scene.store import Stored
 from .parts import PartOperator
 
 
@@ -19,7 +20,7 @@ class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
         description="Add an Armature modifier, so that posing the bones moves the parts",
     )
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         rig = armature.make(context, obj, stored, self.deform)
         return rpt_("{name} has {n} bones").format(name=rig.name, n=len(rig.data.bones))
 

@@ -18,14 +18,14 @@ class REEB_PARTS_OT_clear(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH" or not (store.has_result(obj.data) or graph_objects.find(obj)):
             cls.poll_message_set(rpt_("The active object has no parts"))
             return False
         return True
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         try:
             objects = targets.chosen_objects(context)
         except SceneError as error:

@@ -5,8 +5,10 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
+from ..scene.store import Stored
 from ..viewport import pointing
 from ..viewport.knife import Knife, cut_at
+from ..viewport.pointing import Target
 from ..viewport.view_tool import ViewTool
 from .parts import PartOperator
 
@@ -26,20 +28,20 @@ class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):
         description="The location is on an arc of the graph; without it, on the surface",
     )
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         model = pointing.Model(obj)
         return cut_at(context, obj, model, model.at(obj, self.location, self.on_graph))
 
-    def hint(self):
+    def hint(self) -> str:
         return rpt_("Click the graph or the surface to cut the part there    Enter, Esc: end")
 
-    def begin(self, context, obj):
+    def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         self.knife = Knife(obj, self.model)
 
-    def hover(self, context, target, event):
+    def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
         self.preview.lines = None if target is None else self.knife.ring(target)
 
-    def press(self, context, target, event):
+    def press(self, context: bpy.types.Context, target: Target, event: bpy.types.Event) -> set[str]:
         obj = context.view_layer.objects.active
         self.location, self.on_graph = obj.matrix_world @ Vector(target.location), target.on_graph
         self.report({"INFO"}, cut_at(context, obj, self.model, target))

@@ -5,8 +5,10 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
+from ..core.parameters import Parameters
 from ..scene import bridge, defaults, jobs, targets
-from ..scene.compute import compute_all
+from ..scene.bridge import Shape
+from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
 from ..scene.results import write_result
@@ -31,7 +33,7 @@ class REEB_PARTS_OT_decompose(
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH":
             cls.poll_message_set(rpt_("Select a mesh first"))
@@ -42,7 +44,7 @@ class REEB_PARTS_OT_decompose(
             return False
         return True
 
-    def invoke(self, context, event):
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """From the panel: with the panel's settings, in a thread, so that the window stays alive."""
         defaults.adopt(context.scene)
         settings = context.scene.reeb_parts
@@ -51,7 +53,7 @@ class REEB_PARTS_OT_decompose(
                 setattr(self, name, getattr(settings, name))
         return self._start(context)
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         """From scripts and the redo panel: all at once; what a script leaves out is as in the preferences."""
         defaults.complete(self)
         try:
@@ -62,7 +64,7 @@ class REEB_PARTS_OT_decompose(
             return {"CANCELLED"}
         return self._write(context, outcomes)
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         """The redo panel: what changes the parts first."""
         self.layout.use_property_split = True
         for names in (PARAMETERS, OUTPUTS, OVERLAY):
@@ -70,13 +72,13 @@ class REEB_PARTS_OT_decompose(
             for name in names:
                 column.prop(self, name)
 
-    def _read(self, context):
+    def _read(self, context: bpy.types.Context) -> tuple[Parameters, list[tuple[str, Shape]]]:
         """The parameters and the shapes; raises SceneError or ReebError."""
         load_core()
         parameters = self.parameters()
         return parameters, [(obj.name, bridge.read_shape(obj)) for obj in targets.chosen_objects(context)]
 
-    def _write(self, context, outcomes):
+    def _write(self, context: bpy.types.Context, outcomes: list[Outcome]) -> set[str]:
         """Write what was computed and report on it."""
         done = [outcome for outcome in outcomes if outcome.decomposition is not None]
         if not done:
@@ -89,7 +91,7 @@ class REEB_PARTS_OT_decompose(
             self._report(outcome, len(outcomes) > 1)
         return {"FINISHED"}
 
-    def _report(self, outcome, several):
+    def _report(self, outcome: Outcome, several: bool) -> None:
         name = f"{outcome.object_name}: " if several else ""
         if outcome.decomposition is None:
             self.report({"WARNING"}, name + translated(outcome.problem))
@@ -102,7 +104,7 @@ class REEB_PARTS_OT_decompose(
 
     # In the window
 
-    def _start(self, context):
+    def _start(self, context: bpy.types.Context) -> set[str]:
         try:
             parameters, shapes = self._read(context)
             self._job = jobs.Job(lambda progress: compute_all(shapes, parameters, progress))
@@ -118,7 +120,7 @@ class REEB_PARTS_OT_decompose(
         self._job.start()
         return {"RUNNING_MODAL"}
 
-    def modal(self, context, event):
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Watch the thread; every other event goes its usual way."""
         if event.type == "ESC" and event.value == "PRESS":
             self._job.cancel()
@@ -133,12 +135,12 @@ class REEB_PARTS_OT_decompose(
             return {"CANCELLED"}
         return self._finish(context)
 
-    def cancel(self, context):
+    def cancel(self, context: bpy.types.Context) -> None:
         """Blender closes the window or opens another file."""
         self._job.cancel()
         self._stop_watching(context)
 
-    def _finish(self, context):
+    def _finish(self, context: bpy.types.Context) -> set[str]:
         error = self._job.error
         if isinstance(error, (SceneError, ReebError)):
             self.report({"ERROR"}, translated(error))
@@ -154,7 +156,7 @@ class REEB_PARTS_OT_decompose(
             shading.show_colors(context)
         return self._write(context, self._job.result)
 
-    def _check_unchanged(self):
+    def _check_unchanged(self) -> None:
         """Raise SceneError if an object was edited while it was being computed."""
         for name, digest in self._digests.items():
             obj = bpy.data.objects.get(name)
@@ -165,7 +167,7 @@ class REEB_PARTS_OT_decompose(
                 raise SceneError(
                     rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=name))
 
-    def _show_progress(self, context):
+    def _show_progress(self, context: bpy.types.Context) -> None:
         text = rpt_("Reeb Parts: {stage} ({share:.0%})    Esc: cancel").format(
             stage=self._job.text, share=self._job.share)
         if text != self._shown:
@@ -174,7 +176,7 @@ class REEB_PARTS_OT_decompose(
             context.workspace.status_text_set(text)
             _redraw_sidebars(context)
 
-    def _stop_watching(self, context):
+    def _stop_watching(self, context: bpy.types.Context) -> None:
         jobs.current = None
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
@@ -190,18 +192,18 @@ class REEB_PARTS_OT_cancel(bpy.types.Operator):
     bl_options = {"INTERNAL"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         if jobs.current is None:
             cls.poll_message_set(rpt_("Nothing is being computed"))
             return False
         return True
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         jobs.current.cancel()
         return {"FINISHED"}
 
 
-def _redraw_sidebars(context):
+def _redraw_sidebars(context: bpy.types.Context) -> None:
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":

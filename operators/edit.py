@@ -7,6 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..scene import edits, part_list, store
 from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
+from ..scene.store import Stored
 from .parts import PartOperator
 
 
@@ -16,7 +17,7 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.merge"
     bl_label = "Merge Parts"
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         numbers = chosen_numbers(obj.data)
         if len(numbers) < 2:
             raise SceneError(rpt_("Mark the parts to merge in the list, two or more."))
@@ -33,7 +34,7 @@ class ChosenPartsOperator(PartOperator):
     If one of the parts is locked, nothing is done.
     """
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         numbers = chosen_numbers(obj.data)
         edits.check_unlocked(obj.data, numbers)
         for number in numbers:
@@ -80,7 +81,7 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
 
     new: bpy.props.BoolProperty(name="New part", description="Make a part of its own of the faces")
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         mesh = obj.data
         number = edits.free_number(mesh, stored) if self.new else part_list.active_number(mesh)
         count = edits.assign_selected(context, obj, stored, number)
@@ -94,7 +95,7 @@ class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.from_face_sets"
     bl_label = "Parts from Face Sets"
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         return rpt_("{n} faces are in other parts now").format(n=edits.assign_face_sets(context, obj, stored))
 
 
@@ -106,7 +107,7 @@ class REEB_PARTS_OT_release(PartOperator, bpy.types.Operator):
 
     everything: bpy.props.BoolProperty(name="All", description="Release every part that is not locked")
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         which = "ALL" if self.everything else "CHOSEN"
         edits.release(context, obj.data, stored, part_list.wanted_numbers(obj.data, which))
 

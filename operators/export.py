@@ -38,17 +38,17 @@ class REEB_PARTS_OT_export(bpy.types.Operator, WhichProperties):
     )
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         return has_parts(cls, context)
 
-    def invoke(self, context, event):
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, WhichProperties, context)
         if not self.properties.is_property_set("caps"):
             self.caps = context.scene.reeb_parts_use.caps
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         try:
             if not self.directory:
                 raise SceneError(rpt_("There is no folder to write to. Choose one and try again."))

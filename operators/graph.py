@@ -21,14 +21,14 @@ class REEB_PARTS_OT_from_nodes(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         found = part_of(context.view_layer.objects.active)
         if found is None:
             cls.poll_message_set(rpt_("Select a node of a graph"))
             return False
         return has_parts(cls, context, found[0])
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         source, number = part_of(context.view_layer.objects.active)
         chosen = {number: None}
         for item in context.view_layer.objects.selected:
@@ -52,14 +52,14 @@ class REEB_PARTS_OT_from_arc(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         source = source_of_arcs(context.view_layer.objects.active)
         if source is None or context.mode != "OBJECT":
             cls.poll_message_set(rpt_("Select the arcs of a graph"))
             return False
         return has_parts(cls, context, source)
 
-    def invoke(self, context, event):
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Blender has just selected the curve, by the last press of a button; the pointer may have gone on."""
         source = source_of_arcs(context.view_layer.objects.active)
         pressed = event.mouse_prev_press_x, event.mouse_prev_press_y
@@ -76,7 +76,7 @@ class REEB_PARTS_OT_from_arc(bpy.types.Operator):
         self.location = source.matrix_world @ Vector(target.location)
         return self.execute(context)
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         item = context.view_layer.objects.active
         source = source_of_arcs(item)
         try:
@@ -99,7 +99,7 @@ class REEB_PARTS_OT_to_nodes(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         obj = context.view_layer.objects.active
         if not has_parts(cls, context):
             return False
@@ -111,7 +111,7 @@ class REEB_PARTS_OT_to_nodes(bpy.types.Operator):
             return False
         return True
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         obj = context.view_layer.objects.active
         graph_objects.select_nodes(obj, chosen_numbers(obj.data))
         return {"FINISHED"}
@@ -125,7 +125,7 @@ class REEB_PARTS_OT_split_at_node(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         item = context.view_layer.objects.active
         if part_of(item) is None:
             cls.poll_message_set(rpt_("Select a node of a graph"))
@@ -135,7 +135,7 @@ class REEB_PARTS_OT_split_at_node(bpy.types.Operator):
             return False
         return has_parts(cls, context, item.parent)
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         item = context.view_layer.objects.active
         mesh = item.parent.data
         try:

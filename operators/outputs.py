@@ -7,6 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import outputs, reactions, store
 from ..scene.outputs import face_sets, materials, seams
+from ..scene.store import Stored
 from .parts import PartOperator
 
 
@@ -22,7 +23,7 @@ class OutputOperator(PartOperator):
         description="Take them away again; what was there before is back",
     )
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         output, done, undone = self.output
         obj = reactions.users(obj.data)[0]
         with store.quiet():

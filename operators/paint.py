@@ -7,9 +7,11 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
 from ..scene.part_list import active_number
+from ..scene.store import Stored
 from ..viewport import pointing
 from ..viewport.brush import START_SIZE, Brush, ReebDab, paint
 from ..viewport.colored_tool import ColoredTool
+from ..viewport.pointing import Target
 from .parts import PartOperator
 
 
@@ -26,16 +28,16 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         name="Radius", min=0.0, subtype="DISTANCE", description="Of the brush, in the units of the mesh",
     )
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         brush = Brush(obj, pointing.Model(obj), active_number(obj.data))
         for dab in self.stroke:
             brush.dab(dab.location[:], dab.radius)
         return paint(context, obj, brush)
 
-    def hint(self):
+    def hint(self) -> str:
         return rpt_("Drag over the model to paint    Ctrl and wheel, [ ]: size    Enter: confirm    Esc: cancel")
 
-    def begin(self, context, obj):
+    def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         if not self.radius:
             self.radius = START_SIZE * float(np.linalg.norm(np.ptp(self.model.face_center, axis=0)))
         super().begin(context, obj)
@@ -43,16 +45,16 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         self.brush = Brush(obj, self.model, self.number)
         self.painting = False
 
-    def hover(self, context, target, event):
+    def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
         self._show_brush(target)
         if self.painting and target is not None:
             self._dab(context, target)
 
-    def press(self, context, target, event):
+    def press(self, context: bpy.types.Context, target: Target, event: bpy.types.Event) -> None:
         self.painting = True
         self._dab(context, target)
 
-    def other(self, context, target, event):
+    def other(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> bool:
         if event.type == "LEFTMOUSE":
             self.painting = False
             return True
@@ -65,17 +67,17 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         self._show_brush(target)
         return True
 
-    def finish(self, context, obj):
+    def finish(self, context: bpy.types.Context, obj: bpy.types.Object) -> set[str]:
         self.report({"INFO"}, paint(context, obj, self.brush))
         return {"FINISHED"}
 
-    def _dab(self, context, target):
+    def _dab(self, context: bpy.types.Context, target: Target) -> None:
         self.brush.dab(target.location, self.radius)
         dab = self.stroke.add()
         dab.location, dab.radius = target.location.tolist(), self.radius
         self.show(context.view_layer.objects.active, self.brush.numbers())
 
-    def _show_brush(self, target):
+    def _show_brush(self, target: Target | None) -> None:
         """A circle as large as the brush, lying on the surface."""
         if target is None:
             self.preview.lines = None
@@ -87,7 +89,7 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         ring = target.location + self.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1) @ axes
         self.preview.lines = np.stack([ring[:-1], ring[1:]], axis=1)
 
-    def _normal(self, face):
+    def _normal(self, face: int) -> Vector:
         return bpy.data.objects[self.model.name].data.polygons[face].normal
 
 

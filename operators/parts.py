@@ -9,6 +9,7 @@ from ..scene import part_list, selection, store
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.part_list import chosen_numbers, has_parts
+from ..scene.store import Stored
 
 
 class PartOperator:
@@ -20,10 +21,10 @@ class PartOperator:
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         return has_parts(cls, context)
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         obj = context.view_layer.objects.active
         try:
             with object_mode(context):
@@ -53,7 +54,7 @@ class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
         description="Number of the part; 0 for those chosen in the list",
     )
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         numbers = [self.number] if self.number else chosen_numbers(obj.data)
         mask = np.isin(stored.face_numbers, numbers)
         if not mask.any():
@@ -70,14 +71,14 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
 
     show_all: bpy.props.BoolProperty(name="Show all", description="Show every face again")
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         seen = self.show_all or context.mode != "OBJECT"
         result = super().execute(context)
         if "FINISHED" in result and not seen:
             self.report({"INFO"}, rpt_("Object Mode shows hidden faces all the same; Edit Mode and paint modes do not"))
         return result
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         mesh = obj.data
         numbers = stored.face_numbers
         shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(mesh))
@@ -100,10 +101,10 @@ class REEB_PARTS_OT_mark(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         return has_parts(cls, context)
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         mesh = context.view_layer.objects.active.data
         with_faces = set()
         if self.action == "FACES":

@@ -23,14 +23,14 @@ class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         return has_parts(cls, context)
 
-    def invoke(self, context, event):
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, SeparateProperties, context)
         return self.execute(context)
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         try:
             objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
             with object_mode(context):
@@ -47,7 +47,7 @@ class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
             self._report(obj, pieces, left_open, kept)
         return {"FINISHED"}
 
-    def _hide(self, context, originals):
+    def _hide(self, context: bpy.types.Context, originals: list[bpy.types.Object]) -> None:
         """Hide the originals, which only Object Mode allows."""
         if context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
@@ -55,7 +55,8 @@ class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
             piece_objects.hide_original(context, obj)
         shading.show_pieces(context)
 
-    def _show(self, context, pieces, of_active):
+    def _show(self, context: bpy.types.Context, pieces: list[bpy.types.Object],
+              of_active: list[bpy.types.Object]) -> None:
         """Show the pieces in the local view, too; leave them selected, unless the user is at work in another mode."""
         space = context.space_data
         if space is not None and space.type == "VIEW_3D" and space.local_view:
@@ -64,7 +65,7 @@ class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
         if context.mode == "OBJECT":
             select_objects(context, pieces, active=of_active[0] if self.hide and of_active else None)
 
-    def _report(self, obj, pieces, left_open, kept):
+    def _report(self, obj: bpy.types.Object, pieces: list[bpy.types.Object], left_open: int, kept: int) -> None:
         self.report({"INFO"}, rpt_("{name}: {n} parts are objects now").format(name=obj.name, n=len(pieces)))
         if kept:
             self.report(
@@ -82,7 +83,7 @@ class REEB_PARTS_OT_show_original(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         piece = context.view_layer.objects.active
         if piece is None or piece_objects.original(piece) is None:
             cls.poll_message_set(rpt_("The active object is not a part that was separated from another one"))
@@ -97,7 +98,7 @@ class REEB_PARTS_OT_show_original(bpy.types.Operator):
             return False
         return True
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         obj = piece_objects.original(context.view_layer.objects.active)
         piece_objects.show_original(context, obj)
         shading.show_colors(context)

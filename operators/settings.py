@@ -14,7 +14,7 @@ class SceneOperator:
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         return context.scene.is_editable
 
 
@@ -24,7 +24,7 @@ class REEB_PARTS_OT_use_preferences(SceneOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.use_preferences"
     bl_label = "Use Preferences in This Scene"
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reeb_parts
         defaults.use(settings, ("preset", *OUTPUTS, *OVERLAY))
         # Also what was changed after the preset was chosen.
@@ -38,7 +38,7 @@ class REEB_PARTS_OT_reset_parameters(SceneOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.reset_parameters"
     bl_label = "Reset Parameters to Preset"
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.reeb_parts
         detail, n_parts = settings.detail, settings.n_parts
         settings.use_parameters(PRESETS[settings.preset])

@@ -8,8 +8,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..scene import edits
 from ..scene.errors import SceneError
 from ..scene.part_list import active_number
+from ..scene.store import Stored
 from ..viewport.boundary import Boundary
 from ..viewport.colored_tool import ColoredTool
+from ..viewport.pointing import Target
 from ..viewport.view_tool import turns_view
 from .parts import PartOperator
 
@@ -28,17 +30,17 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
         description="How far along the surface; negative inwards",
     )
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         boundary = Boundary(obj, stored, active_number(obj.data))
         numbers = boundary.slid(self.offset)
         if (numbers == boundary.number).sum() == 0:
             raise SceneError(rpt_("Nothing would be left of the part. Slide the boundary less far."))
         edits.assign_faces(context, obj, stored, numbers)
 
-    def hint(self):
+    def hint(self) -> str:
         return rpt_("Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel")
 
-    def begin(self, context, obj):
+    def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         """Read everything once; each move of the mouse is a comparison of distances then."""
         super().begin(context, obj)
         self.boundary = Boundary(obj, self.model.stored, self.number)
@@ -48,7 +50,7 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
         self.unit = 0.5 * size / max(context.area.width if context.area else 1000, 1)
         self.last_x = None  # of the pointer, unless it was used for something else since
 
-    def hover(self, context, target, event):
+    def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
         if event.type != "MOUSEMOVE":  # those between would only make it late
             return
         if self.last_x is not None:
@@ -57,17 +59,17 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
             self.show(context.view_layer.objects.active, self.boundary.slid(self.offset))
         self.last_x = event.mouse_x
 
-    def press(self, context, target, event):
+    def press(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> set[str]:
         return self.confirm(context)
 
-    def other(self, context, target, event):
+    def other(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> bool:
         """Only the view can be turned meanwhile."""
         if not turns_view(context, event):
             return True
         self.last_x = None
         return False
 
-    def finish(self, context, obj):
+    def finish(self, context: bpy.types.Context, obj: bpy.types.Object) -> set[str]:
         return self.execute(context)
 
 

@@ -7,6 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.errors import ReebError
 from ..scene import uv_map
 from ..scene.errors import SceneError, translated
+from ..scene.store import Stored
 from .parts import PartOperator
 
 
@@ -28,7 +29,7 @@ class REEB_PARTS_OT_unwrap(PartOperator, bpy.types.Operator):
         description="How faces are laid flat",
     )
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         try:
             uv_map.unwrap(context, obj, stored.face_numbers, self.open_parts, self.method)
         except ReebError as error:

@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's data, read and written: meshes as arrays, results stored with their meshes, and what is made of them."""
 
+from __future__ import annotations
+
 from . import compute, defaults, mesh_arrays, schema, settings, store, watch
 from .outputs import vertex_groups
 
 
-def register():
+def register() -> None:
     settings.register()
     schema.register()
     defaults.register()
     watch.register()
 
 
-def unregister():
+def unregister() -> None:
     watch.unregister()
     defaults.unregister()
     schema.unregister()

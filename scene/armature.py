@@ -3,26 +3,34 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
+from ..core.result.decomposition import Decomposition
+from ..core.result.numbering import NumberedParts
 from . import bridge, mesh_arrays, outputs, piece_objects, reactions, store
 from .selection import nothing_selected
+from .store import Stored
+
+if TYPE_CHECKING:
+    from ..core.uses.bones import Bones
 
 NAME = "Reeb Parts Armature"
 ROLE = "reeb_parts_role"  # on the armature, "armature"
 MADE = "reeb_parts_looks"  # on the armature: what it was like when it was made
 
 
-def remove_modifier(obj):
+def remove_modifier(obj: bpy.types.Object) -> None:
     """Take our modifier off an object; the armature stays."""
     modifier = obj.modifiers.get(NAME)
     if modifier is not None and modifier.type == "ARMATURE":
         obj.modifiers.remove(modifier)
 
 
-def make(context, obj, stored, deform):
+def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, deform: bool) -> bpy.types.Object:
     """Make an armature in place of an earlier one that nobody has worked on; Object Mode.
 
     Parameters
@@ -58,7 +66,7 @@ def make(context, obj, stored, deform):
     return rig
 
 
-def _bones(obj, decomposition, numbered):
+def _bones(obj: bpy.types.Object, decomposition: Decomposition, numbered: NumberedParts) -> tuple[Matrix, Bones]:
     """Where the armature is in the world, and the bones in its coordinates."""
     from ..core.uses.bones import part_bones  # imports SciPy
 
@@ -82,14 +90,14 @@ def _bones(obj, decomposition, numbered):
     return place, bones
 
 
-def _cut_edges(mesh, labels):
+def _cut_edges(mesh: bpy.types.Mesh, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Vertices of the edges on cuts, (e, 2), and the parts on their sides, (e, 2)."""
     low, high = mesh_arrays.edge_labels(mesh, labels)
     cut = low < high
     return mesh_arrays.edge_ends(mesh)[cut], np.stack([low, high], axis=1)[cut]
 
 
-def _write_groups(obj, numbered):
+def _write_groups(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     """The bones find their vertices by the names of groups: make these unless they are there."""
     result = obj.data.reeb_parts
     if not result.has_groups:
@@ -98,7 +106,7 @@ def _write_groups(obj, numbered):
             outputs.update_outputs(reactions.users(obj.data)[0], numbered)
 
 
-def _remove_earlier(collection):
+def _remove_earlier(collection: bpy.types.Collection) -> None:
     for rig in list(collection.objects):
         if rig.get(ROLE) != "armature":
             continue
@@ -111,7 +119,7 @@ def _remove_earlier(collection):
             del rig[ROLE], rig[MADE]
 
 
-def _add_bones(context, rig, bones, names):
+def _add_bones(context: bpy.types.Context, rig: bpy.types.Object, bones: Bones, names: list[str]) -> None:
     """Write the bones, in the Edit Mode that they can only be written in."""
     layer = context.view_layer
     with nothing_selected(layer):
@@ -128,7 +136,7 @@ def _add_bones(context, rig, bones, names):
             bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def _looks(rig) -> str:
+def _looks(rig: bpy.types.Object) -> str:
     """Differs once somebody has worked on the armature."""
     bones = [(bone.name, bone.parent.name if bone.parent else "",
               [round(x, 5) for x in (*bone.head_local, *bone.tail_local)]) for bone in rig.data.bones]

@@ -44,7 +44,7 @@ class Shape:
     notes: tuple[Sentence, ...]
 
 
-def read_shape(obj) -> Shape:
+def read_shape(obj: bpy.types.Object) -> Shape:
     """Read the mesh of an object: all of it, hidden or not, before any modifier."""
     mesh = obj.data
     if obj.mode == "EDIT":
@@ -69,7 +69,7 @@ def read_shape(obj) -> Shape:
     return Shape(vertices, triangles, polygon, stretch, digest, _notes(obj))
 
 
-def world_stretch(obj) -> np.ndarray:
+def world_stretch(obj: bpy.types.Object) -> np.ndarray:
     """What the object's world matrix does to its mesh besides turning and moving it, (3, 3).
 
     The symmetric factor of the polar decomposition, rounded so that it does not change when the object
@@ -83,12 +83,12 @@ def world_stretch(obj) -> np.ndarray:
     return np.round(stretch, 5 - round(float(np.log10(scales.max()))))
 
 
-def unstretch(stretch) -> np.ndarray:
+def unstretch(stretch: np.ndarray) -> np.ndarray:
     """The (3, 3) matrix that takes coordinates of a shape back to those of its mesh; see ``Shape.stretch``."""
     return np.linalg.pinv(stretch)
 
 
-def face_graph(obj) -> FaceGraph:
+def face_graph(obj: bpy.types.Object) -> FaceGraph:
     """Which faces of an object's mesh share an edge, with areas and lengths in units of the world; Object Mode."""
     shape, mesh = read_shape(obj), obj.data
     a, b, c = shape.vertices[shape.triangles].transpose(1, 0, 2)
@@ -99,12 +99,12 @@ def face_graph(obj) -> FaceGraph:
     return FaceGraph(count, pairs, np.linalg.norm(end - start, axis=1), np.bincount(shape.polygon, area, count))
 
 
-def face_centers(obj) -> np.ndarray:
+def face_centers(obj: bpy.types.Object) -> np.ndarray:
     """Mean of the corners of each face, (p, 3) float64, along the object's axes in units of the world."""
     return face_means(obj.data, shown_points(obj).astype(np.float64) @ world_stretch(obj).T)
 
 
-def _notes(obj) -> tuple[Sentence, ...]:
+def _notes(obj: bpy.types.Object) -> tuple[Sentence, ...]:
     notes = []
     # One of ours only moves the parts in the view.
     count = sum(not modifier.name.startswith("Reeb Parts") for modifier in obj.modifiers)
@@ -118,5 +118,5 @@ def _notes(obj) -> tuple[Sentence, ...]:
     return tuple(notes)
 
 
-def _users(mesh) -> int:
+def _users(mesh: bpy.types.Mesh) -> int:
     return sum(obj.data == mesh for obj in bpy.data.objects)

@@ -3,18 +3,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
 import bmesh
+import bpy
 import numpy as np
+from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
 from mathutils.geometry import tessellate_polygon
 
 #: Face attribute: 1 on a cap.
 CAP = "reeb_cap"
 
+Pairs = dict[BMVert, set[BMVert]]  # what each vertex is paired with
+Triple = tuple[int, int, int]  # corners of a triangle, by their place around the hole
+
 # A loop that leaves its plane by less than this share of its size is filled with one face.
 _FLAT = 1e-3
 
 
-def close_cuts(mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray) -> tuple[int, int]:
+def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray) -> tuple[int, int]:
     """Fill the holes that a cut has left; borders that were there before stay open.
 
     A cut that ends on a border makes one hole together with a stretch of it: that is filled as a whole.
@@ -59,7 +66,7 @@ def close_cuts(mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray
     return len(holes), left
 
 
-def _both_ways(pairs) -> dict:
+def _both_ways(pairs: Iterable[tuple[BMVert, BMVert]]) -> Pairs:
     """What each is paired with."""
     found = {}
     for a, b in pairs:
@@ -68,7 +75,7 @@ def _both_ways(pairs) -> dict:
     return found
 
 
-def _holes(edges):
+def _holes(edges: list[BMEdge]) -> tuple[list[list[BMVert]], int]:
     """Vertices around each hole with some of the edges, so that a face on them looks outwards."""
     done, holes, left = set(), [], 0
     for edge in edges:
@@ -84,7 +91,7 @@ def _holes(edges):
     return holes, left
 
 
-def _around(start):
+def _around(start: BMEdge) -> list[tuple[BMEdge, BMVert]] | None:
     """Edges of a hole in order, each with the vertex it leads to; None if faces do not lie in one sheet."""
     loop = start.link_loops[0]
     edge, vertex = start, loop.vert
@@ -100,7 +107,7 @@ def _around(start):
         vertex = edge.other_vert(vertex)
 
 
-def _next_border(loop, vertex):
+def _next_border(loop: BMLoop, vertex: BMVert) -> BMLoop | None:
     """Turn around a vertex from one border edge to the other of the same sheet of faces."""
     while True:
         loop = loop.link_loop_prev if loop.vert == vertex else loop.link_loop_next
@@ -111,7 +118,7 @@ def _next_border(loop, vertex):
         loop = loop.link_loop_radial_next
 
 
-def _simple(vertices):
+def _simple(vertices: list[BMVert]) -> list[list[BMVert]]:
     """Take a closed walk apart into closed walks that meet no vertex twice."""
     walks, path, place = [], [], {}
     for vertex in vertices:
@@ -126,7 +133,7 @@ def _simple(vertices):
     return [walk for walk in [*walks, path] if len(walk) > 2]
 
 
-def _sheets(bm, hole, meeting, opened):
+def _sheets(bm: BMesh, hole: list[BMVert], meeting: set[BMVert], opened: set[BMEdge]) -> list[list[BMVert]]:
     """Take a hole apart where cuts meet: a closed walk for each stretch, and one for what is between them."""
     at = [i for i, vertex in enumerate(hole) if vertex in meeting]
     if len(at) < 2 or _has_border(hole, opened):
@@ -138,12 +145,12 @@ def _sheets(bm, hole, meeting, opened):
     return _two_sheets(bm, stretches) if len(stretches) == 2 else _many_sheets(bm, stretches)
 
 
-def _has_border(hole, opened):
+def _has_border(hole: list[BMVert], opened: set[BMEdge]) -> bool:
     """Whether an edge of the hole was a border before the cut: no other piece lies on its other side."""
     return any(_edge(a, b) not in opened for a, b in zip(hole, [*hole[1:], hole[0]], strict=True))
 
 
-def _two_sheets(bm, stretches):
+def _two_sheets(bm: BMesh, stretches: list[list[BMVert]]) -> list[list[BMVert]]:
     """One closed walk for each of two stretches; for both together if one of them is the straight line."""
     if any(_is_straight(stretch) for stretch in stretches):
         return [[vertex for stretch in stretches for vertex in stretch[:-1]]]
@@ -151,7 +158,7 @@ def _two_sheets(bm, stretches):
     return [[*stretch, middle] for stretch in stretches]
 
 
-def _many_sheets(bm, stretches):
+def _many_sheets(bm: BMesh, stretches: list[list[BMVert]]) -> list[list[BMVert]]:
     """A closed walk for each stretch that is not straight, and one along the straight lines between all ends."""
     sheets, inner = [], []
     for stretch in stretches:
@@ -164,23 +171,23 @@ def _many_sheets(bm, stretches):
     return [*sheets, inner]
 
 
-def _half_way(bm, stretch):
+def _half_way(bm: BMesh, stretch: list[BMVert]) -> BMVert:
     """A new vertex half way between the ends of a stretch, so that no second edge joins the ends."""
     return _between(bm, (stretch[0], stretch[-1]), (0.5, 0.5))
 
 
-def _is_straight(stretch):
+def _is_straight(stretch: list[BMVert]) -> bool:
     points = np.array([vertex.co[:] for vertex in stretch], np.float64) - stretch[0].co
     way = points[-1]
     aside = np.cross(points[1:-1], way)
     return bool((np.linalg.norm(aside, axis=1) <= _FLAT * (way @ way)).all())
 
 
-def _edge(vertex, other):
+def _edge(vertex: BMVert, other: BMVert) -> BMEdge:
     return next(edge for edge in vertex.link_edges if edge.other_vert(vertex) == other)
 
 
-def _fill(bm, hole, joined):
+def _fill(bm: BMesh, hole: list[BMVert], joined: Pairs) -> list[BMFace]:
     """Faces on a hole; never an edge with three faces.
 
     One face if the hole is flat; a fan around its middle if that can be seen from all of the rim; else
@@ -204,37 +211,37 @@ def _fill(bm, hole, joined):
     return faces
 
 
-def _border_corner(vertex, otherwise):
+def _border_corner(vertex: BMVert, otherwise: BMLoop) -> BMLoop:
     """A corner at the vertex whose face lies on the border."""
     corners = (c for c in vertex.link_loops if c.edge.is_boundary or c.link_loop_prev.edge.is_boundary)
     return next(corners, otherwise)
 
 
-def _middle(points):
+def _middle(points: np.ndarray) -> np.ndarray:
     """Shares of the points in their middle: short edges count less, so that dense stretches do not draw it."""
     length = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1)
     weight = length + np.roll(length, -1)
     return weight / weight.sum() if weight.any() else np.full(len(points), 1 / len(points))
 
 
-def _spokes(points):
+def _spokes(points: np.ndarray) -> np.ndarray:
     """Normals of the triangles of a fan, twice their area long, (n, 3)."""
     out = points - _middle(points) @ points
     return np.cross(out, np.roll(out, -1, axis=0))
 
 
-def _is_flat(points):
+def _is_flat(points: np.ndarray) -> bool:
     normal = _spokes(points).sum(axis=0)
     height = (points - points[0]) @ normal
     return np.ptp(height) <= _FLAT * np.linalg.norm(normal) * np.linalg.norm(np.ptp(points, axis=0))
 
 
-def _is_star(points):
+def _is_star(points: np.ndarray) -> bool:
     spokes = _spokes(points)
     return bool((spokes @ spokes.sum(axis=0) > 0).all())
 
 
-def _triangles(hole, points, joined):
+def _triangles(hole: list[BMVert], points: np.ndarray, joined: Pairs) -> list[tuple[BMVert, ...]] | None:
     """Triangles between the corners of a hole, or None if some edge would meet a third face on either side."""
     n = len(hole)
     order = _common_order(points)
@@ -248,7 +255,7 @@ def _triangles(hole, points, joined):
     return [tuple(hole[i] for i in triple) for triple in triples]
 
 
-def _common_order(points):
+def _common_order(points: np.ndarray) -> list[int]:
     """The corners from the same one in the same direction, whichever of the two sides of a cut asks."""
     n = len(points)
     first = min(range(n), key=lambda i: tuple(points[i]))
@@ -256,12 +263,12 @@ def _common_order(points):
     return [(first + turn * i) % n for i in range(n)]
 
 
-def _edges_of(triple):
+def _edges_of(triple: Triple) -> tuple[tuple[int, int], ...]:
     a, b, c = triple
     return (a, b), (b, c), (c, a)
 
 
-def _inner_edges(triples, rim):
+def _inner_edges(triples: list[Triple], rim: set[tuple[int, int]]) -> set[tuple[int, int]] | None:
     """The edges between triangles, in both directions; None unless the triangles are one sheet that fills the rim."""
     directed = {edge for triple in triples for edge in _edges_of(triple)}
     inner = directed - rim
@@ -273,20 +280,20 @@ def _inner_edges(triples, rim):
     return inner if is_sheet else None
 
 
-def _is_joined(hole, inner, joined):
+def _is_joined(hole: list[BMVert], inner: set[tuple[int, int]], joined: Pairs) -> bool:
     """Whether an edge joins two of these pairs of corners already, in this piece or in another."""
     near = [{edge.other_vert(v) for edge in v.link_edges} | joined.get(v, set()) for v in hole]
     return any(hole[b] in near[a] for a, b in inner)
 
 
-def _fan(bm, hole):
+def _fan(bm: BMesh, hole: list[BMVert]) -> list[tuple[BMVert, ...]]:
     """Triangles to a new vertex in the middle of a hole."""
     share = _middle(np.array([vertex.co[:] for vertex in hole], np.float64))
     middle = _between(bm, hole, share)
     return [(a, b, middle) for a, b in zip(hole, [*hole[1:], hole[0]], strict=True)]
 
 
-def _between(bm, vertices, share):
+def _between(bm: BMesh, vertices: Sequence[BMVert], share: Sequence[float]) -> BMVert:
     """A new vertex that is what others are on average."""
     share = np.asarray(share)
     middle = bm.verts.new()

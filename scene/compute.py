@@ -50,7 +50,7 @@ def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
     for index, (name, shape) in enumerate(shapes):
         of = (name,) if len(shapes) > 1 else ()
 
-        def step(stage, share, index=index, of=of):
+        def step(stage: str, share: float, index: int = index, of: str = of) -> None:
             progress(stage, (index + share) / len(shapes), *of)
 
         try:
@@ -84,6 +84,6 @@ def decomposition(shape: Shape, parameters: Parameters,
     return result
 
 
-def forget():
+def forget() -> None:
     """Free what is kept in memory."""
     _done.clear()

@@ -7,6 +7,8 @@ in it later is the scene's own, and a file looks the same whatever the preferenc
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import bpy
 from bpy.app.handlers import persistent
 
@@ -22,7 +24,7 @@ def preferences() -> bpy.types.AddonPreferences | None:
     return addon.preferences if addon else None
 
 
-def adopt(scene):
+def adopt(scene: bpy.types.Scene) -> None:
     """Set a scene up as the preferences say, the first time it is seen."""
     if scene.is_editable and not scene.reeb_parts.adopted:
         settings = scene.reeb_parts
@@ -33,7 +35,7 @@ def adopt(scene):
         use(settings, names)
 
 
-def use(settings, names):
+def use(settings: bpy.types.PropertyGroup, names: Iterable[str]) -> None:
     """Take over some settings from the preferences."""
     chosen = preferences()
     if chosen is None:
@@ -46,7 +48,7 @@ def use(settings, names):
                 setattr(settings, name, getattr(chosen, name))
 
 
-def complete(operator):
+def complete(operator: bpy.types.Operator) -> None:
     """Give an operator the preferences' value of every property that its caller left out."""
     chosen = preferences()
     if chosen is None:
@@ -58,24 +60,24 @@ def complete(operator):
 
 
 @persistent
-def _adopt_all(*_):
+def _adopt_all(*_: object) -> None:
     for scene in bpy.data.scenes:
         adopt(scene)
 
 
 @persistent
-def _adopt_one(scene, depsgraph):
+def _adopt_one(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     adopt(scene)
 
 
-def register():
+def register() -> None:
     bpy.app.handlers.load_post.append(_adopt_all)
     bpy.app.handlers.depsgraph_update_post.append(_adopt_one)
     # While an extension is switched on, Blender's data may be out of reach.
     bpy.app.timers.register(_adopt_all, first_interval=0.0)
 
 
-def unregister():
+def unregister() -> None:
     if bpy.app.timers.is_registered(_adopt_all):
         bpy.app.timers.unregister(_adopt_all)
     bpy.app.handlers.depsgraph_update_post.remove(_adopt_one)

@@ -17,6 +17,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.result.decomposition import Decomposition
 from ..core.surface.labels import FaceGraph
 from . import bridge, reactions, store
 from .errors import SceneError
@@ -32,7 +33,7 @@ def free_number(mesh: bpy.types.Mesh, stored: Stored, also: Iterable[int] = ()) 
     return next(number for number in range(1, len(used) + 2) if number not in used)
 
 
-def check_unlocked(mesh: bpy.types.Mesh, numbers: Iterable[int]):
+def check_unlocked(mesh: bpy.types.Mesh, numbers: Iterable[int]) -> None:
     """Raise SceneError if one of some parts is locked."""
     for part in mesh.reeb_parts.parts:
         if part.locked and part.number in numbers:
@@ -44,7 +45,7 @@ def locked_others(mesh: bpy.types.Mesh, number: int) -> list[int]:
     return [part.number for part in mesh.reeb_parts.parts if part.locked and part.number != number]
 
 
-def merge(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: list[int], into: int):
+def merge(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: list[int], into: int) -> None:
     """Make one part of several; raises SceneError if they do not touch."""
     from ..core.result.editing import pieces
 
@@ -55,7 +56,7 @@ def merge(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numb
     _show_pinned(context, mesh, stored, np.where(mask, into, stored.shown), [into])
 
 
-def merge_into_neighbor(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int):
+def merge_into_neighbor(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
     """Merge a part into the neighbor beyond its least salient cut; of equals, beyond the longest."""
     numbered = stored.shown_parts()
     cuts = numbered.numbers[numbered.parts.cuts]
@@ -68,7 +69,7 @@ def merge_into_neighbor(context: bpy.types.Context, mesh: bpy.types.Mesh, stored
     merge(context, mesh, stored, [number, neighbor], neighbor)
 
 
-def split(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int):
+def split(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
     """Split a part in two at the most salient cut inside it."""
     from ..core.result.editing import best_split
 
@@ -115,7 +116,7 @@ def _split_off(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored,
     return new
 
 
-def grow(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int):
+def grow(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
     """Give a part the next candidate beyond its weakest boundary, unless that candidate is of a locked part."""
     from ..core.result.editing import growth
 
@@ -126,7 +127,7 @@ def grow(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbe
     _move(context, mesh, stored, taken, number)
 
 
-def shrink(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int):
+def shrink(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
     """Give a candidate of a part to the part beside it, unless that part is locked."""
     from ..core.result.editing import shrinkage
 
@@ -142,7 +143,7 @@ def _not_locked(mesh: bpy.types.Mesh, stored: Stored, number: int) -> np.ndarray
     return ~np.isin(stored.shown, locked_others(mesh, number))
 
 
-def _move(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int):
+def _move(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int) -> None:
     """Give a candidate to a part; what the candidate leaves behind stays in one piece, or becomes several parts."""
     giver = int(stored.shown[candidate])
     numbers = stored.shown.copy()
@@ -189,7 +190,7 @@ def assign_face_sets(context: bpy.types.Context, obj: bpy.types.Object, stored: 
 
 
 def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, face_numbers: np.ndarray,
-                 graph: FaceGraph | None = None):
+                 graph: FaceGraph | None = None) -> None:
     """Give faces to parts, and pin all parts concerned; what falls apart becomes several parts.
 
     Parameters
@@ -223,7 +224,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     _show_pinned(context, obj.data, stored, numbers, concerned)
 
 
-def _finer(stored: Stored, decomposition) -> Stored:
+def _finer(stored: Stored, decomposition: Decomposition) -> Stored:
     """The stored result with finer candidates, which have the numbers of those that they were cut from."""
     origin = np.empty(decomposition.n_candidates, np.int64)
     origin[: len(stored.shown)] = np.arange(len(stored.shown))
@@ -259,7 +260,7 @@ def _part_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, numb
     return made
 
 
-def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: Iterable[int]):
+def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: Iterable[int]) -> None:
     """Let the detail decide about parts again; locked parts stay pinned."""
     result = mesh.reeb_parts
     locked = {part.number for part in result.parts if part.locked}
@@ -271,7 +272,7 @@ def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, nu
 
 
 def _show_pinned(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, candidate_numbers: np.ndarray,
-                 changed: Iterable[int]):
+                 changed: Iterable[int]) -> None:
     """Show parts that were changed by hand, and pin those that are part of the change.
 
     Parameters

@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import re
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
 import bpy
@@ -24,7 +25,8 @@ EXPORTERS = {
 }
 
 
-def export_parts(obj, folder: Path, kind: str, numbers=None, close=False) -> list[Path]:
+def export_parts(obj: bpy.types.Object, folder: Path, kind: str, numbers: Iterable[int] | None = None,
+                 close: bool = False) -> list[Path]:
     """Write each part of an object as a file of its own; the scene stays as it is.
 
     Parameters
@@ -65,7 +67,7 @@ def export_parts(obj, folder: Path, kind: str, numbers=None, close=False) -> lis
             bpy.data.meshes.remove(mesh)
 
 
-def _export(obj, mesh, path, kind) -> Path:
+def _export(obj: bpy.types.Object, mesh: bpy.types.Mesh, path: Path, kind: str) -> Path:
     """Write a mesh in the place of an object as a file, whole or not at all."""
     piece = bpy.data.objects.new(path.stem, mesh)
     try:

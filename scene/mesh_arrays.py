@@ -9,19 +9,20 @@ from __future__ import annotations
 import hashlib
 from concurrent.futures import ThreadPoolExecutor
 
+import bpy
 import numpy as np
 
 _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
 _digested: list[tuple[tuple[np.ndarray, ...], str]] = []
 
 
-def forget():
+def forget() -> None:
     """Free what is kept in memory."""
     _face_corners.clear()
     _digested.clear()
 
 
-def fingerprint(mesh) -> str:
+def fingerprint(mesh: bpy.types.Mesh) -> str:
     """Changes when the mesh is edited: its basis positions or its faces. Not in Edit Mode."""
     # The edges of the corners tell where a face ends, and can be read much faster than that.
     arrays = (basis_points(mesh), _corners(mesh, ".corner_vert"), _corners(mesh, ".corner_edge"),
@@ -35,7 +36,7 @@ def fingerprint(mesh) -> str:
     return fresh
 
 
-def digest(*arrays) -> str:
+def digest(*arrays: np.ndarray) -> str:
     """Equal for arrays of equal shapes and bytes."""
     whole = hashlib.blake2b(digest_size=16)
     with ThreadPoolExecutor() as pool:  # hashing large arrays leaves the interpreter to the others
@@ -44,11 +45,11 @@ def digest(*arrays) -> str:
     return whole.hexdigest()
 
 
-def _digest_of(array) -> bytes:
+def _digest_of(array: np.ndarray) -> bytes:
     return hashlib.blake2b(np.ascontiguousarray(array), digest_size=16).digest()
 
 
-def face_corners(mesh) -> tuple[np.ndarray, np.ndarray]:
+def face_corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Vertex and face of each corner of a mesh, two (c,) int32 arrays; not in Edit Mode.
 
     Kept for as long as the stored result is that of the mesh: the caller has made sure of that, or has
@@ -68,12 +69,12 @@ def face_corners(mesh) -> tuple[np.ndarray, np.ndarray]:
     return _face_corners[key]
 
 
-def corner_edges(mesh) -> np.ndarray:
+def corner_edges(mesh: bpy.types.Mesh) -> np.ndarray:
     """Edge from each corner to the next of its face, (c,) int32; not in Edit Mode."""
     return _corners(mesh, ".corner_edge")
 
 
-def _corners(mesh, name) -> np.ndarray:
+def _corners(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
     """The vertex or the edge of each corner."""
     corners = np.empty(len(mesh.loops), np.int32)
     if len(corners):
@@ -81,14 +82,14 @@ def _corners(mesh, name) -> np.ndarray:
     return corners
 
 
-def edge_ends(mesh) -> np.ndarray:
+def edge_ends(mesh: bpy.types.Mesh) -> np.ndarray:
     """The vertices of each edge, (e, 2) int32; not in Edit Mode."""
     ends = np.empty(2 * len(mesh.edges), np.int32)
     mesh.edges.foreach_get("vertices", ends)
     return ends.reshape(-1, 2)
 
 
-def edge_labels(mesh, labels) -> tuple[np.ndarray, np.ndarray]:
+def edge_labels(mesh: bpy.types.Mesh, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The smallest and the largest label of the faces at each edge, two (e,) int64 arrays.
 
     labels : (p,) int64. An edge of no face has the smallest above the largest.
@@ -100,13 +101,13 @@ def edge_labels(mesh, labels) -> tuple[np.ndarray, np.ndarray]:
     return low, high
 
 
-def cut_edges(mesh, numbers: np.ndarray) -> np.ndarray:
+def cut_edges(mesh: bpy.types.Mesh, numbers: np.ndarray) -> np.ndarray:
     """Whether faces of different parts meet at each edge, (e,) bool."""
     low, high = edge_labels(mesh, numbers)
     return low < high
 
 
-def face_pairs(mesh) -> tuple[np.ndarray, np.ndarray]:
+def face_pairs(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Faces that share an edge, (e, 2) int32, and the edge, (e,) int32; Object Mode."""
     _, face = face_corners(mesh)
     edge = corner_edges(mesh)
@@ -116,7 +117,7 @@ def face_pairs(mesh) -> tuple[np.ndarray, np.ndarray]:
     return np.stack([face[first], face[second]], axis=1), edge[first]
 
 
-def face_means(mesh, values) -> np.ndarray:
+def face_means(mesh: bpy.types.Mesh, values: np.ndarray) -> np.ndarray:
     """Mean over the corners of each face of what each vertex has: (n,) to (p,), or (n, k) to (p, k)."""
     vertex, face = face_corners(mesh)
     count = len(mesh.polygons)
@@ -125,7 +126,7 @@ def face_means(mesh, values) -> np.ndarray:
     return np.stack(means, axis=1) if values.ndim > 1 else means[0]
 
 
-def basis_points(mesh) -> np.ndarray:
+def basis_points(mesh: bpy.types.Mesh) -> np.ndarray:
     """Positions without shape keys, (n, 3) float32; not in Edit Mode."""
     points = np.empty(3 * len(mesh.vertices), np.float32)
     if len(points):
@@ -133,7 +134,7 @@ def basis_points(mesh) -> np.ndarray:
     return points.reshape(-1, 3)
 
 
-def triangles(mesh) -> tuple[np.ndarray, np.ndarray]:
+def triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Blender's own triangulation, and the face of each triangle."""
     mesh.calc_loop_triangles()
     vertices = np.empty(3 * len(mesh.loop_triangles), np.int32)
@@ -143,7 +144,7 @@ def triangles(mesh) -> tuple[np.ndarray, np.ndarray]:
     return vertices.reshape(-1, 3), polygon
 
 
-def shown_points(obj) -> np.ndarray:
+def shown_points(obj: bpy.types.Object) -> np.ndarray:
     """Positions with the shape keys as the object shows them; the basis where keys are absolute."""
     keys = obj.data.shape_keys
     if keys is None:
@@ -164,13 +165,13 @@ def shown_points(obj) -> np.ndarray:
     return mix
 
 
-def _key_points(key) -> np.ndarray:
+def _key_points(key: bpy.types.ShapeKey) -> np.ndarray:
     points = np.empty(3 * len(key.data), np.float32)
     key.data.foreach_get("co", points)
     return points.reshape(-1, 3)
 
 
-def _weights(obj, name) -> np.ndarray:
+def _weights(obj: bpy.types.Object, name: str) -> np.ndarray:
     """Weight of each vertex in a group, (n,) float32."""
     index = obj.vertex_groups[name].index
     weights = np.zeros(len(obj.data.vertices), np.float32)

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the JSON says of an object."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 
+import bpy
 import numpy as np
 
 from ..core.uses.report import bounding_boxes, report
 from . import bridge, mesh_arrays, store
 
 
-def object_report(obj, labels=False) -> dict:
+def object_report(obj: bpy.types.Object, labels: np.ndarray = False) -> dict:
     """The JSON of an object's stored result, in coordinates of the world; Object Mode.
 
     Raises

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the operators under Use Parts have in common."""
 
+from __future__ import annotations
 
-def use_panel_settings(operator, properties, context):
+import bpy
+
+
+def use_panel_settings(operator: bpy.types.Operator, properties: type, context: bpy.types.Context) -> None:
     """Give an operator the panel's settings, but for what its caller has set."""
     names = {name for cls in properties.__mro__ for name in getattr(cls, "__annotations__", {})}
     for name in names:

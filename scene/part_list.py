@@ -46,7 +46,7 @@ def wanted_numbers(mesh: bpy.types.Mesh, which: str) -> list[int]:
     return [part.number for part in mesh.reeb_parts.parts]
 
 
-def choose(mesh: bpy.types.Mesh, numbers: list[int]):
+def choose(mesh: bpy.types.Mesh, numbers: list[int]) -> None:
     """Choose these parts and no others: the first becomes the active one, and several are marked."""
     result = mesh.reeb_parts
     with store.quiet():
@@ -56,7 +56,7 @@ def choose(mesh: bpy.types.Mesh, numbers: list[int]):
                 result.active = index
 
 
-def make_active(mesh: bpy.types.Mesh, number: int):
+def make_active(mesh: bpy.types.Mesh, number: int) -> None:
     """Make a part the active one of the list, which scrolls to it; no mark changes."""
     with store.quiet():
         for index, part in enumerate(mesh.reeb_parts.parts):
@@ -64,7 +64,7 @@ def make_active(mesh: bpy.types.Mesh, number: int):
                 mesh.reeb_parts.active = index
 
 
-def toggle(mesh: bpy.types.Mesh, number: int):
+def toggle(mesh: bpy.types.Mesh, number: int) -> None:
     """Mark a part that is not marked, or take its mark away; it becomes the active one."""
     result = mesh.reeb_parts
     with store.quiet():
@@ -76,7 +76,7 @@ def toggle(mesh: bpy.types.Mesh, number: int):
                 result.active = index
 
 
-def mark(mesh: bpy.types.Mesh, action: str, with_faces: set[int]):
+def mark(mesh: bpy.types.Mesh, action: str, with_faces: set[int]) -> None:
     """Change the marks of all parts.
 
     Parameters
@@ -96,14 +96,14 @@ def mark(mesh: bpy.types.Mesh, action: str, with_faces: set[int]):
         }[action]
 
 
-def unmark_all(mesh: bpy.types.Mesh):
+def unmark_all(mesh: bpy.types.Mesh) -> None:
     """Take every mark away."""
     with store.quiet():
         for part in mesh.reeb_parts.parts:
             part.selected = False
 
 
-def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context):
+def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The user has clicked a part in the list: only it is chosen, and in Edit Mode its faces are selected."""
     mesh = result.id_data
     if store.is_quiet() or result.active >= len(result.parts):
@@ -114,7 +114,7 @@ def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context):
         _select_in_edit_mode(mesh, active_number(mesh))
 
 
-def _select_in_edit_mode(mesh: bpy.types.Mesh, number: int):
+def _select_in_edit_mode(mesh: bpy.types.Mesh, number: int) -> None:
     """Select the faces of a part that are not hidden, and nothing else; the edit mesh cannot be written in bulk."""
     edit = bmesh.from_edit_mesh(mesh)
     layer = edit.faces.layers.int.get(mesh.reeb_parts.face_attribute)

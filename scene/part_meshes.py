@@ -7,6 +7,8 @@ these were asked for.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+
 import bmesh
 import bpy
 import numpy as np
@@ -15,7 +17,7 @@ from . import caps, mesh_arrays, outputs, store
 from .outputs import kept_aside
 
 
-def plain_copy(mesh):
+def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
     """A copy of a mesh without anything of ours but the parts' materials; Object Mode."""
     copy = mesh.copy()
     result = copy.reeb_parts
@@ -36,7 +38,8 @@ def plain_copy(mesh):
     return copy
 
 
-def part_meshes(mesh, face_numbers: np.ndarray, wanted, close=False):
+def part_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int],
+                close: bool = False) -> tuple[dict[int, bpy.types.Mesh], int]:
     """A mesh for each of some parts, with all that its faces carry.
 
     Parameters
@@ -79,7 +82,7 @@ def part_meshes(mesh, face_numbers: np.ndarray, wanted, close=False):
     return made, left_open
 
 
-def _around_cuts(mesh, cut):
+def _around_cuts(mesh: bpy.types.Mesh, cut: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Vertices where more than two edges of cuts meet, (v,) bool, and edges from cut to cut, (k, 2).
 
     cut : (e,) bool.
@@ -89,7 +92,8 @@ def _around_cuts(mesh, cut):
     return count > 2, ends[(count[ends] > 0).all(axis=1)]
 
 
-def _divide(mesh, face_numbers, wanted, loose):
+def _divide(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: list[int],
+            loose: bool) -> Iterator[tuple[int, bpy.types.Mesh]]:
     """Number and mesh of each part, by halves: every face is copied log(number of parts) times."""
     for half in (wanted[: len(wanted) // 2], wanted[len(wanted) // 2 :]):
         if not half:
@@ -103,7 +107,7 @@ def _divide(mesh, face_numbers, wanted, loose):
             bpy.data.meshes.remove(some)
 
 
-def _with_faces(mesh, mask, loose):
+def _with_faces(mesh: bpy.types.Mesh, mask: np.ndarray, loose: bool) -> bpy.types.Mesh:
     """A copy of a mesh with some of its faces only; elements keep their order.
 
     mask : (p,) bool. loose : whether there are edges and vertices of no face, which are left out.
@@ -123,7 +127,7 @@ def _with_faces(mesh, mask, loose):
     return copy
 
 
-def _has_loose(mesh):
+def _has_loose(mesh: bpy.types.Mesh) -> bool:
     """Whether there are edges or vertices of no face."""
     vertex, _ = mesh_arrays.face_corners(mesh)
     return any(
@@ -132,7 +136,7 @@ def _has_loose(mesh):
     )
 
 
-def _custom_normals(mesh):
+def _custom_normals(mesh: bpy.types.Mesh) -> np.ndarray | None:
     """The normal of each corner, (c, 3) float32, where somebody set them; None otherwise.
 
     Blender keeps them relative to the faces around the vertex, of which a cut takes some away.
@@ -147,14 +151,14 @@ def _custom_normals(mesh):
     return normals.reshape(-1, 3)
 
 
-def _set_normals(mesh, normals):
+def _set_normals(mesh: bpy.types.Mesh, normals: np.ndarray) -> None:
     """Set custom normals; corners of caps, which come last, keep those of their faces."""
     every = np.zeros((len(mesh.loops), 3), np.float32)
     every[: len(normals)] = normals
     mesh.normals_split_custom_set(every)
 
 
-def _drop_materials(mesh, others):
+def _drop_materials(mesh: bpy.types.Mesh, others: Iterable[bpy.types.Material | None]) -> None:
     """Remove the slots of other parts' materials."""
     others = [material for material in others if material is not None]
     for index in reversed(range(len(mesh.materials))):

@@ -14,27 +14,29 @@ from mathutils import Matrix, Vector
 from . import explode, graph_objects, mesh_arrays, store
 from .outputs.colors import linear
 from .part_meshes import part_meshes
+from .settings import SeparateProperties
+from .store import Stored
 
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: name of the object that the pieces come from
 NUMBER = "reeb_parts_number"  # on a piece: of its part
 MADE = "reeb_parts_looks"  # on a piece: what it was like when it was made
 
 
-def collection_of(obj):
+def collection_of(obj: bpy.types.Object) -> bpy.types.Collection | None:
     """The collection with the pieces of an object, or None."""
     collection = obj.reeb_parts_made.pieces
     # A copy of the object has this too, but another name.
     return collection if collection is not None and collection.get(COLLECTION_OF) == obj.name else None
 
 
-def piece_objects(obj) -> list:
+def piece_objects(obj: bpy.types.Object) -> list:
     """What was separated from an object and is still there, in the order of the part numbers."""
     collection = collection_of(obj)
     found = [piece for piece in collection.objects if NUMBER in piece] if collection else []
     return sorted(found, key=lambda piece: piece[NUMBER])
 
 
-def original(piece):
+def original(piece: bpy.types.Object) -> bpy.types.Object | None:
     """The object in the scene that a piece was separated from, or None."""
     for collection in piece.users_collection:
         obj = bpy.context.view_layer.objects.get(collection.get(COLLECTION_OF, ""))
@@ -43,7 +45,8 @@ def original(piece):
     return None
 
 
-def separate(context, obj, stored, numbers, style):
+def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: list[int],
+             style: SeparateProperties) -> tuple[list[bpy.types.Object], int, int]:
     """Make an object of each of some parts; Object Mode.
 
     Pieces of these parts that an earlier run made are replaced. Such that somebody has edited, moved or
@@ -82,7 +85,7 @@ def separate(context, obj, stored, numbers, style):
     return made, left_open, kept
 
 
-def make_collection(context, obj):
+def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Collection:
     """The collection with what is made from an object's parts; made if it is not there."""
     collection = collection_of(obj)
     if collection is None:
@@ -94,7 +97,7 @@ def make_collection(context, obj):
     return collection
 
 
-def _remove_earlier(obj, numbers):
+def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
     """Remove pieces of these parts unless somebody has worked on them; how many stay."""
     kept = 0
     for piece in piece_objects(obj):
@@ -111,7 +114,7 @@ def _remove_earlier(obj, numbers):
     return kept
 
 
-def _looks(piece) -> str:
+def _looks(piece: bpy.types.Object) -> str:
     """Differs once somebody has edited, moved or renamed the piece, or given it something."""
     place = [round(value, 6) for row in piece.matrix_basis for value in row]
     materials = [slot.material.name if slot.material else "" for slot in piece.material_slots]
@@ -119,7 +122,7 @@ def _looks(piece) -> str:
     return str([piece.name, mesh_arrays.fingerprint(piece.data), place, parent, piece.modifiers.keys(), materials])
 
 
-def _piece(obj, mesh, name, style):
+def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: SeparateProperties) -> bpy.types.Object:
     """An object like the given one with another mesh."""
     piece = obj.copy()
     explode.forget(piece)
@@ -144,7 +147,7 @@ def _piece(obj, mesh, name, style):
     return piece
 
 
-def _center(mesh):
+def _center(mesh: bpy.types.Mesh) -> Vector:
     """Move a mesh so that the middle of its surface is its origin; where that was."""
     area = np.empty(len(mesh.polygons), np.float32)
     center = np.empty(3 * len(mesh.polygons), np.float32)
@@ -156,14 +159,14 @@ def _center(mesh):
     return middle
 
 
-def show_original(context, obj):
+def show_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Show the object that pieces come from, with its graph if the scene shows graphs."""
     obj.hide_set(False)
     obj.hide_render = False
     graph_objects.set_hidden(context, obj, not context.scene.reeb_parts.graph)
 
 
-def hide_original(context, obj):
+def hide_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Hide the object that pieces come from, with its graph, in the viewport and in renders."""
     obj.hide_set(True)
     obj.hide_render = True

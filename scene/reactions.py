@@ -4,32 +4,37 @@
 Blender itself makes an undo step for a property of the mesh that is changed in the interface.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable
 from dataclasses import replace
 
 import bpy
 import numpy as np
 
+from ..core.result.numbering import NumberedParts
 from . import graph_objects, outputs, store
 from .errors import SceneError
 from .modes import object_mode
 from .outputs import vertex_groups
+from .store import Stored
 
 
-def show_detail(result, context):
+def show_detail(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The Detail slider was moved."""
     if not store.is_quiet():
         result.by_number = False
         show(result, context)
 
 
-def show_number(result, context):
+def show_number(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A number of parts was typed."""
     if not store.is_quiet():
         result.by_number = True
         show(result, context)
 
 
-def rename(part, context):
+def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A part was renamed: its vertex group and its number take the name."""
     if store.is_quiet():
         return
@@ -42,14 +47,14 @@ def rename(part, context):
         store.keep_name(mesh, part.number, part.name)
 
 
-def show_graph(obj, shown, context):
+def show_graph(obj: bpy.types.Object, shown: bool, context: bpy.types.Context) -> None:
     """Hide the graph of an object, or show it; it is drawn if there is none yet."""
     if store.is_quiet() or not store.has_result(obj.data):
         return
     if graph_objects.set_hidden(context, obj, not shown) or not shown:
         return
 
-    def draw(stored):
+    def draw(stored: Stored) -> None:
         stretch = store.stretch_of(obj.data)
         graph_objects.draw_graph(context, obj, stored.decomposition.graph, stretch, context.scene.reeb_parts)
         graph_objects.update_parts(obj, stored.shown_parts())
@@ -57,25 +62,25 @@ def show_graph(obj, shown, context):
     _with_result(obj.data, context, draw)
 
 
-def use_palette(mesh, palette, context):
+def use_palette(mesh: bpy.types.Mesh, palette: str, context: bpy.types.Context) -> None:
     """Colour the parts of a mesh from another palette."""
     if store.is_quiet() or not store.has_result(mesh) or mesh.reeb_parts.palette == palette:
         return
 
-    def recolor_all(stored):
+    def recolor_all(stored: Stored) -> None:
         mesh.reeb_parts.palette = palette
         refresh(context, mesh, stored, stored.shown_parts())
 
     _with_result(mesh, context, recolor_all)
 
 
-def recolor(part, context):
+def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A part was given another colour: all that is coloured by it takes it, and it stays."""
     if store.is_quiet():
         return
     mesh = part.id_data
 
-    def keep(stored):
+    def keep(stored: Stored) -> None:
         numbered = stored.shown_parts()
         own = outputs.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
         # Blender's popup, when it is cancelled, sets the colour back.
@@ -89,14 +94,14 @@ def recolor(part, context):
     _with_result(mesh, context, keep)
 
 
-def lock(part, context):
+def lock(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A part was locked or unlocked in the list."""
     if store.is_quiet():
         return
     mesh = part.id_data
     number, locked = part.number, part.locked
 
-    def pin(stored):
+    def pin(stored: Stored) -> None:
         pinned = np.where(stored.shown == number, number if locked else 0, stored.pinned)
         with store.quiet():
             store.save_numbers(mesh, replace(stored, pinned=pinned))
@@ -105,7 +110,7 @@ def lock(part, context):
     _with_result(mesh, context, pin)
 
 
-def refresh(context, mesh, stored, numbered):
+def refresh(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbered: NumberedParts) -> None:
     """Write other parts of the same decomposition: outputs, list and graphs."""
     before = stored.shown
     stored = stored.showing(numbered)
@@ -118,16 +123,16 @@ def refresh(context, mesh, stored, numbered):
         graph_objects.update_parts(obj, numbered)
 
 
-def users(mesh):
+def users(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:
     """The objects of a mesh; vertex groups can be written through any of them."""
     return [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data == mesh]
 
 
-def show(result, context):
+def show(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Show the parts of the detail or number that is set."""
     mesh = result.id_data
 
-    def write(stored):
+    def write(stored: Stored) -> None:
         numbered = stored.parts(result.detail, result.n_parts if result.by_number else 0)
         if np.array_equal(numbered.candidate_numbers, stored.shown):
             store.mark_pins(mesh, stored)
@@ -139,7 +144,7 @@ def show(result, context):
     _with_result(mesh, context, write)
 
 
-def _with_result(mesh, context, work):
+def _with_result(mesh: bpy.types.Mesh, context: bpy.types.Context, work: Callable[[Stored], None]) -> None:
     """Do something with the stored result of a mesh, in Object Mode."""
     try:
         with object_mode(context):

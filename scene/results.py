@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import bpy
+
 from . import armature, explode, graph_objects, notes, outputs, reactions, store, uv_map
 from .compute import Outcome
 
 
-def write_result(context, obj, outcome: Outcome, settings):
+def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> None:
     """Write one object's parts and graph; Object Mode.
 
     Parameters
@@ -40,7 +44,7 @@ def write_result(context, obj, outcome: Outcome, settings):
         graph_objects.remove(obj)
 
 
-def clear(obj):
+def clear(obj: bpy.types.Object) -> None:
     """Remove parts, graph and stored result of an object; Object Mode."""
     for user in reactions.users(obj.data):
         explode.forget(user)

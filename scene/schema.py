@@ -116,14 +116,14 @@ class ReebPartsMade(bpy.types.PropertyGroup):
 CLASSES = (ReebPart, ReebName, ReebPartsResult, ReebPartsMade)
 
 
-def register():
+def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.Mesh.reeb_parts = PointerProperty(type=ReebPartsResult)
     bpy.types.Object.reeb_parts_made = PointerProperty(type=ReebPartsMade)
 
 
-def unregister():
+def unregister() -> None:
     del bpy.types.Object.reeb_parts_made
     del bpy.types.Mesh.reeb_parts
     for cls in reversed(CLASSES):

@@ -19,7 +19,7 @@ def selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     return selected
 
 
-def select_faces(mesh: bpy.types.Mesh, mask: np.ndarray, mode: str = "SET"):
+def select_faces(mesh: bpy.types.Mesh, mask: np.ndarray, mode: str = "SET") -> None:
     """Select faces with their edges and vertices, and nothing else; Object Mode.
 
     mask : (p,) bool. mode : "SET", "ADD" or "SUBTRACT".
@@ -32,7 +32,7 @@ def select_faces(mesh: bpy.types.Mesh, mask: np.ndarray, mode: str = "SET"):
     _set_flags(mesh, "select", mask, edges, vertices)
 
 
-def hide_faces(mesh: bpy.types.Mesh, mask: np.ndarray):
+def hide_faces(mesh: bpy.types.Mesh, mask: np.ndarray) -> None:
     """Hide faces, and the edges and vertices of no other face; Object Mode. mask : (p,) bool."""
     edges, vertices = _touched(mesh, ~mask)
     some = bool(mask.any())  # else loose edges and vertices are shown, too
@@ -49,14 +49,14 @@ def _touched(mesh: bpy.types.Mesh, mask: np.ndarray) -> tuple[np.ndarray, np.nda
     return edges, vertices
 
 
-def _set_flags(mesh: bpy.types.Mesh, flag: str, faces: np.ndarray, edges: np.ndarray, vertices: np.ndarray):
+def _set_flags(mesh: bpy.types.Mesh, flag: str, faces: np.ndarray, edges: np.ndarray, vertices: np.ndarray) -> None:
     for items, values in ((mesh.edges, edges), (mesh.vertices, vertices), (mesh.polygons, faces)):
         items.foreach_set(flag, values)
     mesh.update()
 
 
 def select_objects(context: bpy.types.Context, objects: list[bpy.types.Object],
-                   active: bpy.types.Object | None = None):
+                   active: bpy.types.Object | None = None) -> None:
     """Select these objects and no others, and make one of them the active one if that is asked for."""
     for other in list(context.view_layer.objects.selected):
         other.select_set(False)

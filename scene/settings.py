@@ -5,7 +5,8 @@ The properties of the method are made from the fields of ``Parameters``: names, 
 are written down once. Classes that end in Properties are for operators and property groups to inherit.
 """
 
-from dataclasses import asdict, fields
+from dataclasses import Field, asdict, fields
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
@@ -15,7 +16,7 @@ from ..core.uses.colors import PALETTES
 from . import graph_objects, reactions, store
 
 
-def _property(field):
+def _property(field: Field) -> Any:
     """The Blender property of a field of Parameters."""
     meta = field.metadata
     words = {"name": meta["label"], "description": meta["description"], "default": field.default}
@@ -36,7 +37,7 @@ class ParameterProperties:
 
     __annotations__ = {field.name: _property(field) for field in fields(Parameters)}
 
-    def parameters(self):
+    def parameters(self) -> Parameters:
         """The values as Parameters; raises ParameterError."""
         values = {field.name: getattr(self, field.name) for field in fields(Parameters)}
         for name, value in values.items():
@@ -45,7 +46,7 @@ class ParameterProperties:
                 values[name] = float(f"{value:.6g}")
         return Parameters(**values)
 
-    def use_parameters(self, parameters):
+    def use_parameters(self, parameters: Parameters) -> None:
         """Take over all values of a Parameters."""
         for name, value in asdict(parameters).items():
             setattr(self, name, value)
@@ -100,7 +101,7 @@ class OutputProperties:
 OUTPUTS = tuple(OutputProperties.__annotations__)
 
 
-def _redraw_graph(self, context):
+def _redraw_graph(self, context: bpy.types.Context) -> None:
     if not store.is_quiet():
         graph_objects.restyle(context.object, self)
 
@@ -167,17 +168,17 @@ class SeparateProperties(WhichProperties):
 PRESET_ITEMS = [(name, name, "") for name in PRESETS]
 
 
-def _use_preset(self, context):
+def _use_preset(self, context: bpy.types.Context) -> None:
     if self.preset != "CUSTOM":
         self.use_parameters(PRESETS[self.preset])
 
 
-def _repaint(self, context):
+def _repaint(self, context: bpy.types.Context) -> None:
     if context.object is not None and context.object.type == "MESH":
         reactions.use_palette(context.object.data, self.palette, context)
 
 
-def _show_graph(self, context):
+def _show_graph(self, context: bpy.types.Context) -> None:
     if context.object is not None and context.object.type == "MESH":
         reactions.show_graph(context.object, self.graph, context)
 
@@ -214,14 +215,14 @@ class ReebPartsUse(bpy.types.PropertyGroup, SeparateProperties):
 CLASSES = (ReebPartsSettings, ReebPartsUse)
 
 
-def register():
+def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.Scene.reeb_parts = PointerProperty(type=ReebPartsSettings)
     bpy.types.Scene.reeb_parts_use = PointerProperty(type=ReebPartsUse)
 
 
-def unregister():
+def unregister() -> None:
     del bpy.types.Scene.reeb_parts_use
     del bpy.types.Scene.reeb_parts
     for cls in reversed(CLASSES):

@@ -6,13 +6,18 @@ the mesh was decomposed; ``pinned``, the number of the part that it stays in wha
 ``shown``, the number of the part that it is in now.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
+import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts, Numbering, default_name, inherited, transfer
 from . import mesh_arrays
 from .errors import SceneError, load_core, translated
@@ -26,7 +31,7 @@ _writing = False
 
 
 @contextmanager
-def quiet():
+def quiet() -> Iterator[None]:
     """Write properties without their update functions doing anything."""
     global _writing
     before, _writing = _writing, True
@@ -69,7 +74,7 @@ class Stored:
         """(p,) int64, the number of the part that each face is in now."""
         return self.shown[self.decomposition.candidates]
 
-    def parts(self, detail, n_parts) -> NumberedParts:
+    def parts(self, detail: float, n_parts: int) -> NumberedParts:
         """Parts at a level of detail, or of an exact number if that is not 0."""
         return self.numbering.parts(detail, n_parts)
 
@@ -77,17 +82,17 @@ class Stored:
         """Parts as they are now."""
         return self.numbering.shown(self.shown)
 
-    def showing(self, numbered: NumberedParts) -> "Stored":
+    def showing(self, numbered: NumberedParts) -> Stored:
         """The same with other parts shown."""
         return replace(self, shown=numbered.candidate_numbers)
 
 
-def has_result(mesh) -> bool:
+def has_result(mesh: bpy.types.Mesh) -> bool:
     """Whether a decomposition is stored with the mesh."""
     return mesh.is_property_set("reeb_parts") and bool(mesh.reeb_parts.data)
 
 
-def is_edited(mesh) -> bool:
+def is_edited(mesh: bpy.types.Mesh) -> bool:
     """Whether the mesh was edited since: only the quick checks, for the panel."""
     result = mesh.reeb_parts
     return result.edited or (
@@ -95,7 +100,7 @@ def is_edited(mesh) -> bool:
     )
 
 
-def load(mesh) -> Stored:
+def load(mesh: bpy.types.Mesh) -> Stored:
     """The stored result of a mesh in Object Mode.
 
     Raises
@@ -114,13 +119,13 @@ def load(mesh) -> Stored:
     return last(mesh)
 
 
-def last(mesh) -> Stored:
+def last(mesh: bpy.types.Mesh) -> Stored:
     """The stored result of a mesh that has one, in any mode; the mesh may have been edited since."""
     numbers = np.frombuffer(mesh.reeb_parts.numbers, np.int32).astype(np.int64)
     return Stored(_decomposition(mesh.reeb_parts.data), *numbers.reshape(3, -1))
 
 
-def save(mesh, stored: Stored):
+def save(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Keep a result with its mesh; Object Mode."""
     result = mesh.reeb_parts
     data = stored.decomposition.to_bytes()
@@ -134,13 +139,13 @@ def save(mesh, stored: Stored):
     result.n_nodes, result.n_arcs, result.n_loops = graph.n_nodes, graph.n_arcs, int(graph.n_loops)
 
 
-def save_numbers(mesh, stored: Stored):
+def save_numbers(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Keep which candidate has which number."""
     rows = np.stack([stored.previous_number, stored.pinned, stored.shown])
     mesh.reeb_parts.numbers = rows.astype(np.int32).tobytes()
 
 
-def succeed(mesh, decomposition) -> Stored:
+def succeed(mesh: bpy.types.Mesh, decomposition: Decomposition) -> Stored:
     """A new result for a mesh; its parts take over the numbers of those that the faces were in until now."""
     previous = pinned = np.zeros(decomposition.n_candidates, np.int64)
     if has_result(mesh):
@@ -154,7 +159,7 @@ def succeed(mesh, decomposition) -> Stored:
     return Stored(decomposition, previous_number=numbers, pinned=pinned, shown=numbers)
 
 
-def _face_numbers(mesh) -> tuple[np.ndarray, np.ndarray]:
+def _face_numbers(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """The number of each face's part, and of the part that it is pinned to; 0 for none. Survives edits of the mesh."""
     result = mesh.reeb_parts
     try:
@@ -175,37 +180,37 @@ def _face_numbers(mesh) -> tuple[np.ndarray, np.ndarray]:
     return faces, np.where(np.isin(faces, pinned), faces, 0)
 
 
-def stretch_of(mesh) -> np.ndarray:
+def stretch_of(mesh: bpy.types.Mesh) -> np.ndarray:
     """What the object did to its mesh when it was decomposed, (3, 3) float64; see bridge.world_stretch."""
     return np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
 
 
-def part_name(mesh, number) -> str:
+def part_name(mesh: bpy.types.Mesh, number: int) -> str:
     """The name somebody gave to a number, or its own."""
     entry = _kept(mesh, number)
     return entry.name if entry is not None and entry.name else default_name(number)
 
 
-def keep_name(mesh, number, name):
+def keep_name(mesh: bpy.types.Mesh, number: int, name: str) -> None:
     """Remember a name, also while its part is not shown."""
     if entry := _keep(mesh, number, name != default_name(number)):
         entry.name = "" if name == default_name(number) else name
         _drop_empty(mesh)
 
 
-def keep_color(mesh, number, color):
+def keep_color(mesh: bpy.types.Mesh, number: int, color: tuple[float, float, float] | None) -> None:
     """Remember a colour, also while its part is not shown. color : three values, sRGB; None for the palette's."""
     if entry := _keep(mesh, number, color is not None):
         entry.color, entry.has_color = color or (0.0, 0.0, 0.0), color is not None
         _drop_empty(mesh)
 
 
-def kept_colors(mesh) -> dict:
+def kept_colors(mesh: bpy.types.Mesh) -> dict:
     """The colours that somebody gave to parts, by number."""
     return {entry.number: entry.color[:] for entry in mesh.reeb_parts.names if entry.has_color}
 
 
-def number_colors(mesh) -> np.ndarray:
+def number_colors(mesh: bpy.types.Mesh) -> np.ndarray:
     """The colour of each part of the list by its number, (largest number + 1, 4) float32, sRGB and alpha."""
     parts = mesh.reeb_parts.parts
     colors = np.ones((max((part.number for part in parts), default=0) + 1, 4), np.float32)
@@ -214,11 +219,11 @@ def number_colors(mesh) -> np.ndarray:
     return colors
 
 
-def _kept(mesh, number):
+def _kept(mesh: bpy.types.Mesh, number: int) -> bpy.types.PropertyGroup | None:
     return next((entry for entry in mesh.reeb_parts.names if entry.number == number), None)
 
 
-def _keep(mesh, number, make):
+def _keep(mesh: bpy.types.Mesh, number: int, make: bool) -> bpy.types.PropertyGroup | None:
     """The entry of a number; made if it is not there and asked for."""
     entry = _kept(mesh, number)
     if entry is None and make:
@@ -227,14 +232,14 @@ def _keep(mesh, number, make):
     return entry
 
 
-def _drop_empty(mesh):
+def _drop_empty(mesh: bpy.types.Mesh) -> None:
     names = mesh.reeb_parts.names
     for index in reversed(range(len(names))):
         if not names[index].name and not names[index].has_color:
             names.remove(index)
 
 
-def _decomposition(data: bytes):
+def _decomposition(data: bytes) -> Decomposition:
     if data not in _read:
         core = load_core()
         try:
@@ -244,25 +249,25 @@ def _decomposition(data: bytes):
     return _read[data]
 
 
-def _remember(data: bytes, decomposition):
+def _remember(data: bytes, decomposition: Decomposition) -> None:
     _read[data] = decomposition
     while len(_read) > _KEEP:
         del _read[next(iter(_read))]
 
 
 @lru_cache(_KEEP)
-def _numbering(decomposition, previous: bytes, pinned: bytes) -> Numbering:
+def _numbering(decomposition: Decomposition, previous: bytes, pinned: bytes) -> Numbering:
     """While the detail is dragged, the numbers of all levels stay the same."""
     return Numbering.of(decomposition, np.frombuffer(previous, np.int64), np.frombuffer(pinned, np.int64))
 
 
-def forget():
+def forget() -> None:
     """Free what is kept in memory."""
     _read.clear()
     _numbering.cache_clear()
 
 
-def mark_pins(mesh, stored: Stored):
+def mark_pins(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Tell the list which parts stay whatever the detail."""
     pinned = set(stored.pinned.tolist())
     with quiet():

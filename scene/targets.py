@@ -11,7 +11,7 @@ from .errors import SceneError
 from .modes import check_mode
 
 
-def chosen_objects(context) -> list[bpy.types.Object]:
+def chosen_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
     """The objects to work on: the active mesh, then other selected meshes; one per mesh.
 
     Raises
@@ -28,7 +28,7 @@ def chosen_objects(context) -> list[bpy.types.Object]:
     return list(first.values())
 
 
-def check_object(obj):
+def check_object(obj: bpy.types.Object | None) -> None:
     """Raise SceneError unless the object is a mesh that can be read and written."""
     if obj is None:
         raise SceneError(rpt_("There is no active object. Select a mesh and try again."))
@@ -55,7 +55,7 @@ def check_object(obj):
         )
 
 
-def _kind(obj) -> str:
+def _kind(obj: bpy.types.Object) -> str:
     """What sort of object it is, in Blender's own word."""
     prop = obj.bl_rna.properties["type"]
     word = prop.enum_items[obj.type].name

@@ -15,12 +15,12 @@ UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
 
 
-def find(mesh):
+def find(mesh: bpy.types.Mesh) -> bpy.types.MeshUVLoopLayer | None:
     """Our UV map, or None."""
     return mesh.uv_layers.get(mesh.get(MADE, ""))
 
 
-def remove(mesh):
+def remove(mesh: bpy.types.Mesh) -> None:
     """Remove our UV map."""
     layer = find(mesh)
     if layer is not None:
@@ -29,7 +29,8 @@ def remove(mesh):
         del mesh[MADE]
 
 
-def unwrap(context, obj, face_numbers, open_parts, method):
+def unwrap(context: bpy.types.Context, obj: bpy.types.Object, face_numbers: np.ndarray, open_parts: bool,
+           method: str) -> None:
     """Unwrap an object into our UV map, which becomes the active one; Object Mode.
 
     Parameters
@@ -57,7 +58,7 @@ def unwrap(context, obj, face_numbers, open_parts, method):
     mesh.update()
 
 
-def _seams(obj, face_numbers, open_parts):
+def _seams(obj: bpy.types.Object, face_numbers: np.ndarray, open_parts: bool) -> np.ndarray:
     """The user's seams, the cuts between parts and, if asked for, what opens parts; (e,) bool."""
     mesh = obj.data
     seams = np.empty(len(mesh.edges), bool)
@@ -72,7 +73,7 @@ def _seams(obj, face_numbers, open_parts):
     return seams
 
 
-def _unwrapped(context, obj, seams, method):
+def _unwrapped(context: bpy.types.Context, obj: bpy.types.Object, seams: np.ndarray, method: str) -> np.ndarray:
     """The UV coordinates of each corner, flat float32; unwrapped on a copy, so that no selection is touched."""
     copy = part_meshes.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
@@ -89,7 +90,7 @@ def _unwrapped(context, obj, seams, method):
     return coordinates
 
 
-def _unwrap_all(context, twin, method):
+def _unwrap_all(context: bpy.types.Context, twin: bpy.types.Object, method: str) -> None:
     """Unwrap all faces of an object with Blender's operator, which works on the active object in Edit Mode."""
     twin.select_set(True)
     context.view_layer.objects.active = twin
@@ -100,7 +101,7 @@ def _unwrap_all(context, twin, method):
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def _prepare(twin, points, seams):
+def _prepare(twin: bpy.types.Object, points: np.ndarray, seams: np.ndarray) -> None:
     """Give a copy the shape that is seen, our seams, one UV map, and all selected."""
     mesh = twin.data
     if mesh.shape_keys:

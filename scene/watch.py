@@ -4,6 +4,8 @@
 A mesh is looked at once it has been left alone for a moment: while it is sculpted, nothing is computed.
 """
 
+from __future__ import annotations
+
 import time
 
 import bpy
@@ -17,7 +19,7 @@ _waiting: set[int] = set()  # meshes by session_uid
 _last = 0.0
 
 
-def check(mesh):
+def check(mesh: bpy.types.Mesh) -> None:
     """Set or take back the mark that a mesh differs from the one its result belongs to."""
     result = mesh.reeb_parts
     edited = mesh_arrays.fingerprint(mesh) != result.fingerprint
@@ -26,7 +28,7 @@ def check(mesh):
         _redraw()
 
 
-def _redraw():
+def _redraw() -> None:
     """So that panels say it without waiting for the pointer."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
@@ -35,7 +37,7 @@ def _redraw():
 
 
 @persistent
-def _changed(scene, depsgraph):
+def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     global _last
     found = {
         update.id.original.data.session_uid
@@ -51,7 +53,7 @@ def _changed(scene, depsgraph):
         bpy.app.timers.register(_look, first_interval=REST)
 
 
-def _look():
+def _look() -> float | None:
     rested = time.monotonic() - _last
     if rested < REST:
         return REST - rested
@@ -63,11 +65,11 @@ def _look():
     return None
 
 
-def register():
+def register() -> None:
     bpy.app.handlers.depsgraph_update_post.append(_changed)
 
 
-def unregister():
+def unregister() -> None:
     bpy.app.handlers.depsgraph_update_post.remove(_changed)
     if bpy.app.timers.is_registered(_look):
         bpy.app.timers.unregister(_look)

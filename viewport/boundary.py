@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import bpy
 import numpy as np
 
 from ..scene import bridge, edits, mesh_arrays
+from ..scene.store import Stored
 
 
 class Boundary:
@@ -21,7 +23,7 @@ class Boundary:
         How far it can be slid inwards and outwards, as distances.
     """
 
-    def __init__(self, obj, stored, number):
+    def __init__(self, obj: bpy.types.Object, stored: Stored, number: int) -> None:
         from ..core.result.editing import boundary_distance
 
         self.number = number
@@ -38,7 +40,7 @@ class Boundary:
         known = self.distance[np.isfinite(self.distance)]
         self.reach = np.array([known.min(initial=0.0), known.max(initial=0.0)])
 
-    def slid(self, offset) -> np.ndarray:
+    def slid(self, offset: float) -> np.ndarray:
         """The part of each face with the boundary moved outwards by a distance, (p,) int64."""
         with np.errstate(invalid="ignore"):  # nan: the face stays
             taken = (self.distance > 0) & (self.distance <= offset)

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A round brush that paints faces into a part, over the surface."""
 
+from collections.abc import Sequence
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import edits, mesh_arrays, store
 from ..scene.errors import SceneError
+from .pointing import Model
 
 START_SIZE = 0.04  # radius of the brush, as a share of the object's size
 
@@ -22,7 +25,7 @@ class Brush:
         Faces painted so far.
     """
 
-    def __init__(self, obj, model, number):
+    def __init__(self, obj: bpy.types.Object, model: Model, number: int) -> None:
         self.model, self.number = model, number
         count = len(model.face_value)
         pairs, _ = mesh_arrays.face_pairs(obj.data)
@@ -33,7 +36,7 @@ class Brush:
         self.chosen = np.zeros(count, bool)
         self.free = ~np.isin(model.numbers, edits.locked_others(obj.data, number))
 
-    def dab(self, location, radius):
+    def dab(self, location: Sequence[float], radius: float) -> None:
         """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there."""
         from ..core.surface.mesh import components
 
@@ -56,7 +59,7 @@ class Brush:
         return np.where(self.chosen, self.number, self.model.numbers)
 
 
-def paint(context, obj, brush) -> str:
+def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> str:
     """Give the painted faces to the part; what happened, in a sentence. Raises SceneError if none were painted."""
     moved = brush.numbers() != brush.model.numbers
     if not moved.any():
@@ -77,9 +80,9 @@ class ReebDab(bpy.types.PropertyGroup):
     radius: bpy.props.FloatProperty(name="Radius", min=0.0, subtype="DISTANCE")
 
 
-def register():
+def register() -> None:
     bpy.utils.register_class(ReebDab)
 
 
-def unregister():
+def unregister() -> None:
     bpy.utils.unregister_class(ReebDab)

@@ -12,7 +12,7 @@ from ..scene.part_list import choose
 _owner = object()
 
 
-def _follow_active():
+def _follow_active() -> None:
     """The active object changed: if it belongs to a graph, the list of its object follows."""
     item = bpy.context.view_layer.objects.active if bpy.context.view_layer else None
     found = graph_objects.part_of(item)
@@ -23,7 +23,7 @@ def _follow_active():
         bpy.app.timers.register(_ask_pointer, first_interval=0.0)
 
 
-def _ask_pointer():
+def _ask_pointer() -> None:
     """Which arc it was, only the pointer knows, by where its button was pressed."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
@@ -37,19 +37,19 @@ def _ask_pointer():
 
 
 @persistent
-def _subscribe(*_):
+def _subscribe(*_: object) -> None:
     # Subscriptions do not outlive the file.
     bpy.msgbus.subscribe_rna(
         key=(bpy.types.LayerObjects, "active"), owner=_owner, args=(), notify=_follow_active
     )
 
 
-def register():
+def register() -> None:
     _subscribe()
     bpy.app.handlers.load_post.append(_subscribe)
 
 
-def unregister():
+def unregister() -> None:
     bpy.app.handlers.load_post.remove(_subscribe)
     bpy.msgbus.clear_by_owner(_owner)
     if bpy.app.timers.is_registered(_ask_pointer):

@@ -4,6 +4,8 @@
 Built when the choice or the parts change, drawn as often as the view is; nothing is written anywhere.
 """
 
+from __future__ import annotations
+
 import bpy
 import gpu
 import numpy as np
@@ -21,20 +23,20 @@ _built = None  # what the lines below were built of
 _lines = None
 
 
-def register():
+def register() -> None:
     global _handle
     if not bpy.app.background:  # there is nothing to draw on
         _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
 
 
-def unregister():
+def unregister() -> None:
     global _handle, _built, _lines
     if _handle is not None:
         bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
     _handle = _built = _lines = None
 
 
-def outline(obj, numbers) -> np.ndarray:
+def outline(obj: bpy.types.Object, numbers: list[int]) -> np.ndarray:
     """Where some parts border on others: ends of edges, (2e, 3) float32, in the object's coordinates.
 
     Raises
@@ -49,7 +51,7 @@ def outline(obj, numbers) -> np.ndarray:
     return mesh_arrays.shown_points(obj)[edges.ravel()]
 
 
-def _draw():
+def _draw() -> None:
     global _built, _lines
     context = bpy.context
     obj = context.object
@@ -77,7 +79,7 @@ def _draw():
     gpu.state.blend_set("NONE")
 
 
-def _batch(obj, numbers):
+def _batch(obj: bpy.types.Object, numbers: list[int]) -> gpu.types.GPUBatch | None:
     """Lines for the card, None if there are none."""
     try:
         points = outline(obj, numbers)

@@ -3,24 +3,32 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.surface.labels import FaceGraph
 from ..scene import bridge, edits, mesh_arrays, part_list, store
 from ..scene.errors import SceneError
+from .pointing import Model, Target
+
+if TYPE_CHECKING:
+    from ..core.graph.contours import Contours
 
 
 class Knife:
     """The contours of an object's field, ready to be asked for; read once."""
 
-    def __init__(self, obj, model):
+    def __init__(self, obj: bpy.types.Object, model: Model) -> None:
         mesh = obj.data
         self.model = model
         self.edges = mesh_arrays.edge_ends(mesh)
         self.corner_edge, (_, self.corner_face) = mesh_arrays.corner_edges(mesh), mesh_arrays.face_corners(mesh)
         self.vertices = mesh_arrays.shown_points(obj).astype(np.float64)
 
-    def contour(self, target):
+    def contour(self, target: Target) -> tuple[Contours, int]:
         """The contour that a target asks for: all contours of its level in its part, and which one it is.
 
         Returns
@@ -36,12 +44,12 @@ class Knife:
                          self.corner_edge, self.corner_face, inside)
         return found, found.around(target.location) if target.on_graph else found.through(target.face)
 
-    def ring(self, target) -> np.ndarray:
+    def ring(self, target: Target) -> np.ndarray:
         """The lines of the contour, (s, 2, 3) float64 in coordinates of the mesh."""
         found, chosen = self.contour(target)
         return found.segments[found.label == chosen]
 
-    def sides(self, target, face_graph):
+    def sides(self, target: Target, face_graph: FaceGraph) -> np.ndarray | None:
         """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off.
 
         face_graph : core.surface.labels.FaceGraph
@@ -61,7 +69,7 @@ class Knife:
         return side
 
 
-def cut_at(context, obj, model, target) -> str:
+def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, target: Target) -> str:
     """Cut the part that a target lies in; what happened, in a sentence.
 
     Raises

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Show the parts' colours in the viewport that Decompose was pressed in."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+
+import bpy
 
 
 @dataclass
@@ -16,7 +20,7 @@ class ViewSettings:
 _before: dict[int, ViewSettings] = {}
 
 
-def show_colors(context):
+def show_colors(context: bpy.types.Context) -> None:
     """Colour the solid view by the active colour attribute, without lines from each node to its parent."""
     space = _solid_view(context)
     if space is None:
@@ -27,14 +31,14 @@ def show_colors(context):
     space.overlay.show_relationship_lines = False
 
 
-def show_pieces(context):
+def show_pieces(context: bpy.types.Context) -> None:
     """Colour the solid view by object, where it showed the parts: now these are objects."""
     space = _solid_view(context)
     if space is not None and space.as_pointer() in _before and space.shading.color_type == "VERTEX":
         space.shading.color_type = "OBJECT"
 
 
-def restore_colors(context):
+def restore_colors(context: bpy.types.Context) -> None:
     """Show the view as before ``show_colors``; what somebody has set since stays."""
     space = context.space_data
     if space is None or space.type != "VIEW_3D" or space.as_pointer() not in _before:
@@ -46,6 +50,6 @@ def restore_colors(context):
         space.overlay.show_relationship_lines = before.relationship_lines
 
 
-def _solid_view(context):
+def _solid_view(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
     space = context.space_data
     return space if space is not None and space.type == "VIEW_3D" and space.shading.type == "SOLID" else None

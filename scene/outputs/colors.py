@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import bpy
 import numpy as np
 
@@ -20,7 +22,7 @@ FEW = 0.01
 MANY = 200_000
 
 
-def add(obj):
+def add(obj: bpy.types.Object) -> None:
     """Make the colour attribute active, for the viewport and for rendering; remember what was."""
     mesh = obj.data
     result = mesh.reeb_parts
@@ -33,7 +35,7 @@ def add(obj):
     mesh.attributes.default_color_name = result.color_attribute
 
 
-def remove(obj):
+def remove(obj: bpy.types.Object) -> None:
     """Remove the colour attribute; what was active before is active again."""
     mesh = obj.data
     result = mesh.reeb_parts
@@ -48,7 +50,7 @@ def remove(obj):
     result.color_attribute = result.former_color = result.former_render_color = ""
 
 
-def write(mesh, numbers, colors, changed=None):
+def write(mesh: bpy.types.Mesh, numbers: np.ndarray, colors: np.ndarray, changed: np.ndarray | None = None) -> None:
     """Write the colours of parts into our colour attribute, if it is there.
 
     Parameters
@@ -71,7 +73,8 @@ def write(mesh, numbers, colors, changed=None):
         attribute.data.foreach_set("color_srgb", _spread(colors, numbers[face]))
 
 
-def _write_few(attribute, face, changed, shades):
+def _write_few(attribute: bpy.types.Attribute, face: np.ndarray, changed: np.ndarray | None,
+               shades: list[list[float]]) -> None:
     """Colour the corners of some faces one by one."""
     first, end = np.searchsorted(face, changed), np.searchsorted(face, changed, side="right")
     for low, high, shade in zip(first.tolist(), end.tolist(), shades, strict=True):
@@ -79,7 +82,7 @@ def _write_few(attribute, face, changed, shades):
             attribute.data[corner].color_srgb = shade
 
 
-def _write_many(mesh, attribute, numbers, colors) -> bool:
+def _write_many(mesh: bpy.types.Mesh, attribute: bpy.types.Attribute, numbers: np.ndarray, colors: np.ndarray) -> bool:
     """Colour faces, and let Blender make byte colours of the corners of that: three times as fast as to set them.
 
     Whether that was done: Blender's operator evaluates the scene, which modifiers make slow.
@@ -109,13 +112,13 @@ def _write_many(mesh, attribute, numbers, colors) -> bool:
     return done
 
 
-def _spread(colors, index) -> np.ndarray:
+def _spread(colors: np.ndarray, index: np.ndarray) -> np.ndarray:
     """The colours of an index, four values each, in a row, float32."""
     # A colour as one number of sixteen bytes is copied four times as fast as a row.
     whole = np.ascontiguousarray(colors, np.float32).view(np.complex128)[:, 0]
     return whole[index].view(np.float32)
 
 
-def linear(color) -> list:
+def linear(color: Iterable[float]) -> list:
     """sRGB, which lists and vertex colours use, as what objects and materials are coloured with."""
     return [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color]

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
@@ -12,7 +13,7 @@ NAME = ".sculpt_face_set"
 _KEPT = f"{PREFIX}_face_set"
 
 
-def add(obj):
+def add(obj: bpy.types.Object) -> None:
     """Put our face sets where the user's were; those are kept aside."""
     mesh = obj.data
     result = mesh.reeb_parts
@@ -26,7 +27,7 @@ def add(obj):
     result.has_face_sets = True
 
 
-def remove(obj):
+def remove(obj: bpy.types.Object) -> None:
     """Bring the user's face sets back, or none."""
     mesh = obj.data
     result = mesh.reeb_parts
@@ -38,7 +39,7 @@ def remove(obj):
     result.has_face_sets = result.had_face_sets = False
 
 
-def write(mesh, numbered: NumberedParts):
+def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the face sets up to date, if they are ours."""
     if mesh.reeb_parts.has_face_sets:
         mesh.attributes[NAME].data.foreach_set("value", numbered.face_numbers.astype(np.int32))

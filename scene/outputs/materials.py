@@ -14,7 +14,7 @@ _MATERIAL_INDEX = "material_index"
 _KEPT = f"{PREFIX}_material"
 
 
-def add(obj):
+def add(obj: bpy.types.Object) -> None:
     """Keep aside which material slot each face uses."""
     mesh = obj.data
     result = mesh.reeb_parts
@@ -24,7 +24,7 @@ def add(obj):
         result.has_materials = True
 
 
-def remove(obj):
+def remove(obj: bpy.types.Object) -> None:
     """Remove our materials and their slots; each face uses the slot it used before."""
     mesh = obj.data
     result = mesh.reeb_parts
@@ -37,7 +37,7 @@ def remove(obj):
     result.has_materials = result.had_material_index = False
 
 
-def remove_one(mesh, material):
+def remove_one(mesh: bpy.types.Mesh, material: bpy.types.Material | None) -> None:
     """Remove the material that was made for a part, with its slot; None is none."""
     if material is None:
         return
@@ -53,7 +53,7 @@ def remove_one(mesh, material):
         bpy.data.materials.remove(material)
 
 
-def write(mesh, numbered: NumberedParts):
+def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Give each part a material and a slot, in the part's colour of the list, if the materials are ours."""
     if not mesh.reeb_parts.has_materials:
         return
@@ -70,7 +70,7 @@ def write(mesh, numbered: NumberedParts):
     mesh.polygons.foreach_set("material_index", slots[numbered.parts.labels])
 
 
-def _color_material(material, color):
+def _color_material(material: bpy.types.Material, color: list[float]) -> None:
     material.diffuse_color = (*color, 1.0)
     for node in material.node_tree.nodes:
         if node.type == "BSDF_PRINCIPLED":

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
@@ -12,7 +13,7 @@ from .kept_aside import PREFIX, bring_back, keep_aside, remove_attribute
 _KEPT = f"{PREFIX}_seam"
 
 
-def add(obj):
+def add(obj: bpy.types.Object) -> None:
     """Keep aside which seams the user has."""
     mesh = obj.data
     result = mesh.reeb_parts
@@ -22,7 +23,7 @@ def add(obj):
         result.has_seams = True
 
 
-def remove(obj):
+def remove(obj: bpy.types.Object) -> None:
     """Leave the user's seams alone again."""
     mesh = obj.data
     result = mesh.reeb_parts
@@ -33,12 +34,12 @@ def remove(obj):
     result.has_seams = result.had_seams = False
 
 
-def _seam_name(mesh):
+def _seam_name(mesh: bpy.types.Mesh) -> str | None:
     """The attribute that holds seams, None before there is one."""
     return next((name for name in (".uv_seam", "uv_seam") if name in mesh.attributes), None)
 
 
-def write(mesh, numbered: NumberedParts):
+def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the seams up to date, if we have added some."""
     if not mesh.reeb_parts.has_seams:
         return

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
@@ -88,7 +89,7 @@ class Grains:
 _grains: list[tuple[np.ndarray, np.ndarray, Grains]] = []  # the last, with what it was made of
 
 
-def grains(mesh, candidates: np.ndarray) -> Grains:
+def grains(mesh: bpy.types.Mesh, candidates: np.ndarray) -> Grains:
     """The grains of a mesh, kept for the next step of a drag. candidates : (p,) int64, of each face."""
     vertex, face = mesh_arrays.face_corners(mesh)
     if not _grains or _grains[0][0] is not vertex or _grains[0][1] is not candidates:
@@ -96,17 +97,17 @@ def grains(mesh, candidates: np.ndarray) -> Grains:
     return _grains[0][2]
 
 
-def forget():
+def forget() -> None:
     """Free what is kept in memory."""
     _grains.clear()
 
 
-def add(obj):
+def add(obj: bpy.types.Object) -> None:
     """Let there be groups from the next update on."""
     obj.data.reeb_parts.has_groups = True
 
 
-def write(obj, numbered: NumberedParts, before: np.ndarray | None = None):
+def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | None = None) -> None:
     """Make each part's group hold the part's vertices, if there are to be groups.
 
     before : (c,) int64, the candidates' numbers as they are written now, if that is known.
@@ -132,7 +133,7 @@ def write(obj, numbered: NumberedParts, before: np.ndarray | None = None):
         obj.vertex_groups.active_index = active
 
 
-def remove_one(obj, name):
+def remove_one(obj: bpy.types.Object, name: str) -> None:
     """Remove a group, if it is there; the active one stays active."""
     group = obj.vertex_groups.get(name) if name else None
     if group is None:
@@ -144,7 +145,7 @@ def remove_one(obj, name):
         obj.vertex_groups.active_index = obj.vertex_groups[kept].index
 
 
-def remove(obj):
+def remove(obj: bpy.types.Object) -> None:
     """Remove the vertex groups that were made, and no other."""
     result = obj.data.reeb_parts
     for part in result.parts:
@@ -153,7 +154,7 @@ def remove(obj):
     result.has_groups = False
 
 
-def rename(obj, part):
+def rename(obj: bpy.types.Object, part: bpy.types.PropertyGroup) -> None:
     """Give the part's vertex group the part's name, or the nearest that is free."""
     if part.group in obj.vertex_groups:
         group = obj.vertex_groups[part.group]

@@ -8,6 +8,9 @@ name that Blender gave it, so that nothing of the user's is touched, not even un
 
 from __future__ import annotations
 
+from typing import Any
+
+import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
@@ -22,7 +25,7 @@ OUTPUTS = {
 }  # fmt: skip
 
 
-def write_outputs(obj, numbered: NumberedParts, distances: np.ndarray, outputs):
+def write_outputs(obj: bpy.types.Object, numbered: NumberedParts, distances: np.ndarray, outputs: Any) -> None:
     """Write the chosen outputs, and take back what an earlier run wrote and this one does not want.
 
     Parameters
@@ -42,7 +45,7 @@ def write_outputs(obj, numbered: NumberedParts, distances: np.ndarray, outputs):
     update_outputs(obj, numbered)
 
 
-def update_outputs(obj, numbered: NumberedParts, before: np.ndarray | None = None):
+def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | None = None) -> None:
     """Bring the list and all that was written up to date with the parts.
 
     Parameters
@@ -68,14 +71,15 @@ def update_outputs(obj, numbered: NumberedParts, before: np.ndarray | None = Non
     mesh.update()
 
 
-def update_colors(mesh, numbered: NumberedParts):
+def update_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the colour attribute and the materials up to date with the colours of the list, which stays."""
     colors.write(mesh, numbered.face_numbers, store.number_colors(mesh))
     materials.write(mesh, numbered)
     mesh.update()
 
 
-def _recolored(numbered, before, old, new):
+def _recolored(numbered: NumberedParts, before: np.ndarray | None, old: np.ndarray,
+               new: np.ndarray) -> np.ndarray | None:
     """The faces whose colour changes, None if that is not known."""
     if before is None:
         return None
@@ -86,14 +90,14 @@ def _recolored(numbered, before, old, new):
     return np.flatnonzero(changed[numbered.candidates])
 
 
-def remove_outputs(obj):
+def remove_outputs(obj: bpy.types.Object) -> None:
     """Take back all that was written to the mesh; the result itself stays."""
     for output in OUTPUTS.values():
         output.remove(obj)
     obj.data.update()
 
 
-def _list_parts(mesh, numbered) -> list:
+def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
     """Fill the list of parts; what is known of a number stays.
 
     Returns the vertex group and the material of each part that was in the list and is gone.
@@ -119,12 +123,12 @@ def _list_parts(mesh, numbered) -> list:
     return [values[:2] for number, values in known.items() if number not in wanted]
 
 
-def palette_colors(mesh, numbered: NumberedParts) -> np.ndarray:
+def palette_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
     """The colour of each part from the mesh's palette, (count, 3) float64 sRGB."""
     return numbered.colors(PALETTES.get(mesh.reeb_parts.palette, PALETTE))
 
 
-def _part_colors(mesh, numbered) -> np.ndarray:
+def _part_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
     """The colour of each part, (count, 3) float64 sRGB: somebody's choice, or from the palette."""
     shades = palette_colors(mesh, numbered)
     for number, color in store.kept_colors(mesh).items():

@@ -64,8 +64,9 @@ def violations(allowed) -> list[str]:
 
 def test_imports_are_resolved():
     path = Path("scene/outputs/x.py")
-    tree = ast.parse("from ...core.errors import ReebError\ndef f():\n    from .. import store\n    from .write import x\n"
-                     "import bpy.types\nfrom numpy.linalg import norm\nfrom . import colors, update_outputs")
+    tree = ast.parse("from ...core.errors import ReebError\ndef f():\n    from .. import store\n"
+                     "    from .write import x\nimport bpy.types\nfrom numpy.linalg import norm\n"
+                     "from . import colors, update_outputs")
     assert imported(path, tree) == {
         ("core", "errors"), ("scene", "store"), ("scene", "outputs", "write"), ("bpy", "types"), ("numpy", "linalg"),
         ("scene", "outputs", "colors"), ("scene", "outputs"),

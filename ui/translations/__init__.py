@@ -7,6 +7,8 @@ stay as they are; they may change places.
 tests/blender/test_translations.py lists what a language still lacks and what it no longer needs.
 """
 
+from __future__ import annotations
+
 import bpy
 
 from ... import __package__ as base_package
@@ -25,9 +27,9 @@ def dictionary() -> dict:
     }
 
 
-def register():
+def register() -> None:
     bpy.app.translations.register(base_package, dictionary())
 
 
-def unregister():
+def unregister() -> None:
     bpy.app.translations.unregister(base_package)
