@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-_handles = []
+_handles: list[object] = []
 
 
 def register() -> None:

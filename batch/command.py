@@ -46,7 +46,7 @@ def main(arguments: list[str]) -> int:
     try:
         options = parser().parse_args(arguments)
     except SystemExit as end:  # argparse has said why, or has shown the help
-        return end.code or 0
+        return int(end.code or 0)
     with _standard_output() as answer:
         try:
             result = run(options)
@@ -197,7 +197,7 @@ def write_files(options: argparse.Namespace, objects: list[bpy.types.Object], re
     """Write what is asked for; returns the JSON with what was written."""
     from ..core.uses.report import document
 
-    written = {}
+    written: dict[str, str | list[str]] = {}
     if options.parts:
         options.parts.mkdir(parents=True, exist_ok=True)
         written["parts"] = [str(path) for obj in objects

@@ -33,7 +33,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    if jobs.current is not None:
-        jobs.current.cancel()
+    jobs.cancel()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -199,7 +199,7 @@ class REEB_PARTS_OT_cancel(bpy.types.Operator):
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        jobs.current.cancel()
+        jobs.cancel()
         return {"FINISHED"}
 
 

@@ -13,12 +13,13 @@ from ..scene.store import Stored
 
 
 class PartOperator:
-    """For operators on the parts of the active object: poll, errors, Object Mode.
-
-    A class that inherits gives ``work(context, obj, stored)``, which returns what to tell the user, or nothing.
-    """
+    """For operators on the parts of the active object: poll, errors, Object Mode."""
 
     bl_options = {"REGISTER", "UNDO"}
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
+        """Do what the operator is for; returns what to tell the user. Raises SceneError."""
+        raise NotImplementedError
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

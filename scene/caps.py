@@ -50,14 +50,14 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, jo
         bm.edges.ensure_lookup_table()
         edges = [edge for i in np.flatnonzero(opened).tolist() if (edge := bm.edges[i]).is_boundary]
         bm.verts.ensure_lookup_table()
-        meeting = {bm.verts[i] for i in np.flatnonzero(meeting).tolist()}
-        joined = _both_ways((bm.verts[a], bm.verts[b]) for a, b in joined.tolist())
+        meets = {bm.verts[i] for i in np.flatnonzero(meeting).tolist()}
+        pairs = _both_ways((bm.verts[a], bm.verts[b]) for a, b in joined.tolist())
         holes, left = _holes(edges)
         if not holes:
             return 0, left
         layer = bm.faces.layers.int.get(CAP) or bm.faces.layers.int.new(CAP)
-        sheets = [sheet for hole in holes for sheet in _sheets(bm, hole, meeting, set(edges))]
-        made = [face for sheet in sheets for face in _fill(bm, sheet, joined)]
+        sheets = [sheet for hole in holes for sheet in _sheets(bm, hole, meets, set(edges))]
+        made = [face for sheet in sheets for face in _fill(bm, sheet, pairs)]
         for face in made:
             face[layer] = 1
         bm.to_mesh(mesh)
@@ -68,7 +68,7 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, jo
 
 def _both_ways(pairs: Iterable[tuple[BMVert, BMVert]]) -> Pairs:
     """What each is paired with."""
-    found = {}
+    found: Pairs = {}
     for a, b in pairs:
         found.setdefault(a, set()).add(b)
         found.setdefault(b, set()).add(a)
@@ -120,7 +120,9 @@ def _next_border(loop: BMLoop, vertex: BMVert) -> BMLoop | None:
 
 def _simple(vertices: list[BMVert]) -> list[list[BMVert]]:
     """Take a closed walk apart into closed walks that meet no vertex twice."""
-    walks, path, place = [], [], {}
+    walks: list[list[BMVert]] = []
+    path: list[BMVert] = []
+    place: dict[BMVert, int] = {}
     for vertex in vertices:
         if vertex in place:
             at = place[vertex]
@@ -173,7 +175,7 @@ def _many_sheets(bm: BMesh, stretches: list[list[BMVert]]) -> list[list[BMVert]]
 
 def _half_way(bm: BMesh, stretch: list[BMVert]) -> BMVert:
     """A new vertex half way between the ends of a stretch, so that no second edge joins the ends."""
-    return _between(bm, (stretch[0], stretch[-1]), (0.5, 0.5))
+    return _between(bm, (stretch[0], stretch[-1]), np.array([0.5, 0.5]))
 
 
 def _is_straight(stretch: list[BMVert]) -> bool:
@@ -197,10 +199,10 @@ def _fill(bm: BMesh, hole: list[BMVert], joined: Pairs) -> list[BMFace]:
     corners = {vertex: _border_corner(vertex, beside) for vertex in hole}
     points = np.array([vertex.co[:] for vertex in hole], np.float64)
     if _is_flat(points) and bm.faces.get(hole) is None:
-        polygons = [hole]
+        polygons = [tuple(hole)]
     else:
-        polygons = None if _is_star(points) else _triangles(hole, points, joined)
-        polygons = polygons or _fan(bm, hole)
+        triangles = None if _is_star(points) else _triangles(hole, points, joined)
+        polygons = triangles or _fan(bm, hole)
     faces = [bm.faces.new(polygon) for polygon in polygons]
     for face in faces:
         face.material_index = beside.face.material_index
@@ -293,16 +295,15 @@ def _fan(bm: BMesh, hole: list[BMVert]) -> list[tuple[BMVert, ...]]:
     return [(a, b, middle) for a, b in zip(hole, [*hole[1:], hole[0]], strict=True)]
 
 
-def _between(bm: BMesh, vertices: Sequence[BMVert], share: Sequence[float]) -> BMVert:
-    """A new vertex that is what others are on average."""
-    share = np.asarray(share)
+def _between(bm: BMesh, vertices: Sequence[BMVert], share: np.ndarray) -> BMVert:
+    """A new vertex that is what others are on average. share : (k,) float64, of each of them, 1 together."""
     middle = bm.verts.new()
     middle.copy_from_vert_interp([vertices[0], vertices[len(vertices) // 2]], 0.5)
     middle.co = share @ np.array([vertex.co[:] for vertex in vertices])
     for layer in bm.verts.layers.shape.values():
         middle[layer] = share @ np.array([vertex[layer][:] for vertex in vertices])
     if deform := bm.verts.layers.deform.active:
-        sums = {}
+        sums: dict[int, float] = {}
         for vertex, part in zip(vertices, share.tolist(), strict=True):
             for group, value in vertex[deform].items():
                 sums[group] = sums.get(group, 0.0) + part * value

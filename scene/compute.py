@@ -48,10 +48,10 @@ def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
     """
     outcomes = []
     for index, (name, shape) in enumerate(shapes):
-        of = (name,) if len(shapes) > 1 else ()
+        told = (name,) if len(shapes) > 1 else ()
 
-        def step(stage: str, share: float, index: int = index, of: str = of) -> None:
-            progress(stage, (index + share) / len(shapes), *of)
+        def step(stage: str, share: float, index: int = index, told: tuple[str, ...] = told) -> None:
+            progress(stage, (index + share) / len(shapes), *told)
 
         try:
             result = decomposition(shape, parameters, step)

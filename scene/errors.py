@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import importlib
 from types import ModuleType
+from typing import Any
 
 from bpy.app.translations import pgettext_rpt as rpt_
 
@@ -18,7 +19,7 @@ def translated(words: str | Exception) -> str:
 
     What is in that language already, like a SceneError, stays as it is.
     """
-    sentence = words.args[0] if isinstance(words, Exception) else words
+    sentence: Any = words.args[0] if isinstance(words, Exception) else words
     # By what it has, not by its type: Blender may have loaded the extension anew in the meantime.
     if not hasattr(sentence, "message"):
         return str(sentence)

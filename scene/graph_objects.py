@@ -127,8 +127,8 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
 
 def restyle(obj: bpy.types.Object | None, style: Any) -> None:
     """Draw an object's graph in another size or thickness."""
-    collection = find(obj) if obj else None
-    if collection is None:
+    collection = find(obj) if obj is not None else None
+    if obj is None or collection is None:
         return
     corners = np.array([corner[:] for corner in obj.bound_box])
     size = style.node_size * float(np.linalg.norm(np.ptp(corners, axis=0)))
@@ -177,6 +177,7 @@ def source_of_arcs(item: bpy.types.Object | None) -> bpy.types.Object | None:
 
 def select_nodes(obj: bpy.types.Object, numbers: Container[int]) -> None:
     """Select the nodes of some parts, and no other node."""
-    for item in find(obj).objects:
+    collection = find(obj)
+    for item in collection.objects if collection else ():
         if item.get(ROLE) == "node":
             item.select_set(item["part"] in numbers)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from typing import Any
 
 from bpy.app.translations import pgettext_rpt as rpt_
 
@@ -33,7 +34,8 @@ class Job:
 
     def __init__(self, work: Callable[[Callable[..., None]], object]) -> None:
         self.stage, self.of, self.share = "", "", 0.0
-        self.result = self.error = None
+        self.result: Any = None
+        self.error: BaseException | None = None
         self._cancelled_error = load_core().Cancelled
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, args=(work,), name="Reeb Parts", daemon=True)
@@ -73,3 +75,9 @@ class Job:
 
 # The job that the window shows, if any.
 current: Job | None = None
+
+
+def cancel() -> None:
+    """Ask the job that the window shows to stop, if there is one."""
+    if current is not None:
+        current.cancel()

@@ -24,6 +24,7 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
         Has the values of OutputProperties and OverlayProperties.
     """
     mesh, decomposition = obj.data, outcome.decomposition
+    assert decomposition is not None
     parameters = decomposition.parameters
     stored = store.succeed(mesh, decomposition)
     numbered = stored.shown_parts()

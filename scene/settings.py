@@ -101,7 +101,7 @@ class OutputProperties:
 OUTPUTS = tuple(OutputProperties.__annotations__)
 
 
-def _redraw_graph(self, context: bpy.types.Context) -> None:
+def _redraw_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     if not store.is_quiet():
         graph_objects.restyle(context.object, self)
 
@@ -168,17 +168,17 @@ class SeparateProperties(WhichProperties):
 PRESET_ITEMS = [(name, name, "") for name in PRESETS]
 
 
-def _use_preset(self, context: bpy.types.Context) -> None:
+def _use_preset(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     if self.preset != "CUSTOM":
         self.use_parameters(PRESETS[self.preset])
 
 
-def _repaint(self, context: bpy.types.Context) -> None:
+def _repaint(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     if context.object is not None and context.object.type == "MESH":
         reactions.use_palette(context.object.data, self.palette, context)
 
 
-def _show_graph(self, context: bpy.types.Context) -> None:
+def _show_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     if context.object is not None and context.object.type == "MESH":
         reactions.show_graph(context.object, self.graph, context)
 

@@ -23,7 +23,7 @@ from . import mesh_arrays
 from .errors import SceneError, load_core, translated
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
-_read: dict[bytes, object] = {}
+_read: dict[bytes, Decomposition] = {}
 _KEEP = 4
 
 # Set while properties are written that would otherwise act as if the user had changed them.
@@ -59,7 +59,7 @@ class Stored:
         this order, as int32.
     """
 
-    decomposition: object
+    decomposition: Decomposition
     previous_number: np.ndarray
     pinned: np.ndarray
     shown: np.ndarray

@@ -22,7 +22,7 @@ def chosen_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
     active = context.view_layer.objects.active
     check_object(active)
     chosen = [active, *(o for o in context.view_layer.objects.selected if o.type == "MESH" and o != active)]
-    first = {}
+    first: dict[bpy.types.Mesh, bpy.types.Object] = {}
     for obj in chosen:
         first.setdefault(obj.data, obj)
     return list(first.values())

@@ -37,7 +37,7 @@ def draw_part_menu(layout: bpy.types.UILayout) -> None:
     layout.operator("reeb_parts.to_nodes", icon="EMPTY_AXIS")
 
 
-def _draw_list_menu(self, context: bpy.types.Context) -> None:
+def _draw_list_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     """Under what Blender itself offers for an entry of a list."""
     ui_list = getattr(context, "ui_list", None)
     if ui_list is not None and ui_list.bl_idname == "REEB_PARTS_UL_parts":
@@ -87,7 +87,7 @@ PLACES = (
 CLASSES = (REEB_PARTS_MT_parts, REEB_PARTS_MT_main)
 
 
-def _draw(self, context: bpy.types.Context) -> None:
+def _draw(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     self.layout.separator()
     self.layout.menu("REEB_PARTS_MT_main")
 

@@ -25,7 +25,7 @@ _DARK, _LIGHT = (0.05, 0.05, 0.05, 1.0), (0.9, 0.9, 0.9, 1.0)  # of the rim, aro
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722, 0.0])
 
 _handle = None
-_lines = {}  # of each graph, with what they were built of
+_lines: dict[int, tuple] = {}  # of each graph, with what they were built of
 
 
 def _corners(count: int, start: float) -> np.ndarray:

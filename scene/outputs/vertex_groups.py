@@ -74,7 +74,7 @@ class Grains:
         moved = np.flatnonzero(before != after).tolist()
         found = []
         for numbers, mine, others in ((after, new, old), (before, old, new)):
-            lists = {}
+            lists: dict[int, list[np.ndarray]] = {}
             for index in moved:
                 inside = self.inner[self.bounds[index] : self.bounds[index + 1]]
                 lists.setdefault(int(numbers[index]), []).append(inside)
@@ -83,7 +83,8 @@ class Grains:
             for first, vertices in zip(number[start].tolist(), np.split(there, start)[1:], strict=True):
                 lists.setdefault(first, []).append(vertices)
             found.append({number: np.concatenate(there) for number, there in lists.items() if number > 0})
-        return tuple(found)
+        come, gone = found
+        return come, gone
 
 
 _grains: list[tuple[np.ndarray, np.ndarray, Grains]] = []  # the last, with what it was made of
