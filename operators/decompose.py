@@ -6,12 +6,12 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
 from ..core.parameters import Parameters
-from ..scene import bridge, defaults, jobs, targets
+from ..scene import bridge, defaults, jobs, redraw, targets
 from ..scene.bridge import Shape
 from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
-from ..scene.results import write_result
+from ..scene.results import check_unchanged, write_result
 from ..scene.settings import (
     OUTPUTS,
     OVERLAY,
@@ -148,24 +148,13 @@ class REEB_PARTS_OT_decompose(
         if error is not None:
             raise error
         try:
-            self._check_unchanged()
+            check_unchanged(self._digests)
         except SceneError as problem:
             self.report({"ERROR"}, str(problem))
             return {"CANCELLED"}
         if self.colors:
             shading.show_colors(context)
         return self._write(context, self._job.result)
-
-    def _check_unchanged(self) -> None:
-        """Raise SceneError if an object was edited while it was being computed."""
-        for name, digest in self._digests.items():
-            obj = bpy.data.objects.get(name)
-            if obj is None or obj.type != "MESH":
-                raise SceneError(rpt_("{name} is gone; its parts were computed in vain.").format(name=name))
-            targets.check_object(obj)
-            if bridge.read_shape(obj).digest != digest:
-                raise SceneError(
-                    rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=name))
 
     def _show_progress(self, context: bpy.types.Context) -> None:
         text = rpt_("Reeb Parts: {stage} ({share:.0%})    Esc: cancel").format(
@@ -174,14 +163,14 @@ class REEB_PARTS_OT_decompose(
             self._shown = text
             context.window_manager.progress_update(round(100 * self._job.share))
             context.workspace.status_text_set(text)
-            _redraw_sidebars(context)
+            redraw.sidebars()
 
     def _stop_watching(self, context: bpy.types.Context) -> None:
         jobs.current = None
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)
-        _redraw_sidebars(context)
+        redraw.sidebars()
 
 
 class REEB_PARTS_OT_cancel(bpy.types.Operator):
@@ -201,15 +190,6 @@ class REEB_PARTS_OT_cancel(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         jobs.cancel()
         return {"FINISHED"}
-
-
-def _redraw_sidebars(context: bpy.types.Context) -> None:
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                for region in area.regions:
-                    if region.type == "UI":
-                        region.tag_redraw()
 
 
 CLASSES = (REEB_PARTS_OT_decompose, REEB_PARTS_OT_cancel)

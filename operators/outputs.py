@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import outputs, reactions, store
+from ..scene import outputs, store, targets
 from ..scene.outputs import face_sets, materials, seams
 from ..scene.store import Stored
 from .parts import PartOperator
@@ -25,7 +25,7 @@ class OutputOperator(PartOperator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         output, done, undone = self.output
-        obj = reactions.users(obj.data)[0]
+        obj = targets.users(obj.data)[0]
         with store.quiet():
             (output.remove if self.remove else output.add)(obj)
             if not self.remove:

@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import store
+from ..scene import redraw, store
 from ..scene.part_list import choose, toggle
 from ..scene.store import Stored
 from ..viewport import pointing
@@ -45,8 +45,7 @@ class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):
         obj = context.view_layer.objects.active
         self.location, self.extend = obj.matrix_world @ Vector(target.location), event.shift
         self._choose(obj, self.model.number(target), event.shift)
-        for area in context.screen.areas:
-            area.tag_redraw()
+        redraw.viewports()
 
     def give_up(self, context: bpy.types.Context) -> set[str]:
         # What was chosen is chosen, and can be undone.

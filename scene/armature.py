@@ -11,7 +11,7 @@ from mathutils import Matrix, Vector
 
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts
-from . import bridge, mesh_arrays, outputs, piece_objects, reactions, store
+from . import bridge, mesh_arrays, outputs, piece_objects, store, targets
 from .selection import nothing_selected
 from .store import Stored
 
@@ -103,7 +103,7 @@ def _write_groups(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     if not result.has_groups:
         result.has_groups = True
         with store.quiet():
-            outputs.update_outputs(reactions.users(obj.data)[0], numbered)
+            outputs.update_outputs(targets.users(obj.data)[0], numbered)
 
 
 def _remove_earlier(collection: bpy.types.Collection) -> None:

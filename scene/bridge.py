@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.sentence import Sentence
 from ..core.surface.labels import FaceGraph
-from . import mesh_arrays
+from . import mesh_arrays, targets
 from .mesh_arrays import edge_ends, face_means, face_pairs, shown_points
 
 
@@ -113,10 +113,6 @@ def _notes(obj: bpy.types.Object) -> tuple[Sentence, ...]:
     elif count:
         notes.append(Sentence("{name} was decomposed as it is before its {n} modifiers were applied.",
                               name=obj.name, n=count))
-    if obj.data.users > 1 and (users := _users(obj.data)) > 1:
+    if obj.data.users > 1 and (users := len(targets.users(obj.data))) > 1:
         notes.append(Sentence("{n} objects share this mesh; all of them show its parts.", n=users))
     return tuple(notes)
-
-
-def _users(mesh: bpy.types.Mesh) -> int:
-    return sum(obj.data == mesh for obj in bpy.data.objects)

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 
 import bpy
 
-from . import outputs, reactions, store
+from . import outputs, store, targets
 from .errors import SceneError
 from .outputs import face_attribute
 
@@ -77,7 +77,7 @@ def _face_attribute(obj: bpy.types.Object) -> str:
             return ""
         with store.quiet():
             face_attribute.add(obj)
-            outputs.update_outputs(reactions.users(obj.data)[0], numbered, numbered.candidate_numbers)
+            outputs.update_outputs(targets.users(obj.data)[0], numbered, numbered.candidate_numbers)
     return result.face_attribute
 
 

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ..core.result.numbering import NumberedParts
-from . import graph_objects, outputs, store
+from . import graph_objects, outputs, store, targets
 from .errors import SceneError
 from .modes import object_mode
 from .outputs import vertex_groups
@@ -42,7 +42,7 @@ def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     with store.quiet():
         if not part.name.strip():
             part.name = store.part_name(mesh, part.number)
-        for obj in users(mesh)[:1]:
+        for obj in targets.users(mesh)[:1]:
             vertex_groups.rename(obj, part)
         store.keep_name(mesh, part.number, part.name)
 
@@ -88,7 +88,7 @@ def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
         store.keep_color(mesh, part.number, part.color[:] if chosen else None)
         # The list stays as it is: somebody has a hand on one of its colours.
         outputs.update_colors(mesh, numbered)
-        for obj in users(mesh):
+        for obj in targets.users(mesh):
             graph_objects.update_parts(obj, numbered)
 
     _with_result(mesh, context, keep)
@@ -114,18 +114,13 @@ def refresh(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, nu
     """Write other parts of the same decomposition: outputs, list and graphs."""
     before = stored.shown
     stored = stored.showing(numbered)
-    objects = users(mesh)
+    objects = targets.users(mesh)
     with store.quiet():
         store.save_numbers(mesh, stored)
         outputs.update_outputs(objects[0], numbered, before)
     store.mark_pins(mesh, stored)
     for obj in objects:
         graph_objects.update_parts(obj, numbered)
-
-
-def users(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:
-    """The objects of a mesh; vertex groups can be written through any of them."""
-    return [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data == mesh]
 
 
 def show(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:

@@ -1,14 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result of a run, written to its object; and everything that was made of it, removed."""
+"""The result of a run: whether it still fits its object, written to the object, and removed from it."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import armature, explode, graph_objects, notes, outputs, reactions, store, uv_map
+from . import armature, bridge, explode, graph_objects, notes, outputs, store, targets, uv_map
 from .compute import Outcome
+from .errors import SceneError
+
+
+def check_unchanged(digests: dict[str, str]) -> None:
+    """Raise SceneError if an object is gone or was edited while it was being computed.
+
+    digests : the digest of the shape that was computed, by the name of its object.
+    """
+    for name, digest in digests.items():
+        obj = bpy.data.objects.get(name)
+        if obj is None or obj.type != "MESH":
+            raise SceneError(rpt_("{name} is gone; its parts were computed in vain.").format(name=name))
+        targets.check_object(obj)
+        if bridge.read_shape(obj).digest != digest:
+            raise SceneError(
+                rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=name))
 
 
 def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> None:
@@ -47,7 +64,7 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
 
 def clear(obj: bpy.types.Object) -> None:
     """Remove parts, graph and stored result of an object; Object Mode."""
-    for user in reactions.users(obj.data):
+    for user in targets.users(obj.data):
         explode.forget(user)
         armature.remove_modifier(user)
     uv_map.remove(obj.data)

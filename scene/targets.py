@@ -62,3 +62,8 @@ def _kind(obj: bpy.types.Object) -> str:
     local = iface_(word, prop.translation_context)
     # Other languages may write nouns with a capital.
     return word.lower() if local == word else local
+
+
+def users(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:
+    """The objects of a mesh; vertex groups can be written through any of them."""
+    return [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data == mesh]

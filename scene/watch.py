@@ -11,7 +11,7 @@ import time
 import bpy
 from bpy.app.handlers import persistent
 
-from . import mesh_arrays, store
+from . import mesh_arrays, redraw, store
 
 REST = 0.3  # seconds
 
@@ -25,15 +25,7 @@ def check(mesh: bpy.types.Mesh) -> None:
     edited = mesh_arrays.fingerprint(mesh) != result.fingerprint
     if result.edited != edited:
         result.edited = edited
-        _redraw()
-
-
-def _redraw() -> None:
-    """So that panels say it without waiting for the pointer."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+        redraw.viewports()
 
 
 @persistent

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import bpy
 import numpy as np
 
-from .. import mesh_arrays
+from .. import mesh_arrays, targets
 from .kept_aside import add_attribute, remove_attribute
 
 NAME = "Reeb Parts"
@@ -87,7 +87,7 @@ def _write_many(mesh: bpy.types.Mesh, attribute: bpy.types.Attribute, numbers: n
 
     Whether that was done: Blender's operator evaluates the scene, which modifiers make slow.
     """
-    users = [obj for obj in bpy.data.objects if obj.data == mesh]
+    users = targets.users(mesh)
     if not users or any(obj.modifiers for obj in users):
         return False
     name, chosen = attribute.name, (mesh.attributes.active_color_name, mesh.attributes.default_color_name)

@@ -12,7 +12,7 @@ import pytest
 import shapes
 from snapshot import activate, changes, check_undo, snapshot
 
-SPOT = Path(__file__).resolve().parents[2] / "models" / "spot.obj"
+SPOT = Path(__file__).resolve().parents[3] / "models" / "spot.obj"
 KEEP = {"hide": False, "center": False}
 WIDTH = {"FLOAT_VECTOR": ("vector", 3), "FLOAT2": ("vector", 2), "FLOAT_COLOR": ("color", 4),
          "BYTE_COLOR": ("color", 4), "INT32_2D": ("value", 2), "INT16_2D": ("value", 2)}  # fmt: skip
