@@ -4,7 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import edits, part_list, store
+from ..scene import edits, part_list, part_names, store
 from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
 from ..scene.store import Stored
@@ -25,7 +25,7 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
         into = active if active in numbers else numbers[0]
         edits.merge(context, obj.data, stored, numbers, into)
         part_list.unmark_all(obj.data)
-        return rpt_("{n} parts are {name} now").format(n=len(numbers), name=store.part_name(obj.data, into))
+        return rpt_("{n} parts are {name} now").format(n=len(numbers), name=part_names.part_name(obj.data, into))
 
 
 class ChosenPartsOperator(PartOperator):
@@ -86,7 +86,7 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
         number = edits.free_number(mesh, stored) if self.new else part_list.active_number(mesh)
         count = edits.assign_selected(context, obj, stored, number)
         part_list.make_active(mesh, number)
-        return rpt_("{n} faces are {name} now").format(n=count, name=store.part_name(mesh, number))
+        return rpt_("{n} faces are {name} now").format(n=count, name=part_names.part_name(mesh, number))
 
 
 class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):

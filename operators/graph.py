@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits, graph_objects, store
+from ..scene import edits, graph_objects, part_names
 from ..scene.errors import SceneError
 from ..scene.graph_objects import part_of, source_of_arcs
 from ..scene.part_list import choose, chosen_numbers, has_parts
@@ -146,7 +146,7 @@ class REEB_PARTS_OT_split_at_node(bpy.types.Operator):
         # The node's part is the one to go on with.
         choose(mesh, [item["part"]])
         self.report({"INFO"}, rpt_("{new} was cut from {name}").format(
-            new=store.part_name(mesh, new), name=store.part_name(mesh, number)))
+            new=part_names.part_name(mesh, new), name=part_names.part_name(mesh, number)))
         return {"FINISHED"}
 
 

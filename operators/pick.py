@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import redraw, store
+from ..scene import part_names, redraw
 from ..scene.part_list import choose, toggle
 from ..scene.store import Stored
 from ..viewport import pointing
@@ -38,7 +38,7 @@ class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):
         text = self.hint()
         if target is not None:
             mesh = context.view_layer.objects.active.data
-            text = f"{store.part_name(mesh, self.model.number(target))}    {text}"
+            text = f"{part_names.part_name(mesh, self.model.number(target))}    {text}"
         context.workspace.status_text_set(text)
 
     def press(self, context: bpy.types.Context, target: Target, event: bpy.types.Event) -> None:

@@ -11,7 +11,7 @@ from mathutils import Matrix, Vector
 
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts
-from . import bridge, mesh_arrays, outputs, piece_objects, store, targets
+from . import bridge, mesh_arrays, outputs, part_names, piece_objects, store, targets
 from .selection import nothing_selected
 from .store import Stored
 
@@ -47,7 +47,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     """
     numbered = stored.shown_parts()
     place, bones = _bones(obj, stored.decomposition, numbered)
-    names = [store.part_name(obj.data, number) for number in numbered.numbers.tolist()]
+    names = [part_names.part_name(obj.data, number) for number in numbered.numbers.tolist()]
     _write_groups(obj, numbered)
     collection = piece_objects.make_collection(context, obj)
     _remove_earlier(collection)

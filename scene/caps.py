@@ -197,20 +197,23 @@ def _fill(bm: BMesh, hole: list[BMVert], joined: Pairs) -> list[BMFace]:
     """
     beside = _edge(hole[0], hole[1]).link_loops[0]
     corners = {vertex: _border_corner(vertex, beside) for vertex in hole}
-    points = np.array([vertex.co[:] for vertex in hole], np.float64)
-    if _is_flat(points) and bm.faces.get(hole) is None:
-        polygons = [tuple(hole)]
-    else:
-        triangles = None if _is_star(points) else _triangles(hole, points, joined)
-        polygons = triangles or _fan(bm, hole)
-    faces = [bm.faces.new(polygon) for polygon in polygons]
+    faces = [bm.faces.new(polygon) for polygon in _polygons(bm, hole, joined)]
+    layers = [*bm.loops.layers.color.values(), *bm.loops.layers.float_color.values()]
     for face in faces:
         face.material_index = beside.face.material_index
-        for layers in (bm.loops.layers.color, bm.loops.layers.float_color):
-            for layer in layers.values():
-                for loop in face.loops:
-                    loop[layer] = corners.get(loop.vert, beside)[layer]
+        for loop in face.loops:
+            for layer in layers:
+                loop[layer] = corners.get(loop.vert, beside)[layer]
     return faces
+
+
+def _polygons(bm: BMesh, hole: list[BMVert], joined: Pairs) -> list[tuple[BMVert, ...]]:
+    """The corners of the faces that fill a hole."""
+    points = np.array([vertex.co[:] for vertex in hole], np.float64)
+    if _is_flat(points) and bm.faces.get(hole) is None:
+        return [tuple(hole)]
+    triangles = None if _is_star(points) else _triangles(hole, points, joined)
+    return triangles or _fan(bm, hole)
 
 
 def _border_corner(vertex: BMVert, otherwise: BMLoop) -> BMLoop:

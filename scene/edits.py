@@ -19,7 +19,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.result.decomposition import Decomposition
 from ..core.surface.labels import FaceGraph
-from . import bridge, reactions, store
+from . import bridge, part_names, reactions, store
 from .errors import SceneError
 from .outputs import face_sets
 from .selection import selected_faces
@@ -62,7 +62,7 @@ def merge_into_neighbor(context: bpy.types.Context, mesh: bpy.types.Mesh, stored
     cuts = numbered.numbers[numbered.parts.cuts]
     own = (cuts == number).any(axis=1)
     if not own.any():
-        raise SceneError(rpt_("{name} touches no other part.").format(name=store.part_name(mesh, number)))
+        raise SceneError(rpt_("{name} touches no other part.").format(name=part_names.part_name(mesh, number)))
     order = np.lexsort((-numbered.parts.cut_length[own], numbered.parts.cut_salience[own]))
     first, second = cuts[own][order[0]].tolist()
     neighbor = first if second == number else second
@@ -109,7 +109,7 @@ def _split_off(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored,
     if side is None:
         raise SceneError(
             rpt_("No cut was found inside {name}. Select faces in Edit Mode and assign them to another "
-                 "part instead.").format(name=store.part_name(mesh, number))
+                 "part instead.").format(name=part_names.part_name(mesh, number))
         )
     new = free_number(mesh, stored)
     _show_pinned(context, mesh, stored, np.where(side, new, stored.shown), [number, new])
@@ -123,7 +123,7 @@ def grow(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbe
     taken = growth(stored.decomposition, stored.shown == number, _not_locked(mesh, stored, number))
     if taken is None:
         raise SceneError(rpt_("Nothing is left around {name} that is not locked.").format(
-            name=store.part_name(mesh, number)))
+            name=part_names.part_name(mesh, number)))
     _move(context, mesh, stored, taken, number)
 
 
@@ -133,7 +133,7 @@ def shrink(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, num
 
     step = shrinkage(stored.decomposition, stored.shown == number, _not_locked(mesh, stored, number))
     if step is None:
-        raise SceneError(rpt_("{name} cannot give away anything more.").format(name=store.part_name(mesh, number)))
+        raise SceneError(rpt_("{name} cannot give away anything more.").format(name=part_names.part_name(mesh, number)))
     given, receiver = step
     _move(context, mesh, stored, given, int(stored.shown[receiver]))
 

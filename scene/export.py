@@ -12,7 +12,7 @@ from pathlib import Path
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import store
+from . import part_names, store
 from .errors import SceneError
 from .part_meshes import part_meshes
 from .selection import nothing_selected
@@ -53,7 +53,7 @@ def export_parts(obj: bpy.types.Object, folder: Path, kind: str, numbers: Iterab
     """
     face_numbers = store.load(obj.data).face_numbers
     numbers = sorted(set(face_numbers.tolist()) if numbers is None else numbers)
-    names = [_file_name(f"{obj.name} {store.part_name(obj.data, number)}") for number in numbers]
+    names = [_file_name(f"{obj.name} {part_names.part_name(obj.data, number)}") for number in numbers]
     if len({name.lower() for name in names}) < len(names):
         raise SceneError(
             rpt_("Two parts have the same name; give them different ones to write them as files."))

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.graph.reeb import ReebGraph
 from ..core.result.numbering import NumberedParts
-from . import bridge, store
+from . import bridge, part_names, store
 from .outputs.colors import linear
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
@@ -118,7 +118,7 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     if collection is None:
         return
     numbers = numbered.numbers[numbered.parts.node_part].tolist()
-    colors = store.number_colors(obj.data)
+    colors = part_names.number_colors(obj.data)
     for item in collection.objects:
         if item.get(ROLE) == "node":
             item["part"] = numbers[item["node"]]

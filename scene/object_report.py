@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..core.uses.report import bounding_boxes, report
-from . import bridge, mesh_arrays, store
+from . import bridge, mesh_arrays, part_names, store
 
 
 def object_report(obj: bpy.types.Object, labels: np.ndarray = False) -> dict:
@@ -30,9 +30,9 @@ def object_report(obj: bpy.types.Object, labels: np.ndarray = False) -> dict:
     vertex, face = mesh_arrays.face_corners(mesh)
     points = mesh_arrays.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
     boxes = bounding_boxes(numbered.parts.labels[face], points[vertex], numbered.parts.count)
-    colors = store.number_colors(mesh)[numbered.numbers, :3].astype(np.float64)
+    colors = part_names.number_colors(mesh)[numbered.numbers, :3].astype(np.float64)
     parts = replace(numbered.parts, colors=np.round(colors, 6))
-    names = [store.part_name(mesh, number) for number in numbered.numbers.tolist()]
+    names = [part_names.part_name(mesh, number) for number in numbered.numbers.tolist()]
     result = report(stored.decomposition, parts, obj.name, numbers=numbered.numbers, names=names,
                     boxes=boxes, transform=from_result, labels=labels)
     result["notes"] = mesh.reeb_parts.notes.splitlines()

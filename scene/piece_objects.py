@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from . import explode, graph_objects, mesh_arrays, store
+from . import explode, graph_objects, mesh_arrays, part_names
 from .outputs.colors import linear
 from .part_meshes import part_meshes
 from .settings import SeparateProperties
@@ -75,7 +75,7 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
     colors = {part.number: part.color[:] for part in obj.data.reeb_parts.parts}
     made = []
     for number, mesh in meshes.items():
-        piece = _piece(obj, mesh, store.part_name(obj.data, number), style)
+        piece = _piece(obj, mesh, part_names.part_name(obj.data, number), style)
         piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER] = number
         collection.objects.link(piece)

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ..core.result.numbering import NumberedParts
-from . import graph_objects, outputs, store, targets
+from . import graph_objects, outputs, part_names, store, targets
 from .errors import SceneError
 from .modes import object_mode
 from .outputs import vertex_groups
@@ -41,10 +41,10 @@ def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     mesh = part.id_data
     with store.quiet():
         if not part.name.strip():
-            part.name = store.part_name(mesh, part.number)
+            part.name = part_names.part_name(mesh, part.number)
         for obj in targets.users(mesh)[:1]:
             vertex_groups.rename(obj, part)
-        store.keep_name(mesh, part.number, part.name)
+        part_names.keep_name(mesh, part.number, part.name)
 
 
 def show_graph(obj: bpy.types.Object, shown: bool, context: bpy.types.Context) -> None:
@@ -85,7 +85,7 @@ def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
         own = outputs.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
         # Blender's popup, when it is cancelled, sets the colour back.
         chosen = np.abs(own - part.color).max() > 0.5 / 255
-        store.keep_color(mesh, part.number, part.color[:] if chosen else None)
+        part_names.keep_color(mesh, part.number, part.color[:] if chosen else None)
         # The list stays as it is: somebody has a hand on one of its colours.
         outputs.update_colors(mesh, numbered)
         for obj in targets.users(mesh):

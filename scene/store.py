@@ -18,7 +18,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.result.decomposition import Decomposition
-from ..core.result.numbering import NumberedParts, Numbering, default_name, inherited, transfer
+from ..core.result.numbering import NumberedParts, Numbering, inherited, transfer
 from . import mesh_arrays
 from .errors import SceneError, load_core, translated
 
@@ -183,60 +183,6 @@ def _face_numbers(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
 def stretch_of(mesh: bpy.types.Mesh) -> np.ndarray:
     """What the object did to its mesh when it was decomposed, (3, 3) float64; see bridge.world_stretch."""
     return np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
-
-
-def part_name(mesh: bpy.types.Mesh, number: int) -> str:
-    """The name somebody gave to a number, or its own."""
-    entry = _kept(mesh, number)
-    return entry.name if entry is not None and entry.name else default_name(number)
-
-
-def keep_name(mesh: bpy.types.Mesh, number: int, name: str) -> None:
-    """Remember a name, also while its part is not shown."""
-    if entry := _keep(mesh, number, name != default_name(number)):
-        entry.name = "" if name == default_name(number) else name
-        _drop_empty(mesh)
-
-
-def keep_color(mesh: bpy.types.Mesh, number: int, color: tuple[float, float, float] | None) -> None:
-    """Remember a colour, also while its part is not shown. color : three values, sRGB; None for the palette's."""
-    if entry := _keep(mesh, number, color is not None):
-        entry.color, entry.has_color = color or (0.0, 0.0, 0.0), color is not None
-        _drop_empty(mesh)
-
-
-def kept_colors(mesh: bpy.types.Mesh) -> dict:
-    """The colours that somebody gave to parts, by number."""
-    return {entry.number: entry.color[:] for entry in mesh.reeb_parts.names if entry.has_color}
-
-
-def number_colors(mesh: bpy.types.Mesh) -> np.ndarray:
-    """The colour of each part of the list by its number, (largest number + 1, 4) float32, sRGB and alpha."""
-    parts = mesh.reeb_parts.parts
-    colors = np.ones((max((part.number for part in parts), default=0) + 1, 4), np.float32)
-    for part in parts:
-        colors[part.number, :3] = part.color
-    return colors
-
-
-def _kept(mesh: bpy.types.Mesh, number: int) -> bpy.types.PropertyGroup | None:
-    return next((entry for entry in mesh.reeb_parts.names if entry.number == number), None)
-
-
-def _keep(mesh: bpy.types.Mesh, number: int, make: bool) -> bpy.types.PropertyGroup | None:
-    """The entry of a number; made if it is not there and asked for."""
-    entry = _kept(mesh, number)
-    if entry is None and make:
-        entry = mesh.reeb_parts.names.add()
-        entry.number = number
-    return entry
-
-
-def _drop_empty(mesh: bpy.types.Mesh) -> None:
-    names = mesh.reeb_parts.names
-    for index in reversed(range(len(names))):
-        if not names[index].name and not names[index].has_color:
-            names.remove(index)
 
 
 def _decomposition(data: bytes) -> Decomposition:

@@ -9,7 +9,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
-from ..scene import graph_objects, jobs, notes, store
+from ..scene import graph_objects, jobs, notes, part_names, store
 
 
 def _result(context: bpy.types.Context) -> bpy.types.PropertyGroup | None:
@@ -74,7 +74,7 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
         found = graph_objects.part_of(context.object) if result is None else None
         if found is not None:
             source, number = found
-            text = iface_("{part} of {name}").format(part=store.part_name(source.data, number), name=source.name)
+            text = iface_("{part} of {name}").format(part=part_names.part_name(source.data, number), name=source.name)
             layout.label(text=text, icon="EMPTY_AXIS")
             layout.operator("reeb_parts.from_nodes")
             layout.operator("reeb_parts.split_at_node", icon="MOD_EDGESPLIT")

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import edits, mesh_arrays, store
+from ..scene import edits, mesh_arrays, part_names, store
 from ..scene.errors import SceneError
 from .pointing import Model
 
@@ -66,7 +66,7 @@ def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> st
         raise SceneError(rpt_("No faces were painted."))
     edits.assign_faces(context, obj, brush.model.stored, brush.numbers())
     joined = int((store.load(obj.data).face_numbers[moved] == brush.number).sum())
-    name = store.part_name(obj.data, brush.number)
+    name = part_names.part_name(obj.data, brush.number)
     if joined < moved.sum():
         text = rpt_("{n} of {total} faces are {name} now; the others do not touch it and are parts of their own")
         return text.format(n=joined, total=int(moved.sum()), name=name)

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import edits, store
+from ..scene import edits, part_names
 from ..scene.errors import SceneError
 from ..scene.outputs import colors
 from ..scene.part_list import active_number
@@ -37,7 +37,7 @@ class ColoredTool(ViewTool):
     def show(self, obj: bpy.types.Object, numbers: np.ndarray) -> None:
         """Colour the faces as if they were in other parts. numbers : (p,) int64."""
         changed = np.flatnonzero(numbers != self._shown)
-        colors.write(obj.data, numbers, store.number_colors(obj.data), changed)
+        colors.write(obj.data, numbers, part_names.number_colors(obj.data), changed)
         obj.data.update()
         self._shown = numbers
 

@@ -13,7 +13,7 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..scene import graph_objects, store
+from ..scene import graph_objects, part_names, store
 from ..scene.errors import SceneError
 from .graph_lines import GraphLines
 
@@ -163,7 +163,7 @@ def colored_arcs(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     else:
         stored = store.load(mesh)
     lines = GraphLines.of(stored.decomposition, store.stretch_of(mesh))
-    colors = store.number_colors(mesh)[stored.shown[lines.candidate]]
+    colors = part_names.number_colors(mesh)[stored.shown[lines.candidate]]
     ends = lines.segments
     middle = lines.position[ends].mean(axis=1)
     # Each half of a segment is in the part that its end is in.
@@ -175,7 +175,7 @@ def colored_arcs(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
 def _draw_nodes(context: bpy.types.Context, source: bpy.types.Object, nodes: list[bpy.types.Object]) -> None:
     region, view = context.region, context.region_data
     places = np.array([node.matrix_world.translation for node in nodes])
-    shown = store.number_colors(source.data)
+    shown = part_names.number_colors(source.data)
     colors = shown[np.clip([node["part"] for node in nodes], 0, len(shown) - 1)]
     matrix = np.array(view.view_matrix, np.float64)
     whole = np.array(view.perspective_matrix, np.float64)

@@ -10,7 +10,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.surface.labels import FaceGraph
-from ..scene import bridge, edits, mesh_arrays, part_list, store
+from ..scene import bridge, edits, mesh_arrays, part_list, part_names
 from ..scene.errors import SceneError
 from .pointing import Model, Target
 
@@ -78,7 +78,7 @@ def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, targ
         The part is locked, or nothing would be cut off.
     """
     number = model.number(target)
-    name = store.part_name(obj.data, number)
+    name = part_names.part_name(obj.data, number)
     edits.check_unlocked(obj.data, [number])
     graph = bridge.face_graph(obj)
     side = Knife(obj, model).sides(target, graph)
@@ -87,4 +87,4 @@ def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, targ
     new = edits.free_number(obj.data, model.stored)
     edits.assign_faces(context, obj, model.stored, np.where(side, new, model.numbers), graph)
     part_list.make_active(obj.data, new)
-    return rpt_("{new} was cut from {name}").format(new=store.part_name(obj.data, new), name=name)
+    return rpt_("{new} was cut from {name}").format(new=part_names.part_name(obj.data, new), name=name)

@@ -59,7 +59,7 @@ def write(mesh: bpy.types.Mesh, numbers: np.ndarray, colors: np.ndarray, changed
     numbers : (p,) int64
         The part of each face.
     colors : (count, 4) float32
-        By number, see store.number_colors.
+        By number, see part_names.number_colors.
     changed : (k,) int, optional
         The only faces that are coloured otherwise than before.
     """

@@ -15,7 +15,7 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import PALETTE, PALETTES
-from .. import store
+from .. import part_names, store
 from . import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
 
 #: The outputs by the names of their switches, see settings.OutputProperties.
@@ -57,9 +57,9 @@ def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.nd
         where writing is slow.
     """
     mesh = obj.data
-    old = store.number_colors(mesh)
+    old = part_names.number_colors(mesh)
     gone = _list_parts(mesh, numbered)
-    new = store.number_colors(mesh)
+    new = part_names.number_colors(mesh)
     # Colours first: what evaluates the scene there finds nothing else changed yet.
     colors.write(mesh, numbered.face_numbers, new, _recolored(numbered, before, old, new))
     for group, material in gone:
@@ -73,7 +73,7 @@ def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.nd
 
 def update_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the colour attribute and the materials up to date with the colours of the list, which stays."""
-    colors.write(mesh, numbered.face_numbers, store.number_colors(mesh))
+    colors.write(mesh, numbered.face_numbers, part_names.number_colors(mesh))
     materials.write(mesh, numbered)
     mesh.update()
 
@@ -113,7 +113,7 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
         for label, number in enumerate(wanted):
             part = result.parts.add()
             part.number = number
-            part.name = store.part_name(mesh, number)
+            part.name = part_names.part_name(mesh, number)
             part.color = shades[label]
             part.share = numbered.parts.share[label]
             for key, value in zip(keys, known.get(number, ()), strict=False):
@@ -131,6 +131,6 @@ def palette_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
 def _part_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
     """The colour of each part, (count, 3) float64 sRGB: somebody's choice, or from the palette."""
     shades = palette_colors(mesh, numbered)
-    for number, color in store.kept_colors(mesh).items():
+    for number, color in part_names.kept_colors(mesh).items():
         shades[numbered.numbers == number] = color
     return shades
