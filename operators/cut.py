@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cut a part where somebody points: along the contour of the field through a place of the graph or surface."""
+"""Cut a part where the user points: along the contour of the field through a place of the graph or surface."""
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_

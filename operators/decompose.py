@@ -128,7 +128,7 @@ class REEB_PARTS_OT_decompose(
             self._show_progress(context)
         if self._job.running and not self._job.cancelled:
             return {"PASS_THROUGH" if event.type != "ESC" else "RUNNING_MODAL"}
-        # A cancelled thread ends by itself at its next step, and nobody looks at what it leaves.
+        # A cancelled thread ends by itself at its next step, and what it returns is not used.
         self._stop_watching(context)
         if self._job.cancelled:
             self.report({"INFO"}, rpt_("Cancelled; nothing was changed"))

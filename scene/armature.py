@@ -31,7 +31,7 @@ def remove_modifier(obj: bpy.types.Object) -> None:
 
 
 def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, deform: bool) -> bpy.types.Object:
-    """Make an armature in place of an earlier one that nobody has worked on; Object Mode.
+    """Make an armature in place of an earlier one, unless the user has worked on that one; Object Mode.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def _add_bones(context: bpy.types.Context, rig: bpy.types.Object, bones: Bones, 
 
 
 def _looks(rig: bpy.types.Object) -> str:
-    """Differs once somebody has worked on the armature."""
+    """A text that differs once the user has worked on the armature."""
     bones = [(bone.name, bone.parent.name if bone.parent else "",
               [round(x, 5) for x in (*bone.head_local, *bone.tail_local)]) for bone in rig.data.bones]
     place = [round(value, 5) for row in rig.matrix_basis for value in row]

@@ -42,7 +42,7 @@ def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
     Parameters
     ----------
     shapes : list of (object name, Shape)
-    parameters : core.Parameters
+    parameters : Parameters
     progress : callable(stage, share, name of the object if there are several)
         What it raises ends everything.
     """
@@ -70,7 +70,7 @@ def decomposition(shape: Shape, parameters: Parameters,
 
     Raises
     ------
-    core.ReebError
+    ReebError
         The mesh cannot be decomposed, or ``progress`` cancelled.
     """
     core = load_core()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the preferences say, taken over by new scenes and by scripts.
 
-A scene takes it over once, when it is first seen, at the latest with its first object. What somebody sets
+A scene takes it over once, when it is first seen, at the latest with its first object. What the user sets
 in it later is the scene's own, and a file looks the same whatever the preferences are where it is opened.
 """
 
@@ -29,7 +29,7 @@ def adopt(scene: bpy.types.Scene) -> None:
     if scene.is_editable and not scene.reeb_parts.adopted:
         settings = scene.reeb_parts
         names = [name for name in (*OUTPUTS, *OVERLAY) if not settings.is_property_set(name)]
-        # In an empty scene somebody may have been faster.
+        # In an empty scene the user may have chosen a preset already.
         if not any(settings.is_property_set(name) for name in ("preset", *PARAMETERS)):
             names.append("preset")
         use(settings, names)

@@ -61,7 +61,7 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, graph: ReebGra
     ----------
     context : bpy.types.Context
     obj : bpy.types.Object
-    graph : core.ReebGraph
+    graph : ReebGraph
     stretch : (3, 3) float64
         What took the mesh's coordinates to the graph's; undone here.
     style

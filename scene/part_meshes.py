@@ -137,7 +137,7 @@ def _has_loose(mesh: bpy.types.Mesh) -> bool:
 
 
 def _custom_normals(mesh: bpy.types.Mesh) -> np.ndarray | None:
-    """The normal of each corner, (c, 3) float32, where somebody set them; None otherwise.
+    """The normal of each corner, (c, 3) float32, where the user has set them; None otherwise.
 
     Blender keeps them relative to the faces around the vertex, of which a cut takes some away.
     """

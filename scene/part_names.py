@@ -10,7 +10,7 @@ from ..core.result.numbering import default_name
 
 
 def part_name(mesh: bpy.types.Mesh, number: int) -> str:
-    """The name somebody gave to a number, or its own."""
+    """The name that the user gave to a part, or else its default name."""
     entry = _kept(mesh, number)
     return entry.name if entry is not None and entry.name else default_name(number)
 
@@ -30,7 +30,7 @@ def keep_color(mesh: bpy.types.Mesh, number: int, color: tuple[float, float, flo
 
 
 def kept_colors(mesh: bpy.types.Mesh) -> dict:
-    """The colours that somebody gave to parts, by number."""
+    """The colours that the user gave to parts, by number."""
     return {entry.number: entry.color[:] for entry in mesh.reeb_parts.names if entry.has_color}
 
 

@@ -49,8 +49,8 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
              style: SeparateProperties) -> tuple[list[bpy.types.Object], int, int]:
     """Make an object of each of some parts; Object Mode.
 
-    Pieces of these parts that an earlier run made are replaced. Such that somebody has edited, moved or
-    renamed are somebody's work: they stay, and are no longer ours.
+    Pieces that an earlier run made of these parts are replaced. A piece that the user has edited, moved or
+    renamed since stays, and belongs to the user from now on.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.ty
 
 
 def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
-    """Remove pieces of these parts unless somebody has worked on them; how many stay."""
+    """Remove pieces of these parts unless the user has worked on them; how many stay."""
     kept = 0
     for piece in piece_objects(obj):
         if piece[NUMBER] not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
@@ -115,7 +115,7 @@ def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
 
 
 def _looks(piece: bpy.types.Object) -> str:
-    """Differs once somebody has edited, moved or renamed the piece, or given it something."""
+    """A text that differs once the user has edited, moved or renamed the piece, or given it something."""
     place = [round(value, 6) for row in piece.matrix_basis for value in row]
     materials = [slot.material.name if slot.material else "" for slot in piece.material_slots]
     parent = piece.parent.name if piece.parent else ""

@@ -86,7 +86,7 @@ def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
         # Blender's popup, when it is cancelled, sets the colour back.
         chosen = np.abs(own - part.color).max() > 0.5 / 255
         part_names.keep_color(mesh, part.number, part.color[:] if chosen else None)
-        # The list stays as it is: somebody has a hand on one of its colours.
+        # The list is not filled anew: the user is just changing one of its colours.
         outputs.update_colors(mesh, numbered)
         for obj in targets.users(mesh):
             graph_objects.update_parts(obj, numbered)

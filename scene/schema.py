@@ -42,7 +42,7 @@ class ReebPart(bpy.types.PropertyGroup):
 
 
 class ReebName(bpy.types.PropertyGroup):
-    """A name or a colour that somebody gave to a part, kept while the part is not shown."""
+    """A name or a colour that the user gave to a part, kept while the part is not shown."""
 
     name: StringProperty(description="Empty: the part's own")
     number: IntProperty()

@@ -52,7 +52,7 @@ class Stored:
 
     Attributes
     ----------
-    decomposition : core.Decomposition
+    decomposition : Decomposition
         With c candidates.
     previous_number, pinned, shown : (c,) int64
         Numbers of parts, 0 for none; see core.result.numbering.Numbering.of for the first two. They are stored in

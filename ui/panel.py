@@ -27,10 +27,13 @@ class ReebPanel:
     bl_region_type = "UI"
     bl_category = "Reeb Parts"
 
-    def _column(self, context: bpy.types.Context) -> tuple[bpy.types.UILayout, bpy.types.PropertyGroup]:
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
-        return self.layout.column(), context.scene.reeb_parts
+
+def settings_column(panel: bpy.types.Panel, context: bpy.types.Context
+                    ) -> tuple[bpy.types.UILayout, bpy.types.PropertyGroup]:
+    """A column for properties with their names before them, and the settings of the scene."""
+    panel.layout.use_property_split = True
+    panel.layout.use_property_decorate = False
+    return panel.layout.column(), context.scene.reeb_parts
 
 
 class REEB_PARTS_UL_parts(bpy.types.UIList):
@@ -178,7 +181,7 @@ class REEB_PARTS_PT_field(ReebPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, settings = self._column(context)
+        column, settings = settings_column(self, context)
         column.prop(settings, "base_spacing")
         column.prop(settings, "equalise")
         column.prop(settings, "levels")
@@ -190,7 +193,7 @@ class REEB_PARTS_PT_graph(ReebPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, settings = self._column(context)
+        column, settings = settings_column(self, context)
         column.prop(settings, "method")
         column.prop(settings, "small_region")
         column.prop(settings, "loose_part")
@@ -202,7 +205,7 @@ class REEB_PARTS_PT_boundaries(ReebPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, settings = self._column(context)
+        column, settings = settings_column(self, context)
         column.prop(settings, "follow_level_sets")
         column.prop(settings, "alpha")
         column.prop(settings, "sigma")
@@ -215,7 +218,7 @@ class REEB_PARTS_PT_output(ReebPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, settings = self._column(context)
+        column, settings = settings_column(self, context)
         for name in ("vertex_groups", "face_attribute", "colors", "palette"):
             column.prop(settings, name)
         for name in ("face_sets", "materials", "seams", "field"):
@@ -228,7 +231,7 @@ class REEB_PARTS_PT_overlay(ReebPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, settings = self._column(context)
+        column, settings = settings_column(self, context)
         column.prop(settings, "graph", text="Show graph")
         column = column.column()
         column.enabled = settings.graph

@@ -8,7 +8,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
 from ..scene import piece_objects, store
-from .panel import ReebPanel
+from .panel import ReebPanel, settings_column
 
 
 class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
@@ -22,7 +22,7 @@ class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
         return obj is not None and obj.type == "MESH" and store.has_result(obj.data)
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, _ = self._column(context)
+        column, _ = settings_column(self, context)
         settings = context.scene.reeb_parts_use
         # Separate stands above its options, so that no one has to scroll for it in a small window.
         column.row().prop(settings, "which", expand=True)

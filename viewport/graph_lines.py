@@ -39,12 +39,10 @@ class GraphLines:
     def of(cls, decomposition: Decomposition, stretch: np.ndarray) -> GraphLines:
         """Lines of a decomposition's graph. stretch : (3, 3), of the mesh when it was decomposed."""
         graph = decomposition.graph
-        back = bridge.unstretch(stretch).T
-        ends = [np.concatenate([node, point]) @ back if node.ndim > 1 else np.concatenate([node, point])
-                for node, point in (
-                    (graph.node_position, graph.point_position), (graph.node_value, graph.point_value),
-                    (decomposition.node_candidate, decomposition.point_candidate))]
-        return cls(*ends, _segments(graph))
+        position = np.concatenate([graph.node_position, graph.point_position]) @ bridge.unstretch(stretch).T
+        value = np.concatenate([graph.node_value, graph.point_value])
+        candidate = np.concatenate([decomposition.node_candidate, decomposition.point_candidate])
+        return cls(position, value, candidate, _segments(graph))
 
 
 def _segments(graph: ReebGraph) -> np.ndarray:

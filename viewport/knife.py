@@ -33,7 +33,7 @@ class Knife:
 
         Returns
         -------
-        contours : core.contours.Contours
+        contours : Contours
         chosen : int
             -1 if there is none.
         """

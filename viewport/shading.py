@@ -39,7 +39,7 @@ def show_pieces(context: bpy.types.Context) -> None:
 
 
 def restore_colors(context: bpy.types.Context) -> None:
-    """Show the view as before ``show_colors``; what somebody has set since stays."""
+    """Show the view as before ``show_colors``; what the user has set since stays."""
     space = context.space_data
     if space is None or space.type != "VIEW_3D" or space.as_pointer() not in _before:
         return

@@ -129,7 +129,7 @@ def palette_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
 
 
 def _part_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
-    """The colour of each part, (count, 3) float64 sRGB: somebody's choice, or from the palette."""
+    """The colour of each part, (count, 3) float64 sRGB: what the user chose, or else of the palette."""
     shades = palette_colors(mesh, numbered)
     for number, color in part_names.kept_colors(mesh).items():
         shades[numbered.numbers == number] = color
