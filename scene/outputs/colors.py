@@ -13,7 +13,6 @@ from .kept_aside import add_attribute, remove_attribute
 
 NAME = "Reeb Parts"
 
-
 # Up to this share of the faces, their corners one by one cost less than all corners at once: Blender sets
 # byte colours slowly.
 FEW = 0.01
@@ -41,7 +40,7 @@ def remove(obj: bpy.types.Object) -> None:
     result = mesh.reeb_parts
     ours = result.color_attribute
     if ours in mesh.color_attributes:
-        # Somebody may have chosen another one since: then that stays.
+        # If the user has chosen another one since, that stays.
         if mesh.attributes.active_color_name == ours:
             mesh.attributes.active_color_name = result.former_color
         if mesh.attributes.default_color_name == ours:
