@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the operators under Use Parts have in common."""
+"""The settings of the panel Use Parts, given to an operator that is started from it."""
 
 from __future__ import annotations
 
