@@ -31,10 +31,10 @@ class REEB_PARTS_OT_unwrap(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         try:
-            uv_map.unwrap(context, obj, stored.face_numbers, self.open_parts, self.method)
+            name = uv_map.unwrap(context, obj, stored.face_numbers, self.open_parts, self.method)
         except ReebError as error:
             raise SceneError(translated(error)) from error
-        return rpt_("Unwrapped into the UV map {name}").format(name=uv_map.find(obj.data).name)
+        return rpt_("Unwrapped into the UV map {name}").format(name=name)
 
 
 CLASSES = (REEB_PARTS_OT_unwrap,)

@@ -30,8 +30,8 @@ def remove(mesh: bpy.types.Mesh) -> None:
 
 
 def unwrap(context: bpy.types.Context, obj: bpy.types.Object, face_numbers: np.ndarray, open_parts: bool,
-           method: str) -> None:
-    """Unwrap an object into our UV map, which becomes the active one; Object Mode.
+           method: str) -> str:
+    """Unwrap an object into our UV map, which becomes the active one; Object Mode. Returns the name of the map.
 
     Parameters
     ----------
@@ -56,6 +56,7 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, face_numbers: np.n
         mesh.uv_layers.active = layer
     layer.uv.foreach_set("vector", coordinates)
     mesh.update()
+    return layer.name
 
 
 def _seams(obj: bpy.types.Object, face_numbers: np.ndarray, open_parts: bool) -> np.ndarray:
