@@ -71,8 +71,15 @@ class CornerTable:
 
         labels : (p,) int64. An edge of no face has the smallest above the largest.
         """
-        low = np.full(len(self.edges), np.iinfo(np.int64).max)
-        high = np.full(len(self.edges), -1, np.int64)
-        np.minimum.at(low, self.corner_edge, labels[self.corner_face])
-        np.maximum.at(high, self.corner_edge, labels[self.corner_face])
-        return low, high
+        return edge_labels(self.corner_edge, self.corner_face, labels, len(self.edges))
+
+
+def edge_labels(
+    corner_edge: np.ndarray, corner_face: np.ndarray, labels: np.ndarray, n_edges: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """``CornerTable.edge_labels`` where only the edge and the face of each corner are known, two (c,) int64 arrays."""
+    low = np.full(n_edges, np.iinfo(np.int64).max)
+    high = np.full(n_edges, -1, np.int64)
+    np.minimum.at(low, corner_edge, labels[corner_face])
+    np.maximum.at(high, corner_edge, labels[corner_face])
+    return low, high

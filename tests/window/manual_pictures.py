@@ -206,7 +206,7 @@ def face_sets():
 
 def changed():
     """The button that appears beside the preset."""
-    bpy.context.scene.reeb_parts.alpha = 0.8
+    bpy.context.scene.reeb_parts.band_ratio = 0.8
     pointer.region("UI").tag_redraw()
     yield 0.5
     ui = pointer.region("UI")

@@ -139,6 +139,14 @@ TEXTS = {
     "Concavity": "Konkavität",
     "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)":
         "Wie weit ein Schnitt rutschen darf, um in einer Falte zu liegen: 0 lässt ihn, wo er ist (Alpha im Artikel)",
+    "Band": "Band",
+    "How far to either side a cut may move into a crease, as a share of the radius of a circle as long as the cut; 0 "
+    "leaves it where it is":
+        "Wie weit ein Schnitt zu beiden Seiten in eine Falte rücken darf, als Anteil des Radius eines Kreises, der so "
+        "lang wie der Schnitt ist; 0 lässt ihn, wo er ist",
+    "The parameter {old} is called {new} now.": "Der Parameter {old} heißt jetzt {new}.",
+    "The model {file} was trained on other features (first: {name}). Train it again.":
+        "Das Modell {file} wurde an anderen Merkmalen angelernt (das erste: {name}). Es muss neu angelernt werden.",
     "Crease length": "Faltenlänge",
     "How much of a cut's length must be concave to count (the paper's sigma)":
         "Wie viel von der Länge eines Schnitts konkav sein muss, um zu zählen (Sigma im Artikel)",

@@ -106,7 +106,7 @@ def one_part(obj):
 
 def other_parameters(obj):
     """A scene whose parameters are not those of its preset."""
-    bpy.context.scene.reeb_parts.equalise = False
+    bpy.context.scene.reeb_parts.equalize = False
 
 
 def on_branch(obj):
@@ -318,7 +318,7 @@ def tree():
 def test_every_operator_has_a_case(package):
     classes = importlib.import_module(f"{package}.operators").CLASSES
     names = {cls.bl_idname.split(".")[1] for cls in classes if issubclass(cls, bpy.types.Operator)}
-    assert names - set(CASES) == set(), "these operators need a Case in tests/blender/test_every_operator.py"
+    assert names - set(CASES) == set(), "these operators need a Case in tests/blender/operators/test_every_operator.py"
     assert set(CASES) - names == set(), "these operators are gone"
 
 
