@@ -23,11 +23,12 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from people import Subject, rand_index_error
+from people import Subject
 from train import N_MODELS, add_variants, by_category, fit_many, folds_of, learn, read_subjects
 
 from core.cuts.perceptual import method
 from core.cuts.perceptual.boosted_trees import Trees
+from core.metrics import rand_index_error
 from core.pipeline import decompose
 
 
@@ -70,7 +71,7 @@ def main():
         method.cut_model = lambda model=model: model  # the stages take it from here
         labels = decompose(vertices, faces).parts().labels
         np.save(options.out / f"{number}.npy", labels)
-        errors[number] = rand_index_error(labels, human)
+        errors[number] = np.mean([rand_index_error(labels, person) for person in human])
         parts[number] = abs(np.log2((labels.max() + 1) / subjects[number].median_parts))
     for name, value in by_category(errors).items():
         print(f"{name:12} {value:.4f}")
