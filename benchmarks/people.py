@@ -4,13 +4,10 @@
 from __future__ import annotations
 
 import re
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from core.cuts.perceptual.features import SurfaceMeasures, surface_measures
 from core.cuts.perceptual.merging import RegionGraph, merge_all_

@@ -15,17 +15,19 @@ import argparse
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import packages
+
+packages.need("numpy", "scipy", "tqdm", "trimesh", "fast_simplification")
 
 import numpy as np
-from label import load_mesh
+from meshes import load_mesh
 from scipy.spatial import cKDTree
 from tqdm import tqdm
 
 from core import PRESETS, Parameters, TriMesh, decompose
 from core.metrics import agreement, rand_index_error
 
-SPOT = Path(__file__).resolve().parent.parent / "models" / "spot.obj"
+SPOT = packages.ROOT / "models" / "spot.obj"
 SEED = 2009
 
 
