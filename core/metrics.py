@@ -21,6 +21,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
@@ -48,7 +49,7 @@ class Overlap:
     weight: np.ndarray
 
     @classmethod
-    def of(cls, first, second, weight=None) -> Overlap:
+    def of(cls, first: ArrayLike, second: ArrayLike, weight: ArrayLike | None = None) -> Overlap:
         """Compare two labellings of the same elements.
 
         Parameters
@@ -97,7 +98,7 @@ class Overlap:
         return best
 
 
-def rand_index_error(first, second) -> float:
+def rand_index_error(first: ArrayLike, second: ArrayLike) -> float:
     """Share of the pairs of elements that one labelling joins and the other separates.
 
     One minus the Rand index. Every element counts the same, as in the benchmark of [Chen2009]. Symmetric.
@@ -119,7 +120,7 @@ def rand_index_error(first, second) -> float:
     return Overlap.of(first, second).rand_index_error
 
 
-def hamming_distance(first, second, weight=None) -> tuple[float, float]:
+def hamming_distance(first: ArrayLike, second: ArrayLike, weight: ArrayLike | None = None) -> tuple[float, float]:
     """Share of the surface outside the best match: missing rate and false alarm rate.
 
     Their mean is the Hamming distance of [Chen2009], who weigh by the area of the faces. Exchanging the
@@ -149,7 +150,7 @@ def hamming_distance(first, second, weight=None) -> tuple[float, float]:
     return float(1 - of_second), float(1 - of_first)
 
 
-def consistency_error(first, second, weight=None) -> tuple[float, float]:
+def consistency_error(first: ArrayLike, second: ArrayLike, weight: ArrayLike | None = None) -> tuple[float, float]:
     """Global and local consistency error: 0 where one labelling refines the other.
 
     For each element, the share of its region in one labelling that is outside its region in the other. The
@@ -184,7 +185,7 @@ def consistency_error(first, second, weight=None) -> tuple[float, float]:
     return float(min(one @ share for one in outside)), float(np.minimum(*outside) @ share)
 
 
-def agreement(first, second) -> float:
+def agreement(first: ArrayLike, second: ArrayLike) -> float:
     """The paper's agreement, eqs. (10) to (12): how well each region matches one of the other labelling.
 
     The mean over the regions A of ``first`` of the best |A and B| / max(|A|, |B|) over the regions B of ``second``.
@@ -210,7 +211,7 @@ def agreement(first, second) -> float:
     return float(overlap.largest(overlap.n_elements / whole.max(axis=0))[0].mean())
 
 
-def mean_intersection_over_union(first, second, weight=None) -> float:
+def mean_intersection_over_union(first: ArrayLike, second: ArrayLike, weight: ArrayLike | None = None) -> float:
     """Mean over the regions B of ``second`` of the best |A and B| / |A or B| over the regions A of ``first``.
 
     Not symmetric: each region of the labelling that is compared with looks for its best match.
@@ -239,7 +240,7 @@ def mean_intersection_over_union(first, second, weight=None) -> float:
     return float(overlap.largest(ratio)[1][of_second > 0].mean())
 
 
-def cut_discrepancy(mesh: TriMesh, first, second) -> float:
+def cut_discrepancy(mesh: TriMesh, first: ArrayLike, second: ArrayLike) -> float:
     """Mean distance along edges from the cuts of each labelling to those of the other, by the size of the mesh.
 
     Cuts are the edges between faces of different labels. The mean is over the ends of the cuts of both labellings,
@@ -290,12 +291,12 @@ def _cut_ends(mesh: TriMesh, label: np.ndarray) -> np.ndarray:
     return np.unique(mesh.edges.vertices[mesh.edges.pair_edge[left != right]])
 
 
-def _pairs(count):
+def _pairs(count: np.ndarray) -> np.ndarray:
     """How many pairs there are among some elements."""
     return count * (count - 1.0) / 2
 
 
-def _numbered(labels) -> np.ndarray:
+def _numbered(labels: ArrayLike) -> np.ndarray:
     """Labels renamed to 0..k-1."""
     labels = np.asarray(labels)
     if labels.ndim != 1 or not labels.size or not np.issubdtype(labels.dtype, np.integer):

@@ -109,6 +109,11 @@ def any_blender() -> Environment:
     fail("Python 3.11 or 3.13 is needed; on Debian and Ubuntu: apt install python3")
 
 
+def lint() -> Environment:
+    """What checks the style and the types."""
+    return any_python("lint", "ruff==0.17.5", "mypy==2.4.1")
+
+
 def benchmarks() -> Environment:
     """What the programs in benchmarks/ import."""
     lines = (ROOT / "benchmarks" / "requirements.txt").read_text(encoding="utf-8").splitlines()

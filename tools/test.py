@@ -36,7 +36,7 @@ from pathlib import Path
 import environments
 from environments import JSONSCHEMA, PYTEST, ROOT, SCIPY, Environment, say
 
-LINT = environments.any_python("lint", "ruff==0.17.5", "mypy==2.4.1")
+LINT = environments.lint()
 NEWEST = environments.any_python("unit-newest", "numpy", "scipy", PYTEST, JSONSCHEMA)
 OLDEST = Environment("unit-oldest", "3.11", ("numpy==1.24.3", SCIPY, PYTEST, JSONSCHEMA))
 
@@ -95,7 +95,7 @@ def main() -> None:
         prog="./test", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("suites", nargs="*", metavar="SUITE", help=", ".join(SUITES))
-    parser.add_argument("--lint", action="store_true", help="also check the style")
+    parser.add_argument("--lint", action="store_true", help="also check the style and the types")
     parser.add_argument("--blender", metavar="PATH", help="also build, install and test in this full Blender")
     parser.add_argument("--gui", metavar="PATH", help="with --blender: also press the buttons in a real window")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="steps at a time, default 2")
@@ -182,10 +182,10 @@ def _prepare(environment: Environment) -> str:
 
 
 def _lint(log: Path | None) -> tuple[int, int]:
-    """Check the style of every Python file."""
-    python = _prepare(LINT)
-    say("lint: ruff check")
-    checks = [_call([python, "-m", "ruff", "check", "--quiet", str(ROOT)], log)]
+    """Check the style and the types of the code."""
+    _prepare(LINT)
+    say("lint: tools/lint.py, ruff and mypy")
+    checks = [_call([sys.executable, str(ROOT / "tools" / "lint.py"), name], log) for name in ("ruff", "mypy")]
     return checks.count(0), len(checks) - checks.count(0)
 
 

@@ -78,6 +78,7 @@ SHORT = {
     "tools/build.py": help_of(2),
     "tools/pictures.py": help_of(2),
     "tests/run_in_blender.py": help_of(2),
+    "tools/lint.py": help_of(2),
     "benchmarks/timing.py": at_a_small_size,
     **{f"benchmarks/{name}.py": help_of(2) for name in (
         "crossvalidate", "detail", "label", "robustness", "same_results", "separate", "train")},
