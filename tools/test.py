@@ -63,6 +63,7 @@ SUITES = {
 PYTEST_AND_LEAVE = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
 #: Which diagonal of operators and situations a Blender runs, for tests/blender; the newest runs the whole table.
 DIAGONAL = "REEB_PARTS_DIAGONAL"
+NOT_RUN: list[str] = []
 PREPARING = threading.Lock()  # two of pip and apt at a time would get in each other's way
 
 
@@ -110,13 +111,16 @@ def main() -> None:
 def _steps(arguments: argparse.Namespace, for_pytest: list[str], scratch: Path) -> list[Step]:
     """What was asked for and can be run here; of those that are ready, the first is started first."""
     steps = [Step("lint", _lint)] if arguments.lint else []
-    steps += _full_blender(arguments.blender, arguments.gui, scratch) if arguments.blender else []
+    if arguments.blender:
+        steps += _full_blender(arguments.blender, arguments.gui, scratch)
+    elif not arguments.suites:
+        _left_out("the installed extension in a full Blender, no --blender was given")
     chosen = []
     for name in arguments.suites or SUITES:
         if environments.find_python(SUITES[name].environment.python):
             chosen.append(name)
         else:
-            say(f"NOT RUN: {name} needs Python {SUITES[name].environment.python}, which was not found here")
+            _left_out(f"{name} needs Python {SUITES[name].environment.python}, which was not found here")
     blenders = [name for name in SUITES if name in chosen and SUITES[name].environment.blender]
     for name in reversed(chosen):  # the longest are the last ones of SUITES
         number = blenders.index(name) if name in blenders[:-1] else None
@@ -138,7 +142,7 @@ def _run(steps: list[Step], jobs: int, scratch: Path) -> list[Outcome]:
         while waiting or running:
             for step in [step for step in waiting if not step.after or step.after in outcomes]:
                 if step.after and outcomes[step.after].failed:
-                    say(f"NOT RUN: {step.name}, because {step.after} failed")
+                    _left_out(f"{step.name}, because {step.after} failed")
                     waiting.remove(step)
                 elif not running or (len(running) < jobs and not step.alone):
                     waiting.remove(step)
@@ -154,8 +158,12 @@ def _run(steps: list[Step], jobs: int, scratch: Path) -> list[Outcome]:
 
 
 def _timed(step: Step, log: Path | None) -> Outcome:
+    """Run one step; an environment that cannot be made has said why, and is a failure of this step alone."""
     start = time.perf_counter()
-    passed, failed = step.work(log)
+    try:
+        passed, failed = step.work(log)
+    except SystemExit:
+        passed, failed = 0, 1
     return Outcome(step.name, passed, failed, time.perf_counter() - start)
 
 
@@ -163,6 +171,12 @@ def _show(outcome: Outcome, log: Path) -> None:
     """What a step printed, in one piece."""
     text = log.read_text(encoding="utf-8", errors="replace") if log.exists() else ""
     print(f"\n=== {outcome.name}: {outcome.seconds:.1f} s\n{text}", flush=True)
+
+
+def _left_out(what: str) -> None:
+    """Say what is not run: now, and again at the end."""
+    NOT_RUN.append(what)
+    say(f"NOT RUN: {what}")
 
 
 def _call(command: list[str], log: Path | None, **options) -> int:
@@ -201,7 +215,7 @@ def _pytest(name: str, diagonal: int | None, scratch: Path, extra: list[str], lo
     variables = {**os.environ, **own, **variables}
     variables.pop("PYTHONPATH", None)
     if diagonal is not None:
-        say(f"{name}: every operator in one situation only")
+        _left_out(f"{name}: all but one situation of each operator")
         variables[DIAGONAL] = str(diagonal)
     (scratch / name).mkdir(exist_ok=True)
     run = ["-c", PYTEST_AND_LEAVE] if environment.blender else ["-m", "pytest"]
@@ -215,7 +229,7 @@ def _documents(blender: str | None, scratch: Path, extra: list[str], log: Path |
     for environment in (environments.any_blender(), environments.benchmarks(), LINT):
         _prepare(environment)
     if not blender:
-        say("NOT RUN: the commands of a full Blender that the pages name, no --blender was given")
+        _left_out("the commands of a full Blender that the pages name, no --blender was given")
         return _pytest("documents", None, scratch, extra, log, BLENDER="")
     shutil.copytree(scratch / "resources", scratch / "documents", symlinks=True)
     return _pytest("documents", None, scratch, extra, log, BLENDER=blender)
@@ -239,11 +253,13 @@ def _full_blender(blender: str, gui: str | None, scratch: Path) -> list[Step]:
         # Several Blenders run at a time: each has settings of its own.
         own, report = scratch / f"resources-{name}", scratch / f"{name}.xml"
         shutil.copytree(resources, own, symlinks=True)
+        if name == "inside":
+            _left_out("installed, inside: all but one situation of each operator")
         command = [_prepare(NEWEST), *runner, "--part", name, "--resources", str(own), "--junit", str(report)]
         return _count(name, report, _call(command, log, env={**os.environ, DIAGONAL: str(len(SUITES))}))
 
     if not gui:
-        say("NOT RUN: the real-window tests, no --gui was given")
+        _left_out("the real-window tests, no --gui was given")
     # Window tests measure how long a person waits, and draw in software: they need both cores.
     parts = {"inside": False, "command": False, **({"window": True} if gui else {})}
     return [Step("build", build), *(Step(f"installed, {name}", partial(part, name), after="build", alone=alone)
@@ -269,6 +285,8 @@ def _summary(outcomes: list[Outcome]) -> None:
     print(f"\n{'step':<22} {'passed':>7} {'failed':>7} {'seconds':>8}")
     for outcome in outcomes:
         print(f"{outcome.name:<22} {outcome.passed:>7} {outcome.failed:>7} {outcome.seconds:>8.1f}")
+    for what in NOT_RUN:
+        print(f"NOT RUN: {what}")
     passed = sum(outcome.passed for outcome in outcomes)
     failed = sum(outcome.failed for outcome in outcomes)
     print(f"{passed} passed, {failed} failed", flush=True)
