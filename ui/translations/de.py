@@ -453,6 +453,11 @@ TEXTS = {
     "{n} vertices cannot be reached from vertex {source}.": "{n} Punkte sind von Punkt {source} aus nicht erreichbar.",
     "Vertices must have shape (n, 3), not {shape}.": "Punkte müssen die Form (n, 3) haben, nicht {shape}.",
     "Triangles must have shape (m, 3), not {shape}.": "Dreiecke müssen die Form (m, 3) haben, nicht {shape}.",
+    "Labels must be a row of whole numbers, at least one, not {type} of shape {shape}.":
+        "Kennzahlen müssen eine Reihe ganzer Zahlen sein, mindestens eine, nicht {type} der Form {shape}.",
+    "There are {n} values for {total} elements: each needs one.":
+        "Es gibt {n} Werte für {total} Elemente: Jedes braucht einen.",
+    "Weights must be 0 or more, and not all of them 0.": "Gewichte müssen 0 oder mehr sein, und nicht alle 0.",
     "Faces must have shape (m, corners), not {shape}.": "Flächen müssen die Form (m, Ecken) haben, nicht {shape}.",
     "Face indices must be whole numbers, not {type}.": "Flächenindizes müssen ganze Zahlen sein, nicht {type}.",
     "Polygon numbers must be {n} whole numbers from 0, one per triangle.":
