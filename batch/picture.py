@@ -150,7 +150,7 @@ def _add_graph(graph: bpy.types.Collection, extent: float, collection: bpy.types
 
 
 def _material(name: str, made: list[bpy.types.ID], *, attribute: str | None = None,
-              color: tuple[float, float, float] | None = None) -> bpy.types.Material:
+              color: tuple[float, float, float] = (0.8, 0.8, 0.8)) -> bpy.types.Material:
     """A matt material of one colour or of a colour attribute."""
     material = bpy.data.materials.new(name)
     _use_nodes(material)

@@ -7,6 +7,7 @@ import math
 import warnings
 from dataclasses import dataclass, field, fields, replace
 from functools import wraps
+from typing import ClassVar
 
 from .errors import ParameterError
 from .sentence import Sentence
@@ -57,13 +58,13 @@ def _with_warnings(values: dict) -> dict:
 
 def _with_old_names(cls: type) -> type:
     """Let a class of parameters be made with names of version 0.1.0, too, which is noted as a DeprecationWarning."""
-    made = cls.__init__
+    made = cls.__init__  # type: ignore[misc]  # it is that of the class given, whatever inherits from it
 
     @wraps(made)
     def init(self, *args, **values):
         made(self, *args, **_with_warnings(values))
 
-    cls.__init__ = init
+    cls.__init__ = init  # type: ignore[misc]
     return cls
 
 
@@ -80,6 +81,8 @@ class Parameters:
     ParameterError
         A value outside its range; ``error.name`` says which.
     """
+
+    RANGES: ClassVar[dict[str, tuple[float, float]]]
 
     method: str = field(default=PERCEPTUAL, metadata={
         "choices": METHODS, "label": "Method",

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Change parts by hand: merge, split, grow, shrink, assign, release; see scene.edits."""
 
+from collections.abc import Callable
+
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
@@ -33,6 +35,8 @@ class ChosenPartsOperator(PartOperator):
 
     If one of the parts is locked, nothing is done.
     """
+
+    edit: Callable[[bpy.types.Context, bpy.types.Mesh, Stored, int], None]
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         numbers = chosen_numbers(obj.data)

@@ -29,7 +29,9 @@ class REEB_PARTS_OT_from_nodes(bpy.types.Operator):
         return has_parts(cls, context, found[0])
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        source, number = part_of(context.view_layer.objects.active)
+        found = part_of(context.view_layer.objects.active)
+        assert found is not None  # poll
+        source, number = found
         chosen = {number: None}
         for item in context.view_layer.objects.selected:
             found = part_of(item)
@@ -62,6 +64,7 @@ class REEB_PARTS_OT_from_arc(bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Blender has just selected the curve, by the last press of a button; the pointer may have gone on."""
         source = source_of_arcs(context.view_layer.objects.active)
+        assert source is not None  # poll
         pressed = event.mouse_prev_press_x, event.mouse_prev_press_y
         place = pointing.view_region(context.area, *pressed) if context.area else None
         if place is None:  # it was selected elsewhere, in the outliner
@@ -79,6 +82,7 @@ class REEB_PARTS_OT_from_arc(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         item = context.view_layer.objects.active
         source = source_of_arcs(item)
+        assert source is not None  # poll
         try:
             model = pointing.Model(source)
         except SceneError as error:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seams, face sets and materials of the parts, each with one click, and taken back with another."""
 
+from types import ModuleType
+
 import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -17,6 +19,8 @@ class OutputOperator(PartOperator):
     A class that inherits gives ``output``: the module of scene.outputs, and the sentences said of it when it was
     written and when it was taken back.
     """
+
+    output: tuple[ModuleType, str, str]
 
     remove: bpy.props.BoolProperty(
         name="Take back", options={"SKIP_SAVE"},

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Work on the parts of the list: select, isolate, mark."""
 
+from typing import TYPE_CHECKING
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -16,6 +18,11 @@ class PartOperator:
     """For operators on the parts of the active object: poll, errors, Object Mode."""
 
     bl_options = {"REGISTER", "UNDO"}
+
+    if TYPE_CHECKING:
+
+        def report(self, kind: set[str], message: str) -> None:
+            """Of bpy.types.Operator, which the class that inherits is, too."""
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
         """Do what the operator is for; returns what to tell the user. Raises SceneError."""

@@ -59,9 +59,6 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
             self.show(context.view_layer.objects.active, self.boundary.slid(self.offset))
         self.last_x = event.mouse_x
 
-    def press(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> set[str]:
-        return self.confirm(context)
-
     def other(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> bool:
         """Only the view can be turned meanwhile."""
         if not turns_view(context, event):

@@ -12,10 +12,13 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.sentence import Sentence
 
 
-def keep(result: bpy.types.PropertyGroup, notes: Iterable[Sentence]) -> None:
-    """Keep the notes of a decomposition and of the object's shape. notes : tuple of core.sentence.Sentence"""
+def keep(result: bpy.types.PropertyGroup, notes: Iterable[str]) -> None:
+    """Keep the notes of a decomposition and of the object's shape."""
     result.notes = "\n".join(notes)
-    result.note_words = json.dumps([[note.message, note.values] for note in notes])
+    # A note that was read from a stored result is plain text, which has no translation.
+    words = [(note.message, note.values) if isinstance(note, Sentence) else ("{note}", {"note": note})
+             for note in notes]
+    result.note_words = json.dumps(words)
 
 
 def spoken(result: bpy.types.PropertyGroup) -> list[str]:

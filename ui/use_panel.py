@@ -57,6 +57,7 @@ class REEB_PARTS_PT_piece(ReebPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         obj = piece_objects.original(context.object)
+        assert obj is not None  # poll
         self.layout.label(text=iface_("A part of {name}").format(name=obj.name), icon="MESH_DATA")
         show = iface_("Show {name}").format(name=obj.name)
         self.layout.operator("reeb_parts.show_original", text=show, icon="HIDE_OFF")

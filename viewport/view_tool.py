@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import bpy
 import gpu
 from bpy.app.translations import pgettext_n as n_
@@ -53,8 +55,13 @@ class ViewTool:
     """
 
     cursor = "EYEDROPPER"
-    aims = True  # at places of the model
+    aims = True  # at places of the model; a tool that does not is confirmed by a click
     uses_graph = True  # or only the surface
+
+    if TYPE_CHECKING:
+
+        def report(self, kind: set[str], message: str) -> None:
+            """Of bpy.types.Operator, which the class that inherits is, too."""
 
     def hint(self) -> str:
         """What the status bar says."""
@@ -128,9 +135,10 @@ class ViewTool:
             self._redraw(context)
             return {"RUNNING_MODAL"}
         if event.type == "LEFTMOUSE" and event.value == "PRESS" and not event.alt:  # Alt turns the view
+            if not self.aims:
+                return self.confirm(context)
             # Beside the model a click would deselect it.
-            hit = target is not None or not self.aims
-            return (self.press(context, target, event) if hit else None) or {"RUNNING_MODAL"}
+            return (None if target is None else self.press(context, target, event)) or {"RUNNING_MODAL"}
         used = self.other(context, target, event)
         self._redraw(context)
         return {"RUNNING_MODAL"} if used else {"PASS_THROUGH"}
@@ -144,7 +152,10 @@ class ViewTool:
         if not self.is_current(obj):
             self._read(context, obj)
         self.preview.matrix = obj.matrix_world.copy()
-        return self.model.under(context, obj, *place, graph=self.uses_graph) if self.aims else None
+        if place is None or not self.aims:
+            return None
+        region, mouse = place
+        return self.model.under(context, obj, region, mouse, graph=self.uses_graph)
 
     def is_current(self, obj: bpy.types.Object | None) -> bool:
         """Whether an object is the one that was read, with the parts that it had then; it may be None."""

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import diags_array
+from scipy.sparse import csr_array, diags_array
 
 from .arrays import sums_by, symmetric_matrix
 from .mesh import TriMesh
@@ -102,7 +102,7 @@ def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.nd
     return np.array(curvature)
 
 
-def _exchange(mesh: TriMesh):
+def _exchange(mesh: TriMesh) -> csr_array:
     """Symmetric (m, m) conductances between faces: edge length over way."""
     flow = mesh.pair_length / np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
     # A sliver exchanges with its neighbors in no time; bounded, or the solver would stall.
@@ -110,7 +110,7 @@ def _exchange(mesh: TriMesh):
     return symmetric_matrix(mesh.edges.pairs, flow, mesh.n_faces)
 
 
-def _diffuse(mesh: TriMesh, exchange, time: float, guess: np.ndarray) -> np.ndarray:
+def _diffuse(mesh: TriMesh, exchange: csr_array, time: float, guess: np.ndarray) -> np.ndarray:
     """Unit normals after one implicit step of heat flow from face to face."""
     mass = mesh.face_area + 1e-9 * mesh.area / mesh.n_faces
     diagonal = mass + time * exchange.sum(axis=1)

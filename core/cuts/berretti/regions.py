@@ -121,7 +121,7 @@ class FusionGraph:
     def longest_boundary(self, region: int) -> int:
         """The neighbor that shares the longest boundary; the first of equals."""
         around = self.neighbors[region]
-        return max(sorted(around), key=around.get)
+        return max(sorted(around), key=lambda other: around[other])
 
 
 def fuse_equal_adjacency(

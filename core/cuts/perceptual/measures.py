@@ -10,6 +10,7 @@ borders between them look like is computed from the sums (features.py).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,6 +30,11 @@ class Columns:
         for name, width in widths.items():
             setattr(self, name, self.width if width == 1 else slice(self.width, self.width + width))
             self.width += width
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """The column of a name, or the slice of several."""
 
 
 # Per face. Second moments are the six products of three coordinates; the support is the distance of the face's
