@@ -89,6 +89,8 @@ def test_stages_of_core_import_earlier_stages_only():
         own, other = path.with_suffix("").parts[1], (*module[1:], "__init__")[0]
         if own in DOORS or other in COMMON:
             return own not in COMMON or other in COMMON
+        if own == "metrics":  # compares labels of any origin
+            return other == "surface"
         return own in STAGES and other in STAGES[: STAGES.index(own) + 1]
 
     assert violations(allowed) == []
