@@ -6,7 +6,11 @@ import pytest
 import shapes
 
 from core import Parameters, TriMesh, decompose
-from core.cuts.perceptual.method import DECISION, MAX_FACES, salience_of
+from core.cuts.minimum_cut import WIDEST
+from core.cuts.perceptual.method import DECISION, MAX_FACES, perceptual_candidates, salience_of
+from core.cuts.perceptual.patches import concave_patches
+from core.field.agd import agd_field, coarse_agd
+from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.surface.mesh import components
 
 
@@ -39,12 +43,35 @@ def test_scale_and_pose_change_nothing():
     assert (plain.parts().labels != moved.parts().labels).mean() < 0.02
 
 
-def test_nothing_moves_without_alpha():
-    """Both are cut alike but for where the cuts run."""
-    shape = shapes.tube_tree()
-    still, moved = (decompose(*shape, Parameters(alpha=a)) for a in (0.0, 0.5))
-    assert still.parts().count == moved.parts().count
-    assert (still.candidates != moved.candidates).any()
+@pytest.fixture(scope="module")
+def tree():
+    """A tree of tubes, cut at the levels of its field, and its patches before any cut has moved."""
+    mesh = TriMesh(*shapes.tube_tree())
+    field = agd_field(mesh, coarse_agd(mesh, np.sqrt(0.02 * mesh.area)), True)
+    return cut_at_levels(mesh, field.values, uniform_levels(30)), field, concave_patches(mesh)
+
+
+def test_nothing_moves_without_alpha(tree):
+    sets, field, patches = tree
+    element, _ = perceptual_candidates(sets, field, Parameters(alpha=0.0))
+    np.testing.assert_array_equal(element, patches[sets.element_face])
+
+
+def test_with_alpha_faces_beside_the_cuts_move_and_nothing_else(tree):
+    sets, field, patches = tree
+    mesh = sets.mesh
+    (_, still), (element, hierarchy) = (perceptual_candidates(sets, field, Parameters(alpha=a)) for a in (0.0, 1.0))
+    np.testing.assert_array_equal(hierarchy.merges, still.merges)
+    np.testing.assert_array_equal(hierarchy.salience, still.salience)
+    moved = np.empty(mesh.n_faces, np.int64)
+    moved[sets.element_face] = element
+    np.testing.assert_array_equal(element, moved[sets.element_face])  # faces move as a whole
+    before, after = (hierarchy.parts(hierarchy.n_parts(0.75))[label] for label in (patches, moved))
+    a, b = mesh.edges.pairs.T
+    beside = np.unique(mesh.edges.pairs[before[a] != before[b]])
+    away = np.linalg.norm(mesh.face_centroids[:, None] - mesh.face_centroids[beside], axis=2).min(axis=1)
+    assert (before != after).any()
+    assert away[patches != moved].max() <= WIDEST * np.sqrt(mesh.area)
 
 
 def test_salience_stretches_the_decision_to_one_half():
