@@ -32,9 +32,9 @@ def xdo(*words):
 def rest(x, y):
     """The pointer goes there and stays, too short for a tooltip; a button takes a click only after that."""
     xdo("mousemove", x - 2, y)
-    yield 0.1
+    yield 0.05
     xdo("mousemove", x, y)
-    yield 0.2
+    yield 0.05
 
 
 def press(x, y, *held, button=1):
@@ -48,7 +48,7 @@ def press(x, y, *held, button=1):
     for key in held:
         yield 0.1
         xdo("keyup", key)
-    yield 0.2
+    yield 0.1
 
 
 def drag(places, button=1):
@@ -60,14 +60,14 @@ def drag(places, button=1):
         xdo("mousemove", *place)
         yield 0.05
     xdo("mouseup", button)
-    yield 0.2
+    yield 0.1
 
 
 def tap(*keys):
     """Keys like "ctrl+z", one after the other."""
     for key in keys:
         xdo("key", key)
-        yield 0.2
+        yield 0.1
 
 
 def write(text):
