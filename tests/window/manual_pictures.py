@@ -259,7 +259,7 @@ def folded_out():
     yield from pointer.fold("Parts", above)
     ui = pointer.region("UI")
     left, _ = pointer.from_top(ui.x, ui.y)
-    for label, rows in (("Output", 10.5), ("Overlay", 7.2)):
+    for label, rows in (("Output", 10.5), ("Overlay", 7.5)):
         _, y = yield from pointer.fold(label, above)
         yield from pointer.rest(*pointer.in_view(0.1, 0.1))
         yield 0.3
