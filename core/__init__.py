@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mesh decomposition by the Reeb graph of the average geodesic distance (AGD); needs NumPy and SciPy only.
 
-``decompose`` takes arrays and returns a ``Decomposition``, whose method ``parts`` reads the parts at any level of detail.
-The second column names what can be imported from the package itself, the third what the modules of each stage add.
+``decompose`` takes arrays and returns a ``Decomposition``, whose method ``parts`` reads the parts at any level of
+detail. The second column names what can be imported from the package itself, the third what the modules of each stage
+add.
 
 =======  ===================================  ====================================================================
 stage    from the package                     from the modules

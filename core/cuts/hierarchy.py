@@ -155,7 +155,7 @@ class Hierarchy:
         merges : (s, 2) array_like of int
             Two candidates of each merge, in order.
         salience : (s,) array_like of float
-            Salience of each merge, in any order; clipped to 0..1 and replaced by its running maximum.
+            Salience of each merge, which need not rise; clipped to 0..1 and replaced by its running maximum.
 
         Returns
         -------

@@ -82,7 +82,7 @@ class ReebGraph:
 
     @classmethod
     def empty(cls) -> ReebGraph:
-        """Make the graph of no component: no nodes and no arcs."""
+        """Make the graph of no component: returns a ReebGraph without nodes and arcs."""
         number, place, index = np.empty(0), np.empty((0, 3)), np.zeros(1, np.int64)
         return cls(np.empty(0, np.int8), number, place, np.empty((0, 2), np.int64), index, place,
                    number, number, number, 0)

@@ -130,7 +130,7 @@ class _WorkGraph:
         owner = np.where(topology.piece_node >= 0, topology.piece_node, n + topology.piece_arc)
         self.piece_owner = owner
         self.area = np.bincount(owner, sets.piece_area, n + q).tolist()
-        # Number of contours of each arc: the levels that it crosses.
+        # The number of levels that each arc crosses is the number of its contours.
         self.span = np.bincount(topology.contour_arc, minlength=q).tolist()
         height = level_height[sets.contour_level]
         self.height = np.bincount(topology.contour_arc, height, q).tolist()

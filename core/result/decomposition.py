@@ -252,7 +252,7 @@ class Decomposition:
         return Parts(self, place[part])
 
     def to_bytes(self) -> bytes:
-        """Write the whole result to a compressed string of bytes, which ``from_bytes`` reads."""
+        """Write the whole result: returns compressed bytes that ``from_bytes`` reads."""
         arrays = {f"hierarchy.{n}": getattr(self.hierarchy, n) for n in ("merges", "salience")}
         arrays |= {f"graph.{f.name}": getattr(self.graph, f.name) for f in fields(ReebGraph)}
         arrays |= {name: getattr(self, name) for name in _ARRAYS}

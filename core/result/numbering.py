@@ -100,7 +100,10 @@ class NumberedParts:
 
 
 def default_name(number: int) -> str:
-    """Name a part by its number, an int of 1 or more, until the user gives it another name."""
+    """Name a part until the user gives it another name.
+
+    number : int, 1 or more. Returns "Part 01" and so on.
+    """
     return f"Part {number:02d}"
 
 

@@ -13,7 +13,10 @@ if TYPE_CHECKING:
 
 
 def frozen(array: ArrayLike, dtype: DTypeLike) -> np.ndarray:
-    """Copy an array of any shape to a dtype, in C order, and make the copy read-only."""
+    """Copy an array and make the copy read-only.
+
+    array : array_like of any shape. Returns its values as ``dtype``, in C order.
+    """
     copy = np.array(array, dtype=dtype, order="C")
     copy.flags.writeable = False
     return copy

@@ -27,7 +27,7 @@ def k_min(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
 
     The curvature tensor of [CohenSteiner2003] is the sum of the dihedral angles along the edges around a vertex,
     divided by the vertex's area. Of its two eigenvalues tangent to the surface, each is the curvature in the
-    direction perpendicular to its eigenvector. [Berretti2009] fits a surface instead; an estimator without a fit
+    direction perpendicular to its eigenvector. [Berretti2009] uses another estimator; one that needs no fit
     withstands long thin triangles better.
 
     Parameters
@@ -92,7 +92,7 @@ def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.nd
     mesh : TriMesh
         p pairs of faces, faces turned outwards.
     scales : tuple of float
-        Widths over which the normals are smoothed, in units of the square root of the area; rising.
+        Widths over which the normals are smoothed, in units of the square root of the area.
 
     Returns
     -------

@@ -84,7 +84,7 @@ def longest_neighbor(touching: np.ndarray, length: np.ndarray, count: int) -> np
 
 
 def spread(label: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Let labels spread to unlabelled faces, in rounds, from the labelled faces outwards.
+    """Let labels spread in rounds from labeled faces outwards to unlabeled ones.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def spread(label: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         -1 remains where no label arrives.
     """
     label = label.copy()
-    unlabelled = label[a] < 0  # labelled faces keep their labels
+    unlabelled = label[a] < 0  # labeled faces keep their labels
     a, b = a[unlabelled], b[unlabelled]
     while True:
         reached = (label[a] < 0) & (label[b] >= 0)
@@ -129,7 +129,10 @@ class FaceGraph:
     area: np.ndarray
 
     def boundaries(self, label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Find which labels of the faces, (n_faces,) int64, touch, and along what length: see ``label_boundaries``."""
+        """Find which labels touch, and along what length.
+
+        label : (n_faces,) int64, -1 for a face without a label. Returns what ``label_boundaries`` returns.
+        """
         return label_boundaries(label, self.pairs, self.length)
 
 

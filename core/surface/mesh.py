@@ -218,7 +218,10 @@ class EdgeTable:
 
     @classmethod
     def of(cls, faces: np.ndarray, n_vertices: int) -> EdgeTable:
-        """Make the table of faces, (m, 3) int64 indices of ``n_vertices`` vertices."""
+        """Make the table of the edges of some faces.
+
+        faces : (m, 3) int64, 0..n_vertices-1. Returns an EdgeTable.
+        """
         start, end = faces, np.roll(faces, -1, axis=1)
         # NumPy sorts half-edges that are packed into one integer far faster than rows.
         key = (np.minimum(start, end) * np.int64(n_vertices) + np.maximum(start, end)).ravel()

@@ -122,7 +122,7 @@ class RegionAdjacencyGraph:
         return gone
 
     def measure_(self, changed: list[int]) -> None:
-        """Compute the shape of regions anew that other regions have merged into."""
+        """Compute the shape of regions anew; ``changed`` are those into which other regions have merged."""
         r = self.regions
         r.shape[changed] = region_shape(r.sums[changed], r.perimeter[changed],
                                         r.level_min[changed], r.level_max[changed])
