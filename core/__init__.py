@@ -1,17 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mesh decomposition by the Reeb graph of the average geodesic distance; numpy and scipy only.
+"""Mesh decomposition by the Reeb graph of the average geodesic distance (AGD); needs NumPy and SciPy only.
 
-========================  ===============================================================
-``decompose``             arrays in, a ``Decomposition`` out: the one door
-``Parameters``            what can be asked for; ``PRESETS`` by name
-``Decomposition.parts``   parts at any level of detail, or of any exact number
-``ReebError``             base of all errors; the message is the sentence for the user
-========================  ===============================================================
+``decompose`` takes arrays and returns a ``Decomposition``, whose method ``parts`` reads the parts at any level of
+detail. The second column names what can be imported from the package itself, the third what the modules of each stage
+add.
+
+=======  ===================================  ====================================================================
+stage    from the package                     from the modules
+=======  ===================================  ====================================================================
+(all)    ``decompose``, ``Parameters``,       ``pipeline``, ``parameters``, ``errors``, ``sentence``, ``progress``
+         ``PRESETS``, ``VERSION``,
+         ``ReebError``, ``MeshError``,
+         ``EmptyMeshError``, ``Cancelled``,
+         ``ParameterError``
+surface  ``TriMesh``, a checked mesh          polygons, repair, coarser copies, curvature, labels on faces
+field                                         geodesic distances; the AGD, normalized and equalized
+graph    ``ReebGraph``, nodes and arcs        level sets, critical points, simplification, contours
+cuts     ``Hierarchy``, order of the merges   the methods of cutting, minimum cuts
+result   ``Decomposition``, ``Parts``         assembly, numbers that last, changes by hand
+uses                                          colors, JSON report, bones, seams to unfold parts
+=======  ===================================  ====================================================================
 """
 
 from importlib import import_module
 
-# Loaded on first use: Blender reads the parameters when it starts, long before SciPy is needed.
+# The module of each name, which is imported when the name is first used: Blender reads the parameters when it starts,
+# long before SciPy is needed.
 _HOME = {
     "Cancelled": "errors",
     "Decomposition": "result.decomposition",
@@ -32,7 +46,8 @@ _HOME = {
 __all__ = list(_HOME)
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> object:
+    """Import the module of a name when the name is first used."""
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = getattr(import_module(f".{_HOME[name]}", __name__), name)

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What can go wrong, as exceptions whose message is the sentence the user reads.
+"""Exceptions whose message is the sentence that the user reads.
 
-The message says what is wrong, how much of it, and what to do; it is a ``Sentence``, so that an
-operator can translate it. The indices of the offending elements ride on the exception, so that an
-operator can select them.
+The message says what is wrong, how much of it, and what to do; it is a ``Sentence``, so that an operator can translate
+it. The exception also carries the indices of the vertices and faces concerned, so that an operator can select them.
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 class ReebError(Exception):
@@ -16,32 +20,51 @@ class ReebError(Exception):
 
 
 class Cancelled(ReebError):  # noqa: N818 - it is not an error to the user
-    """The caller's progress function asked to stop; nothing was computed to the end."""
+    """The caller's progress function asked to stop, and there is no result.
 
-    def __init__(self, message: str = "Cancelled."):
+    Parameters
+    ----------
+    message : str
+    """
+
+    def __init__(self, message: str = "Cancelled.") -> None:
         super().__init__(message)
 
 
 class ParameterError(ReebError, ValueError):
-    """A parameter is outside its range; ``name`` says which."""
+    """A parameter is outside its range.
 
-    def __init__(self, message: str, name: str = ""):
+    Parameters
+    ----------
+    message : str
+    name : str
+        Name of the parameter; also an attribute of the exception.
+    """
+
+    def __init__(self, message: str, name: str = "") -> None:
         super().__init__(message)
         self.name = name
 
 
 class MeshError(ReebError, ValueError):
-    """The mesh cannot be decomposed; ``vertices`` and ``faces`` say where."""
+    """The mesh cannot be decomposed.
 
-    def __init__(self, message: str, vertices=(), faces=()):
+    Parameters
+    ----------
+    message : str
+    vertices, faces : array_like of int
+        Vertices and faces concerned; also attributes of the exception, (k,) int64.
+    """
+
+    def __init__(self, message: str, vertices: ArrayLike = (), faces: ArrayLike = ()) -> None:
         super().__init__(message)
         self.vertices = np.asarray(vertices, dtype=np.int64)
         self.faces = np.asarray(faces, dtype=np.int64)
 
 
 class EmptyMeshError(MeshError):
-    """No faces, too few of them, or no area."""
+    """The mesh has no faces, too few faces, or no area."""
 
 
 class DisconnectedMeshError(MeshError):
-    """Some vertices cannot be reached from others where one component was promised."""
+    """Some vertices cannot be reached from others, although the mesh should be one connected component."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every parameter, its range, its default and what it does to the parts."""
+"""The parameters of a run: range, default, label and description of each; presets; parameter names of version 0.1.0."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import math
 import warnings
 from dataclasses import dataclass, field, fields, replace
 from functools import wraps
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from .errors import ParameterError
 from .sentence import Sentence
@@ -16,25 +16,25 @@ PERCEPTUAL, BERRETTI = "perceptual", "berretti"
 METHODS = (PERCEPTUAL, BERRETTI)
 
 
-#: Names that version 0.1.0 had for parameters, and what they are called now. Its alpha was the weight of concavity in
-#: one method and the width of a band in the other.
+#: Names of parameters in version 0.1.0, and the names of today. The alpha of version 0.1.0 was the weight of concavity
+#: in one method and the width of a band in the other.
 RENAMED = {"equalise": ("equalize",), "levels": ("n_slabs",), "alpha": ("concavity_weight", "band_ratio")}
 
 
 def present_names(values: dict) -> tuple[dict, tuple[Sentence, ...]]:
-    """Give values that a script or a file of version 0.1.0 names the names of today.
+    """Rename parameters that a script or a file of version 0.1.0 names.
 
     Parameters
     ----------
     values : dict of str -> object
-        By parameter, of then or of now.
+        Value of each parameter, by its name in version 0.1.0 or of today.
 
     Returns
     -------
     values : dict of str -> object
-        By parameter of now. A name of now wins over the name of then.
+        Value of each parameter, by its name of today. Where both names were given, the value of today's name counts.
     notes : tuple of Sentence
-        One for each name of then.
+        One for each name of version 0.1.0.
     """
     old = {name: values[name] for name in RENAMED if name in values}
     present = {new: value for name, value in old.items() for new in RENAMED[name]}
@@ -43,13 +43,14 @@ def present_names(values: dict) -> tuple[dict, tuple[Sentence, ...]]:
         Sentence("The parameter {old} is called {new} now.", old=name, new=", ".join(RENAMED[name])) for name in old)
 
 
-def _number(default, low, high, label, text):
+def _number(default: float, low: float, high: float, label: str, text: str) -> Any:
+    """Field of a parameter that is a number from ``low`` to ``high``."""
     return field(default=default,
                  metadata={"range": (low, high), "label": label, "description": text})
 
 
 def _with_warnings(values: dict) -> dict:
-    """``present_names`` of keyword arguments, the notes as DeprecationWarnings to who gave them."""
+    """Keyword arguments by today's names; a DeprecationWarning tells the caller of each name of version 0.1.0."""
     values, notes = present_names(values)
     for note in notes:
         warnings.warn(note, DeprecationWarning, stacklevel=3)
@@ -57,11 +58,11 @@ def _with_warnings(values: dict) -> dict:
 
 
 def _with_old_names(cls: type) -> type:
-    """Let a class of parameters be made with names of version 0.1.0, too, which is noted as a DeprecationWarning."""
+    """Class decorator: the class also takes names of version 0.1.0, with a DeprecationWarning for each."""
     made = cls.__init__  # type: ignore[misc]  # it is that of the class given, whatever inherits from it
 
     @wraps(made)
-    def init(self, *args, **values):
+    def init(self: Any, *args: Any, **values: Any) -> None:
         made(self, *args, **_with_warnings(values))
 
     cls.__init__ = init  # type: ignore[misc]
@@ -71,15 +72,19 @@ def _with_old_names(cls: type) -> type:
 @_with_old_names
 @dataclass(frozen=True)
 class Parameters:
-    """What a decomposition may be asked for; ``Parameters.RANGES`` has the limits.
+    """The parameters of a run, all optional; the description of each is in its field's metadata.
 
-    Each field's metadata holds its range (None for switches and choices), a label and a
-    sentence for tooltips, in the artist's words with the paper's symbol second.
+    The metadata of a field holds its "range", (lowest, highest), if it is a number, its "choices" if it is one of
+    several words, and always a "label" and a "description" for tooltips. ``Parameters.RANGES`` has all ranges by name.
+
+    Names of version 0.1.0 are understood as well, with a DeprecationWarning.
 
     Raises
     ------
     ParameterError
-        A value outside its range; ``error.name`` says which.
+        A value is outside its range; ``error.name`` says which.
+    TypeError
+        There is no parameter of a name.
     """
 
     RANGES: ClassVar[dict[str, tuple[float, float]]]
@@ -128,12 +133,14 @@ class Parameters:
         0.01, 0.0, 1.0, "Small loose part",
         "Loose parts with less than this share of the whole area are one part each")
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
+        """Raise ParameterError if a value is outside its range or not among its choices."""
         for item in fields(self):
             limits = item.metadata.get("range")
             value = getattr(self, item.name)
             if limits is not None:
-                self._check_number(item.name, value, *limits, whole=item.type == "int")
+                low, high = limits
+                self._check_number(item.name, value, low, high, whole=item.type == "int")
             elif "choices" in item.metadata and value not in item.metadata["choices"]:
                 choices = ", ".join(item.metadata["choices"])
                 raise ParameterError(
@@ -141,7 +148,8 @@ class Parameters:
                              name=item.name, choices=choices, value=value), item.name)
 
     @staticmethod
-    def _check_number(name, value, low, high, whole):
+    def _check_number(name: str, value: Any, low: float, high: float, whole: bool) -> None:
+        """Raise ParameterError if a value is not a number, or not a whole one, from ``low`` to ``high``."""
         try:
             number = float(value)
         except (TypeError, ValueError):
@@ -156,8 +164,27 @@ class Parameters:
                 name)
 
     @classmethod
-    def preset(cls, name: str, **changes) -> Parameters:
-        """The parameters of a preset of PRESETS, with some of them changed."""
+    def preset(cls, name: str, **changes: Any) -> Parameters:
+        """Look up a preset and change some of its parameters.
+
+        Parameters
+        ----------
+        name : str
+            Name in PRESETS.
+        **changes
+            Values by parameter.
+
+        Returns
+        -------
+        parameters : Parameters
+
+        Raises
+        ------
+        ParameterError
+            There is no such preset (``error.name`` is then "preset"), or a value is outside its range.
+        TypeError
+            There is no parameter of a name.
+        """
         if name not in PRESETS:
             raise ParameterError(
                 Sentence("There is no preset {name!r}. Choose one of: {presets}.",

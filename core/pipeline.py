@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one door: arrays in, a decomposition out. The stages of the method, in order."""
+"""``decompose``, which takes arrays, runs the stages of the method in order and returns a decomposition."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,16 +22,19 @@ from .surface.coarsening import Pyramid
 from .surface.polygons import PolygonMesh
 from .surface.preparation import Component, WorkingMesh, components_worth_cutting, repair
 
-# Shares of the whole time, on a mesh of some 100,000 vertices, at which the preparation of the whole mesh ends and
-# at which the assembly of the result begins.
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+# Shares of the time of a run, 0..1, at which the preparation of the whole mesh ends and at which the assembly of the
+# result begins; measured on a mesh of some 100,000 vertices. Progress is reported by them.
 MESH_SHARE, PARTS_SHARE = 0.14, 0.9
 
 
 def decompose(
-    vertices,
-    faces,
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
     parameters: Parameters | None = None,
-    polygon=None,
+    polygon: ArrayLike | None = None,
     progress: Progress | None = None,
     model: BoostedTrees | None = None,
 ) -> Decomposition:
@@ -37,35 +43,39 @@ def decompose(
     Parameters
     ----------
     vertices : (n, 3) array_like of float
-    faces : (m, k) array_like of int, or a sequence of index sequences
-        Triangles, quads or polygons.
+        Positions, in any unit of length.
+    faces : (p, k) array_like of int, or a sequence of p index sequences
+        Vertices of each face: triangles, quads or polygons.
     parameters : Parameters, optional
-        The default preset without.
+        Without it, the preset "Perceptual".
     polygon : (m,) array_like of int, optional
-        For triangles that are a triangulation of the caller's polygons: the polygon of each.
-        Labels are then per polygon.
+        For a caller who has cut polygons into triangles already: ``faces`` are then (m, 3) triangles, and this is the
+        polygon of each. The faces of the result are the polygons.
     progress : callable, optional
-        Called as progress(stage, share) between and within stages, share rising from 0 to 1.
-        What it raises ends the computation; raise ``Cancelled`` to cancel.
+        Called as progress(stage, share) between and within stages, share rising from 0 to 1. An exception that it
+        raises ends the run; it raises ``Cancelled`` to cancel.
     model : BoostedTrees, optional
-        What judges cuts in the method "perceptual"; the model that ships with the package without.
+        Model that judges cuts in the method "perceptual". Without it, the model that ships with the package.
 
     Returns
     -------
     decomposition : Decomposition
-        ``decomposition.parts().labels`` is one part per face.
+        ``decomposition.parts().labels`` is the part of each face, (p,) int64.
 
     Raises
     ------
     MeshError
-        Shapes, indices or coordinates are wrong, or the mesh is too small to have parts.
-    ParameterError
-        Raised by ``Parameters`` itself.
+        A shape, an index, a polygon's number or a coordinate is wrong; ``error.vertices`` and ``error.faces`` say
+        where.
+    EmptyMeshError
+        The mesh has too few faces to have parts, or no area.
+    ReebError
+        The model that ships with the package was trained on other features.
 
     Notes
     -----
-    Deterministic. Time is about that of one Dijkstra search per base vertex (some 140), the
-    rest grows with faces + crossings of faces and levels.
+    The result is deterministic. The time is about that of one search for shortest paths per base vertex, some 140; the
+    time of all other steps grows with the number of faces plus that of crossings of faces and levels.
     """
     parameters = parameters or Parameters()
     watch = Stopwatch(progress)
@@ -89,7 +99,7 @@ def _decompose_component(
     working: WorkingMesh, label: int, parameters: Parameters, model: BoostedTrees | None,
     watch: Stopwatch, begin: float, width: float,
 ) -> ComponentResult:
-    """All stages on one connected component; they take a share ``width`` of the whole from ``begin`` on."""
+    """Result of all stages on one component, which take a share ``width`` of the run's time from share ``begin`` on."""
     with watch.stage("mesh", begin + 0.05 * width):
         component = Component.of(working, label)
         pyramid = Pyramid(component.mesh)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far a run is, told to its caller, and how long each stage took."""
+"""Progress of a run, reported to its caller, and the time that each stage takes."""
 
 from __future__ import annotations
 
@@ -7,34 +7,47 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-#: Called with the name of the stage and the share of the whole that is done, 0..1.
+#: Called with the name of the stage and the share of the whole run that is done, 0..1.
 Progress = Callable[[str, float], None]
 
 
 class Stopwatch:
-    """Times the stages of a run and tells its caller about them.
+    """Measures the time of the stages of a run, and reports them to the caller of the run.
 
     Parameters
     ----------
-    progress : callable, optional
+    progress : callable or None
         Called as progress(stage, share).
 
     Attributes
     ----------
     seconds : dict of str -> float
-        Time of each stage so far.
+        Seconds that each stage has taken so far.
     share : float
-        What is done of the whole, 0..1.
+        Share of the whole run that is done, 0..1.
     """
 
-    def __init__(self, progress: Progress | None):
+    def __init__(self, progress: Progress | None) -> None:
         self.progress = progress or (lambda stage, share: None)
         self.seconds: dict[str, float] = {}
         self.share = 0.0
 
     @contextmanager
     def stage(self, name: str, until: float) -> Iterator[Callable[[float], None]]:
-        """Time a stage that ends at a share of the whole; gives a function to tell how much of it is done."""
+        """Measure the time of a stage: a context manager.
+
+        Parameters
+        ----------
+        name : str
+            Name of the stage. The times of stages of one name are added.
+        until : float
+            Share of the whole run that is done when the stage ends, 0..1.
+
+        Yields
+        ------
+        progress : callable
+            To be called with the share of the stage that is done, 0..1.
+        """
         self.progress(name, self.share)
         begin, start = time.perf_counter(), self.share
         yield lambda done: self.progress(name, start + done * (until - start))

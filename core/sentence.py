@@ -1,30 +1,45 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sentences for the user that can be said in other languages.
+"""Sentences for the user that can be translated.
 
-This package speaks English. It writes each sentence as ``Sentence("... {n} ...", n=3)``, never as an
-f-string, so that who shows it can look up the constant message and fill in the values afterwards.
+This package writes its sentences in English, as ``Sentence("... {n} ...", n=3)`` and never as f-strings. The code that
+shows a sentence can then look up the constant message in a dictionary and fill in the values afterwards.
 """
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class Sentence(str):
-    """A sentence that remembers what it was made of; the English text to everything else.
+    """An English sentence, a str, that also keeps its message and values for translation.
+
+    Parameters
+    ----------
+    message : str
+        The sentence with the names of its values in braces, for ``str.format``.
+    **values
+        Value for each name.
 
     Attributes
     ----------
     message : str
-        With the names of values in braces, for ``str.format``.
     values : dict of str -> object
+
+    Raises
+    ------
+    KeyError
+        A name in ``message`` has no value.
     """
 
     message: str
     values: dict[str, object]
 
-    def __new__(cls, message: str, **values):
+    def __new__(cls, message: str, **values: Any) -> Sentence:
+        """Fill the values into the message."""
         self = super().__new__(cls, message.format(**values))
         self.message, self.values = message, values
         return self
 
-    def __getnewargs_ex__(self):  # pickling and copying begin with the message, not with the text
+    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, object]]:
+        """Arguments of ``__new__`` for pickling and copying, which would otherwise begin with the text."""
         return (self.message,), self.values

@@ -1,35 +1,40 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What every method of cutting ends in: candidate parts, and the order in which they merge.
+"""The result of every method of cutting: candidates, and the order in which they merge.
 
-The hierarchy of all cuts holds every level of detail: none is computed again.
+The parts at every level of detail are read from the hierarchy; nothing is computed again.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..surface.arrays import components, frozen
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
 
 @dataclass(frozen=True, eq=False)
 class Dendrogram:
-    """Elements joined pair by pair, in an order in which whatever is joined at any time is an interval.
+    """The tree of sets that arises when candidates are joined pair by pair.
 
-    With c elements, r sets that are left in the end and s joins:
+    The candidates are put in an order in which every set, at every time, is an interval of places. With c candidates,
+    r sets that are left in the end and s joins:
 
     Attributes
     ----------
     order : (c,) int64
-        The element at each place.
+        Candidate at each place.
     roots : (r, 2) int64
         Start and end of the interval of each set that is left.
     joins : (s, 3) int64
-        Start, middle and end of the two intervals that each join makes one.
+        Start, middle and end: each join makes one set of [start, middle) and [middle, end).
     rows : (s,) int64
-        Which of the given pairs each join stands for; the others were joined already.
+        Row of the given pairs that made each join, rising; the pairs of other rows had been joined before.
     """
 
     order: np.ndarray
@@ -39,12 +44,25 @@ class Dendrogram:
 
     @classmethod
     def of(cls, count: int, pairs: np.ndarray) -> Dendrogram:
-        """Join pairs of 0..count-1 in the order given, (e, 2) int64; the first of a pair comes first."""
-        # Not above: Blender's panel comes up without SciPy, to say that it is missing.
+        """Join candidates pair by pair.
+
+        Parameters
+        ----------
+        count : int
+            Number of candidates.
+        pairs : (e, 2) int64
+            Candidates to join, 0..count-1, in the order in which they are joined. The set of the first candidate of
+            a pair gets the places before that of the second.
+
+        Returns
+        -------
+        dendrogram : Dendrogram
+        """
+        # Imported here, because Blender's panel is shown also where SciPy is missing, to say that it is.
         from scipy.cluster.hierarchy import DisjointSet
 
         sets = DisjointSet(range(count))
-        head, tail, size = list(range(count)), list(range(count)), [1] * count  # of each set's representative
+        head, tail, size = list(range(count)), list(range(count)), [1] * count  # by representative of a set
         following = [-1] * count
         joins, rows = [], []
         for row, (a, b) in enumerate(pairs.tolist()):
@@ -71,7 +89,7 @@ class Dendrogram:
 
     @cached_property
     def _gap_rows(self) -> list[np.ndarray]:
-        """The row that joins what is left and right of each gap, and its maxima over 2, 4, 8 ... gaps."""
+        """Row that joins the sets left and right of each gap between places, and its maxima over 2, 4, 8 ... gaps."""
         gaps = np.full(max(len(self.order) - 1, 1), np.iinfo(np.int64).max)
         gaps[self.joins[:, 1] - 1] = self.rows
         maxima = [gaps]
@@ -80,14 +98,26 @@ class Dendrogram:
         return maxima
 
     def row_of(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """The row that brings two elements together; the largest int64 where none does, 0 for one and itself.
+        """Find the row of the pairs that brings two candidates into one set.
 
-        a, b : (e,) int64. Returns (e,) int64. O(c log c) once, then O(e).
+        Parameters
+        ----------
+        a, b : (e,) int64
+            Candidates.
+
+        Returns
+        -------
+        row : (e,) int64
+            The largest int64 where no row does; 0 where a and b are one candidate.
+
+        Notes
+        -----
+        O(c log c) when it is first called, then O(e log c).
         """
         place = np.empty(len(self.order), np.int64)
         place[self.order] = np.arange(len(place))
         low, high = np.sort([place[a], place[b]], axis=0)
-        # The maximum over a run of gaps is that over two overlapping runs of a power of two each.
+        # The maximum over consecutive gaps is that over two overlapping ranges, each a power of two long.
         level = np.frexp(np.maximum(high - low, 1))[1] - 1
         found = np.zeros(len(low), np.int64)
         for width, maxima in enumerate(self._gap_rows):
@@ -98,17 +128,17 @@ class Dendrogram:
 
 @dataclass(frozen=True, eq=False)
 class Hierarchy:
-    """Candidate parts and the order in which they merge, weakest cut first.
+    """The order in which candidates merge, weakest cut first.
 
     Attributes
     ----------
     n_candidates : int
     merges : (s, 2) int64
-        Two candidates whose parts merge, in order. A spanning forest: s is the number of
-        candidates minus the number of loose parts.
+        Two candidates whose parts merge, in order. The merges are a spanning forest: s is the number of candidates
+        minus the number of loose parts.
     salience : (s,) float64
-        How much each merged cut deserved to stay, 0..1, never falling along the sequence.
-        0.5 is the method's own decision.
+        How much the cut between the two parts of each merge deserves to stay, 0..1, never falling from one merge to
+        the next. At 0.5 the method itself decides between cutting and merging.
     """
 
     n_candidates: int
@@ -116,15 +146,32 @@ class Hierarchy:
     salience: np.ndarray
 
     @classmethod
-    def of(cls, n_candidates: int, merges, salience) -> Hierarchy:
-        """From a merging sequence; salience becomes its running maximum."""
+    def of(cls, n_candidates: int, merges: ArrayLike, salience: ArrayLike) -> Hierarchy:
+        """Make a hierarchy of a sequence of merges.
+
+        Parameters
+        ----------
+        n_candidates : int
+        merges : (s, 2) array_like of int
+            Two candidates of each merge, in order.
+        salience : (s,) array_like of float
+            Salience of each merge, which need not rise; clipped to 0..1 and replaced by its running maximum.
+
+        Returns
+        -------
+        hierarchy : Hierarchy
+        """
         salience = np.clip(np.asarray(salience, np.float64), 0.0, 1.0)
         return cls(n_candidates, frozen(np.reshape(merges, (-1, 2)), np.int64),
                    frozen(np.maximum.accumulate(salience), np.float64))
 
     @classmethod
     def join(cls, hierarchies: list[Hierarchy]) -> Hierarchy:
-        """One hierarchy of the hierarchies of several loose parts, candidates numbered in order."""
+        """Put the hierarchies of several components into one.
+
+        hierarchies : list of Hierarchy. Returns a Hierarchy whose candidates follow the order of the list and whose
+        merges are sorted by salience. Components never merge.
+        """
         offsets = np.cumsum([0] + [h.n_candidates for h in hierarchies])
         merges = np.concatenate([h.merges + o for h, o in zip(hierarchies, offsets, strict=False)])
         salience = np.concatenate([h.salience for h in hierarchies])
@@ -134,16 +181,19 @@ class Hierarchy:
 
     @property
     def n_loose(self) -> int:
-        """The fewest parts possible: loose parts never merge."""
+        """Number of loose parts, which never merge: the fewest parts possible."""
         return self.n_candidates - len(self.merges)
 
     def n_parts(self, detail: float) -> int:
-        """Number of parts at a level of detail: cuts of salience 1 - detail and above stay."""
-        # With a tolerance, as 1 - 0.7 is not 0.3 in binary.
+        """Count the parts at a level of detail: cuts of salience 1 - detail and above stay.
+
+        detail : float, 0..1. Returns int.
+        """
+        # The tolerance is for rounding: 1 - 0.7 is not 0.3 in binary.
         return self.n_candidates - int(np.searchsorted(self.salience, 1.0 - detail - 1e-9))
 
     def parts(self, n_parts: int) -> np.ndarray:
-        """Which part each candidate belongs to, for an exact number of parts.
+        """Merge candidates to an exact number of parts.
 
         Parameters
         ----------
@@ -153,7 +203,7 @@ class Hierarchy:
         Returns
         -------
         part : (n_candidates,) int64
-            0..n_parts-1.
+            Part of each candidate, 0..n_parts-1.
         """
         n_parts = min(max(n_parts, self.n_loose), self.n_candidates)
         done = self.merges[: self.n_candidates - n_parts]
@@ -161,26 +211,28 @@ class Hierarchy:
 
     @cached_property
     def _dendrogram(self) -> Dendrogram:
+        """Dendrogram of the merges."""
         return Dendrogram.of(self.n_candidates, self.merges)
 
     def merge_of(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """The merge that joins two candidates; the number of merges where none does.
+        """Find the merge that brings two candidates into one part.
 
-        a, b : (e,) int64. Returns (e,) int64.
+        a, b : (e,) int64, candidates. Returns the place of the merge in ``merges``, (e,) int64; the number of merges
+        where no merge does, 0 where a and b are one candidate.
         """
         return np.minimum(self._dendrogram.row_of(a, b), len(self.merges))
 
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """What a method of cutting gives for one component.
+    """The candidates that a method of cutting finds on one component.
 
     Attributes
     ----------
     element_candidate : (E,) int64
-        Candidate of each element (face, slab) of the level sets, 0..count-1.
+        Candidate of each element of the level sets, 0..hierarchy.n_candidates-1.
     hierarchy : Hierarchy
-        Over the candidates; decides which cuts stay.
+        The order in which the candidates merge.
     """
 
     element_candidate: np.ndarray

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The methods of cutting, behind one function: what each needs of a component is what it is given."""
+"""The methods of cutting behind one function, which gives each method what it needs of a component."""
 
 from __future__ import annotations
 
@@ -30,22 +30,27 @@ def find_candidates(
     Parameters
     ----------
     sets : LevelSets
-        Of one connected component.
+        Level sets of one connected component.
     field : ScalarField
-        Its AGD.
+        AGD of the component.
     topology : ReebTopology
-        Its Reeb graph, simplified.
+        Reeb graph of the component, simplified.
     pyramid : Pyramid
-        Coarser copies of its mesh.
+        Coarser copies of the component's mesh.
     parameters : Parameters
     model : BoostedTrees, optional
-        What judges cuts in "perceptual"; the model that ships with the package without.
+        Model that judges cuts in the method "perceptual". Without it, the model that ships with the package.
     progress : callable, optional
         Called with the share done, 0..1.
 
     Returns
     -------
     candidates : Candidates
+
+    Raises
+    ------
+    ReebError
+        The model that ships with the package was trained on other features; only if it is needed.
     """
     if parameters.method == PERCEPTUAL:
         return perceptual_candidates(sets, field, pyramid, parameters, model, progress)

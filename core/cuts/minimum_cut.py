@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where exactly a cut runs: the cheapest line in a band around it.
+"""Minimum cuts: each cut between two parts moves to the cheapest line in a band around it.
 
-Every pair of parts that touch is cut anew by a minimum cut: along creases a line costs little,
-over ridges much, everywhere in proportion to its length, and more the farther it leaves its place.
+The cost of a line is its length, weighed by curvature: a line costs little along creases and much across ridges. It
+costs more toward the rim of the band, so that cuts stay near their places.
 """
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -16,32 +18,42 @@ from ..surface.labels import label_boundaries, spread
 from ..surface.mesh import TriMesh
 from .hierarchy import Hierarchy
 
-WIDEST = 0.05  # half the width of the band, at most, over the square root of the area
-CREASE = 12.0  # curvature, times the square root of the area, that changes the cost by e
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+WIDEST = 0.05  # upper bound of half the width of the band, in units of the square root of the area
+# The cost of an edge is its length times exp(curvature / CREASE), where this factor is bounded by CHEAPEST and DEAREST.
+# CREASE is in units of 1 / square root of the area.
+CREASE = 12.0
 CHEAPEST, DEAREST = 0.05, 3.0
-UNITS = 10_000  # capacities are whole numbers: the mean edge has so many
+UNITS = 10_000  # capacity of an edge of mean cost; SciPy takes whole numbers only
 
 
 def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, band_ratio: float = 0.5,
                 within: np.ndarray | None = None) -> np.ndarray:
-    """Move the borders of parts into the creases beside them.
+    """Move the cuts between parts into the creases beside them.
 
     Parameters
     ----------
     mesh : TriMesh
         m faces, one connected component.
     curvature : (p,) float64
-        Across each pair of faces, times the square root of the area; negative in concavities.
+        Curvature across each pair of faces, in units of 1 / square root of the area; negative in concavities.
     part : (m,) int64
+        Part of each face, 0 or more.
     band_ratio : float
         Half the width of the band over the radius of a circle as long as the cut; 0 moves nothing.
     within : (m,) int64, optional
-        Coarser parts: cuts between these stay.
+        Coarser part of each face: cuts between coarser parts stay where they are.
 
     Returns
     -------
     part : (m,) int64
-        Parts may have come apart into pieces.
+        Parts may no longer be connected.
+
+    Notes
+    -----
+    The longest cut moves first. One minimum cut per pair of parts that touch.
     """
     part = part.copy()
     if band_ratio <= 0:
@@ -61,7 +73,7 @@ def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, band_ra
 
 def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature: np.ndarray,
               band_ratio: float, details: tuple[float, ...] = (0.5, 0.75)) -> np.ndarray:
-    """Candidates after the cuts of some levels of detail have moved into creases.
+    """Move the cuts of some levels of detail into creases, and let the candidates follow.
 
     Parameters
     ----------
@@ -70,16 +82,19 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
     label : (m,) int64
         Candidate of each face.
     hierarchy : Hierarchy
-        Over the candidates.
-    curvature, band_ratio
-        As ``minimum_cuts`` takes them.
+        The order in which the candidates merge.
+    curvature : (p,) float64
+        Curvature across each pair of faces, in units of 1 / square root of the area; negative in concavities.
+    band_ratio : float
+        Half the width of the band over the radius of a circle as long as the cut; 0 moves nothing.
     details : tuple of float
-        Rising; cuts that an earlier one has moved stay there.
+        Levels of detail whose cuts move, rising. Cuts that moved at one level stay in place at the next.
 
     Returns
     -------
     label : (m,) int64
-        Faces that changed part follow a neighbor in their new part, from the cut outwards.
+        Candidate of each face. A face that changed part takes the candidate of a neighbor in its new part, from the cut
+        outwards.
     """
     a, b = both_ways(mesh.edges.pairs).T
     coarser = None
@@ -90,19 +105,26 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
         before, label = label, np.where(moved == part, label, -1)
         together = moved[a] == moved[b]
         label = spread(label, a[together], b[together])
-        label = np.where(label < 0, before, label)  # an island with no such neighbor stays
+        label = np.where(label < 0, before, label)  # a face that no candidate reaches keeps its own
         coarser = moved
     return label
 
 
-def _cuts_by_length(part, a, b, length) -> np.ndarray:
-    """(k, 2) pairs of parts that touch, the longest border first."""
+def _cuts_by_length(part: np.ndarray, a: np.ndarray, b: np.ndarray, length: np.ndarray) -> np.ndarray:
+    """Pairs of parts that touch, (k, 2), the longest cut first."""
     touching, total = label_boundaries(part, np.stack([a, b], axis=1), length)
     return touching[np.argsort(-total, kind="stable")]
 
 
-def _cut_anew(mesh, part, first, second, on_cut, cost, ways, band_ratio) -> np.ndarray:
-    """One minimum cut between two parts, in a band around their border."""
+def _cut_anew(
+    mesh: TriMesh, part: np.ndarray, first: int, second: int, on_cut: np.ndarray, cost: np.ndarray, ways: csr_array,
+    band_ratio: float,
+) -> np.ndarray:
+    """Part of each face, (m,), after one minimum cut between two parts, in a band around the cut that they have.
+
+    on_cut, cost : (p,), whether each pair of faces lies across the cut, and what it costs to cut there. ways : (m, m),
+    length of the way between neighboring faces.
+    """
     a, b = mesh.edges.pairs.T
     unit = np.sqrt(mesh.area)
     border = mesh.pair_length[on_cut].sum()
@@ -114,7 +136,7 @@ def _cut_anew(mesh, part, first, second, on_cut, cost, ways, band_ratio) -> np.n
     place = np.full(mesh.n_faces, -1)
     faces = np.flatnonzero(band)
     place[faces] = np.arange(len(faces))
-    # Faces with a neighbor of the same part outside the band hold the ends of the band.
+    # Faces at the rim of the band, with a neighbor of their own part outside, cannot change part.
     edge = np.flatnonzero((band[a] != band[b]) & (part[a] == part[b]))
     held = np.unique(np.where(band[a[edge]], a[edge], b[edge]))
     if not ((part[held] == first).any() and (part[held] == second).any()):
@@ -127,8 +149,14 @@ def _cut_anew(mesh, part, first, second, on_cut, cost, ways, band_ratio) -> np.n
     return part
 
 
-def _minimum_cut(a, b, cost, held, is_source, n) -> np.ndarray:
-    """(n,) bool, nodes on the source's side of the cheapest cut."""
+def _minimum_cut(
+    a: np.ndarray, b: np.ndarray, cost: np.ndarray, held: np.ndarray, is_source: np.ndarray, n: int
+) -> np.ndarray:
+    """Which of n nodes are on the source's side of the cheapest cut, (n,) bool.
+
+    Nodes a[i] and b[i] are joined by an edge of cost[i]; nodes in ``held`` belong to the source where ``is_source`` is
+    true, to the sink elsewhere.
+    """
     capacity = np.maximum(np.rint(cost / cost.mean() * UNITS), 1.0)
     endless = float(2**30)
     source, sink = n, n + 1

@@ -13,25 +13,26 @@ from ..surface.coarsening import Pyramid, prolong
 from ..surface.mesh import TriMesh
 from .geodesic import GeodesicSolver
 
-HISTOGRAM_BINS = 100  # the paper's bin width of 0.01
-# Paths are searched on at most so many vertices: five or more lie on the radius of a base
-# vertex's disc then, and the field is smooth at that scale.
+HISTOGRAM_BINS = 100  # number of bins of ``equalize``: each 0.01 wide, as in [Berretti2009]
+# Largest number of vertices on which paths are searched. At this number, five or more vertices lie on the radius of a
+# base vertex's disc, and the field is smooth at that scale.
 FIELD_VERTICES = 20_000
-# Below this share of its maximum, the variation of the AGD is the error of the distances.
+# Range of the AGD, as a share of its maximum, below which its variation is the error of the distances.
 FLAT_FIELD = 0.03
 
 
 @dataclass(frozen=True, eq=False)
 class BaseVertices:
-    """Vertices spread evenly over the surface, each standing for the area nearest to it.
+    """Vertices spread evenly over the surface, each of which stands for the area nearest to it.
 
     Attributes
     ----------
     indices : (k,) int64
+        Base vertices.
     areas : (k,) float64
-        They sum to the area of the surface.
+        Area that each base vertex stands for, in squared units of the vertices; the sum is the area of the surface.
     distances : (k, n) float32
-        From each base vertex to every vertex; found while spreading them.
+        Geodesic distance from each base vertex to every vertex, in the unit of the vertices.
     """
 
     indices: np.ndarray
@@ -41,16 +42,16 @@ class BaseVertices:
 
 @dataclass(frozen=True, eq=False)
 class ScalarField:
-    """One value per vertex.
+    """A field on a surface: one value per vertex, before and after it is normalized and equalized.
 
     Attributes
     ----------
     values : (n,) float64
-        What level sets are taken of: normalized, and equalized where asked for, 0..1.
+        The field whose level sets are taken, 0..1: ``normalized``, equalized by eq. (7) if the parameters say so.
     normalized : (n,) float64
-        Eq. (3): the AGD mapped to 0..1, before equalization.
+        The AGD mapped to 0..1, eq. (3).
     agd : (n,) float64
-        Eq. (2), in the unit of the vertices.
+        The average geodesic distance, eq. (2), in the unit of the vertices.
     """
 
     values: np.ndarray
@@ -65,17 +66,18 @@ def spread_base_vertices(
     radius: float,
     progress: Callable[[float], None] | None = None,
 ) -> BaseVertices:
-    """Farthest-point sampling until every vertex is within ``radius`` of a base vertex.
+    """Choose base vertices by farthest-point sampling until every vertex is within a radius of one.
 
-    After [Hilaga2001]; the paper separates base vertices by 2 sqrt(0.005 S), S the area.
+    After [Hilaga2001]. The radius of [Berretti2009] is sqrt(0.005 S), S the area of the surface.
 
     Parameters
     ----------
     mesh : TriMesh
         n vertices, one connected component.
     solver : GeodesicSolver
-        Of that mesh.
+        Made of ``mesh``.
     vertex_area : (n,) float64
+        Area that each vertex stands for, in squared units of the vertices.
     radius : float
         In the unit of the vertices, above 0.
     progress : callable, optional
@@ -85,21 +87,26 @@ def spread_base_vertices(
     -------
     base : BaseVertices
 
+    Raises
+    ------
+    DisconnectedMeshError
+        The mesh has more than one component; ``error.vertices`` lists vertices that cannot be reached.
+
     Notes
     -----
-    One search per base vertex: O(k n log n) time, 4 k n bytes. Starts at the vertex farthest
-    from the centroid, so the choice depends on the shape, not on the order of the vertices.
+    One search per base vertex: O(k n log n) time, 4 k n bytes. The first base vertex is the vertex farthest from
+    the centroid, so that the choice depends on the shape and not on the order of the vertices.
     """
     centroid = vertex_area @ mesh.vertices / vertex_area.sum()
     chosen = [first_largest(np.linalg.norm(mesh.vertices - centroid, axis=1))]
     rows = []
     nearest = np.full(mesh.n_vertices, np.inf)
     owner = np.zeros(mesh.n_vertices, np.int64)
-    expected = vertex_area.sum() / (1.5 * radius**2)  # measured: discs of this radius overlap about so
+    expected = vertex_area.sum() / (1.5 * radius**2)  # number of base vertices; the 1.5 is measured
     while True:
         row = solver.distances(chosen[-1])
         rows.append(row.astype(np.float32))
-        closer = row < (1 - 1e-9) * nearest  # of equals the first, whatever the last bit says
+        closer = row < (1 - 1e-9) * nearest  # of equally near base vertices the first, despite rounding
         nearest[closer] = row[closer]
         owner[closer] = len(chosen) - 1
         if progress:
@@ -113,10 +120,15 @@ def spread_base_vertices(
 
 
 def average_geodesic_distance(base: BaseVertices) -> np.ndarray:
-    """Mean geodesic distance from every vertex to the surface (AGD).
+    """Average the geodesic distance from every vertex over the surface (AGD).
 
-    Eq. (2) of docs/method.md, after [Hilaga2001]: the surface integral of the distance, summed
-    over the base vertices and divided by the area.
+    Eq. (2) of docs/method.md, after [Hilaga2001]: the surface integral of the distance, summed over the base vertices
+    and divided by the area.
+
+    Parameters
+    ----------
+    base : BaseVertices
+        With distances to n vertices.
 
     Returns
     -------
@@ -125,14 +137,23 @@ def average_geodesic_distance(base: BaseVertices) -> np.ndarray:
     """
     agd = np.zeros(base.distances.shape[1])
     for area, row in zip(base.areas, base.distances, strict=True):
-        agd += area * row  # a product with the whole matrix would copy it to float64
+        agd += area * row  # areas @ distances would copy all distances to float64
     return agd / base.areas.sum()
 
 
 def normalize(values: np.ndarray) -> np.ndarray:
-    """Map values to 0..1, eq. (3); 0 everywhere where they do not differ.
+    """Map values linearly to 0..1, eq. (3).
 
-    Differences below a millionth of the largest value are rounding, not shape.
+    Parameters
+    ----------
+    values : (n,) float64
+        At least one, none negative.
+
+    Returns
+    -------
+    normalized : (n,) float64
+        0 everywhere if the values differ by less than a millionth of the largest: such differences are rounding
+        errors.
     """
     low, high = values.min(), values.max()
     if not high - low > 1e-6 * abs(high):
@@ -141,24 +162,26 @@ def normalize(values: np.ndarray) -> np.ndarray:
 
 
 def equalize(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """Share of the area at or below each value, eq. (7), on a histogram of 100 bins.
+    """Replace each value by the share of the area that lies at or below it, eq. (7).
+
+    The share is read from a histogram of HISTOGRAM_BINS bins, linearly within each bin.
 
     Parameters
     ----------
     values : (n,) float64
-        Normalized, 0..1.
+        0..1, as ``normalize`` gives them.
     weights : (n,) float64
-        Area of each vertex; counting vertices, as the paper does, would favour dense regions.
+        Area of each vertex, in any unit. [Berretti2009] counts vertices instead, which favors densely meshed places.
 
     Returns
     -------
     equalized : (n,) float64
-        Monotone in ``values``; 0 at their minimum and 1 at their maximum, or all 0.
+        Strictly monotone in ``values``, 0 at value 0 and 1 at value 1; 0 everywhere if all values are 0.
     """
     if values.max() <= 0:
         return np.zeros_like(values)
     counts, edges = np.histogram(values, bins=HISTOGRAM_BINS, range=(0.0, 1.0), weights=weights)
-    # An empty bin keeps a sliver of width: order within it must survive.
+    # An empty bin gets a millionth of the area, so that values within it keep their order.
     counts = counts + 1e-6 * weights.sum()
     cumulative = np.concatenate([[0.0], np.cumsum(counts)]) / counts.sum()
     return np.interp(values, edges, cumulative)
@@ -167,14 +190,14 @@ def equalize(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
 def coarse_agd(
     pyramid: Pyramid, radius: float, progress: Callable[[float], None] | None = None
 ) -> np.ndarray:
-    """AGD of a mesh, by paths on a coarse copy where the mesh is dense.
+    """Compute the AGD of a mesh, from paths on a coarse copy if the mesh is dense.
 
     Parameters
     ----------
     pyramid : Pyramid
-        Of the mesh, n vertices.
+        Made of the mesh, n vertices.
     radius : float
-        Of the discs that base vertices stand for, in the unit of the vertices.
+        Radius of the discs that base vertices stand for, in the unit of the vertices, above 0.
     progress : callable, optional
         Called with the share done, 0..1.
 
@@ -186,11 +209,11 @@ def coarse_agd(
     Raises
     ------
     DisconnectedMeshError
-        The mesh is more than one component.
+        The mesh has more than one component.
 
     Notes
     -----
-    Path searches run on at most FIELD_VERTICES vertices; the rest is O(n).
+    Paths are searched on at most FIELD_VERTICES vertices; the other work is O(n).
     """
     steps = pyramid.until(lambda mesh: mesh.n_vertices <= FIELD_VERTICES)
     meshes = [pyramid.mesh, *(step.mesh for step in steps)]
@@ -205,7 +228,21 @@ def coarse_agd(
 
 
 def agd_field(mesh: TriMesh, agd: np.ndarray, equalized: bool) -> ScalarField:
-    """The field that level sets are taken of, eqs. (2), (3) and (7)."""
+    """Normalize an AGD, eq. (3), and equalize it, eq. (7), if asked to.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        n vertices.
+    agd : (n,) float64
+        Eq. (2), in the unit of the vertices.
+    equalized : bool
+        Whether level sets are taken of the equalized field.
+
+    Returns
+    -------
+    field : ScalarField
+    """
     normalized = normalize(agd)
     values = equalize(normalized, mesh.vertex_area) if equalized else normalized
     return ScalarField(*(frozen(a, np.float64) for a in (values, normalized, agd)))
@@ -214,27 +251,29 @@ def agd_field(mesh: TriMesh, agd: np.ndarray, equalized: bool) -> ScalarField:
 def protrusion_field(
     pyramid: Pyramid, base_spacing: float, equalized: bool, progress: Callable[[float], None] | None = None
 ) -> ScalarField:
-    """The field of a component: low on its body, high where it protrudes, 0 everywhere if nothing does.
+    """Compute the field of a component: low on its body, high where it protrudes.
 
     Parameters
     ----------
     pyramid : Pyramid
-        Of the component's mesh.
+        Made of the component's mesh, n vertices.
     base_spacing : float
-        Share of the area that the square of a base vertex's radius is (paper: 0.005).
+        Squared radius of a base vertex's disc over the area of the surface; 0.005 in [Berretti2009].
     equalized : bool
-        Whether every range of values gets the same area, eq. (7).
+        Whether the field is equalized, so that ranges of values of one width cover one area, eq. (7).
     progress : callable, optional
         Called with the share done, 0..1.
 
     Returns
     -------
     field : ScalarField
+        ``values`` and ``normalized`` are 0 everywhere if nothing protrudes: if the AGD varies by less than FLAT_FIELD
+        of its maximum.
 
     Raises
     ------
     DisconnectedMeshError
-        The mesh is more than one component.
+        The mesh has more than one component.
     """
     mesh = pyramid.mesh
     field = agd_field(mesh, coarse_agd(pyramid, np.sqrt(base_spacing * mesh.area), progress), equalized)

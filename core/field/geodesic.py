@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Geodesic distances over the surface: set up once, ask many times."""
+"""Geodesic distances over the surface: a solver is set up once per mesh and then asked for many sources."""
 
 from __future__ import annotations
 
@@ -16,34 +16,35 @@ from ..surface.mesh import TriMesh
 class GeodesicSolver:
     """Shortest paths along edges and across pairs of triangles.
 
-    Eqs. (4)-(6) of docs/method.md, with one addition: for each two triangles that share an
-    edge, the straight line between their far corners across the unfolded pair. It makes path
-    lengths much closer to true geodesics than edges alone, on coarse meshes above all.
+    Eqs. (4)-(6) of docs/method.md, with one addition to paths along edges: a path may also cross an edge, along the
+    straight line between the far corners of the edge's two triangles when these are unfolded into a plane. Path
+    lengths are then much closer to true geodesic distances, above all on coarse meshes.
 
     Parameters
     ----------
     mesh : TriMesh
         n vertices.
     links : (l, 2) int64, optional
-        Pairs of vertices that a straight line joins besides the edges.
+        Pairs of vertices that paths may also join by a straight line.
     """
 
-    def __init__(self, mesh: TriMesh, links: np.ndarray | None = None):
+    def __init__(self, mesh: TriMesh, links: np.ndarray | None = None) -> None:
         self.mesh = mesh
         self.graph = _path_graph(mesh, np.empty((0, 2), np.int64) if links is None else links)
 
     def distances(self, source: int) -> np.ndarray:
-        """Distance of every vertex from one vertex.
+        """Measure the distance of every vertex from one vertex.
 
         Parameters
         ----------
         source : int
-            A vertex.
+            Index of that vertex.
 
         Returns
         -------
         distance : (n,) float64
-            In the unit of the vertices; never too short by more than rounding.
+            In the unit of the vertices. Without links never shorter than the true geodesic distance, but for
+            rounding errors.
 
         Raises
         ------
@@ -54,7 +55,7 @@ class GeodesicSolver:
         -----
         O(n log n) time.
         """
-        # The graph is stored in both directions: "directed" spares the search a transpose.
+        # The graph has both directions of each edge; directed=True keeps SciPy from transposing it.
         distance = dijkstra(self.graph, directed=True, indices=int(source))
         lost = np.flatnonzero(np.isinf(distance))
         if len(lost):
@@ -65,18 +66,18 @@ class GeodesicSolver:
 
 
 def _path_graph(mesh: TriMesh, links: np.ndarray) -> csr_array:
-    """(n, n) symmetric lengths of edges, links and lines across two unfolded triangles."""
+    """Symmetric (n, n) matrix of the lengths of edges, links and lines across two unfolded triangles."""
     c, d, across = _unfolded_lines(mesh)
     rows = np.concatenate([mesh.edges.vertices[:, 0], c, links[:, 0]])
     columns = np.concatenate([mesh.edges.vertices[:, 1], d, links[:, 1]])
     straight = np.linalg.norm(mesh.vertices[links[:, 0]] - mesh.vertices[links[:, 1]], axis=1)
     length = np.concatenate([mesh.edge_length, across, straight])
-    length = np.maximum(length, np.finfo(float).tiny)  # a stored zero would read as "no edge"
+    length = np.maximum(length, np.finfo(float).tiny)  # SciPy takes a stored 0 for "no edge"
     return _shortest_of(rows, columns, length, mesh.n_vertices)
 
 
-def _shortest_of(rows, columns, length, n) -> csr_array:
-    """Symmetric matrix with the shortest of the lengths given for each pair."""
+def _shortest_of(rows: np.ndarray, columns: np.ndarray, length: np.ndarray, n: int) -> csr_array:
+    """Symmetric (n, n) matrix with the shortest of the lengths that are given for each pair, in either direction."""
     low, high = np.minimum(rows, columns), np.maximum(rows, columns)
     order = np.lexsort((length, high, low))
     low, high, length = low[order], high[order], length[order]
@@ -87,10 +88,10 @@ def _shortest_of(rows, columns, length, n) -> csr_array:
 
 
 def _unfolded_lines(mesh: TriMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Far corners of each pair of triangles, and the line between them where it crosses the edge."""
+    """Far corners of each two triangles whose straight line crosses the shared edge, and its length; (k,) each."""
     pairs, edge = mesh.edges.pairs, mesh.edges.pair_edge
     a, b = mesh.edges.vertices[edge].T
-    far = mesh.faces[pairs].sum(axis=2) - (a + b)[:, None]  # what is left of the three corners
+    far = mesh.faces[pairs].sum(axis=2) - (a + b)[:, None]  # the corner that is not on the shared edge
     origin, length = mesh.vertices[a], mesh.edge_length[edge]
     safe = np.where(length > 0, length, 1.0)
     along = (mesh.vertices[b] - origin) / safe[:, None]

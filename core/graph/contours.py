@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contours of the field on the caller's own faces: a ring to cut a part along.
+"""Contours of the field on the caller's own faces, to cut a part along one of them.
 
-The Reeb graph contracts each contour to a point of an arc; here a point of an arc, or of the surface, is
-taken back to its contour.
+The Reeb graph contracts each contour to a point of an arc. This module finds the contour that belongs to a point of an
+arc or of the surface.
 """
 
 from __future__ import annotations
@@ -15,22 +15,25 @@ from ..surface.arrays import components, renumbered, sums_by
 from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, connect, straighten
 
-STRAIGHTEN = 10  # rounds, as many as after a decomposition
+STRAIGHTEN = 10  # rounds of ``straighten``; the default of Parameters.smoothing
 
 
 @dataclass(frozen=True, eq=False)
 class Contours:
-    """The contours of one level within some faces; they cross s faces.
+    """The contours of one level on some faces, as s segments.
+
+    A face that the level crosses has one segment, a polygon that it crosses twice has two.
 
     Attributes
     ----------
     count : int
+        Number of contours.
     segments : (s, 2, 3) float64
-        Where each crossed face is crossed; a face that is crossed twice has two.
+        Ends of each segment, in the unit of the vertices.
     face : (s,) int64
-        The face of each segment.
+        Face in which each segment lies.
     label : (s,) int64
-        The contour of each segment, 0..count-1.
+        Contour of each segment, 0..count-1.
     """
 
     count: int
@@ -40,11 +43,14 @@ class Contours:
 
     @property
     def length(self) -> np.ndarray:
-        """(s,) float64, of each segment; above 0."""
+        """(s,) float64, length of each segment, above 0 so that it can weigh, in the unit of the vertices."""
         return np.linalg.norm(self.segments[:, 0] - self.segments[:, 1], axis=1) + 1e-300
 
     def around(self, point: np.ndarray) -> int:
-        """The contour whose centroid is nearest to a (3,) point; -1 if there is none."""
+        """Find the contour whose centroid is nearest to a point.
+
+        point : (3,) float64. Returns the contour's label; -1 if there is no contour.
+        """
         if not self.count:
             return -1
         length = self.length
@@ -54,21 +60,25 @@ class Contours:
         return int(np.linalg.norm(centroid - point, axis=1).argmin())
 
     def through(self, face: int) -> int:
-        """The contour that crosses a face; -1 if none does."""
+        """Find the contour that crosses a face.
+
+        face : int. Returns the contour's label, that of the first segment of the face; -1 if no contour crosses it.
+        """
         found = self.label[self.face == face]
         return int(found[0]) if len(found) else -1
 
 
 def contours(field: np.ndarray, level: float, table: CornerTable) -> Contours:
-    """Connected components of a level set.
+    """Find the connected components of a level set.
 
     Parameters
     ----------
     field : (n,) float64
-        Of each vertex; nan for a vertex of no face.
+        Value at each vertex; nan for a vertex without a face.
     level : float
+        Value of the level set, in the unit of ``field``. A vertex whose value is exactly the level counts as above it.
     table : CornerTable
-        The faces to look at.
+        The faces that are searched.
 
     Returns
     -------
@@ -85,7 +95,7 @@ def contours(field: np.ndarray, level: float, table: CornerTable) -> Contours:
     share = (level - low[edge]) / (high[edge] - low[edge])
     start, end = table.vertices[table.edges[edge]].transpose(1, 0, 2)
     point = start + share[:, None] * (end - start)
-    # Around a face the field changes sides an even number of times.
+    # Along the border of a face the field crosses the level an even number of times.
     edge, face = edge.reshape(-1, 2), face.reshape(-1, 2)[:, 0]
     edges_crossed, index = renumbered(edge)
     faces_crossed, of_face = renumbered(face)
@@ -101,26 +111,26 @@ def contour_sides(
     above: np.ndarray,
     crossed: np.ndarray,
 ) -> np.ndarray | None:
-    """The two sides of a part that is cut along one contour.
+    """Cut a part in two along one contour.
 
-    Where one contour does not part it - around a handle - the part is cut along all contours between what
-    lies above and below this one.
+    Around a handle, one contour does not separate the part into two sides. The part is then cut along every contour of
+    the level, and its upper side is the connected faces above the level that touch the given contour.
 
     Parameters
     ----------
     graph : FaceGraph
-        Of p faces.
+        p faces.
     inside : (p,) bool
         Faces of the part.
     above : (p,) bool
-        Faces above the contour's level, by their middle.
+        Faces whose mean value lies above the contour's level.
     crossed : (p,) bool
         Faces that the contour crosses.
 
     Returns
     -------
     side : (p,) bool or None
-        The part's faces above; None if one side has none. The line between the sides is straightened.
+        Faces of the part on the upper side of the cut, which is straightened; None if one side would have no face.
     """
     ids = np.flatnonzero(inside)
     place = np.full(graph.n_faces, -1)
@@ -144,8 +154,11 @@ def contour_sides(
     return result
 
 
-def _sides(part, above, cut, closed) -> np.ndarray | None:
-    """Faces on the upper side of a cut when some pairs no longer touch; None if both sides still do."""
+def _sides(part: FaceGraph, above: np.ndarray, cut: np.ndarray, closed: np.ndarray) -> np.ndarray | None:
+    """Faces on the upper side of a cut, (p,) bool, or None if both sides of the cut are still connected.
+
+    cut, closed : (e,) bool, pairs of faces across the cut, and pairs across which faces do not count as connected.
+    """
     count, piece = components(part.n_faces, *part.pairs[~closed].T)
     ends = part.pairs[cut]
     upper = np.zeros(count, bool)

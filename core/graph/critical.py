@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Critical points of a piecewise linear field.
 
-Ties are broken by vertex index: the total order (value, index) makes every field generic, so
-flat regions need no code of their own [Edelsbrunner2001].
+Vertices are compared by value, and vertices of equal value by index. In this total order no two vertices are equal, so
+that flat regions need no code of their own [Edelsbrunner2001].
 """
 
 from __future__ import annotations
@@ -14,21 +14,21 @@ import numpy as np
 from ..surface.mesh import TriMesh
 
 MINIMUM, SADDLE, MAXIMUM = 0, 1, 2
-KINDS = ("minimum", "saddle", "maximum")
+KINDS = ("minimum", "saddle", "maximum")  # name of each kind
 
 
 @dataclass(frozen=True, eq=False)
 class CriticalPoints:
-    """Where the topology of the level set changes.
+    """Vertices at which the topology of the level set changes.
 
     Attributes
     ----------
     vertex : (c,) int64
-        Ascending by (value, index).
+        Critical vertices, rising in the total order.
     kind : (c,) int8
         MINIMUM, SADDLE or MAXIMUM.
     multiplicity : (c,) int64
-        1 for extrema and simple saddles, k for a saddle where k + 1 lower parts meet.
+        k for a saddle whose lower link has k + 1 components; 1 for a minimum or a maximum.
     """
 
     vertex: np.ndarray
@@ -36,12 +36,15 @@ class CriticalPoints:
     multiplicity: np.ndarray
 
     def count(self, kind: int) -> int:
-        """How many points of a kind there are, saddles with their multiplicity."""
+        """Count the points of a kind, MINIMUM, SADDLE or MAXIMUM, each with its multiplicity."""
         return int(self.multiplicity[self.kind == kind].sum())
 
 
 def total_order(values: np.ndarray) -> np.ndarray:
-    """Place of each vertex by (value, vertex index), without ties: (n,) int64."""
+    """Sort vertices by (value, index).
+
+    values : (n,) float64. Returns the place of each vertex in this total order, (n,) int64, 0..n-1.
+    """
     rank = np.empty(len(values), np.int64)
     rank[np.argsort(values, kind="stable")] = np.arange(len(values))
     return rank
@@ -53,8 +56,8 @@ def critical_points(mesh: TriMesh, rank: np.ndarray) -> CriticalPoints:
     Parameters
     ----------
     mesh : TriMesh
-        n vertices. On a closed manifold, minima - saddles + maxima is the Euler
-        characteristic; at a border the kinds are those of the surface as it is.
+        n vertices, m faces. On a closed manifold, minima - saddles + maxima is the Euler characteristic. A vertex at
+        a border is classified by the faces that it has.
     rank : (n,) int64
         Place of each vertex in the total order, as ``total_order`` gives it.
 
@@ -75,7 +78,7 @@ def critical_points(mesh: TriMesh, rank: np.ndarray) -> CriticalPoints:
     lower_end = np.where(rises, start, end)
     n_lower = np.bincount(upper_end, minlength=n)
     n_upper = np.bincount(lower_end, minlength=n)
-    # The face's highest vertex has the opposite edge in its lower link.
+    # In each face, the edge opposite the highest vertex belongs to the lower link of that vertex.
     highest = np.take_along_axis(mesh.faces, rank[mesh.faces].argmax(axis=1)[:, None], axis=1)
     link_edges = np.bincount(highest[:, 0], minlength=n)
     euler = n_lower - link_edges

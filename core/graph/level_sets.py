@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Piecewise linear level sets: the surface cut into slabs, their pieces and contours.
 
-A level set lives on the triangles it crosses. Counting components of *vertex* bands tears a
-band narrower than an edge into crumbs; elements of (triangle, slab) do not (docs/method.md,
-section 3). One pass of connected components labels the pieces of all slabs at once, another
-the contours of all levels.
+An element is the part of one triangle in one slab. Elements stay connected also in a slab that is narrower than the
+edges of the mesh, where the vertices of a slab would not (docs/method.md, section 3). One pass of connected components
+labels the pieces of all slabs at once, another pass the contours of all levels.
 """
 
 from __future__ import annotations
@@ -20,31 +19,33 @@ from ..surface.mesh import TriMesh
 
 @dataclass(frozen=True, eq=False)
 class LevelSets:
-    """A surface cut at levels.
+    """A surface cut at K levels of a field into K + 1 slabs.
 
-    Slab s lies between level s - 1 and level s. A vertex exactly on a level counts as above
-    it, so no case is degenerate. With E elements, P pieces, S segments and C contours:
+    Slab s lies between level s - 1 and level s. A vertex exactly on a level counts as above this level, so that no case
+    is degenerate. An element is the part of one face in one slab, a piece a connected component of a slab, a segment
+    the line along which a level crosses a face, a contour a connected component of a level set. With E elements, P
+    pieces, S segments and C contours:
 
     Attributes
     ----------
     mesh : TriMesh
         n vertices, m faces.
     values : (n,) float64
-        The field.
+        The field at each vertex.
     levels : (K,) float64
-        Strictly ascending.
+        Values of the field at which the surface is cut, strictly rising.
     vertex_slab : (n,) int64
-        0..K.
+        Slab of each vertex, 0..K.
     element_face, element_slab, element_piece : (E,) int64
-        One element per (face, slab) pair that meet, faces in order, slabs ascending.
+        Face, slab and piece of each element; faces in order, the slabs of each face rising.
     piece_slab : (P,) int64
-        A piece is one connected component of a slab.
+        Slab of each piece.
     segment_face, segment_level, segment_contour : (S,) int64
-        One segment per face and level that crosses it, faces in order, levels ascending.
+        Face, level and contour of each segment; faces in order, the levels of each face rising.
     contour_level : (C,) int64
-        A contour is one connected component of a level set.
+        Level of each contour, 0..K-1.
     contour_pieces : (C, 2) int64
-        The piece below and the piece above each contour.
+        Piece below and piece above each contour.
     """
 
     mesh: TriMesh
@@ -63,31 +64,33 @@ class LevelSets:
 
     @property
     def n_pieces(self) -> int:
+        """Number of pieces, P."""
         return len(self.piece_slab)
 
     @property
     def n_contours(self) -> int:
+        """Number of contours, C."""
         return len(self.contour_level)
 
     @cached_property
     def n_loops(self) -> int:
-        """Independent loops of the graph of pieces and contours."""
+        """Number of independent loops of the graph whose nodes are the pieces and whose arcs are the contours."""
         count, _ = components(self.n_pieces, *self.contour_pieces.T)
         return self.n_contours - self.n_pieces + count
 
     @cached_property
     def face_first_slab(self) -> np.ndarray:
-        """(m,) int64, the lowest slab each face meets."""
+        """(m,) int64, lowest slab of each face's elements."""
         return self.vertex_slab[self.mesh.faces].min(axis=1)
 
     @cached_property
     def face_first_element(self) -> np.ndarray:
-        """(m,) int64, where each face's elements start."""
+        """(m,) int64, first element of each face."""
         return np.searchsorted(self.element_face, np.arange(self.mesh.n_faces))
 
     @cached_property
     def vertex_piece(self) -> np.ndarray:
-        """(n,) int64, the piece each vertex lies in."""
+        """(n,) int64, piece in which each vertex lies."""
         corner_slab = self.vertex_slab[self.mesh.faces]
         element = (self.face_first_element - self.face_first_slab)[:, None] + corner_slab
         piece = np.empty(self.mesh.n_vertices, np.int64)
@@ -96,7 +99,7 @@ class LevelSets:
 
     @cached_property
     def element_area(self) -> np.ndarray:
-        """(E,) float64, exact area of each face inside each slab."""
+        """(E,) float64, exact area of each element, in squared units of the vertices."""
         below = np.zeros(len(self.element_face))  # share of the face below the element's top
         top = np.append(self.levels, np.inf)[self.element_slab]
         last = np.append(self.element_face[1:] != self.element_face[:-1], True)
@@ -110,12 +113,12 @@ class LevelSets:
 
     @cached_property
     def piece_area(self) -> np.ndarray:
-        """(P,) float64."""
+        """(P,) float64, area of each piece, in squared units of the vertices."""
         return np.bincount(self.element_piece, self.element_area, self.n_pieces)
 
     @cached_property
     def segment_edges(self) -> np.ndarray:
-        """(S, 2) int64, the two edges of the mesh that each segment joins."""
+        """(S, 2) int64, the two edges of the mesh on which each segment ends."""
         above = self.vertex_slab[self.mesh.faces[self.segment_face]] > self.segment_level[:, None]
         alone = np.where((above.sum(axis=1) == 1)[:, None], above, ~above).argmax(axis=1)
         edges = self.mesh.edges.face_edges[self.segment_face]
@@ -123,7 +126,21 @@ class LevelSets:
         return np.stack([edges[rows, alone], edges[rows, (alone + 2) % 3]], axis=1)
 
     def crossing(self, edge: np.ndarray, level: np.ndarray) -> np.ndarray:
-        """Share of the way along each edge at which a level crosses it; shape of ``edge``."""
+        """Find where levels cross edges.
+
+        Parameters
+        ----------
+        edge : array of int64, any shape
+            Edges of ``mesh.edges``.
+        level : array of int64, broadcastable to ``edge``
+            Index of the level that crosses each edge.
+
+        Returns
+        -------
+        share : float64, shape of ``edge``
+            Position of the crossing, 0..1 from the first vertex of the edge to the second; 0.5 on an edge along
+            which the field does not change.
+        """
         low, high = (self.values[self.mesh.edges.vertices[edge, end]] for end in (0, 1))
         rise = high - low
         share = np.divide(self.levels[level] - low, rise, out=np.full(rise.shape, 0.5),
@@ -132,7 +149,7 @@ class LevelSets:
 
     @cached_property
     def segment_points(self) -> np.ndarray:
-        """(S, 2, 3) float64, the ends of each segment, in the order of ``segment_edges``."""
+        """(S, 2, 3) float64, ends of each segment on its ``segment_edges``, in units of the vertices."""
         share = self.crossing(self.segment_edges, self.segment_level[:, None])[..., None]
         start, end = (self.mesh.vertices[self.mesh.edges.vertices[self.segment_edges, k]]
                       for k in (0, 1))
@@ -140,35 +157,39 @@ class LevelSets:
 
     @cached_property
     def segment_length(self) -> np.ndarray:
-        """(S,) float64."""
+        """(S,) float64, length of each segment, in units of the vertices."""
         return np.linalg.norm(self.segment_points[:, 1] - self.segment_points[:, 0], axis=1)
 
     @cached_property
     def contour_length(self) -> np.ndarray:
-        """(C,) float64, length of each contour."""
+        """(C,) float64, length of each contour, in units of the vertices."""
         return np.bincount(self.segment_contour, self.segment_length, self.n_contours)
 
     @cached_property
     def contour_center(self) -> np.ndarray:
-        """(C, 3) float64, centroid of each contour, weighted by length."""
+        """(C, 3) float64, centroid of each contour, in units of the vertices."""
         return self._contour_mean(self.segment_points.mean(axis=1))
 
     @cached_property
     def contour_radius(self) -> np.ndarray:
-        """(C,) float64, mean distance of each contour from its centroid."""
+        """(C,) float64, mean distance of each contour from its centroid, in units of the vertices."""
         offset = self.segment_points.mean(axis=1) - self.contour_center[self.segment_contour]
         return self._contour_mean(np.linalg.norm(offset, axis=1))
 
     def _contour_mean(self, of_segments: np.ndarray) -> np.ndarray:
-        # A contour through one vertex has no length; its segments then count alike.
+        """Mean over each contour, (C,) or (C, k), of a value per segment, (S,) or (S, k), weighted by length."""
+        # All segments of a contour through one vertex have length 0; with the addition they have equal weights.
         weight = self.segment_length + 1e-9 * np.sqrt(self.mesh.area)
         total = np.bincount(self.segment_contour, weight, self.n_contours)
-        # Transposed, so that one column or several are weighted alike.
+        # The transpose lets one line serve (S,) and (S, k).
         return (sums_by(self.segment_contour, (weight * of_segments.T).T, self.n_contours).T / total).T
 
 
 def uniform_levels(n_slabs: int) -> np.ndarray:
-    """The inner borders of ``n_slabs`` equal slabs of 0..1: (n_slabs - 1,) float64."""
+    """Divide 0..1 into equally high slabs.
+
+    n_slabs : int, 1 or more. Returns the levels between the slabs, (n_slabs - 1,) float64, rising.
+    """
     return np.arange(1, n_slabs) / n_slabs
 
 
@@ -180,8 +201,9 @@ def cut_at_levels(mesh: TriMesh, values: np.ndarray, levels: np.ndarray) -> Leve
     mesh : TriMesh
         n vertices, m faces.
     values : (n,) float64
+        The field at each vertex.
     levels : (K,) float64
-        Strictly ascending.
+        Values of the field at which the surface is cut, strictly rising.
 
     Returns
     -------
@@ -224,16 +246,16 @@ def cut_at_levels(mesh: TriMesh, values: np.ndarray, levels: np.ndarray) -> Leve
 
 
 def _expand(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rows (i, first[i]), (i, first[i] + 1), ... with count[i] rows for each i."""
+    """Rows i, i, ... and first[i], first[i] + 1, ..., count[i] of them for each i; two (sum of count,) arrays."""
     row = np.repeat(np.arange(len(first)), count)
     step = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
     return row, first[row] + step
 
 
 def _share_below(corner_values: np.ndarray, level: np.ndarray) -> np.ndarray:
-    """Share of each triangle's area where the linear field is below a level.
+    """Share of each triangle's area, (r,), on which the linear field is below a level.
 
-    corner_values (r, 3), level (r,) -> (r,).
+    corner_values : (r, 3), the field at the corners. level : (r,), of each triangle.
     """
     low, middle, high = np.sort(corner_values, axis=1).T
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Reeb graph: contours contracted to points.
+"""The Reeb graph of a field: every contour contracted to a point.
 
-Pieces of slabs are its fine nodes and contours its fine arcs. Chains of pieces with one
-contour below and one above become arcs; what is left are the nodes, where contours appear,
-join, split or vanish. Exact up to the levels: a loop thinner than one slab is not seen, and a
-level at every critical value would make it exact.
+Chains of pieces with one contour below and one contour above become arcs of the graph. The other pieces, in which
+contours appear, join, split or vanish, become nodes. The graph is exact up to its levels: a loop that lies within one
+slab is not found, and a level at every critical value would find all.
 """
 
 from __future__ import annotations
@@ -28,20 +27,26 @@ class ReebGraph:
     Attributes
     ----------
     node_kind : (k,) int8
-        MINIMUM, SADDLE or MAXIMUM (core.critical.KINDS names them).
+        MINIMUM, SADDLE or MAXIMUM; ``graph.critical.KINDS`` has their names.
     node_value : (k,) float64
-        Of the field whose levels were taken, 0..1; in a Decomposition, of the normalized field.
+        Value of the field at each node, 0..1: of the field whose level sets were taken, and in a ``Decomposition`` of
+        the normalized field.
     node_position : (k, 3) float64
-        Tips lie on the surface, saddles inside.
+        Position of each node, in units of the vertices: on the surface for a minimum or maximum, inside for a saddle.
     arcs : (q, 2) int64
-        Lower and upper node. Two nodes may share several arcs: a loop.
+        Lower and upper node of each arc. Two nodes may share several arcs, which form loops.
     arc_points : (q + 1,) int64
         Arc i owns the center points arc_points[i]:arc_points[i + 1], from low to high.
     point_position : (r, 3) float64
-        Centroids of the contours.
-    point_radius, point_length, point_value : (r,) float64
-        Mean distance of the contour from its centroid, its length, its level.
+        Centroid of the contour that each center point stands for, in units of the vertices.
+    point_radius : (r,) float64
+        Mean distance of this contour from its centroid, in units of the vertices.
+    point_length : (r,) float64
+        Length of this contour, in units of the vertices.
+    point_value : (r,) float64
+        Value of the field at this contour, as ``node_value``.
     n_components : int
+        Number of connected components of the graph.
     """
 
     node_kind: np.ndarray
@@ -57,32 +62,38 @@ class ReebGraph:
 
     @property
     def n_nodes(self) -> int:
+        """Number of nodes, k."""
         return len(self.node_kind)
 
     @property
     def n_arcs(self) -> int:
+        """Number of arcs, q."""
         return len(self.arcs)
 
     @property
     def n_loops(self) -> int:
-        """Independent loops (first Betti number): the genus of a closed orientable surface."""
+        """Number of independent loops (first Betti number): the genus of a closed orientable surface."""
         return self.n_arcs - self.n_nodes + self.n_components
 
     @cached_property
     def point_arc(self) -> np.ndarray:
-        """(r,) int64, the arc of each center point."""
+        """(r,) int64, arc of each center point."""
         return np.repeat(np.arange(self.n_arcs), np.diff(self.arc_points))
 
     @classmethod
     def empty(cls) -> ReebGraph:
-        """The graph of nothing."""
+        """Make the graph of no component: returns a ReebGraph without nodes and arcs."""
         number, place, index = np.empty(0), np.empty((0, 3)), np.zeros(1, np.int64)
         return cls(np.empty(0, np.int8), number, place, np.empty((0, 2), np.int64), index, place,
                    number, number, number, 0)
 
     @classmethod
     def join(cls, graphs: list[ReebGraph]) -> ReebGraph:
-        """One graph of several components' graphs, in order; of none, the empty one."""
+        """Put the graphs of several components into one graph.
+
+        graphs : list of ReebGraph; may be empty. Returns a ReebGraph in which nodes, arcs and center points follow
+        the order of the list.
+        """
         graphs = [cls.empty(), *graphs]
         nodes = np.cumsum([0] + [g.n_nodes for g in graphs])
         points = np.cumsum([0] + [len(g.point_value) for g in graphs])
@@ -99,21 +110,22 @@ class ReebGraph:
 
 @dataclass(frozen=True, eq=False)
 class ReebTopology:
-    """The Reeb graph as what it is made of: pieces for nodes, chains of contours for arcs.
+    """The nodes and arcs of a Reeb graph, and the pieces and contours of the surface that belong to them.
 
     With P pieces, C contours, k nodes and q arcs:
 
     Attributes
     ----------
     piece_node : (P,) int64
-        The node each piece belongs to, -1 on an arc.
+        Node to which each piece belongs; -1 for a piece of an arc.
     piece_arc : (P,) int64
-        The arc each piece belongs to, -1 at a node.
+        Arc to which each piece belongs; -1 for a piece of a node.
     contour_arc : (C,) int64
-        The arc each contour belongs to; -1 if it was simplified away.
+        Arc to which each contour belongs; -1 for a contour of a cancelled leaf.
     arcs : (q, 2) int64
-        Lower and upper node.
+        Lower and upper node of each arc.
     n_nodes : int
+        k.
     """
 
     piece_node: np.ndarray
@@ -123,11 +135,17 @@ class ReebTopology:
     n_nodes: int
 
     def arc_contours(self, sets: LevelSets) -> tuple[np.ndarray, np.ndarray]:
-        """The contours of every arc from low to high, one arc after the other.
+        """List the contours of every arc from low to high, one arc after the other.
+
+        Parameters
+        ----------
+        sets : LevelSets
+            The level sets from which the topology was made.
 
         Returns
         -------
         contours : (r,) int64
+            Contours of ``sets``.
         start : (q + 1,) int64
             Arc i owns contours[start[i]:start[i + 1]].
         """
@@ -138,7 +156,7 @@ class ReebTopology:
 
 
 def reeb_topology(sets: LevelSets) -> ReebTopology:
-    """Contract chains of two-sided pieces to arcs.
+    """Make the Reeb graph: contract chains of pieces with one contour below and one above to arcs.
 
     Parameters
     ----------
@@ -175,14 +193,14 @@ def reeb_topology(sets: LevelSets) -> ReebTopology:
 
 
 def reeb_graph(sets: LevelSets, topology: ReebTopology) -> ReebGraph:
-    """Kinds, values, positions and center lines of a Reeb graph.
+    """Give the nodes of a Reeb graph their kinds, values and positions, and its arcs their center lines.
 
     Parameters
     ----------
     sets : LevelSets
-        Of one connected component.
+        Level sets of one connected component.
     topology : ReebTopology
-        Of those level sets, simplified or not.
+        Nodes and arcs of these level sets, simplified or not.
 
     Returns
     -------
@@ -209,7 +227,7 @@ def reeb_graph(sets: LevelSets, topology: ReebTopology) -> ReebGraph:
 
 
 def _tip_vertices(sets: LevelSets, topology: ReebTopology, kind: np.ndarray) -> np.ndarray:
-    """The vertex of lowest or highest value of each minimum and maximum; -1 for saddles."""
+    """Vertex of lowest value of each minimum and of highest value of each maximum, (k,) int64; -1 for a saddle."""
     node = topology.piece_node[sets.vertex_piece]
     inside = np.flatnonzero(node >= 0)
     value = sets.values[inside]
@@ -220,9 +238,11 @@ def _tip_vertices(sets: LevelSets, topology: ReebTopology, kind: np.ndarray) -> 
 
 
 def _saddle_values(sets: LevelSets, topology: ReebTopology, middle: np.ndarray) -> np.ndarray:
-    """Value of each node's saddle vertex: the one of most arcs, then nearest the middle level.
+    """Value of the field at the saddle vertex of each node, (k,) float64.
 
-    Nodes without one (a loop thinner than a slab, a border) keep the middle level.
+    Of several saddle vertices of a node, the one of the highest multiplicity counts, then the one whose value is
+    nearest to the node's mean level. A node without a saddle vertex (a loop within one slab, a border) has its mean
+    level. middle : (k,) float64, mean level of each node.
     """
     critical = critical_points(sets.mesh, total_order(sets.values))
     node = topology.piece_node[sets.vertex_piece[critical.vertex]]
@@ -234,7 +254,7 @@ def _saddle_values(sets: LevelSets, topology: ReebTopology, middle: np.ndarray) 
 
 
 def _node_means(sets: LevelSets, topology: ReebTopology) -> tuple[np.ndarray, np.ndarray]:
-    """Middle level and area centroid of each node's pieces."""
+    """Mean level, (k,), and mean position, (k, 3), of each node's pieces, weighted by area."""
     node = topology.piece_node[sets.element_piece]
     inside = node >= 0
     weight = sets.element_area[inside] + 1e-12 * sets.mesh.area

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cancel the short arcs of a Reeb graph: leaves that are ripples, not protrusions.
+"""Cancel the ripples of a Reeb graph: leaves that are too small, short or flat to be protrusions.
 
-Loops are never cancelled, so the first Betti number stays what it was.
+Loops are never cancelled, so that simplification leaves the first Betti number unchanged.
 """
 
 from __future__ import annotations
@@ -14,37 +14,49 @@ from ..field.agd import ScalarField
 from .level_sets import LevelSets
 from .reeb import ReebTopology
 
-# Leaves that cover less than this share of a component, or cross fewer levels than this, are ripples.
-MIN_LEAF_AREA = 0.0025
-MIN_LEAF_LEVELS = 1
-# Leaves over which the AGD changes by less than this share of its maximum are errors of the distances.
+MIN_LEAF_AREA = 0.0025  # area of a leaf, as a share of the component's, below which it is a ripple
+MIN_LEAF_LEVELS = 1  # number of levels that a leaf crosses below which it is a ripple
+# Change of the AGD over a leaf, as a share of the largest AGD, below which it is an error of the distances.
 MIN_LEAF_HEIGHT = 0.005
-LOWER, UPPER = 0, 1
+LOWER, UPPER = 0, 1  # the two sides of a node: arcs below, arcs above
 
 
 def without_ripples(sets: LevelSets, topology: ReebTopology, field: ScalarField) -> ReebTopology:
     """Cancel the leaves that are ripples of the surface or errors of the distances.
 
+    A leaf is cancelled by ``simplify`` if it is below MIN_LEAF_AREA, MIN_LEAF_LEVELS or MIN_LEAF_HEIGHT.
+
     Parameters
     ----------
     sets : LevelSets
-        Of the field.
+        Level sets of ``field.values``.
     topology : ReebTopology
-        As ``reeb_topology`` made it.
+        Reeb graph of these level sets, as ``reeb_topology`` makes it.
     field : ScalarField
 
     Returns
     -------
     topology : ReebTopology
-        See ``simplify``.
     """
     return simplify(sets, topology, MIN_LEAF_AREA, MIN_LEAF_LEVELS, level_height(field, sets.levels), MIN_LEAF_HEIGHT)
 
 
 def level_height(field: ScalarField, levels: np.ndarray) -> np.ndarray:
-    """How much of the AGD each level stands for: half the way from the level below to the one above.
+    """Measure how much of the AGD each level stands for.
 
-    levels : (K,) float64, of ``field.values``. Returns (K,) float64, as shares of the largest AGD.
+    The height of a level is half the difference of the AGD between the level above and the level below; where there is
+    no such level, the end of the field's range takes its place.
+
+    Parameters
+    ----------
+    field : ScalarField
+    levels : (K,) float64
+        Values of ``field.values``, 0..1, strictly rising.
+
+    Returns
+    -------
+    height : (K,) float64
+        In units of the largest AGD.
     """
     if len(levels) == 0:
         return np.empty(0)
@@ -63,31 +75,32 @@ def simplify(
     level_height: np.ndarray | None = None,
     min_height: float = 0.0,
 ) -> ReebTopology:
-    """Cancel leaf arcs that are small, short or flat, smallest first.
+    """Cancel leaves that are small, short or flat, the one of least area first.
 
-    A leaf can go where its saddle keeps another arc on the same side: the pair (extremum,
-    saddle) cancels, and a saddle left with one arc below and one above dissolves into an arc.
+    A leaf is cancelled only if the saddle at its inner end has a second arc on the side of the leaf: the extremum and
+    the saddle then cancel each other. If the saddle is left with one arc below and one above, these three become one
+    arc.
 
     Parameters
     ----------
     sets : LevelSets
+        K levels.
     topology : ReebTopology
-        As ``reeb_topology`` made it.
+        Reeb graph of ``sets``, as ``reeb_topology`` makes it.
     min_area : float
-        Leaves of less area go; share of the surface, 0..1.
+        Leaves of less area are cancelled; share of the area of the surface, 0..1.
     min_levels : int
-        Leaves that span fewer levels go.
+        Leaves that cross fewer levels are cancelled.
     level_height : (K,) float64, optional
-        What each level adds to the height of a leaf that crosses it. Equalized levels lie close
-        where the field hardly changes: a leaf of many levels may be flat all the same.
+        Height that each level adds to a leaf that crosses it, 1 without. Where the field hardly changes, levels of an
+        equalized field lie close together, and a leaf of many levels may still be flat.
     min_height : float
-        Leaves of less height go.
+        Leaves of less height, the sum over their levels, are cancelled; in the unit of ``level_height``.
 
     Returns
     -------
     topology : ReebTopology
-        Pieces of cancelled leaves belong to what they were attached to; their contours to
-        no arc.
+        The pieces of a cancelled leaf belong to the node or arc to which it was attached, its contours to no arc.
 
     Notes
     -----
@@ -102,32 +115,37 @@ def simplify(
 
 
 class _WorkGraph:
-    """Nodes and arcs that can be removed; ids beyond the nodes' are arcs'."""
+    """The Reeb graph while leaves are cancelled.
+
+    Lists that hold nodes and arcs (area, parent, piece_owner) have node i at place i and arc i at place n_nodes + i. A
+    cancelled arc is None in ``arcs``.
+    """
 
     min_area = min_height = 0.0
     min_levels = 0
 
-    def __init__(self, sets, topology, level_height):
+    def __init__(self, sets: LevelSets, topology: ReebTopology, level_height: np.ndarray) -> None:
         self.topology = topology
         n, q = topology.n_nodes, len(topology.arcs)
         owner = np.where(topology.piece_node >= 0, topology.piece_node, n + topology.piece_arc)
         self.piece_owner = owner
         self.area = np.bincount(owner, sets.piece_area, n + q).tolist()
-        # An arc with one contour joins two slabs directly: it spans no whole slab.
+        # The number of levels that each arc crosses is the number of its contours.
         self.span = np.bincount(topology.contour_arc, minlength=q).tolist()
         height = level_height[sets.contour_level]
         self.height = np.bincount(topology.contour_arc, height, q).tolist()
         self.arcs = topology.arcs.tolist()
-        self.at_node = [(set(), set()) for _ in range(n)]  # arcs below, arcs above
+        self.at_node = [(set(), set()) for _ in range(n)]  # for each node the arcs below and the arcs above
         for arc, (lower, upper) in enumerate(self.arcs):
             self.at_node[upper][LOWER].add(arc)
             self.at_node[lower][UPPER].add(arc)
-        self.arc_alias = np.arange(q)  # arc whose contours now belong to which arc
+        self.arc_alias = np.arange(q)  # the arc to which the contours of each arc belong now
         self.contours_dropped = np.zeros(q, bool)
-        self.parent = list(range(n + q))  # what each node or arc was absorbed by
-        self.heap = []
+        self.parent = list(range(n + q))  # the node or arc into which each was absorbed; itself if it still exists
+        self.heap = []  # (area, arc) of leaves to be cancelled, also of some that have changed since
 
-    def cancel_leaves(self):
+    def cancel_leaves(self) -> None:
+        """Cancel leaves, the one of least area first, until none is below the limits."""
         for arc in range(len(self.arcs)):
             self._push_if_leaf(arc)
         heapq.heapify(self.heap)
@@ -135,11 +153,11 @@ class _WorkGraph:
             area, arc = heapq.heappop(self.heap)
             leaf, node, side = self._leaf_of(arc)
             if leaf < 0 or len(self.at_node[node][side]) < 2 or area != self._leaf_area(arc, leaf):
-                continue  # gone, changed, or the last arc on its side of the saddle
+                continue  # the arc no longer exists, is no leaf, has grown, or is the last on its side of the saddle
             self._cancel(arc, leaf, node, side)
 
-    def _leaf_of(self, arc):
-        """The arc's leaf node, its other node, and the side of that node it is on."""
+    def _leaf_of(self, arc: int) -> tuple[int, int, int]:
+        """Extremum of a leaf, its other node, and the side of that node on which it is; -1, -1, 0 if it is no leaf."""
         if self.arcs[arc] is None:
             return -1, -1, 0
         lower, upper = self.arcs[arc]
@@ -148,10 +166,12 @@ class _WorkGraph:
                 return leaf, node, side
         return -1, -1, 0
 
-    def _leaf_area(self, arc, leaf):
+    def _leaf_area(self, arc: int, leaf: int) -> float:
+        """Area of a leaf: of the arc and of the extremum in which it ends."""
         return self.area[leaf] + self.area[len(self.at_node) + arc]
 
-    def _push_if_leaf(self, arc):
+    def _push_if_leaf(self, arc: int) -> None:
+        """Put an arc on the heap if it is a leaf below the limits."""
         leaf, _, _ = self._leaf_of(arc)
         if leaf < 0:
             return
@@ -160,7 +180,8 @@ class _WorkGraph:
         if area < self.min_area or short:
             heapq.heappush(self.heap, (area, arc))
 
-    def _cancel(self, arc, leaf, node, side):
+    def _cancel(self, arc: int, leaf: int, node: int, side: int) -> None:
+        """Absorb a leaf and its extremum into its other node."""
         n = len(self.at_node)
         self.area[node] += self._leaf_area(arc, leaf)
         self.parent[leaf] = self.parent[n + arc] = node
@@ -173,8 +194,8 @@ class _WorkGraph:
             for neighbor in self.at_node[node][LOWER] | self.at_node[node][UPPER]:
                 self._push_if_leaf(neighbor)
 
-    def _dissolve(self, node):
-        """Turn a two-sided node into the middle of an arc."""
+    def _dissolve(self, node: int) -> None:
+        """Make one arc of a node with one arc below and one above, and of these two arcs."""
         n = len(self.at_node)
         (below,), (above,) = self.at_node[node]
         lower, upper = self.arcs[below][0], self.arcs[above][1]
@@ -190,6 +211,7 @@ class _WorkGraph:
         self._push_if_leaf(below)
 
     def result(self) -> ReebTopology:
+        """Topology of the nodes and arcs that are left, numbered anew in their old order."""
         n = len(self.at_node)
         root = np.array(self.parent)
         while (root[root] != root).any():

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The way back: what was found on the components of the working copy, on the caller's faces and vertices."""
+"""The assembly of the result: what was found on the components is brought back to the caller's faces and vertices."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,23 +20,29 @@ from ..surface.polygons import PolygonMesh
 from ..surface.preparation import Component, WorkingMesh
 from .decomposition import Decomposition
 
-# Added to areas and lengths that weigh votes, as a share of the whole: what has none still votes, after all others.
+# Added to the areas and lengths by which faces vote for labels: as a share of the area of the mesh, and in units of the
+# vertices. Faces without an area vote with this weight, after all others.
 LEAST_WEIGHT = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
 class ComponentResult:
-    """What the stages found on one component.
+    """Everything that the stages found on one component.
 
     Attributes
     ----------
     component : Component
+        The component of the working copy.
     field : ScalarField
+        AGD at the component's vertices.
     sets : LevelSets
+        Level sets of the field.
     topology : ReebTopology
-        Simplified.
+        Nodes and arcs of the Reeb graph, simplified.
     graph : ReebGraph
+        The Reeb graph with values, positions and center lines.
     candidates : Candidates
+        Candidates and the order in which they merge.
     """
 
     component: Component
@@ -60,12 +67,12 @@ def assemble(
     given : PolygonMesh
         The caller's mesh.
     working : WorkingMesh
-        Its repaired copy.
+        Repaired copy of the caller's mesh.
     results : list of ComponentResult
-        Of the components that were decomposed; every other component becomes one candidate.
+        One for each component that was decomposed; every other component becomes one candidate.
     parameters : Parameters
-    seconds : dict
-        Of each stage so far.
+    seconds : dict of str -> float
+        Seconds that each stage has taken so far.
 
     Returns
     -------
@@ -89,7 +96,7 @@ def assemble(
 
 
 def _in_field(graph: ReebGraph, field: ScalarField) -> ReebGraph:
-    """The graph with the values of the normalized field in place of those whose levels were taken."""
+    """Copy of a graph whose values are those of the normalized field instead of the field whose levels were taken."""
     order = np.argsort(field.values, kind="stable")
     known = field.values[order], field.normalized[order]
     return replace(graph, node_value=np.interp(graph.node_value, *known),
@@ -97,7 +104,7 @@ def _in_field(graph: ReebGraph, field: ScalarField) -> ReebGraph:
 
 
 def _face_graph(given: PolygonMesh, working: WorkingMesh) -> FaceGraph:
-    """Which faces of the caller touch; a face that the working copy lacks hangs on one neighbor."""
+    """Which of the caller's faces touch. A face that the working copy lacks touches one neighbor, along length 0."""
     mesh = working.mesh
     pairs = working.polygon[mesh.edges.pairs]
     apart = pairs[:, 0] != pairs[:, 1]
@@ -109,7 +116,10 @@ def _face_graph(given: PolygonMesh, working: WorkingMesh) -> FaceGraph:
 
 
 def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
-    """(l, 2) int64: each face with repeated corners only, and a neighbor by edge, else by corner."""
+    """Each of the caller's faces that the working copy lacks and a neighbor that it has, (l, 2) int64.
+
+    The neighbor shares an edge with the face, or, if none does, a corner. A face without such a neighbor is left out.
+    """
     kept = np.zeros(given.n_polygons, bool)
     kept[working.polygon] = True
     kept_triangle = kept[given.polygon]
@@ -126,7 +136,10 @@ def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
 def _face_candidates(
     given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], face_graph: FaceGraph, rounds: int
 ) -> tuple[np.ndarray, Hierarchy]:
-    """One candidate per face of the caller, each connected, and the hierarchy over them."""
+    """Candidate of each of the caller's faces, (p,) int64, and the hierarchy over them; every candidate is connected.
+
+    rounds : int, of straightening the boundaries between candidates.
+    """
     owner, label, weight, hierarchies, first = [], [], [], [], 0
     rest = np.ones(working.mesh.n_faces, bool)
     for r in results:
@@ -137,7 +150,7 @@ def _face_candidates(
         hierarchies.append(r.candidates.hierarchy)
         first += r.candidates.hierarchy.n_candidates
         rest[r.component.faces] = False
-    if rest.any():  # components that were not decomposed, one candidate each
+    if rest.any():  # components that were not decomposed are one candidate each
         names, numbers = renumbered(working.mesh.face_components[1][rest])
         owner.append(working.polygon[rest])
         label.append(first + numbers)
@@ -151,23 +164,24 @@ def _face_candidates(
 
 
 def settle(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -> tuple[np.ndarray, Hierarchy]:
-    """Keep the candidates that exist on the caller's faces, and merge only those that touch there.
+    """Drop candidates that no face of the caller has, and let candidates merge only where they touch.
 
     Parameters
     ----------
     graph : FaceGraph
+        Which of the caller's faces touch.
     label : (n_faces,) int64
-        Candidate of each face; each candidate connected.
+        Candidate of each face; every candidate is connected.
     hierarchy : Hierarchy
-        Of all candidates, present on faces or not.
+        Merges of all candidates, also of those that no face has.
 
     Returns
     -------
     label : (n_faces,) int64
-        0..c-1, all present.
+        Candidate of each face, 0..c-1, all in use.
     hierarchy : Hierarchy
-        Of the c candidates. Merges follow the given order; one whose two sides do not touch on
-        the caller's faces waits until they do.
+        Merges of the c candidates, in the given order. A merge whose two sides do not touch on the caller's faces is
+        put off until they do.
     """
     present, label = renumbered(label)
     touching, _ = graph.boundaries(label)
@@ -181,7 +195,7 @@ def settle(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -> tuple[n
 def _vertex_field(
     given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]
 ) -> tuple[np.ndarray, tuple[str, ...]]:
-    """The normalized field at the caller's vertices, and notes about components."""
+    """Normalized field at the caller's vertices, (n,) float64, and notes about components."""
     values = np.full(given.triangles.n_vertices, np.nan)
     used = np.unique(given.triangles.faces)
     values[used] = 0.0  # in components that were not decomposed
@@ -193,8 +207,8 @@ def _vertex_field(
     return values, tuple(_component_notes(n_loose, n_loose - len(results), n_flat))
 
 
-def _component_notes(n_loose, n_small, n_flat):
-    """Sentences about loose parts: how many, how many of these too small, or too even, to be cut."""
+def _component_notes(n_loose: int, n_small: int, n_flat: int) -> Iterator[Sentence]:
+    """Sentences about components: how many there are, how many are too small and how many too even to be cut."""
     if n_loose > 1 and n_small:
         yield Sentence("{n} loose parts are decomposed each on its own; {small} small ones are one part "
                        "each.", n=n_loose, small=n_small)
@@ -208,7 +222,7 @@ def _component_notes(n_loose, n_small, n_flat):
 
 
 def _graph_candidates(results: list[ComponentResult], label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The candidate in which each node and each center point of the joined graph lies."""
+    """Candidate in which each node, (k,), and each center point, (r,), of the joined graph lies."""
     nodes, points = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
     for r in results:
         sets, topology = r.sets, r.topology

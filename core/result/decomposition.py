@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result: candidate parts, the hierarchy over them, the graph; and parts at any detail."""
+"""The result of a run: candidates, the hierarchy over them and the Reeb graph; parts at any detail are read from it."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from ..surface.arrays import distinct_pairs, renumbered, sums_by
 from ..surface.labels import majority
 
 VERSION = "0.2.0"
-_FORMAT = 1  # of to_bytes
+_FORMAT = 1  # version of the layout that ``to_bytes`` writes
 
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """Parts at one level of detail; everything but ``candidate_part`` is read off when it is first asked for.
+    """Parts at one level of detail, as a grouping of the candidates; other tables are computed when first asked for.
 
     With p faces, n vertices and c candidates of the caller's mesh, and a graph of k nodes, q arcs and r center
     points:
@@ -32,7 +32,7 @@ class Parts:
     Attributes
     ----------
     decomposition : Decomposition
-        What the parts are read from.
+        The result to which the parts belong.
     candidate_part : (c,) int64
         Part of each candidate, 0..count-1.
     """
@@ -42,7 +42,7 @@ class Parts:
 
     @cached_property
     def labels(self) -> np.ndarray:
-        """(p,) int64, part of each face."""
+        """(p,) int64, part of each face, 0..count-1."""
         return self.candidate_part[self.decomposition.candidates]
 
     @cached_property
@@ -53,12 +53,12 @@ class Parts:
 
     @cached_property
     def area(self) -> np.ndarray:
-        """(count,) float64, in squared units of the vertices."""
+        """(count,) float64, area of each part, in squared units of the vertices."""
         return np.bincount(self.candidate_part, self.decomposition.candidate_area)
 
     @property
     def share(self) -> np.ndarray:
-        """(count,) float64, share of the whole area."""
+        """(count,) float64, area of each part as a share of the whole, 0..1."""
         return self.area / self.area.sum()
 
     @property
@@ -68,12 +68,12 @@ class Parts:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Part 01, Part 02 and so on."""
+        """Name of each part: Part 01, Part 02 and so on."""
         return tuple(f"Part {i + 1:02d}" for i in range(self.count))
 
     @cached_property
     def _boundaries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Pairs of parts that touch, length and salience of each boundary."""
+        """Pairs of parts that touch, and length and salience of the cut between them."""
         d = self.decomposition
         low, high = np.sort(self.candidate_part[d.candidate_pairs], axis=1).reshape(-1, 2).T
         apart = low != high
@@ -89,12 +89,12 @@ class Parts:
 
     @property
     def cut_length(self) -> np.ndarray:
-        """(e,) float64, in units of the vertices."""
+        """(e,) float64, length of each cut, in units of the vertices."""
         return self._boundaries[1]
 
     @property
     def cut_salience(self) -> np.ndarray:
-        """(e,) float64, how much each cut deserves to be there, 0..1."""
+        """(e,) float64, salience of each cut, 0..1: how much it deserves to be there."""
         return self._boundaries[2]
 
     @property
@@ -109,39 +109,47 @@ class Parts:
 
     @cached_property
     def arc_part(self) -> np.ndarray:
-        """(q,) int64, the part that most center points of each arc lie in; every arc has a point."""
+        """(q,) int64, part in which most center points of each arc lie; every arc has a point."""
         graph = self.decomposition.graph
         return majority(graph.point_arc, self.point_part, np.ones(len(self.point_part)), graph.n_arcs)
 
 
 @dataclass(frozen=True, eq=False)
 class Decomposition:
-    """What ``decompose`` returns; ``parts()`` reads any level of detail from it.
+    """The result of ``decompose``; ``parts`` reads the parts at any level of detail from it.
 
-    With p faces and n vertices of the caller and c candidate parts:
+    With p faces and n vertices of the caller, c candidates, and a graph of k nodes and r center points:
 
     Attributes
     ----------
     candidates : (p,) int64
-        The finest part of each face, 0..c-1.
+        Candidate of each face, 0..c-1.
     vertex_candidates : (n,) int64
-        The same for each vertex; -1 for a vertex of no face.
+        Candidate of each vertex; -1 for a vertex without a face.
     candidate_area : (c,) float64
+        Area of each candidate, in squared units of the vertices.
     candidate_pairs : (e, 2) int64
-        Candidates that touch, smaller number first.
+        Candidates that touch, smaller index first.
     candidate_pair_length : (e,) float64
+        Length of the boundary between the two candidates of each pair, in units of the vertices.
     hierarchy : Hierarchy
+        The order in which the candidates merge.
     field : (n,) float64
-        Normalized average geodesic distance, 0..1; nan for a vertex of no face.
+        Normalized average geodesic distance at each vertex, 0..1; nan for a vertex without a face.
     graph : ReebGraph
-    node_candidate, point_candidate : (k,), (r,) int64
-        The candidate in which each node and center point of the graph lies.
+        Reeb graph of all components.
+    node_candidate : (k,) int64
+        Candidate in which each node of the graph lies.
+    point_candidate : (r,) int64
+        Candidate in which each center point of the graph lies.
     parameters : Parameters
+        The parameters of the run.
     notes : tuple of str
-        What is odd about the mesh, one ``Sentence`` each; plain text after ``from_bytes``.
-    seconds : dict
-        Time of each stage.
+        One ``Sentence`` for each oddity of the mesh; plain text after ``from_bytes``.
+    seconds : dict of str -> float
+        Seconds that each stage took.
     version : str
+        Version of Reeb Parts that made the result.
     """
 
     candidates: np.ndarray
@@ -161,42 +169,47 @@ class Decomposition:
 
     @property
     def n_faces(self) -> int:
+        """Number of the caller's faces, p."""
         return len(self.candidates)
 
     @property
     def n_vertices(self) -> int:
+        """Number of the caller's vertices, n."""
         return len(self.vertex_candidates)
 
     @property
     def n_candidates(self) -> int:
+        """Number of candidates, c."""
         return len(self.candidate_area)
 
     @cached_property
     def _face_order(self) -> np.ndarray:
-        """(c,) mean index of each candidate's faces."""
+        """(c,) float64, mean index of each candidate's faces."""
         index = np.arange(self.n_faces)
         return np.bincount(self.candidates, index) / np.bincount(self.candidates)
 
     @cached_property
     def pair_merge(self) -> np.ndarray:
-        """(e,) int64, the merge of the hierarchy that joins each pair of candidates that touch."""
+        """(e,) int64, merge that joins each pair of touching candidates, see ``Hierarchy.merge_of``."""
         return self.hierarchy.merge_of(*self.candidate_pairs.T)
 
     @cached_property
     def pair_salience(self) -> np.ndarray:
-        """(e,) float64, salience of the merge that joins each pair of candidates that touch; 1 where none does."""
+        """(e,) float64, salience of the merge that joins each pair of touching candidates; 1 where no merge does."""
         return np.append(self.hierarchy.salience, 1.0)[self.pair_merge]
 
     def parts(self, detail: float | None = None, n_parts: int | None = None) -> Parts:
-        """Parts at a level of detail or of an exact number; nothing is computed again.
+        """Read the parts at a level of detail, or an exact number of parts; nothing is computed again.
+
+        Without arguments, the parameters of the run decide.
 
         Parameters
         ----------
         detail : float, optional
-            0..1.
+            0..1: cuts of salience 1 - detail and above stay.
         n_parts : int, optional
-            1 or more, instead of a detail; clipped to what the mesh allows. Without either,
-            the parameters decide.
+            Exact number of parts, which takes precedence over ``detail``; clipped to what the mesh allows. 0 leaves the
+            decision to the detail.
 
         Returns
         -------
@@ -205,7 +218,7 @@ class Decomposition:
         Raises
         ------
         ParameterError
-            A value out of range.
+            A value is outside its range; ``error.name`` says which.
         """
         if detail is None and n_parts is None:
             detail, n_parts = self.parameters.detail, self.parameters.n_parts
@@ -215,12 +228,19 @@ class Decomposition:
         return self.group(self.hierarchy.parts(count))
 
     def group(self, candidate_part: np.ndarray) -> Parts:
-        """Parts from any grouping of the candidates.
+        """Make parts of any grouping of the candidates.
 
-        Part 0 is the largest; the others follow the order of their faces, so that poses of one mesh number their
-        parts alike.
+        Part 0 is the part of most area. The others are sorted by the mean index of their faces, so that the parts of a
+        mesh have the same labels in all its poses.
 
-        candidate_part : (c,) int64, whole numbers from 0, equal for the candidates of one part.
+        Parameters
+        ----------
+        candidate_part : (c,) int64
+            Any whole numbers, equal for the candidates of one part.
+
+        Returns
+        -------
+        parts : Parts
         """
         names, part = renumbered(candidate_part)
         area = np.bincount(part, self.candidate_area)
@@ -232,7 +252,7 @@ class Decomposition:
         return Parts(self, place[part])
 
     def to_bytes(self) -> bytes:
-        """Everything, compressed; ``from_bytes`` reads it back."""
+        """Write the whole result: returns compressed bytes that ``from_bytes`` reads."""
         arrays = {f"hierarchy.{n}": getattr(self.hierarchy, n) for n in ("merges", "salience")}
         arrays |= {f"graph.{f.name}": getattr(self.graph, f.name) for f in fields(ReebGraph)}
         arrays |= {name: getattr(self, name) for name in _ARRAYS}
@@ -245,12 +265,22 @@ class Decomposition:
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Decomposition:
-        """Read what ``to_bytes`` wrote.
+        """Read a result that ``to_bytes`` wrote, also one of version 0.1.0.
+
+        Parameters
+        ----------
+        data : bytes
+
+        Returns
+        -------
+        decomposition : Decomposition
 
         Raises
         ------
         ReebError
-            Written by a version this one does not know.
+            The bytes have a layout that this version does not know.
+        ValueError, KeyError, EOFError, zipfile.BadZipFile
+            The bytes are damaged, or ``to_bytes`` did not write them.
         """
         with np.load(io.BytesIO(data), allow_pickle=False) as stored:
             arrays = {name: stored[name] for name in stored.files}

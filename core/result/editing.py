@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts changed by hand: where a part would split, what it would take or give, whether it is in one piece.
+"""Changes of parts by hand: where a part splits, which candidate it takes or gives, whether it is connected.
 
-Everything works on candidate parts, the grains of a decomposition; ``split_candidates`` makes finer ones
-where a grain is not fine enough. Masks are (c,) bool over the candidates.
+All functions work on the c candidates of a decomposition; a mask is (c,) bool and says which of them belong to a part.
+Where the candidates are not fine enough for a change, ``split_candidates`` cuts some of them in two.
 """
 
 from __future__ import annotations
@@ -22,12 +22,18 @@ from .decomposition import Decomposition
 
 
 def pieces(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
-    """Connected pieces of some candidates.
+    """Find the connected components of some candidates.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+    mask : (c,) bool
+        Candidates that count.
 
     Returns
     -------
     piece : (c,) int64
-        0 for the largest piece by area, 1 for the next; -1 outside the mask.
+        Component of each candidate: 0 for the component of most area, 1 for the next ...; -1 outside the mask.
     """
     pairs = _inside(decomposition, mask)
     _, label = components(decomposition.n_candidates, *pairs.T)
@@ -41,7 +47,7 @@ def pieces(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
 
 
 def best_split(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray | None:
-    """The two sides of the best cut within a part: of all cuts inside, the last to be merged.
+    """Split a part along its best cut: that of the last merge when the part's candidates merge, weakest cut first.
 
     Parameters
     ----------
@@ -52,7 +58,7 @@ def best_split(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray | N
     Returns
     -------
     side : (c,) bool or None
-        The smaller side; None for a part of a single candidate.
+        Candidates on the side of less area; None for a part of a single candidate.
     """
     if mask.sum() < 2:
         return None
@@ -61,23 +67,24 @@ def best_split(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray | N
 
 
 def node_split(decomposition: Decomposition, mask: np.ndarray, node: int) -> np.ndarray | None:
-    """The two sides of the best cut within a part that lies along the arcs of a node in it.
+    """Split a part along the best cut between a node of the graph and what the arcs of this node reach.
 
-    Of all cuts between the node's candidate and those that its arcs reach inside the part, the last to be
-    merged; where the arcs reach no other, between it and the rest of the part.
+    When the part's candidates merge, weakest cut first, the candidate of the node is joined with the candidates that
+    the node's arcs reach inside the part, one after the other. The part is split at the last of these merges. If the
+    arcs reach no other candidate of the part, all of its candidates count as reached.
 
     Parameters
     ----------
     decomposition : Decomposition
     mask : (c,) bool
-        Candidates of one connected part, with that of the node.
+        Candidates of one connected part, including that of the node.
     node : int
-        Of the graph.
+        Index of the node in ``decomposition.graph``.
 
     Returns
     -------
     side : (c,) bool or None
-        The node's side; None for a part of a single candidate.
+        Candidates on the side of the node; None for a part of a single candidate.
     """
     start = decomposition.node_candidate[node]
     graph = decomposition.graph
@@ -92,7 +99,10 @@ def node_split(decomposition: Decomposition, mask: np.ndarray, node: int) -> np.
 def _strongest_cut(
     decomposition: Decomposition, mask: np.ndarray, start: int, targets: np.ndarray
 ) -> np.ndarray | None:
-    """The side of a candidate at the last merge that joins it with one of some others in a part."""
+    """Side of candidate ``start`` when a part is split at the last merge that joins this candidate with a target.
+
+    targets : (c,) bool, candidates of the part. Returns (c,) bool; None if no merge joins ``start`` with a target.
+    """
     pairs, tree = _merging_inside(decomposition, mask)
     targets = np.flatnonzero(targets)
     rows = tree.row_of(np.full(len(targets), start), targets)
@@ -103,27 +113,30 @@ def _strongest_cut(
 
 
 def _merging_inside(decomposition: Decomposition, mask: np.ndarray) -> tuple[np.ndarray, Dendrogram]:
-    """Pairs of candidates that touch inside a part, weakest cut first, and how they merge."""
+    """Pairs of candidates that touch inside a part, (k, 2), weakest cut first, and the dendrogram of these pairs."""
     pairs = _inside(decomposition, mask)
     pairs = pairs[np.argsort(decomposition.hierarchy.merge_of(*pairs.T), kind="stable")]
     return pairs, Dendrogram.of(decomposition.n_candidates, pairs)
 
 
 def _side_without(pairs: np.ndarray, joins: np.ndarray, start: int, mask: np.ndarray) -> np.ndarray:
-    """What is together with a candidate when only some of the pairs are joined, (c,) bool."""
+    """Candidates that are connected with candidate ``start``, (c,) bool, when only some of the pairs are joined.
+
+    joins : rows of ``pairs`` that are joined.
+    """
     label = components(len(mask), *pairs[joins].T)[1]
     return label == label[start]
 
 
 def _smaller_side(decomposition: Decomposition, mask: np.ndarray, side: np.ndarray) -> np.ndarray:
-    """A side of a part, or what it leaves of the part if that has less area."""
+    """Of a side of a part and the rest of the part, the one of less area, (c,) bool."""
     other = mask & ~side
     area = decomposition.candidate_area
     return side if area[side].sum() <= area[other].sum() else other
 
 
 def growth(decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray) -> int | None:
-    """The candidate that a part takes next: the one beyond the weakest piece of its boundary.
+    """Find the candidate that a part takes next when it grows: the one beyond the weakest stretch of its boundary.
 
     Parameters
     ----------
@@ -131,12 +144,12 @@ def growth(decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray) 
     mask : (c,) bool
         Candidates of the part.
     allowed : (c,) bool
-        Candidates that may be taken.
+        Candidates that the part may take.
 
     Returns
     -------
     candidate : int or None
-        None if nothing allowed touches the part.
+        None if no allowed candidate touches the part.
     """
     inner, outer = _border(decomposition, mask)
     usable = allowed[outer]
@@ -149,9 +162,10 @@ def growth(decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray) 
 def shrinkage(
     decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray
 ) -> tuple[int, int] | None:
-    """The candidate that a part gives away next, and the one beyond the boundary that it goes to.
+    """Find the candidate that a part gives away next when it shrinks, and the candidate across the boundary.
 
-    The part stays in one piece, and is never given away whole.
+    The part gives the candidate behind the weakest stretch of its boundary that leaves the part connected and not
+    empty.
 
     Parameters
     ----------
@@ -159,12 +173,13 @@ def shrinkage(
     mask : (c,) bool
         Candidates of the part.
     allowed : (c,) bool
-        Candidates whose parts may receive one.
+        Candidates whose parts may receive a candidate.
 
     Returns
     -------
     given, receiver : int
-        None if nothing can be given.
+        The candidate that is given, and the candidate whose part receives it. None instead of both if the part can
+        give no candidate.
     """
     inner, outer = _border(decomposition, mask)
     usable = allowed[outer]
@@ -181,29 +196,30 @@ def shrinkage(
 def boundary_distance(
     inside: np.ndarray, face_pairs: np.ndarray, pair_length: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """How far each face is from the boundary of some faces, and what lies nearest across it.
+    """Measure how far each face is from the boundary of some faces, and find the nearest face across the boundary.
 
     Parameters
     ----------
     inside : (p,) bool
+        Faces whose boundary counts.
     face_pairs : (e, 2) int64
         Faces that share an edge.
     pair_length : (e,) float64
-        Distance of their centers, not negative.
+        Distance between the centers of the two faces, 0 or more, in any unit.
 
     Returns
     -------
     distance : (p,) float64
-        Along the surface, from the center of the nearest face on the other side: positive outside,
-        negative inside, infinite where the boundary cannot be reached.
+        Distance along the surface from the center of the nearest face across the boundary, in the unit of
+        ``pair_length``: positive outside, negative inside, infinite for a face that no path joins with the boundary.
     across : (p,) int64
-        That face; -1 where there is none.
+        The nearest face across the boundary; -1 where the distance is infinite.
     """
     count = len(inside)
     sides = inside[face_pairs]
     distance = np.full(count, np.inf)
     across = np.full(count, -1, np.int64)
-    # A path leaves the boundary and stays on its side; 0 would mean "no edge" to a sparse graph.
+    # A path begins across the boundary and then stays on one side. SciPy takes a length of 0 for "no edge".
     length = np.maximum(pair_length, 1e-12 * pair_length.max(initial=1.0))
     for side in (False, True):
         usable = ~(sides != side).all(axis=1)
@@ -223,27 +239,28 @@ def boundary_distance(
 def split_candidates(
     decomposition: Decomposition, faces: np.ndarray, graph: FaceGraph, table: CornerTable
 ) -> Decomposition:
-    """Cut candidates in two along the outline of some faces.
+    """Cut candidates in two along the outline of some faces, so that these faces can become a part.
 
-    The two halves of a candidate are the first to merge again, so that no level of detail shows the new cuts unless
-    the halves are pinned to different parts.
+    The two halves of a candidate merge before all other candidates. A level of detail therefore never shows the new
+    cuts, unless the halves are pinned to different parts.
 
     Parameters
     ----------
     decomposition : Decomposition
-        Of p faces, with c candidates.
+        p faces and c candidates.
     faces : (p,) bool
-        Faces to be separable from the others.
+        Faces that shall be separable from the others.
     graph : FaceGraph
         Which of the p faces touch, and their areas.
     table : CornerTable
-        Of the same faces, in the coordinates of the decomposition's graph.
+        Corners of the p faces, in the coordinates of ``decomposition.graph``.
 
     Returns
     -------
     finer : Decomposition
-        Old candidates keep their number, less the faces, vertices, nodes and center points of the graph that now
-        belong to new ones from c on.
+        Candidates below c are the old ones. Candidates from c on are the halves that consist of the given faces; the
+        vertices, nodes and center points in these halves belong to them. The given decomposition if no candidate
+        has to be cut.
     """
     old = decomposition.candidates
     size = np.bincount(old, minlength=decomposition.n_candidates)
@@ -251,7 +268,7 @@ def split_candidates(
     cut = np.flatnonzero((inside > 0) & (inside < size))
     if not len(cut):
         return decomposition
-    half = np.arange(decomposition.n_candidates)  # the candidate of those of its faces that are to be separable
+    half = np.arange(decomposition.n_candidates)  # for each candidate, the one of its given faces
     half[cut] = decomposition.n_candidates + np.arange(len(cut))
     candidates = np.where(faces, half[old], old)
     count = decomposition.n_candidates + len(cut)
@@ -272,12 +289,12 @@ def split_candidates(
 def _vertex_halves(
     decomposition: Decomposition, candidates: np.ndarray, area: np.ndarray, table: CornerTable
 ) -> np.ndarray:
-    """The candidate of each vertex: of the two halves of its former one, that with more area around it."""
+    """Candidate of each vertex, (n,): of the two halves of its former candidate, the one with more area around it."""
     vertex, face = table.corner_vertex, table.corner_face
     former = decomposition.vertex_candidates
     votes = decomposition.candidates[face] == former[vertex]
     vertex, face = vertex[votes], face[votes]
-    # Faces without area vote, too, after all others.
+    # Faces without an area vote as well, after all others.
     winner = majority(vertex, candidates[face], area[face] + 1e-12 * area.sum(), len(former))
     return np.where(winner >= 0, winner, former)
 
@@ -285,9 +302,10 @@ def _vertex_halves(
 def _graph_halves(
     decomposition: Decomposition, faces: np.ndarray, cut: np.ndarray, half: np.ndarray, table: CornerTable
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The candidate of each node and of each center point of the graph, after candidates were cut.
+    """Candidate of each node, (k,), and of each center point, (r,), of the graph after candidates were cut.
 
-    A center point goes where most of its contour lies, and so does a saddle; an extremum lies on the surface.
+    A center point or a saddle belongs to the half in which most of its contour lies, a minimum or a maximum to the half
+    in which the nearest vertex lies. cut : candidates that were cut. half : (c,), the new candidate of each old one.
     """
     graph = decomposition.graph
     nodes, points = decomposition.node_candidate.copy(), decomposition.point_candidate.copy()
@@ -308,7 +326,7 @@ def _graph_halves(
 def _contour_is_on(
     table: CornerTable, decomposition: Decomposition, position: np.ndarray, level: float, faces: np.ndarray
 ) -> bool:
-    """Whether most of the contour of a level around a position, within a table, lies on some faces."""
+    """Whether most of the contour of a level around a position, on the faces of a table, lies on faces of a mask."""
     found = contours(decomposition.field, level, table)
     chosen = found.label == found.around(position)
     if not chosen.any():
@@ -318,7 +336,7 @@ def _contour_is_on(
 
 
 def _nearest_is_on(table: CornerTable, position: np.ndarray, faces: np.ndarray) -> bool:
-    """Whether most of the faces of a table that meet at the vertex nearest to a position are among some faces."""
+    """Whether most faces of a table that meet at the vertex nearest to a position are faces of a mask, (p,) bool."""
     offset = table.vertices[table.corner_vertex] - position
     nearest = table.corner_vertex[np.einsum("ij,ij->i", offset, offset).argmin()]
     around = faces[table.corner_face[table.corner_vertex == nearest]]
@@ -326,13 +344,13 @@ def _nearest_is_on(table: CornerTable, position: np.ndarray, faces: np.ndarray) 
 
 
 def _inside(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
-    """Pairs of touching candidates with both in a mask, (k, 2)."""
+    """Pairs of touching candidates, (k, 2), of which both are in a mask."""
     pairs = decomposition.candidate_pairs
     return pairs[mask[pairs].all(axis=1)]
 
 
 def _border(decomposition: Decomposition, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of touching candidates across the boundary: inner and outer ones."""
+    """Pairs of touching candidates across the boundary of a mask: the inner ones, (k,), and the outer ones, (k,)."""
     pairs = decomposition.candidate_pairs
     across = pairs[mask[pairs].sum(axis=1) == 1]
     first_inside = mask[across[:, 0]]
@@ -341,5 +359,5 @@ def _border(decomposition: Decomposition, mask: np.ndarray) -> tuple[np.ndarray,
 
 
 def _weakest(decomposition: Decomposition, a: np.ndarray, b: np.ndarray) -> int:
-    """Which of some pairs of candidates merges first."""
+    """Index of the pair of candidates, (a[i], b[i]), that merges first."""
     return int(decomposition.hierarchy.merge_of(a, b).argmin())

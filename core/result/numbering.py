@@ -5,9 +5,9 @@ A part's number is what its name, color, lock and vertex group are stored under;
 one result. Numbers start at 1, so that 0 can say "no part".
 
 When the detail rises and a part is split, one side keeps the number of the part and the other side gets a new
-number, which is born with that split. So every candidate carries one number: the last one that was born for a part
-in which this candidate is the first to be mentioned. A part is known by the number that was born first among those
-of its candidates. That depends on the candidates of the part alone, so no change elsewhere renumbers it.
+number, which is born with that split. When all splits are done, every part is one candidate, and the candidate
+carries the number that this part has then. At any level, a part is known by the number that was born first among
+those of its candidates. That depends on the candidates of the part alone, so that no change elsewhere renumbers it.
 """
 
 from __future__ import annotations
@@ -20,24 +20,25 @@ from ..surface.arrays import distinct_pairs, sums_by
 from .decomposition import Decomposition, Parts
 from .splits import Splits
 
-# Added to areas that weigh votes, so that candidates without area vote, too.
+# Added to the areas by which candidates vote for numbers, in squared units of the vertices: candidates without an area
+# vote with this weight.
 LEAST_AREA = 1e-300
 
 
 @dataclass(frozen=True, eq=False)
 class NumberGraph:
-    """Which part numbers touch at some level of detail; colors are chosen by it.
+    """The part numbers of a decomposition, and which of them touch at some level of detail; colors are chosen by it.
 
     Attributes
     ----------
     numbers : (k,) int64
-        The numbers of the parts of all levels, rising.
+        Numbers of the parts of all levels, rising.
     pairs : (e, 2) int64
-        Indices into ``numbers``: which of them touch.
+        Indices in ``numbers`` of the numbers that touch.
     unpinned : NumberGraph or None
-        The graph of the same decomposition without pinned parts, if there are some.
+        If there are pinned parts, the graph that the decomposition would have without them.
     unpinned_index : (k,) int64 or None
-        Index of each number in ``unpinned``; -1 for a number that was made by hand.
+        Index in ``unpinned.numbers`` of the number from which each number arose; -1 for a number that was made by hand.
     """
 
     numbers: np.ndarray
@@ -46,7 +47,10 @@ class NumberGraph:
     unpinned_index: np.ndarray | None = None
 
     def including(self, numbers: np.ndarray) -> NumberGraph:
-        """The graph with further numbers that belong to no level and touch nothing."""
+        """Add numbers that belong to no level and touch no other.
+
+        numbers : (j,) int64. Returns this graph if it has them all, else a new graph.
+        """
         if np.isin(numbers, self.numbers).all():
             return self
         every = np.union1d(self.numbers, numbers)
@@ -58,16 +62,16 @@ class NumberGraph:
 
 @dataclass(frozen=True, eq=False)
 class NumberedParts:
-    """Parts in the order of their numbers.
+    """Parts at one level of detail, in the order of their numbers.
 
     Attributes
     ----------
     parts : Parts
-        Label i is the part with the i-th smallest number.
+        The part with the i-th smallest number has label i.
     numbers : (count,) int64
-        Rising, from 1; not all need to be in use.
+        Number of each part, 1 or more, rising; numbers may be missing between them.
     graph : NumberGraph
-        Of all levels of detail.
+        Numbers of all levels of detail.
     """
 
     parts: Parts
@@ -76,49 +80,53 @@ class NumberedParts:
 
     @property
     def candidates(self) -> np.ndarray:
-        """(p,) int64, the candidate of each face."""
+        """(p,) int64, candidate of each face."""
         return self.parts.decomposition.candidates
 
     @property
     def candidate_numbers(self) -> np.ndarray:
-        """(c,) int64, the number of each candidate's part."""
+        """(c,) int64, number of the part to which each candidate belongs."""
         return self.numbers[self.parts.candidate_part]
 
     @property
     def face_numbers(self) -> np.ndarray:
-        """(p,) int64, the number of each face's part."""
+        """(p,) int64, number of the part to which each face belongs."""
         return self.candidate_numbers[self.candidates]
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Part 01 and so on, by number."""
+        """Default name of each part: Part 01 and so on, by number."""
         return tuple(default_name(number) for number in self.numbers.tolist())
 
 
 def default_name(number: int) -> str:
-    """The name of a part until the user gives it another."""
+    """Name a part until the user gives it another name.
+
+    number : int, 1 or more. Returns "Part 01" and so on.
+    """
     return f"Part {number:02d}"
 
 
 def follow(part: np.ndarray, previous_number: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Number new parts by their largest overlap with numbered old ones.
+    """Number new parts by their overlap with numbered old parts.
 
-    Pairs of a new part and an old number are taken by falling overlap, each part and each number once; ties go to
-    the smaller part, then to the smaller number. Parts that are left over take the smallest numbers that
-    ``previous_number`` does not contain.
+    Pairs of a new part and an old number are taken by falling overlap, each part and each number once; of equal
+    overlaps, the pair of the smaller part and then that of the smaller number comes first. Parts that are left over get
+    the smallest numbers that ``previous_number`` does not contain.
 
     Parameters
     ----------
-    part : (e,) int64
-        New part of each element, 0..count-1, all in use.
-    previous_number : (e,) int64
-        Number of the part that each element belonged to; 0 for none.
-    weight : (e,) float64
-        Size of each element.
+    part : (c,) int64
+        New part of each candidate, 0..count-1, all in use.
+    previous_number : (c,) int64
+        Number of the old part to which each candidate belonged; 0 for none.
+    weight : (c,) float64
+        Size of each candidate, above 0, in any unit. An overlap is a sum of sizes.
 
     Returns
     -------
     numbers : (count,) int64
+        Number of each new part, all different, 1 or more.
     """
     count = int(part.max(initial=-1)) + 1
     numbers = np.zeros(count, np.int64)
@@ -145,11 +153,13 @@ class Numbering:
     decomposition : Decomposition
         With c candidates.
     splits : Splits
+        Splits of the decomposition around pinned parts.
     candidate_number : (c,) int64
-        The number that each candidate carries; the same for all candidates of a pinned part.
+        Number that each candidate carries, 1 or more; all candidates of a pinned part carry the part's number.
     birth_order : (c,) int64
-        Which candidate's number was born first, second ...: 0..c-1.
+        Place of each candidate when they are sorted by the births of their numbers, 0..c-1.
     graph : NumberGraph
+        Numbers of all levels of detail, and which of them touch.
     """
 
     decomposition: Decomposition
@@ -160,16 +170,18 @@ class Numbering:
 
     @classmethod
     def of(cls, decomposition: Decomposition, previous_number: np.ndarray, pinned: np.ndarray) -> Numbering:
-        """Number the parts of all levels so that parts known already keep their numbers.
+        """Number the parts of all levels so that parts that have numbers already keep them.
 
         Parameters
         ----------
         decomposition : Decomposition
+            With c candidates.
         previous_number : (c,) int64
-            The number of the part that each candidate belonged to at some level, see ``inherited``; 0 for none.
-            At that level the parts get these numbers again.
+            Number of the part to which each candidate belonged at some level, see ``inherited``; 0 for none. The parts
+            of that level get these numbers again.
         pinned : (c,) int64
-            Candidates with the same number above 0 are one part at every level, with that number.
+            Number of the pinned part to which each candidate belongs, 0 for none. The candidates of one pinned part are
+            one part at every level, with this number.
 
         Returns
         -------
@@ -183,7 +195,8 @@ class Numbering:
         candidate_number, birth_order = _make_room(unpinned_number, birth_order, previous_number, pinned)
         splits = Splits.of(decomposition, pinned)
         graph = _number_graph(decomposition, splits, candidate_number, birth_order)
-        # A pinned part has its own number in the other graph, any other part that of the candidate it is known by.
+        # The number of a pinned part arose from this number itself. The number of any other part arose from the number
+        # that its candidate carries where nothing is pinned.
         origin = np.where(np.isin(graph.numbers, pinned), graph.numbers, 0)
         free = pinned == 0
         origin[np.searchsorted(graph.numbers, candidate_number[free])] = unpinned_number[free]
@@ -193,14 +206,30 @@ class Numbering:
         return cls(decomposition, splits, candidate_number, birth_order, graph)
 
     def parts(self, detail: float, n_parts: int = 0) -> NumberedParts:
-        """Parts at a level of detail, or of an exact number if that is not 0 (pinned parts may be more)."""
+        """Read the parts at a level of detail, or an exact number of parts.
+
+        Parameters
+        ----------
+        detail : float
+            0..1: cuts of salience 1 - detail and above stay.
+        n_parts : int
+            Exact number of parts, clipped to what is possible with the pinned parts; 0 leaves the decision to the
+            detail.
+
+        Returns
+        -------
+        parts : NumberedParts
+        """
         part = self.splits.parts(self.splits.n_done(self.decomposition, detail, n_parts))
         first_born = np.full(part.max() + 1, len(part))
         np.minimum.at(first_born, part, self.birth_order)
         return self.numbered(self.candidate_number[np.argsort(self.birth_order)][first_born][part])
 
     def numbered(self, candidate_numbers: np.ndarray) -> NumberedParts:
-        """Parts by the number of each candidate's part, (c,) int64."""
+        """Make parts of numbered candidates.
+
+        candidate_numbers : (c,) int64, number of the part to which each candidate belongs. Returns NumberedParts.
+        """
         numbers = np.unique(candidate_numbers)
         parts = Parts(self.decomposition, np.searchsorted(numbers, candidate_numbers))
         return NumberedParts(parts, numbers, self.graph.including(numbers))
@@ -209,24 +238,26 @@ class Numbering:
 def _births(
     decomposition: Decomposition, splits: Splits, previous_number: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The number that each candidate carries where nothing is pinned, and the order in which these were born.
+    """Number that each candidate carries where nothing is pinned, (c,), and the order of the numbers' births, (c,).
 
-    A new part takes a previous number if it has most of the area that had this number and no part has it yet; of
-    several such numbers the one that it has the most area of. Otherwise it takes the number of parts there are at
-    that level, or the next that is not taken.
+    A new part takes a previous number if it has most of the area that had this number and no part has the number yet;
+    of several such numbers, it takes the one of which it has most area. Otherwise it takes the number of parts at its
+    level, or the next higher number that is not taken.
     """
     area = decomposition.candidate_area[splits.order] + LEAST_AREA
     previous_number = previous_number[splits.order]
     known = np.unique(previous_number[previous_number > 0])
     code = np.where(previous_number > 0, np.searchsorted(known, previous_number), len(known))
 
-    def overlap(start, end):
+    def overlap(start: int, end: int) -> np.ndarray:
+        """Area within an interval of places that had each previous number."""
         return np.bincount(code[start:end], area[start:end], len(known) + 1)[:-1]
 
     total, free = overlap(0, len(code)), np.ones(len(known), bool)
     taken = set(known.tolist())
 
-    def give(start, end, count):
+    def give(start: int, end: int, count: int) -> int:
+        """Choose the number of a new part; ``count`` is the number of parts at its level."""
         mine = overlap(start, end)
         mine[~free | (2 * mine <= total)] = 0.0
         if mine.any():
@@ -258,10 +289,10 @@ def _births(
 def _previous_first(
     number: np.ndarray, birth_order: np.ndarray, previous_number: np.ndarray, left_over: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Let previous numbers be born before all new ones, and give away those that are left over.
+    """Numbers of the candidates and order of their births, (c,) each, with previous numbers born before all new ones.
 
-    left_over : (l,) int64. Previous numbers that no part had most of. Each goes to the candidate that had it and
-    whose new number was born first.
+    left_over : (l,) int64, previous numbers of which no part has most of the area. Each of them replaces the new number
+    that was born first among the candidates that had the previous number.
     """
     number, new = number.copy(), ~np.isin(number, previous_number[previous_number > 0])
     for previous in left_over.tolist():
@@ -275,7 +306,10 @@ def _previous_first(
 def _make_room(
     number: np.ndarray, birth_order: np.ndarray, previous_number: np.ndarray, pinned: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers and their order of birth with those of pinned parts kept for the pinned parts."""
+    """Numbers of the candidates and order of their births, (c,) each, where only pinned parts have their numbers.
+
+    New numbers that are previous numbers, or that pinned parts have, are raised to the next free number.
+    """
     number, order = number.copy(), np.argsort(birth_order)
     taken, known, last = set(pinned.tolist()), set(previous_number.tolist()), 0
     for candidate in order[~np.isin(number[order], previous_number[previous_number > 0])].tolist():
@@ -283,7 +317,7 @@ def _make_room(
         while free in known or (free in taken and not pinned[candidate]):
             free += 1
         number[candidate] = last = free
-    # A candidate outside a pinned part that carries the part's number gets another one, born last.
+    # A candidate outside a pinned part that carries the number of this part gets a number that is born last.
     robbed = np.isin(number, pinned[pinned > 0]) & (number != pinned)
     number[robbed] = max(number.max(), pinned.max()) + 1 + np.arange(robbed.sum())
     return np.where(pinned > 0, pinned, number), np.argsort(order[np.argsort(robbed[order], kind="stable")])
@@ -292,16 +326,22 @@ def _make_room(
 def _number_graph(
     decomposition: Decomposition, splits: Splits, candidate_number: np.ndarray, birth_order: np.ndarray
 ) -> NumberGraph:
-    """Which numbers touch at some level: what touches later touches already when the later of both is born."""
+    """Which numbers touch at some level of detail.
+
+    Two parts that touch at any level touch already at the level at which the later of their two numbers is born. It is
+    therefore enough to look up the neighbors of each number when it is born.
+    """
     own, born = candidate_number[splits.order], birth_order[splits.order]
     pairs = np.argsort(splits.order)[decomposition.candidate_pairs]
     number, found = np.zeros_like(own), []
 
-    def known_by(start, end):
+    def known_by(start: int, end: int) -> int:
+        """Number by which the part of an interval of places is known; it is noted for the interval's candidates."""
         number[start:end] = own[start + born[start:end].argmin()]
         return int(number[start])
 
-    def add_neighbors(new):
+    def add_neighbors(new: int) -> None:
+        """Note which numbers a new number touches when it is born."""
         ends = number[pairs]
         others = np.unique(ends[(ends == new).any(axis=1)])
         found.append(np.stack([np.full(len(others), new), others], axis=1)[others != new])
@@ -319,25 +359,31 @@ def _number_graph(
 def inherited(
     decomposition: Decomposition, detail: float, n_parts: int, previous_number: np.ndarray, pinned: np.ndarray
 ) -> np.ndarray:
-    """Number the parts of a new decomposition by what its candidates were part of before.
+    """Number the parts of a new decomposition at one level by the old parts to which its candidates belonged.
+
+    A number goes to the part that overlaps most with the old part of this number, see ``follow``.
 
     Parameters
     ----------
     decomposition : Decomposition
-    detail, n_parts
-        The level at which numbers are given, as ``Numbering.parts`` takes it.
-    previous_number, pinned : (c,) int64
-        The number of the part that each candidate belonged to, or is pinned to; 0 for none. Each number goes to the
-        part that has the most of it, see ``follow``.
+        The new decomposition, c candidates.
+    detail : float
+        Level of detail at which the parts are numbered, 0..1.
+    n_parts : int
+        Exact number of parts instead of a level of detail; 0 for none.
+    previous_number : (c,) int64
+        Number of the old part to which each candidate belonged; 0 for none.
+    pinned : (c,) int64
+        Number of the pinned part to which each candidate belongs; 0 for none.
 
     Returns
     -------
     numbers : (c,) int64
-        Of the part of each candidate; ``previous_number`` for ``Numbering.of``.
+        Number of the new part to which each candidate belongs: the ``previous_number`` that ``Numbering.of`` takes.
     """
     level = Numbering.of(decomposition, np.zeros_like(previous_number), pinned).parts(detail, n_parts)
     part = decomposition.group(level.candidate_numbers).candidate_part
-    # The number of a pinned part counts where candidates are pinned to it, and nowhere else.
+    # A candidate that had the number of a pinned part but is not pinned to it has no previous number.
     elsewhere = np.where(np.isin(previous_number, pinned), 0, previous_number)
     known = np.where(pinned > 0, pinned, elsewhere)
     return follow(part, known, decomposition.candidate_area + LEAST_AREA)[part]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How parts come apart as the detail rises: one split after the other, around pinned parts."""
+"""The splits by which parts come apart as the detail rises, one after the other; pinned parts are never split."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from .decomposition import Decomposition
 
 @dataclass(frozen=True, eq=False)
 class Splits:
-    """All levels of detail of a decomposition, from the coarsest on.
+    """All levels of detail of a decomposition, as a sequence of splits from the coarsest level on.
 
     With c candidates, r parts at the coarsest level and s splits:
 
     Attributes
     ----------
     order : (c,) int64
-        The candidate at each place. Every part of every level is an interval of places.
+        Candidate at each place. Every part of every level is an interval of places.
     root_intervals : (r, 2) int64
-        Start and end of each of the coarsest parts.
+        Start and end of the interval of each part of the coarsest level.
     intervals : (s, 3) int64
-        Start, middle and end of each split, coarsest first: it parts [start, middle) from [middle, end).
+        Start, middle and end of each split, coarsest first: the split separates [start, middle) from [middle, end).
     merge : (s,) int64
-        The merge of the hierarchy that each split undoes; never rising.
+        Merge of the hierarchy that each split undoes; never rising.
     """
 
     order: np.ndarray
@@ -37,14 +37,16 @@ class Splits:
 
     @classmethod
     def of(cls, decomposition: Decomposition, pinned: np.ndarray) -> Splits:
-        """Read the splits off the hierarchy of a decomposition.
+        """Read the splits from the hierarchy of a decomposition.
 
         Parameters
         ----------
         decomposition : Decomposition
+            With c candidates.
         pinned : (c,) int64
-            Candidates with the same number above 0 are one part at every level. The candidates with 0 are
-            split as the hierarchy says, and stay apart where a pinned part lies between them.
+            Number of the pinned part to which each candidate belongs, 0 for none. The candidates of one pinned part are
+            one part at every level. Candidates with 0 merge as the hierarchy says, but only where they touch, so that
+            those on two sides of a pinned part stay apart.
 
         Returns
         -------
@@ -58,18 +60,36 @@ class Splits:
 
     @property
     def n_roots(self) -> int:
-        """The fewest parts possible."""
+        """Number of parts at the coarsest level, the fewest possible."""
         return len(self.root_intervals)
 
     def n_done(self, decomposition: Decomposition, detail: float, n_parts: int = 0) -> int:
-        """How many splits are done at a level of detail, or for an exact number of parts if that is not 0."""
+        """Count the splits that are done at a level of detail, or for an exact number of parts.
+
+        Parameters
+        ----------
+        decomposition : Decomposition
+            The decomposition from which the splits were read.
+        detail : float
+            0..1: cuts of salience 1 - detail and above stay.
+        n_parts : int
+            Exact number of parts, clipped to what is possible; 0 leaves the decision to the detail.
+
+        Returns
+        -------
+        n_done : int
+        """
         if n_parts:
             return min(max(n_parts - self.n_roots, 0), len(self.intervals))
         merged = decomposition.n_candidates - decomposition.hierarchy.n_parts(detail)
         return int((self.merge >= merged).sum())
 
     def parts(self, n_done: int) -> np.ndarray:
-        """The part of each candidate after the first splits, (c,) int64, from 0."""
+        """Find the parts after some splits.
+
+        n_done : int, number of splits that are done, coarsest first. Returns the part of each candidate, (c,) int64,
+        from 0.
+        """
         part = np.repeat(np.arange(self.n_roots), np.diff(self.root_intervals, axis=1)[:, 0])
         for index, (_, middle, end) in enumerate(self.intervals[:n_done].tolist()):
             part[middle:end] = self.n_roots + index
@@ -79,9 +99,10 @@ class Splits:
 
 
 def _joins(decomposition: Decomposition, pinned: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of candidates to be joined, weakest cut first, and the merge of the hierarchy that each stands for.
+    """Pairs of candidates that are joined, weakest cut first, (j, 2), and the merge that joins each pair, (j,).
 
-    Some pairs are joined already by earlier ones. The merge is -1 between candidates of one pinned part.
+    A pair may consist of candidates that earlier pairs have joined already. The merge of two candidates of one pinned
+    part is -1: it comes before all merges of the hierarchy.
     """
     hierarchy, pairs, merge = decomposition.hierarchy, decomposition.candidate_pairs, decomposition.pair_merge
     if not pinned.any():

@@ -1,38 +1,64 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What every stage does with whole arrays: components, sums and pairs, numbered the same way everywhere."""
+"""Operations on whole arrays that every stage uses: connected components, sums by group, pairs, numbering."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, DTypeLike
+    from scipy.sparse import csr_array
 
-def frozen(array, dtype) -> np.ndarray:
-    """A read-only copy in C order."""
+
+def frozen(array: ArrayLike, dtype: DTypeLike) -> np.ndarray:
+    """Copy an array and make the copy read-only.
+
+    array : array_like of any shape. Returns its values as ``dtype``, in C order.
+    """
     copy = np.array(array, dtype=dtype, order="C")
     copy.flags.writeable = False
     return copy
 
 
 def first_largest(values: np.ndarray) -> int:
-    """Index of the largest value; the first of those that differ from it by rounding only.
+    """Find the largest value; of values that differ from it by rounding only, the first.
 
-    On a symmetric shape two sides are equally far from its middle. Their last bit depends on
-    the processor and on where the shape stands, the order of the vertices does not.
+    On a symmetric shape two points are equally far from its middle. The last bit of the two distances depends on
+    the processor and on the position of the shape, but the order of the vertices does not.
+
+    Parameters
+    ----------
+    values : (n,) float64
+        At least one, none negative.
+
+    Returns
+    -------
+    index : int
     """
     return int((values >= (1 - 1e-9) * values.max()).argmax())
 
 
 def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
-    """Connected components of n elements joined by the pairs (a, b).
+    """Find the connected components of elements that are joined in pairs.
+
+    Parameters
+    ----------
+    n : int
+        Number of elements.
+    a, b : (e,) int64
+        Element a[i] is joined with element b[i].
 
     Returns
     -------
     count : int
+        Number of components.
     label : (n,) int64
-        0..count-1, numbered by each component's lowest element, so that the numbering does
-        not depend on the library.
+        Component of each element, 0..count-1. Components are numbered in the order of their lowest elements,
+        so that the numbering does not depend on the library.
     """
-    # Not above: Blender's panel reads stored parts also where SciPy is missing, to say that it is.
+    # Imported here, because Blender's panel reads stored parts also where SciPy is missing, to say that it is.
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
@@ -51,14 +77,15 @@ def sums_by(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
     Parameters
     ----------
     index : (n,) int64
-        The group of each row, 0..count-1.
+        Group of each row, 0..count-1.
     values : (n,) or (n, k) float64
     count : int
-        Of groups.
+        Number of groups.
 
     Returns
     -------
     sums : (count,) or (count, k) float64
+        0 for a group without rows.
     """
     if values.ndim == 1:
         return np.bincount(index, values, count)
@@ -67,25 +94,30 @@ def sums_by(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
 
 
 def both_ways(pairs: np.ndarray) -> np.ndarray:
-    """Each pair, then each pair the other way round: (e, 2) to (2e, 2)."""
+    """List each pair, then each pair the other way round.
+
+    pairs : (e, 2) array. Returns (2e, 2), of the dtype given.
+    """
     return np.concatenate([pairs, pairs[:, ::-1]])
 
 
-def symmetric_matrix(pairs: np.ndarray, values: np.ndarray, n: int):
-    """Sparse symmetric matrix with a value for each pair, given once.
+def symmetric_matrix(pairs: np.ndarray, values: np.ndarray, n: int) -> csr_array:
+    """Make a sparse symmetric matrix from pairs, each of which is named in one direction only.
 
     Parameters
     ----------
     pairs : (e, 2) int64
+        Row and column, 0..n-1.
     values : (e,) float64
-        Those of a pair that is named twice add up.
+        Entry of each pair. The values of a pair that is named twice are added.
     n : int
+        Number of rows and of columns.
 
     Returns
     -------
     matrix : (n, n) scipy.sparse.csr_array
     """
-    from scipy.sparse import coo_array  # not above, for the reason that ``components`` gives
+    from scipy.sparse import coo_array  # imported here for the reason that ``components`` gives
 
     a, b = both_ways(pairs).T
     return coo_array((np.concatenate([values, values]), (a, b)), shape=(n, n)).tocsr()
@@ -94,15 +126,19 @@ def symmetric_matrix(pairs: np.ndarray, values: np.ndarray, n: int):
 def renumbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Number the distinct values of an array from 0.
 
+    Parameters
+    ----------
+    labels : array of any shape
+
     Returns
     -------
-    names : (c,)
+    names : (c,), of the dtype of ``labels``
         The distinct values, rising.
     index : shape of ``labels``, int64
-        The place of each value in ``names``.
+        Place of each value in ``names``, 0..c-1.
     """
     names, index = np.unique(labels, return_inverse=True)
-    return names, index.reshape(np.shape(labels))  # NumPy 2.0 alone returns it in this shape
+    return names, index.reshape(np.shape(labels))  # of all versions, only NumPy 2.0 returns it in this shape
 
 
 def distinct_pairs(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -111,35 +147,37 @@ def distinct_pairs(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, n
     Parameters
     ----------
     first, second : (n,) int64
-        0 or more.
+        Pair i is (first[i], second[i]); both are 0 or more.
 
     Returns
     -------
     pairs : (c, 2) int64
-        In lexicographic order.
+        The distinct pairs in lexicographic order.
     index : (n,) int64
-        The place of each pair in ``pairs``.
+        Place of each pair in ``pairs``, 0..c-1.
     """
-    # A pair as one integer sorts far faster than as a row.
+    # NumPy sorts pairs that are packed into one integer far faster than rows.
     width = int(second.max(initial=0)) + 1
     keys, index = renumbered(np.asarray(first, np.int64) * width + second)
     return np.stack(np.divmod(keys, width), axis=1), index
 
 
 def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray:
-    """The element of each group that comes last by some keys, of which the first given counts most.
+    """Find the element of each group that comes last when the elements are sorted by some keys.
 
     Parameters
     ----------
     group : (n,) int64
-        0..count-1.
-    keys : (n,) arrays
+        Group of each element, 0..count-1.
+    *keys : (n,) arrays
+        Elements are sorted by the first key, equal ones by the second, and so on.
     count : int
+        Number of groups.
 
     Returns
     -------
     last : (count,) int64
-        -1 for a group without elements; of equals the one with the highest index.
+        Index of that element; of elements equal in all keys the highest index. -1 for a group without elements.
     """
     order = np.lexsort((*reversed(keys), group))
     last = np.full(count, -1, np.int64)

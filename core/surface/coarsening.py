@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Coarser copies of a dense mesh, for fields that are smooth at the scale of its edges.
 
-The average geodesic distance of a million vertices is that of a few thousand, interpolated:
-searching paths on a coarse copy makes its cost nearly independent of the size of the mesh.
+The average geodesic distance (AGD) at a million vertices can be interpolated from that at a few thousand. If paths
+are searched on a coarse copy, the cost of the AGD is nearly independent of the size of the mesh.
 """
 
 from __future__ import annotations
@@ -15,28 +15,29 @@ import numpy as np
 from .arrays import both_ways, sums_by
 from .mesh import TriMesh
 
-SMOOTHING_STEPS = 3  # rounds of averaging that close the seams between cells
-_MIX = np.uint64(0x9E3779B97F4A7C15)  # golden ratio, as in splitmix64
+SMOOTHING_STEPS = 3  # rounds in which ``prolong`` averages neighbors, to close the seams between cells
+_MIX = np.uint64(0x9E3779B97F4A7C15)  # 2**64 over the golden ratio, made odd: the multiplier of the hash splitmix64
 
 
 @dataclass(frozen=True, eq=False)
 class Coarsening:
-    """A coarse mesh over an independent set of a mesh's vertices.
+    """A coarse mesh whose vertices are some of the vertices of a fine mesh.
 
-    With n fine and c coarse vertices:
+    Every fine vertex belongs to the cell of one coarse vertex: to its own cell, or to that of the nearest coarse vertex
+    beside it. With n fine and c coarse vertices:
 
     Attributes
     ----------
     mesh : TriMesh
-        c vertices. Thin places may lose their triangles, never their links.
+        The coarse mesh, c vertices. It may lack triangles where the fine mesh is thin.
     links : (l, 2) int64
-        Coarse vertices whose cells touch: the edges of ``mesh`` and more.
+        Coarse vertices whose cells touch, also where ``mesh`` lacks triangles: its edges and more.
     fine_links : (k, 2) int64
-        Fine vertices that touch.
+        Fine vertices that touch: the edges of the fine mesh, or the links of an earlier coarsening.
     owner : (n,) int64
-        The coarse vertex whose cell each fine vertex lies in.
+        Coarse vertex in whose cell each fine vertex lies.
     area : (c,) float64
-        Area of the cells.
+        Area of each cell, in squared units of the vertices.
     """
 
     mesh: TriMesh
@@ -49,15 +50,16 @@ class Coarsening:
 def coarsen(
     mesh: TriMesh, vertex_area: np.ndarray, links: np.ndarray | None = None
 ) -> Coarsening:
-    """Keep a maximal independent set of the vertices: about one in four.
+    """Coarsen a mesh to a maximal independent set of its vertices, about one in four [Luby1986].
 
     Parameters
     ----------
     mesh : TriMesh
-        n vertices, one connected component.
+        n vertices, one connected component of m faces.
     vertex_area : (n,) float64
+        Area that each vertex stands for, in squared units of the vertices.
     links : (l, 2) int64, optional
-        Which vertices touch; the edges of the mesh without.
+        Pairs of vertices that touch. Without it, the edges of the mesh.
 
     Returns
     -------
@@ -65,8 +67,8 @@ def coarsen(
 
     Notes
     -----
-    O(n + m), whole arrays. The choice hashes the coordinates: it does not depend on the order
-    of vertices or faces.
+    O(n + m), whole arrays. The vertices are chosen by a hash of their coordinates, so that the choice does not
+    depend on the order of vertices or faces.
     """
     links = mesh.edges.vertices if links is None else links
     a, b = both_ways(links).T
@@ -78,7 +80,7 @@ def coarsen(
     owner = name.copy()
     near = seed[b] & ~seed[a]
     by_length = np.lexsort((length[near], a[near]))[::-1]
-    owner[a[near][by_length]] = name[b[near][by_length]]  # the last one written is the nearest
+    owner[a[near][by_length]] = name[b[near][by_length]]  # NumPy keeps what is written last: the nearest
     faces = owner[mesh.faces]
     faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
     _, once = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
@@ -97,12 +99,24 @@ class Pyramid:
         One connected component.
     """
 
-    def __init__(self, mesh: TriMesh):
+    def __init__(self, mesh: TriMesh) -> None:
         self.mesh = mesh
         self._steps: list[Coarsening] = []
 
     def until(self, coarse_enough: Callable[[TriMesh], bool]) -> list[Coarsening]:
-        """The steps from the mesh to the first copy that is coarse enough; none if the mesh itself is."""
+        """Coarsen until a copy is coarse enough.
+
+        Parameters
+        ----------
+        coarse_enough : callable
+            Called with a mesh, first with the finest; returns whether to stop there. It must accept a mesh
+            without faces.
+
+        Returns
+        -------
+        steps : list of Coarsening
+            From the mesh to the first copy that is coarse enough; empty if the mesh itself is.
+        """
         chosen: list[Coarsening] = []
         mesh = self.mesh
         while not coarse_enough(mesh):
@@ -117,20 +131,23 @@ class Pyramid:
 def prolong(mesh: TriMesh, coarsening: Coarsening, values: np.ndarray) -> np.ndarray:
     """Bring a smooth field from the coarse vertices to the fine ones.
 
-    A plane is fitted through each coarse vertex and those its cell touches; fine vertices read
-    the plane of their cell, and a little averaging closes the seams.
+    For every cell, a linear function is fitted to the values at its coarse vertex and at the coarse vertices whose
+    cells it touches. Each fine vertex gets the value of its cell's function; SMOOTHING_STEPS rounds of averaging
+    with the neighbors then close the seams between cells.
 
     Parameters
     ----------
     mesh : TriMesh
         The fine mesh, n vertices.
     coarsening : Coarsening
-        Of it.
+        Made of ``mesh``, c coarse vertices.
     values : (c,) float64
+        The field at the coarse vertices, in any unit.
 
     Returns
     -------
     fine : (n,) float64
+        The field at the fine vertices, in the unit of ``values``.
     """
     coarse = coarsening.mesh
     gradient = _gradients(coarse, coarsening.links, values)
@@ -145,7 +162,7 @@ def prolong(mesh: TriMesh, coarsening: Coarsening, values: np.ndarray) -> np.nda
 
 
 def _gradients(mesh: TriMesh, links: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """(c, 3) least-squares gradient of the values over each vertex's linked neighbors."""
+    """Least-squares gradient, (c, 3), of the values at each vertex and its linked neighbors."""
     a, b = both_ways(links).T
     step = mesh.vertices[b] - mesh.vertices[a]
     rise = values[b] - values[a]
@@ -154,13 +171,13 @@ def _gradients(mesh: TriMesh, links: np.ndarray, values: np.ndarray) -> np.ndarr
     weighted = weight[:, None] * step
     normal = sums_by(a, (weighted[:, :, None] * step[:, None, :]).reshape(-1, 9), n).reshape(n, 3, 3)
     right = sums_by(a, weighted * rise[:, None], n)
-    # A flat neighborhood says nothing about the normal direction: damp it to zero.
+    # Neighbors in one plane do not determine the gradient across that plane; the damping makes it 0.
     damping = 1e-3 * np.trace(normal, axis1=1, axis2=2) + np.finfo(float).tiny
     return np.linalg.solve(normal + damping[:, None, None] * np.eye(3), right[:, :, None])[:, :, 0]
 
 
 def _priority(points: np.ndarray) -> np.ndarray:
-    """(n,) distinct whole numbers that look random and depend on the coordinates alone."""
+    """Distinct whole numbers, (n,) int64, that look random and depend on the coordinates alone."""
     bits = (np.ascontiguousarray(points) + 0.0).view(np.uint64)
     mixed = np.zeros(len(points), np.uint64)
     for column in bits.T:
@@ -172,9 +189,10 @@ def _priority(points: np.ndarray) -> np.ndarray:
 
 
 def _independent_set(a: np.ndarray, b: np.ndarray, priority: np.ndarray) -> np.ndarray:
-    """Maximal independent set after [Luby1986]; edges in both directions, sorted by ``a``.
+    """Mask, (n,) bool, of a maximal independent set of vertices after [Luby1986].
 
-    Returns a mask. A vertex joins when its priority is the highest of the undecided around it.
+    In each round every undecided vertex joins the set whose priority is higher than that of all undecided
+    neighbors. a, b : edges in both directions, sorted by ``a``.
     """
     n = len(priority)
     chosen = np.zeros(n, bool)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The caller's polygons, corner by corner: what is done on them after a decomposition needs no triangles."""
+"""The caller's polygons, corner by corner, for work after a decomposition that needs no triangles."""
 
 from __future__ import annotations
 
@@ -12,18 +12,24 @@ from .arrays import renumbered, sums_by
 
 @dataclass(frozen=True, eq=False)
 class CornerTable:
-    """A polygon mesh by the corners of its faces.
+    """A polygon mesh as the list of its corners: the vertices of the first face in order, then of the second ...
 
     With n vertices, e edges, p faces and c corners:
 
     Attributes
     ----------
     vertices : (n, 3) float64
+        Positions.
     edges : (e, 2) int64
-        The vertices of each edge.
-    corner_vertex, corner_edge, corner_face : (c,) int64
-        Of each corner the vertex, the edge from there to the next corner, and the face; the faces rise.
+        The two vertices of each edge.
+    corner_vertex : (c,) int64
+        Vertex at each corner.
+    corner_edge : (c,) int64
+        Edge from each corner to the next corner of its face.
+    corner_face : (c,) int64
+        Face of each corner, rising.
     n_faces : int
+        p.
     """
 
     vertices: np.ndarray
@@ -35,21 +41,36 @@ class CornerTable:
 
     @classmethod
     def of(cls, vertices: np.ndarray, faces: np.ndarray) -> CornerTable:
-        """From faces of equally many corners, (p, k) int64."""
+        """Make the table of a mesh whose faces all have k corners.
+
+        vertices : (n, 3) array of float. faces : (p, k) int64. Returns a CornerTable.
+        """
         sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
         edges, corner_edge = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
         face = np.repeat(np.arange(len(faces)), faces.shape[1])
         return cls(np.asarray(vertices, np.float64), edges, faces.ravel(), corner_edge.reshape(-1), face, len(faces))
 
     def within(self, mask: np.ndarray) -> CornerTable:
-        """The corners of some faces, (p,) bool, and the edges of these alone; faces keep their numbers."""
+        """Make the table of some faces only.
+
+        mask : (p,) bool, the faces to keep. Returns a CornerTable of all vertices, the edges of these faces and
+        their corners; vertices and faces keep their numbers, edges do not.
+        """
         kept = mask[self.corner_face]
         used, corner_edge = renumbered(self.corner_edge[kept])
         return CornerTable(self.vertices, self.edges[used], self.corner_vertex[kept], corner_edge,
                            self.corner_face[kept], self.n_faces)
 
     def face_pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """Faces that share an edge, (k, 2) int64, and that edge, (k,) int64; k - 1 rows where k faces meet."""
+        """List the faces that share an edge.
+
+        Returns
+        -------
+        pairs : (r, 2) int64
+            Faces that share an edge; k - 1 rows chain k faces that meet at one edge.
+        edge : (r,) int64
+            The shared edge, rising.
+        """
         order = np.argsort(self.corner_edge, kind="stable")
         edge = self.corner_edge[order]
         together = np.flatnonzero(edge[1:] == edge[:-1])
@@ -57,19 +78,27 @@ class CornerTable:
         return np.stack([self.corner_face[first], self.corner_face[second]], axis=1), edge[together]
 
     def edge_length(self, edge: np.ndarray) -> np.ndarray:
-        """Length of some edges, (k,) int64 to (k,) float64."""
+        """Measure some edges.
+
+        edge : (k,) int64. Returns their lengths, (k,) float64, in the unit of the vertices.
+        """
         start, end = self.vertices[self.edges[edge]].transpose(1, 0, 2)
         return np.linalg.norm(end - start, axis=1)
 
     def face_means(self, values: np.ndarray) -> np.ndarray:
-        """Mean over the corners of each face of what its vertices have: (n,) to (p,), or (n, k) to (p, k)."""
+        """Average values of vertices over the corners of each face.
+
+        values : (n,) or (n, k) float64. Returns (p,) or (p, k) float64; nan, with NumPy's warning, for a face
+        without corners, as ``within`` leaves them.
+        """
         total = np.bincount(self.corner_face, minlength=self.n_faces)
         return (sums_by(self.corner_face, values[self.corner_vertex], self.n_faces).T / total).T
 
     def edge_labels(self, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The smallest and the largest label of the faces at each edge, two (e,) int64 arrays.
+        """Find the smallest and the largest label of the faces at each edge.
 
-        labels : (p,) int64. An edge of no face has the smallest above the largest.
+        labels : (p,) int64, 0 or more. Returns two (e,) int64 arrays. They are equal inside a part and differ on a
+        cut; for an edge without faces the smallest is the largest int64 and the largest is -1.
         """
         return edge_labels(self.corner_edge, self.corner_face, labels, len(self.edges))
 

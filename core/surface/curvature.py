@@ -3,38 +3,44 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import diags_array
 
 from .arrays import sums_by, symmetric_matrix
 from .mesh import TriMesh
 
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
 SCALES = (0.01, 0.02, 0.04)  # widths over which normals are smoothed, in units of sqrt(area)
-MAX_CURVATURE = 60.0  # in units of 1 / sqrt(area); what is sharper counts as this sharp
-SOLVER_STEPS = 60  # conjugate gradient steps at most
-# Edge length over the distance of two faces' centers over the edge: 1.7 for equilateral triangles.
+MAX_CURVATURE = 60.0  # bound of ``curvature_across``, in units of 1 / sqrt(area)
+SOLVER_STEPS = 60  # upper bound of the number of conjugate gradient steps
+# Upper bound of the conductance between two faces: the length of their edge over the way between their centroids
+# across this edge, without unit. Two equilateral triangles have 1.7.
 MAX_CONDUCTANCE = 20.0
 
 
 def k_min(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
-    """Smaller principal curvature of every vertex, negative in concavities.
+    """Estimate the smaller principal curvature at every vertex, negative in concavities.
 
-    From the curvature tensor of [CohenSteiner2003]: dihedral angles along the edges, summed
-    around each vertex and divided by its area; of the two eigenvalues tangent to the surface,
-    each belongs to the direction across its eigenvector. The paper takes another estimator; a
-    discrete one that needs no fit stands long thin triangles better.
+    The curvature tensor of [CohenSteiner2003] is the sum of the dihedral angles along the edges around a vertex,
+    divided by the vertex's area. Of its two eigenvalues tangent to the surface, each is the curvature in the
+    direction perpendicular to its eigenvector. [Berretti2009] uses another estimator; one that needs no fit
+    withstands long thin triangles better.
 
     Parameters
     ----------
     mesh : TriMesh
         n vertices, faces turned outwards.
     smoothing_steps : int
-        The tensor is summed over this many rings around the vertex.
+        Number of rings of neighbors over which the tensor of a vertex is summed.
 
     Returns
     -------
     k_min : (n,) float64
-        1 / length. Times the radius of a contour it has no unit.
+        In units of 1 / length of the vertices.
 
     Notes
     -----
@@ -58,12 +64,12 @@ def k_min(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
 
 
 def _plus_neighbors(values: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Each vertex's value plus those of its neighbors."""
+    """Sum of each vertex's value and those of its neighbors. a, b : the ends of all edges, (e,) int64."""
     return values + sums_by(a, values[b], len(values)) + sums_by(b, values[a], len(values))
 
 
 def _smaller_tangent_eigenvalue(tensor: np.ndarray, normals: np.ndarray) -> np.ndarray:
-    """Smaller eigenvalue of (n, 3, 3) symmetric tensors in the planes across (n, 3) normals."""
+    """Smaller eigenvalue, (n,), of (n, 3, 3) symmetric tensors in the planes perpendicular to (n, 3) normals."""
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     normal = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0)
     normal[length[:, 0] == 0] = (0.0, 0.0, 1.0)
@@ -76,18 +82,22 @@ def _smaller_tangent_eigenvalue(tensor: np.ndarray, normals: np.ndarray) -> np.n
 
 
 def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.ndarray:
-    """Change of the smoothed normal across each pair of faces, per way.
+    """Estimate the curvature across each pair of faces at several scales.
+
+    The curvature is the change of the smoothed normal from one face to the other, in the direction between their
+    centroids, divided by the distance of the centroids.
 
     Parameters
     ----------
     mesh : TriMesh
+        p pairs of faces, faces turned outwards.
     scales : tuple of float
-        Widths of the smoothing, in units of the square root of the area.
+        Widths over which the normals are smoothed, in units of the square root of the area.
 
     Returns
     -------
     curvature : (len(scales), p) float64
-        Dimensionless: times the square root of the area. Negative in concavities.
+        In units of 1 / square root of the area, at most MAX_CURVATURE in size; negative in concavities.
     """
     unit = np.sqrt(mesh.area)
     a, b = mesh.edges.pairs.T
@@ -103,15 +113,18 @@ def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.nd
 
 
 def _exchange(mesh: TriMesh) -> csr_array:
-    """Symmetric (m, m) conductances between faces: edge length over way."""
+    """Symmetric (m, m) conductances between faces: length of the edge over the way from centroid to centroid."""
     flow = mesh.pair_length / np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
-    # A sliver exchanges with its neighbors in no time; bounded, or the solver would stall.
+    # The conductances of slivers have no bound of their own, and the solver would converge too slowly.
     flow = np.minimum(flow, MAX_CONDUCTANCE)
     return symmetric_matrix(mesh.edges.pairs, flow, mesh.n_faces)
 
 
 def _diffuse(mesh: TriMesh, exchange: csr_array, time: float, guess: np.ndarray) -> np.ndarray:
-    """Unit normals after one implicit step of heat flow from face to face."""
+    """Unit normals, (m, 3), after one implicit step of heat flow from face to face.
+
+    time : the square of the width of the smoothing. guess : (m, 3), where the solver starts.
+    """
     mass = mesh.face_area + 1e-9 * mesh.area / mesh.n_faces
     diagonal = mass + time * exchange.sum(axis=1)
     system = diags_array(diagonal).tocsr() - time * exchange
@@ -120,7 +133,7 @@ def _diffuse(mesh: TriMesh, exchange: csr_array, time: float, guess: np.ndarray)
     goal = 2e-3 * np.linalg.norm(start)
     step = gradient = residual / diagonal[:, None]
     power = np.vdot(residual, gradient)
-    # Conjugate gradients; the three coordinates as one unknown, so that turning changes nothing.
+    # Conjugate gradients take the three coordinates as one unknown, so that the result turns with the mesh.
     for _ in range(SOLVER_STEPS):
         if np.linalg.norm(residual) <= goal:
             break
@@ -135,7 +148,10 @@ def _diffuse(mesh: TriMesh, exchange: csr_array, time: float, guess: np.ndarray)
 
 
 def angle_defect(mesh: TriMesh) -> np.ndarray:
-    """Gaussian curvature of every face: the angle defect of its vertices, shared among their faces by angle.
+    """Integrate the Gaussian curvature over every face.
+
+    The integral is the angle defect of the vertices (2 pi, at a border pi, minus the angles around the vertex). Each
+    vertex shares its defect among its faces in proportion to their angles there.
 
     Parameters
     ----------
@@ -145,7 +161,7 @@ def angle_defect(mesh: TriMesh) -> np.ndarray:
     Returns
     -------
     defect : (m,) float64
-        Radians; on a closed surface it sums to 2 pi times the Euler characteristic (Gauss-Bonnet).
+        In radians. On a closed surface the sum is 2 pi times the Euler characteristic (Gauss-Bonnet).
     """
     side = np.roll(mesh.corners, -1, axis=1) - mesh.corners
     back = -np.roll(side, 1, axis=1)

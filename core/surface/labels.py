@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Labels on faces: votes, boundaries, connectedness, and boundaries without saw teeth."""
+"""Labels on faces: votes for labels, boundaries between labels, connected labels, straight boundaries."""
 
 from __future__ import annotations
 
@@ -15,16 +15,18 @@ def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners:
 
     Parameters
     ----------
-    owner, label : (r,) int64
-        Who the vote is for and which label it names; both 0 or more.
+    owner : (r,) int64
+        Owner that each vote is for, 0..n_owners-1.
+    label : (r,) int64
+        Label that each vote names, 0 or more.
     weight : (r,) float64
-        What the vote counts.
+        Weight of each vote.
     n_owners : int
 
     Returns
     -------
     winner : (n_owners,) int64
-        The label with the most weight, the smallest of equals; -1 for an owner without a vote.
+        Label with the largest sum of weights, of equal ones the smallest label; -1 for an owner without a vote.
     """
     cells, cell = distinct_pairs(owner, label)
     of, name = cells.T
@@ -40,18 +42,18 @@ def label_boundaries(
     Parameters
     ----------
     label : (n,) int64
-        Of each element; -1 for none.
+        Label of each face (or of anything else that has neighbors); -1 for none.
     pairs : (e, 2) int64
-        Elements that touch.
+        Faces that touch.
     length : (e,) float64
-        Along which each pair touches.
+        Length of the boundary between the two faces of each pair.
 
     Returns
     -------
     touching : (c, 2) int64
-        Labels, the smaller first, in lexicographic order.
+        Pairs of labels that touch, the smaller label first, in lexicographic order.
     total : (c,) float64
-        Length of their common boundary.
+        Length of the boundary between the two labels, in the unit of ``length``.
     """
     low, high = np.sort(label[pairs], axis=1).reshape(-1, 2).T
     apart = (low != high) & (low >= 0)
@@ -67,13 +69,14 @@ def longest_neighbor(touching: np.ndarray, length: np.ndarray, count: int) -> np
     touching : (c, 2) int64
         Labels that touch, each pair once.
     length : (c,) float64
+        Length of the boundary between the two labels of each pair.
     count : int
-        Of labels.
+        Number of labels.
 
     Returns
     -------
     neighbor : (count,) int64
-        The smallest of equals; -1 for a label that touches no other.
+        That neighbor, of equal ones the smallest label; -1 for a label that touches no other.
     """
     label, other = both_ways(touching).T
     last = last_of_each(label, np.concatenate([length, length]), -other, count=count)
@@ -81,22 +84,22 @@ def longest_neighbor(touching: np.ndarray, length: np.ndarray, count: int) -> np
 
 
 def spread(label: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Give unlabelled elements the label of an element beside them, outwards from the labelled ones.
+    """Let labels spread in rounds from labeled faces outwards to unlabeled ones.
 
     Parameters
     ----------
     label : (n,) int64
-        -1 for an element without a label.
+        Label of each face (or of anything else that has neighbors); -1 for none.
     a, b : (e,) int64
-        Element a may take the label of element b.
+        Face a[i] may take the label of face b[i].
 
     Returns
     -------
     label : (n,) int64
-        Still -1 where no label arrives.
+        -1 remains where no label arrives.
     """
     label = label.copy()
-    unlabelled = label[a] < 0  # labelled elements keep what they have
+    unlabelled = label[a] < 0  # labeled faces keep their labels
     a, b = a[unlabelled], b[unlabelled]
     while True:
         reached = (label[a] < 0) & (label[b] >= 0)
@@ -115,8 +118,9 @@ class FaceGraph:
     pairs : (e, 2) int64
         Faces that share an edge.
     length : (e,) float64
-        Of that edge.
+        Length of the shared edge, in the unit of the vertices.
     area : (n_faces,) float64
+        Area of each face, in squared units of the vertices.
     """
 
     n_faces: int
@@ -125,14 +129,26 @@ class FaceGraph:
     area: np.ndarray
 
     def boundaries(self, label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Pairs of labels that touch, and along what length; see ``label_boundaries``."""
+        """Find which labels touch, and along what length.
+
+        label : (n_faces,) int64, -1 for a face without a label. Returns what ``label_boundaries`` returns.
+        """
         return label_boundaries(label, self.pairs, self.length)
 
 
 def fill_unlabelled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
-    """Give faces labelled -1 the label of a neighbor; faces that touch no labelled face get label 0.
+    """Give faces without a label the label of a neighbor.
 
-    label : (n_faces,) int64. Returns the same with no -1.
+    Parameters
+    ----------
+    graph : FaceGraph
+    label : (n_faces,) int64
+        -1 for a face without a label.
+
+    Returns
+    -------
+    label : (n_faces,) int64
+        0 or more; 0 for a face that no label reaches.
     """
     label = spread(label, *both_ways(graph.pairs).T)
     label[label < 0] = 0
@@ -142,18 +158,19 @@ def fill_unlabelled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
 def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
     """Make every label one connected set of faces.
 
-    Of each label the component of most area keeps it; every other component joins the neighbor
-    along its longest boundary.
+    Where the faces of a label form several components, the component of most area keeps the label; every other
+    component takes the label of the neighbor with which it shares its longest boundary.
 
     Parameters
     ----------
     graph : FaceGraph
     label : (n_faces,) int64
+        0 or more.
 
     Returns
     -------
     label : (n_faces,) int64
-        Some labels may be gone.
+        A label stays in several components only where these touch no other label.
     """
     label = label.copy()
     while True:
@@ -173,9 +190,9 @@ def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
 
 
 def _goal_of_strays(graph: FaceGraph, part: np.ndarray, area: np.ndarray, stray: np.ndarray) -> np.ndarray:
-    """For each stray component, the neighbor it joins; -1 for the others.
+    """Component that each stray component joins, (k,) int64; -1 for a component that stays.
 
-    Where two strays would join each other, only the smaller one does.
+    Where two stray components would join each other, only the smaller one moves.
     """
     goal = np.where(stray, longest_neighbor(*graph.boundaries(part), len(area)), -1)
     mover = np.flatnonzero(goal >= 0)
@@ -187,20 +204,22 @@ def _goal_of_strays(graph: FaceGraph, part: np.ndarray, area: np.ndarray, stray:
 
 
 def straighten(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
-    """Take saw teeth off boundaries: faces change to the label that shortens the boundary most.
+    """Take saw teeth off boundaries: faces change to the label that shortens the boundaries most.
 
-    Faces that touch never change in the same round, so every round shortens the boundaries.
+    Two faces that touch never change in one round, so that every round shortens the boundaries.
 
     Parameters
     ----------
     graph : FaceGraph
     label : (n_faces,) int64
+        0 or more.
     rounds : int
-        At most so many; 0 changes nothing.
+        Upper bound of the number of rounds; 0 changes nothing.
 
     Returns
     -------
     label : (n_faces,) int64
+        Labels may no longer be connected.
     """
     label = label.copy()
     a, b = both_ways(graph.pairs).T
@@ -213,9 +232,9 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
         toward = other == best[owner]
         gain = np.bincount(owner[toward], weight[toward], graph.n_faces) - inside
         gain[best < 0] = 0.0
-        # Below a billionth of the longest edge a gain is rounding.
+        # A gain below 1e-9 of the longest edge is a rounding error.
         gain[gain <= 1e-9 * length.max(initial=0.0)] = 0.0
-        # Of two neighbors that gain, the one that gains more changes; of equals the one with the higher index.
+        # Of two neighbors that both gain, the one that gains more changes; of equal ones that of the higher index.
         rank = np.empty(graph.n_faces, np.int64)
         rank[np.lexsort((np.arange(graph.n_faces), gain))] = np.arange(graph.n_faces)
         beaten = np.zeros(graph.n_faces, bool)

@@ -15,7 +15,7 @@ from .arrays import components, frozen, renumbered
 
 @dataclass(frozen=True, eq=False)
 class TriMesh:
-    """A triangle mesh, checked once and never changed.
+    """A triangle mesh, checked when it is made and never changed; tables are computed when first asked for.
 
     Attributes
     ----------
@@ -27,14 +27,15 @@ class TriMesh:
     Raises
     ------
     MeshError
-        Wrong shape, an index out of range, or a coordinate that is not finite;
-        ``error.vertices`` or ``error.faces`` lists them.
+        The arrays have other shapes, faces are not whole numbers, a face names a vertex that does not exist, or a
+        coordinate is not finite; ``error.vertices`` or ``error.faces`` lists the last two.
     """
 
     vertices: np.ndarray
     faces: np.ndarray
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
+        """Check the shapes and freeze copies of the arrays."""
         vertices = np.asarray(self.vertices)
         faces = np.asarray(self.faces)
         if vertices.ndim != 2 or vertices.shape[1] != 3:
@@ -52,7 +53,8 @@ class TriMesh:
         object.__setattr__(self, "faces", frozen(faces, np.int64))
         self._check_values()
 
-    def _check_values(self):
+    def _check_values(self) -> None:
+        """Raise MeshError if a coordinate is not finite or a face names a vertex that does not exist."""
         bad = np.flatnonzero(~np.isfinite(self.vertices).all(axis=1))
         if len(bad):
             raise MeshError(
@@ -75,68 +77,70 @@ class TriMesh:
 
     @property
     def n_vertices(self) -> int:
+        """Number of vertices, n."""
         return len(self.vertices)
 
     @property
     def n_faces(self) -> int:
+        """Number of faces, m."""
         return len(self.faces)
 
     @cached_property
     def corners(self) -> np.ndarray:
-        """(m, 3, 3) float64, the positions of every face's corners."""
+        """(m, 3, 3) float64, position of each corner of each face."""
         return self.vertices[self.faces]
 
     @cached_property
     def area_normals(self) -> np.ndarray:
-        """(m, 3) float64, normals whose length is the face's area."""
+        """(m, 3) float64, normal of each face, as long as the face's area."""
         p, q, r = self.corners.transpose(1, 0, 2)
         return 0.5 * np.cross(q - p, r - p)
 
     @cached_property
     def face_area(self) -> np.ndarray:
-        """(m,) float64, squared unit of the vertices."""
+        """(m,) float64, area of each face, in squared units of the vertices."""
         return np.linalg.norm(self.area_normals, axis=1)
 
     @cached_property
     def face_normals(self) -> np.ndarray:
-        """(m, 3) float64 unit normals; zero where the face has no area."""
+        """(m, 3) float64, unit normal of each face; zero where the face has no area."""
         area = self.face_area[:, None]
         return np.divide(self.area_normals, area, out=np.zeros((self.n_faces, 3)), where=area > 0)
 
     @cached_property
     def face_centroids(self) -> np.ndarray:
-        """(m, 3) float64."""
+        """(m, 3) float64, mean of the corners of each face."""
         return self.corners.mean(axis=1)
 
     @cached_property
     def area(self) -> float:
-        """Area of the whole surface."""
+        """Area of the whole surface, in squared units of the vertices."""
         return float(self.face_area.sum())
 
     @cached_property
     def vertex_area(self) -> np.ndarray:
-        """(n,) float64, a third of the area of the faces around each vertex; sums to the area."""
+        """(n,) float64, a third of the area of the faces around each vertex; the sum is ``area``."""
         return np.bincount(self.faces.ravel(), np.repeat(self.face_area / 3, 3), self.n_vertices)
 
     @cached_property
     def edges(self) -> EdgeTable:
-        """Every edge once, and which faces meet there."""
+        """Every edge once, and the faces that meet there."""
         return EdgeTable.of(self.faces, self.n_vertices)
 
     @cached_property
     def edge_length(self) -> np.ndarray:
-        """(e,) float64, one per row of ``edges.vertices``."""
+        """(e,) float64, length of each edge of ``edges.vertices``."""
         a, b = self.edges.vertices.T
         return np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1)
 
     @cached_property
     def pair_length(self) -> np.ndarray:
-        """(pairs,) float64, length of the edge between each pair of faces."""
+        """(p,) float64, length of the edge between the faces of each pair of ``edges.pairs``."""
         return self.edge_length[self.edges.pair_edge]
 
     @cached_property
     def pair_distance(self) -> np.ndarray:
-        """(pairs,) float64, way from face to face over the middle of their edge."""
+        """(p,) float64, length of the way from centroid to centroid across the middle of the shared edge."""
         a, b = self.edges.vertices[self.edges.pair_edge].T
         middle = (self.vertices[a] + self.vertices[b]) / 2
         left, right = (self.face_centroids[face] - middle for face in self.edges.pairs.T)
@@ -144,10 +148,10 @@ class TriMesh:
 
     @cached_property
     def dihedral(self) -> np.ndarray:
-        """(pairs,) float64 angle in radians between the normals of each face pair.
+        """(p,) float64, angle in radians between the normals of the faces of each pair of ``edges.pairs``.
 
-        Positive where the surface is convex, negative where it is concave; one per row of
-        ``edges.pairs``. Zero where a face has no area.
+        The angle is positive where the surface is convex, negative where it is concave, and 0 where a face has no
+        area.
         """
         left, right = self.edges.pairs.T
         sine = np.cross(self.face_normals[left], self.face_normals[right])
@@ -159,23 +163,29 @@ class TriMesh:
 
     @cached_property
     def face_components(self) -> tuple[int, np.ndarray]:
-        """Number of components and (m,) int64, each face's component; faces touch by edges."""
+        """Number of components of the surface, and the component of each face, (m,) int64; faces touch by edges."""
         return components(self.n_faces, *self.edges.pairs.T)
 
     @property
     def euler_characteristic(self) -> int:
-        """Vertices of a face - edges + faces."""
+        """Number of vertices that have a face, minus the number of edges, plus the number of faces."""
         used = len(np.unique(self.faces))
         return used - len(self.edges.vertices) + self.n_faces
 
     def submesh(self, face_mask: np.ndarray) -> tuple[TriMesh, np.ndarray]:
-        """The faces where ``face_mask`` is true, with only their vertices.
+        """Copy some faces, with their vertices only.
+
+        Parameters
+        ----------
+        face_mask : (m,) bool
+            Faces to copy.
 
         Returns
         -------
         mesh : TriMesh
+            m' faces and n' vertices, in the order of this mesh.
         vertex_index : (n',) int64
-            For each of its vertices, the vertex of this mesh.
+            Vertex of this mesh at each vertex of the copy.
         """
         vertex_index, faces = renumbered(self.faces[face_mask])
         return TriMesh(self.vertices[vertex_index], faces), vertex_index
@@ -183,7 +193,7 @@ class TriMesh:
 
 @dataclass(frozen=True, eq=False)
 class EdgeTable:
-    """Edges of a triangle mesh.
+    """Edges of a triangle mesh, and the faces that meet there.
 
     Attributes
     ----------
@@ -192,12 +202,12 @@ class EdgeTable:
     face_edges : (m, 3) int64
         Edge between corners 0-1, 1-2 and 2-0 of each face.
     n_faces : (e,) int64
-        How many faces meet at each edge: 1 at a border, 2 inside, more if non-manifold.
+        Number of faces that meet at each edge: 1 at a border, 2 inside, more if non-manifold.
     pairs : (p, 2) int64
-        Faces that touch along an edge. One row at an inner edge; where k faces meet,
-        k - 1 rows chain them. Faces with a repeated vertex may touch themselves: left out.
+        Faces that touch along an edge: one row at an inner edge; where k faces meet, k - 1 rows chain them. A face
+        with a repeated vertex never makes a pair with itself.
     pair_edge : (p,) int64
-        The edge of each pair.
+        Edge of each pair.
     """
 
     vertices: np.ndarray
@@ -208,8 +218,12 @@ class EdgeTable:
 
     @classmethod
     def of(cls, faces: np.ndarray, n_vertices: int) -> EdgeTable:
+        """Make the table of the edges of some faces.
+
+        faces : (m, 3) int64, 0..n_vertices-1. Returns an EdgeTable.
+        """
         start, end = faces, np.roll(faces, -1, axis=1)
-        # One integer per half-edge sorts far faster than rows.
+        # NumPy sorts half-edges that are packed into one integer far faster than rows.
         key = (np.minimum(start, end) * np.int64(n_vertices) + np.maximum(start, end)).ravel()
         order = np.argsort(key, kind="stable")
         key = key[order]

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The caller's mesh as it was given, polygons cut into triangles; and the checks of what decompose was given."""
+"""The caller's mesh with its polygons cut into triangles, and the checks of the arrays that ``decompose`` gets."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,20 +14,24 @@ from ..sentence import Sentence
 from .arrays import frozen
 from .mesh import TriMesh
 
-MIN_FACES = 4  # a closed surface has at least the four faces of a tetrahedron
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+MIN_FACES = 4  # number of faces of a tetrahedron, the smallest closed surface
 
 
 @dataclass(frozen=True, eq=False)
 class PolygonMesh:
-    """What the caller gave: polygons, cut into triangles.
+    """The caller's polygons, cut into triangles.
 
     Attributes
     ----------
     triangles : TriMesh
-        All of the caller's vertices; triangles of the polygons.
+        All of the caller's vertices, and the m triangles of the polygons.
     polygon : (m,) int64
-        The polygon each triangle belongs to.
+        Polygon of each triangle, 0..n_polygons-1.
     n_polygons : int
+        Number of polygons: the caller's faces.
     """
 
     triangles: TriMesh
@@ -34,24 +39,31 @@ class PolygonMesh:
     n_polygons: int
 
     @classmethod
-    def of(cls, vertices, faces, polygon=None) -> PolygonMesh:
+    def of(
+        cls, vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], polygon: ArrayLike | None = None
+    ) -> PolygonMesh:
         """Read triangles, quads or polygons.
 
         Parameters
         ----------
-        vertices : (n, 3) array_like
-        faces : (m, k) array_like of int, or a sequence of index sequences
-            Polygons are cut into the fan of their first corner.
+        vertices : (n, 3) array_like of float
+            Positions, in any unit of length.
+        faces : (p, k) array_like of int, or a sequence of p index sequences
+            Vertices of each polygon. A polygon is cut into the triangles that its first corner forms with its sides.
         polygon : (m,) array_like of int, optional
-            Only for triangles: the caller's own triangulation of polygons, as the
-            polygon of each triangle.
+            For a caller who has cut polygons into triangles already: ``faces`` are then (m, 3) triangles, and this
+            is the polygon of each.
+
+        Returns
+        -------
+        mesh : PolygonMesh
 
         Raises
         ------
         MeshError
-            Not a mesh (shapes, indices, values).
+            A shape, an index, a polygon's number or a coordinate is wrong.
         EmptyMeshError
-            Fewer than four faces, or no area.
+            There are fewer than MIN_FACES polygons, or the surface has no area.
         """
         if polygon is None:
             faces, polygon, n_polygons = _fan(faces)
@@ -70,7 +82,8 @@ class PolygonMesh:
         mesh._check_size()
         return mesh
 
-    def _check_size(self):
+    def _check_size(self) -> None:
+        """Raise EmptyMeshError if the mesh is too small to have parts."""
         if self.n_polygons < MIN_FACES:
             raise EmptyMeshError(
                 Sentence(
@@ -82,14 +95,14 @@ class PolygonMesh:
         used = np.zeros(self.triangles.n_vertices, bool)
         used[self.triangles.faces] = True
         extent = np.ptp(self.triangles.vertices[used], axis=0).max()
-        # Below the rounding error of the coordinates an area is noise.
+        # An area below the rounding error of the coordinates is noise.
         if not self.triangles.area > 1e-14 * extent**2:
             raise EmptyMeshError(Sentence(
                 "All {n} faces have zero area. Check the scale of the object.", n=self.n_polygons))
 
 
-def _fan(faces) -> tuple[np.ndarray, np.ndarray, int]:
-    """Triangles of polygons, the polygon of each, and how many polygons there are."""
+def _fan(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray, int]:
+    """Triangles of polygons, (m, 3), the polygon of each triangle, (m,), and the number of polygons."""
     if not isinstance(faces, np.ndarray) and isinstance(faces, Sequence) and len(faces):
         sizes = np.array([len(face) for face in faces], np.int64)
         flat = np.concatenate([np.asarray(face) for face in faces])

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The working copy: the caller's surface, repaired and refined until a field can live on it.
+"""The working copy: the caller's surface, repaired and refined so that a field can be computed on it.
 
-The paper triangulates and regularizes first (section 3). Labels found on the copy go back
-to the caller's own faces and vertices, which are never touched: ``polygon`` and
-``vertex_source`` are the way back.
+The caller's arrays are never changed. [Berretti2009] triangulates and regularizes the surface first (section 3), and so
+does this module. ``polygon`` and ``vertex_source`` say to which of the caller's faces and vertices those of the copy
+belong, so that labels found on the copy can be brought back.
 """
 
 from __future__ import annotations
@@ -17,13 +17,14 @@ from .arrays import components, distinct_pairs, frozen
 from .mesh import TriMesh
 from .polygons import MIN_FACES, PolygonMesh
 
-# No edge of the copy is longer than this share of the square root of the component's area:
-# half the radius of a base vertex's disc, so that a field of its own fits into every disc.
+# Longest edge of the copy, in units of the square root of the component's area: half the radius of the disc that a base
+# vertex stands for, so that the field can vary within every disc.
 MAX_EDGE = 0.5 * np.sqrt(0.005)
-# Needles (long, thin triangles) multiply under refinement; past this factor coarse is better.
+# Refinement stops when it has multiplied the number of faces by this factor: needles (long, thin triangles) become
+# too many, and a coarser copy is better.
 MAX_GROWTH = 4
-MIN_BUDGET = 50_000  # faces that refinement may always reach
-# Lengths that differ by less are equal: rounding must not decide how a box is divided.
+MIN_BUDGET = 50_000  # number of faces up to which refinement never stops early
+# Relative difference below which two lengths are equal: rounding errors must not decide how a box is divided.
 ROUNDING = 1e-9
 
 
@@ -34,14 +35,14 @@ class WorkingMesh:
     Attributes
     ----------
     mesh : TriMesh
-        No vertex without a face, no face with a repeated vertex, no two fans of faces that
-        touch in a vertex only; faces turned the same way where that is possible.
+        Every vertex has a face, no face has a repeated vertex, no two fans of faces touch in a vertex only, and
+        neighbors are turned the same way where that is possible. m faces and n vertices.
     polygon : (m,) int64
-        The caller's face that each triangle lies in.
+        The caller's face in which each triangle lies.
     vertex_source : (n,) int64
-        The caller's vertex at each vertex; -1 where refinement added one.
-    notes : tuple of str
-        What was found and done, one sentence each.
+        The caller's vertex at each vertex.
+    notes : tuple of Sentence
+        What is odd about the caller's mesh and what was repaired, one sentence each.
     """
 
     mesh: TriMesh
@@ -57,13 +58,13 @@ class Component:
     Attributes
     ----------
     faces : (k,) int64
-        Its faces in the working mesh.
+        Faces of the working mesh that form the component.
     mesh : TriMesh
-        m faces and n vertices.
+        The component with its long edges split: m faces and n vertices.
     polygon : (m,) int64
-        The caller's face that each triangle lies in.
+        The caller's face in which each triangle lies.
     vertex_source : (n,) int64
-        The caller's vertex of each vertex, -1 for one that splitting added.
+        The caller's vertex at each vertex; -1 for a vertex that splitting added.
     """
 
     faces: np.ndarray
@@ -73,7 +74,18 @@ class Component:
 
     @classmethod
     def of(cls, working: WorkingMesh, label: int) -> Component:
-        """Cut out the component with a label of ``working.mesh.face_components`` and split its long edges."""
+        """Cut a component out of the working mesh and split its long edges.
+
+        Parameters
+        ----------
+        working : WorkingMesh
+        label : int
+            Label of the component in ``working.mesh.face_components``.
+
+        Returns
+        -------
+        component : Component
+        """
         mask = working.mesh.face_components[1] == label
         mesh, index = (working.mesh, slice(None)) if mask.all() else working.mesh.submesh(mask)
         source = working.vertex_source[index]
@@ -84,30 +96,47 @@ class Component:
 
 
 def components_worth_cutting(working: WorkingMesh, loose_part: float) -> list[int]:
-    """Labels of the components that are decomposed: large enough, and with faces enough for parts.
+    """List the components that are decomposed: those large enough, and of enough faces, to have parts.
 
-    loose_part : float. Least share of the whole area.
+    Parameters
+    ----------
+    working : WorkingMesh
+    loose_part : float
+        Least share of the whole area, 0..1, that such a component has.
+
+    Returns
+    -------
+    labels : list of int
+        Labels of ``working.mesh.face_components``, rising.
     """
     count, component = working.mesh.face_components
     area = np.bincount(component, working.mesh.face_area, count)
     pairs, _ = distinct_pairs(component, working.polygon)
     n_polygons = np.bincount(pairs[:, 0], minlength=count)
-    # A component a million times smaller in length than the largest one is rounding of its coordinates.
+    # A component a million times shorter than the largest one is a rounding error of coordinates.
     large = (area >= max(loose_part * area.sum(), 1e-12 * area.max())) & (n_polygons >= MIN_FACES)
     return np.flatnonzero(large).tolist()
 
 
 def repair(given: PolygonMesh) -> WorkingMesh:
-    """Copy the caller's mesh without what would break the field.
+    """Copy the caller's mesh without the defects that would disturb the field.
 
-    Coincident border vertices are joined (seams of imported files), faces with a repeated
-    vertex dropped, fans that touch in one vertex only separated, and faces turned outwards.
+    The copy's coincident border vertices are joined (seams of imported files), faces with a repeated vertex are
+    dropped, fans of faces that touch in one vertex only are separated, and faces are turned outwards.
+
+    Parameters
+    ----------
+    given : PolygonMesh
+
+    Returns
+    -------
+    working : WorkingMesh
     """
     mesh = given.triangles
     joined, note_joined = _join_coincident_borders(mesh)
     faces = joined[mesh.faces]
     whole = (faces != np.roll(faces, -1, axis=1)).all(axis=1)
-    # What needs no repair keeps the tables that are already made for it.
+    # A mesh that needs no repair keeps the tables that were already computed for it.
     copy = mesh if whole.all() and not note_joined else TriMesh(mesh.vertices, faces[whole])
     copy, vertex_source = _separate_fans(copy)
     copy, note_turned = _turn_outwards(copy)
@@ -117,17 +146,24 @@ def repair(given: PolygonMesh) -> WorkingMesh:
 
 
 def split_long_edges(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndarray]:
-    """Split edges at their middle until none is longer than ``max_length``.
+    """Split edges at their middle until none is longer than a limit.
 
-    Conforming: a split edge is split for all its faces, so no gaps appear. The shape of the
-    surface does not change. Stops early, coarser, when needles would multiply past bounds.
+    An edge is split for all its faces at once, so that no gaps appear; the shape of the surface does not change.
+    Splitting stops early, with longer edges, once the mesh has MAX_GROWTH times its faces and at least MIN_BUDGET.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces.
+    max_length : float
+        In the unit of the vertices, above 0.
 
     Returns
     -------
     mesh : TriMesh
-        The given vertices first, in order, then the new ones.
+        m' faces. The vertices given come first, in order, then the new ones.
     parent : (m',) int64
-        The given face that each face lies in.
+        Face given in which each face lies.
     """
     parent = np.arange(mesh.n_faces)
     budget = max(MIN_BUDGET, MAX_GROWTH * mesh.n_faces)
@@ -141,19 +177,22 @@ def split_long_edges(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndar
 
 
 def _split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]:
-    """Split the marked edges at their middle, and every face to 1-4 triangles accordingly."""
+    """Split the marked edges, (e,) bool, at their middle, and each of their faces into two to four triangles.
+
+    Returns the mesh and the face given in which each face lies, (m',) int64.
+    """
     ends = mesh.edges.vertices[marked]
     middle = np.full(len(marked), -1)
     middle[marked] = mesh.n_vertices + np.arange(len(ends))
     vertices = np.concatenate([mesh.vertices, mesh.vertices[ends].mean(axis=1)])
     mids = middle[mesh.edges.face_edges]
     n_split = (mids >= 0).sum(axis=1)
-    # Turn each face so that its one split edge, or its one whole edge, is the first.
+    # Each face is turned so that its only split edge, or its only whole edge, is the first.
     odd_one = np.where((n_split == 1)[:, None], mids >= 0, mids < 0)
     turn = (odd_one.argmax(axis=1)[:, None] + np.arange(3)) % 3
     a, b, c = np.take_along_axis(mesh.faces, turn, axis=1).T
     ab, bc, ca = np.take_along_axis(mids, turn, axis=1).T
-    # Two split edges leave a quadrangle: cut it along its shorter diagonal.
+    # Where two edges are split, a quadrangle is left, which is cut along its shorter diagonal.
     shorter = np.linalg.norm(vertices[a] - vertices[bc], axis=1) <= (1 + ROUNDING) * np.linalg.norm(
         vertices[b] - vertices[ca], axis=1)
     patterns = (
@@ -172,15 +211,16 @@ def _split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray
 
 
 def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]]:
-    """For each vertex, the first border vertex at the same place (itself elsewhere).
+    """Vertex that each vertex is joined to, (n,) int64, and a note of how many were joined.
 
-    Only borders: where two closed surfaces touch they stay two parts.
+    A border vertex is joined to the first border vertex at its place, any other vertex to itself: two closed surfaces
+    that touch stay two components.
     """
     joined = np.arange(mesh.n_vertices)
     border = np.unique(mesh.edges.vertices[mesh.edges.n_faces == 1])
     if not len(border):
         return joined, ()
-    # + 0.0 makes -0.0 and 0.0 the same place.
+    # Adding 0.0 turns -0.0 into 0.0: both are one place.
     _, first, inverse = np.unique(
         mesh.vertices[border] + 0.0, axis=0, return_index=True, return_inverse=True)
     joined[border] = border[first[inverse.reshape(-1)]]
@@ -192,9 +232,9 @@ def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]
 
 
 def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
-    """Give each fan of faces around a vertex a vertex of its own; drop unused vertices.
+    """Give each fan of faces around a vertex a vertex of its own, and drop vertices without a face.
 
-    Returns the mesh and the given vertex of each of its vertices, ascending.
+    Returns the mesh and the vertex given at each of its vertices, (n',) int64, rising.
     """
     left, right = mesh.edges.pairs.T
     joins_a, joins_b = [], []
@@ -215,12 +255,16 @@ def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
 
 
 def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
-    """Turn faces so that neighbors agree, and closed components enclose a positive volume."""
+    """Turn faces so that neighbors agree and closed components enclose a positive volume.
+
+    Returns the mesh and a note of how many faces were turned.
+    """
     pairs, edge = mesh.edges.pairs, mesh.edges.pair_edge
     same_way = _edge_direction(mesh, pairs[:, 0], edge) == _edge_direction(mesh, pairs[:, 1], edge)
     flip = np.zeros(mesh.n_faces, bool)
     if same_way.any():
-        # Double cover: (face, as given) and (face, flipped); orientable where the two differ.
+        # The double cover has each face twice: face f as given and face f + m flipped. A component of the surface
+        # is orientable if its two copies in the double cover are not connected.
         m = mesh.n_faces
         a, b = pairs.T
         other = np.where(same_way, m, 0)
@@ -230,7 +274,7 @@ def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
         flip = orientable & (sheet[:m] > sheet[m:])
     count, component = mesh.face_components
     sign = np.where(flip, -1.0, 1.0)
-    center = mesh.vertices.mean(axis=0)  # near the origin, where volumes do not cancel
+    center = mesh.vertices.mean(axis=0)  # volumes are measured from here: far from the origin they would cancel
     volume = sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - center)
     as_given = np.bincount(component, sign * mesh.face_area, count)
     borders = mesh.edges.n_faces[mesh.edges.face_edges] == 1
@@ -245,18 +289,18 @@ def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
 
 
 def _edge_direction(mesh: TriMesh, face: np.ndarray, edge: np.ndarray) -> np.ndarray:
-    """Whether each face runs along its edge from the smaller vertex to the larger."""
+    """Whether each face runs along its edge from the vertex of smaller index to that of larger, (k,) bool."""
     corner = (mesh.edges.face_edges[face] == edge[:, None]).argmax(axis=1)
     return mesh.faces[face, corner] == mesh.edges.vertices[edge, 0]
 
 
 def _notes(given: PolygonMesh) -> tuple[str, ...]:
-    """What is odd about the caller's mesh, in sentences."""
+    """One sentence for each oddity of the caller's mesh."""
     mesh = given.triangles
     n_lost = mesh.n_vertices - len(np.unique(mesh.faces))
     flat = np.ones(given.n_polygons, bool)
     longest = mesh.edge_length[mesh.edges.face_edges].max(axis=1)
-    # Three corners on a line rarely have an area of exactly 0.
+    # The area of three corners on a line is rarely exactly 0.
     flat[given.polygon[mesh.face_area > 1e-12 * longest**2]] = False
     notes = (
         Sentence("{n} edges join more than two faces (non-manifold).",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A bone for each part, from where it is joined to the body along its center line to its end."""
+"""Bones: one for each part, from the cut toward the body along the part's center line to its far end."""
 
 from __future__ import annotations
 
@@ -12,21 +12,23 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components, mini
 from ..surface.arrays import distinct_pairs, sums_by
 from ..surface.corners import CornerTable
 
-# A bone shorter than this share of the mesh's extent would have no direction to speak of.
+# Least length of a bone, as a share of the diagonal of the bounding box of the faces' centers. A shorter bone is
+# replaced by one of this length that points upwards.
 _SHORTEST = 0.01
 
 
 @dataclass(frozen=True, eq=False)
 class Bones:
-    """Bone i is that of part i.
+    """The bones of ``count`` parts; bone i is that of part i.
 
     Attributes
     ----------
     head, tail : (count, 3) float64
+        Start and end of each bone, in units of the vertices.
     parent : (count,) int64
-        -1 for the body, and for the first of every loose piece.
+        Parent of each bone; -1 for the root of the body and of every other connected group of parts.
     connected : (count,) bool
-        Whether the bone starts where its parent's ends.
+        Whether each bone starts where its parent ends.
     """
 
     head: np.ndarray
@@ -39,22 +41,22 @@ def part_bones(
     table: CornerTable, labels: np.ndarray, area: np.ndarray, height: np.ndarray, line: np.ndarray,
     line_part: np.ndarray,
 ) -> Bones:
-    """Bones of parts that hang together at their cuts.
+    """Make a bone for each part, and a tree of bones along the cuts between parts.
 
     Parameters
     ----------
     table : CornerTable
-        With p faces and n vertices.
+        p faces and n vertices.
     labels : (p,) int64
         Part of each face, 0..count-1, all in use.
     area : (p,) float64
-        Of each face.
+        Area of each face, in squared units of the vertices.
     height : (n,) float64
-        The field at each vertex: the body is lowest.
+        Field at each vertex. The part of lowest mean height is the root of its tree.
     line : (r, 3) float64
-        Points on the center lines of the parts.
+        Points on the center lines of the parts, in units of the vertices.
     line_part : (r,) int64
-        The part of each.
+        Part of each point.
 
     Returns
     -------
@@ -87,7 +89,7 @@ def part_bones(
 
 
 def _joints(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The pairs of parts that touch, the middle of what they have in common, and its length."""
+    """Pairs of parts that touch, (e, 2), and the middle, (e, 3), and length, (e,), of the cut between them."""
     low, high = table.edge_labels(labels)
     cut = np.flatnonzero(low < high)
     pairs, which = distinct_pairs(low[cut], high[cut])
@@ -97,8 +99,11 @@ def _joints(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndar
     return pairs, joint / np.maximum(length, 1e-300)[:, None], length
 
 
-def _tree(count, pairs, length, height):
-    """Each part's parent, by the longest cuts, from the lowest part of each piece; and parts before children."""
+def _tree(count: int, pairs: np.ndarray, length: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, list[int]]:
+    """Parent of each part, (count,), -1 for a root, and all parts in an order in which parents precede children.
+
+    The tree follows the longest cuts. The root of each connected group of parts is its part of least height.
+    """
     rate = (2.0 * length.max(initial=1.0)) / np.maximum(length, 1e-300)
     graph = coo_matrix((rate, pairs.T), (count, count)).tocsr()
     kept = minimum_spanning_tree(graph)
@@ -114,8 +119,12 @@ def _tree(count, pairs, length, height):
     return parent, order
 
 
-def _end(head, children, line, middle, is_root):
-    """Where a bone ends: at its only child, amid several, or at the far end of its center line."""
+def _end(head: np.ndarray, children: np.ndarray, line: np.ndarray, middle: np.ndarray, is_root: bool) -> np.ndarray:
+    """End of a bone, (3,): at its only child, amid several children, or at the far end of its center line.
+
+    The bone of a root with several children ends at the farthest child. Without children and without a center line, it
+    ends as far beyond the middle of the part as it starts before it. children : (k, 3), heads of the child bones.
+    """
     if len(children) == 1:
         return children[0]
     if len(children) and not is_root:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Colors for parts: told apart by color-blind people, and never alike at a cut."""
+"""Colors for parts: color-blind people can tell them apart, and parts that touch never have one color."""
 
 from __future__ import annotations
 
@@ -10,31 +10,32 @@ import numpy as np
 from ..result.numbering import NumberedParts, NumberGraph
 from ..surface.arrays import frozen
 
-# Okabe & Ito's palette without black, then Paul Tol's muted scheme, as sRGB bytes: both made
-# to stay distinct under the common kinds of color blindness. Tol's colors are in the order in which
-# each differs most from those before it, so that a model of ten parts has no two that look alike.
+# The palette of Okabe and Ito without black, then the muted scheme of Paul Tol, in sRGB, 0..1. Both were made to stay
+# distinct under the common kinds of color blindness. Each of Tol's colors is the one that differs most from all before
+# it, so that the first colors, which most models use, differ clearly.
 PALETTE = np.array([
     (86, 180, 233), (230, 159, 0), (0, 158, 115), (204, 121, 167), (240, 228, 66),
     (0, 114, 178), (213, 94, 0), (51, 34, 136), (136, 34, 85), (153, 153, 51), (221, 204, 119),
     (17, 119, 51), (136, 204, 238), (170, 68, 153), (68, 170, 153), (204, 102, 119),
 ]) / 255.0
 
-# Kelly (1965), colors of maximum contrast, without black, white and grey; bright, but not all of
-# them are told apart by color-blind people.
+# The colors of maximum contrast of [Kelly1965] without black, white and gray, in sRGB, 0..1. Color-blind people cannot
+# tell all of them apart.
 _KELLY = np.array([
     (0, 103, 165), (243, 195, 0), (190, 0, 50), (141, 182, 0), (135, 86, 146), (243, 132, 0),
     (161, 202, 241), (0, 136, 86), (230, 143, 172), (136, 45, 23), (220, 211, 0), (96, 78, 151),
     (249, 147, 121), (179, 68, 108), (101, 69, 34), (194, 178, 128),
 ]) / 255.0
 
-#: What parts can be colored with: a name, and (c, 3) sRGB, 0..1.
+#: Palettes by the name that the user sees; each is (c, 3) float64, sRGB, 0..1.
 PALETTES = {
     "Colour-blind safe": PALETTE,
     "Pastel": 0.5 + 0.5 * PALETTE,
     "Bright": _KELLY,
 }
 
-# Viewing with a missing cone type (Vienot et al. 1999), on linear RGB.
+# Matrices that turn linear RGB into what people without one type of cones see: protanopes, then deuteranopes
+# (Vienot, Brettel and Mollon 1999).
 _DEFICIENCIES = np.array([
     [[0.11238, 0.88762, 0.0], [0.11238, 0.88762, 0.0], [0.00401, -0.00401, 1.0]],
     [[0.29275, 0.70725, 0.0], [0.29275, 0.70725, 0.0], [-0.02234, 0.02234, 1.0]],
@@ -42,28 +43,42 @@ _DEFICIENCIES = np.array([
 
 
 def distance_matrix(colors: np.ndarray = PALETTE) -> np.ndarray:
-    """(c, c) smallest difference of two colors over normal, protan and deutan vision."""
+    """Measure how much each two colors differ for those who can tell them apart least.
+
+    Parameters
+    ----------
+    colors : (c, 3) float64
+        sRGB, 0..1.
+
+    Returns
+    -------
+    distance : (c, c) float64
+        Smallest distance of two colors over normal, protanopic and deuteranopic vision: Euclidean, of the cube roots of
+        linear RGB.
+    """
     linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
     views = [linear] + [linear @ m.T for m in _DEFICIENCIES]
-    views = [np.cbrt(np.clip(view, 0.0, 1.0)) for view in views]  # about even to the eye
+    views = [np.cbrt(np.clip(view, 0.0, 1.0)) for view in views]  # equal steps of these look about equally large
     return np.min([np.linalg.norm(v[:, None] - v[None], axis=2) for v in views], axis=0)
 
 
 def part_colors(count: int, neighbors: np.ndarray, palette: np.ndarray = PALETTE) -> np.ndarray:
-    """One color per part; each new part takes what differs most from its neighbors.
+    """Choose a color for each part, in the order of the parts.
 
     Parameters
     ----------
     count : int
+        Number of parts.
     neighbors : (e, 2) int64
         Pairs of parts that touch.
     palette : (c, 3) float64
-        Colors to choose from.
+        Colors to choose from, sRGB, 0..1.
 
     Returns
     -------
     colors : (count, 3) float64
-        sRGB, 0..1. The first c parts differ all; later ones repeat, but not beside each other.
+        sRGB, 0..1. The first c parts have c different colors. Later parts repeat them, but parts that touch have
+        different colors unless a part touches parts of all c colors.
     """
     return palette[chosen_colors(count, neighbors, palette)]
 
@@ -71,18 +86,27 @@ def part_colors(count: int, neighbors: np.ndarray, palette: np.ndarray = PALETTE
 def chosen_colors(
     count: int, neighbors: np.ndarray, palette: np.ndarray, wanted: np.ndarray | None = None
 ) -> np.ndarray:
-    """Which color of the palette each part has; see ``part_colors``.
+    """Choose a place in the palette for each part, in the order of the parts.
+
+    A part gets the color that is wanted for it, or, of the colors that no neighbor has, the one used least so far; of
+    several such colors, one that differs clearly from those of the neighbors, or else most; then the first of the
+    palette.
 
     Parameters
     ----------
-    count, neighbors, palette
-        As in ``part_colors``.
+    count : int
+        Number of parts.
+    neighbors : (e, 2) int64
+        Pairs of parts that touch.
+    palette : (c, 3) float64
+        Colors to choose from, sRGB, 0..1.
     wanted : (count,) int64, optional
-        Which color each part is to have unless a neighbor has it; -1 for any.
+        Place in the palette of the color that each part gets unless a neighbor has it already; -1 for any color.
 
     Returns
     -------
     chosen : (count,) int64
+        Place in the palette, 0..c-1.
     """
     apart = distance_matrix(palette)
     chosen = np.full(count, -1)
@@ -97,7 +121,7 @@ def chosen_colors(
         if wanted is not None and wanted[part] >= 0 and room[wanted[part]] > 0:
             chosen[part] = wanted[part]
         else:
-            # Least used first, then clearly unlike the neighbors, then palette order.
+            # Differences above 0.25 are clear to the eye and count as equal.
             rank = np.lexsort((np.arange(len(palette)), -np.minimum(room, 0.25), used + 99 * (room == 0)))
             chosen[part] = rank[0]
         used[chosen[part]] += 1
@@ -105,15 +129,16 @@ def chosen_colors(
 
 
 def number_colors(numbered: NumberedParts, palette: np.ndarray = PALETTE) -> np.ndarray:
-    """One color per part, the same at every level of detail, and never that of a part it touches at some level.
+    """Choose a color for each part by its number, which keeps its color at every level of detail.
 
-    Changes by hand change no other part's color unless they make two parts of one color touch.
+    Parts that touch at some level have different colors unless the palette is too small. A change by hand changes the
+    color of no other part, unless it makes two parts of one color touch.
 
     Parameters
     ----------
     numbered : NumberedParts
     palette : (c, 3) float64
-        Colors to choose from.
+        Colors to choose from, sRGB, 0..1.
 
     Returns
     -------
@@ -126,7 +151,7 @@ def number_colors(numbered: NumberedParts, palette: np.ndarray = PALETTE) -> np.
 
 @lru_cache(16)
 def _chosen_by_number(graph: NumberGraph, palette_bytes: bytes) -> np.ndarray:
-    """(k,) int64, place in the palette of each number; kept, as all levels of detail share one graph."""
+    """Place in the palette of each number of a graph, (k,) int64; kept, since all levels of detail share one graph."""
     palette = np.frombuffer(palette_bytes).reshape(-1, 3)
     wanted = None
     if graph.unpinned is not None and graph.unpinned_index is not None:

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A decomposition as JSON, by the schema of docs/json.md."""
+"""The report of a decomposition as JSON, by the schema of docs/json.md."""
 
 from __future__ import annotations
 
 import platform
+from collections.abc import Iterable
 from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy
@@ -13,18 +15,28 @@ from ..graph.critical import KINDS
 from ..result.decomposition import VERSION, Decomposition, Parts
 from .colors import part_colors
 
-SCHEMA_VERSION = 2
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from ..graph.reeb import ReebGraph
+
+SCHEMA_VERSION = 2  # version of docs/json.md
 
 
-def document(reports: list[dict], **more) -> dict:
-    """The whole JSON: the reports of all objects and what they were made with.
+def document(reports: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
+    """Put the reports of all objects into one JSON document, with the versions of what made them.
 
     Parameters
     ----------
     reports : list of dict
-        Of ``report``.
-    more
-        ``blender``, its version; ``files``, what was written.
+        One result of ``report`` per object.
+    **more
+        ``blender`` : str, the version of Blender; ``files`` : dict, the files that were written.
+
+    Returns
+    -------
+    document : dict
+        Takes ``json.dumps`` as it is.
     """
     versions = {"reeb_parts": VERSION, "python": platform.python_version(),
                 "numpy": np.__version__, "scipy": scipy.__version__}
@@ -39,32 +51,43 @@ def report(
     parts: Parts | None = None,
     name: str = "",
     *,
-    numbers=None,
-    names=None,
-    colors=None,
-    boxes=None,
-    transform=None,
+    numbers: Iterable[int] | None = None,
+    names: Iterable[str] | None = None,
+    colors: ArrayLike | None = None,
+    boxes: ArrayLike | None = None,
+    transform: ArrayLike | None = None,
     labels: bool = False,
-) -> dict:
-    """One decomposition as what ``json.dumps`` takes.
+) -> dict[str, Any]:
+    """Describe one decomposition by values that ``json.dumps`` takes.
 
     Parameters
     ----------
     decomposition : Decomposition
     parts : Parts, optional
-        The parts to tell of; those of the parameters' detail without.
+        Parts that are described. Without them, those that the parameters of the run ask for.
     name : str
-        Of the object or file.
-    numbers, names : (count,) sequences, optional
-        Of the parts, if they are not numbered from 1 and named by number.
-    colors : (count, 3) array_like, optional
-        sRGB, 0..1; see ``part_colors`` without.
-    boxes : (count, 2, 3) array_like, optional
-        Lowest and highest corner of each part, see ``bounding_boxes``; null without.
-    transform : (4, 4) array_like, optional
-        Applied to the positions of the graph.
+        Name of the object or file.
+    numbers : (count,) iterable of int, optional
+        Number of each part; 1, 2 ... without.
+    names : (count,) iterable of str, optional
+        Name of each part; ``parts.names`` without.
+    colors : (count, 3) array_like of float, optional
+        Color of each part, sRGB, 0..1; those of ``part_colors`` without.
+    boxes : (count, 2, 3) array_like of float, optional
+        Lowest and highest corner of each part, as ``bounding_boxes`` returns them; null in the report without.
+    transform : (4, 4) array_like of float, optional
+        Affine matrix that is applied to the positions of the graph.
     labels : bool
-        Also the label of each face.
+        Whether the report has the label of each face.
+
+    Returns
+    -------
+    report : dict
+
+    Raises
+    ------
+    ValueError
+        ``numbers`` and ``names`` are not equally long.
     """
     parts = decomposition.parts() if parts is None else parts
     result = {
@@ -86,18 +109,22 @@ def report(
     return result
 
 
-def bounding_boxes(labels, points, count: int) -> np.ndarray:
-    """Lowest and highest coordinates of labelled points.
+def bounding_boxes(labels: np.ndarray, points: np.ndarray, count: int) -> np.ndarray:
+    """Find the lowest and highest coordinates of each part.
 
     Parameters
     ----------
-    labels : (e,) int64
-        0..count-1. Give every corner of every face, so that parts share the vertices on cuts.
-    points : (e, 3) float64
+    labels : (c,) int64
+        Part of each corner of each face, 0..count-1. Vertices on a cut have corners in several parts.
+    points : (c, 3) float64
+        Position of each corner.
+    count : int
+        Number of parts.
 
     Returns
     -------
     boxes : (count, 2, 3) float64
+        Lowest and highest corner of each part, in the unit of ``points``.
     """
     boxes = np.empty((count, 2, 3))
     boxes[:, 0], boxes[:, 1] = np.inf, -np.inf
@@ -106,7 +133,11 @@ def bounding_boxes(labels, points, count: int) -> np.ndarray:
     return boxes
 
 
-def _parts(parts, numbers, names, colors, boxes) -> list[dict]:
+def _parts(
+    parts: Parts, numbers: Iterable[int] | None, names: Iterable[str] | None, colors: ArrayLike | None,
+    boxes: ArrayLike | None,
+) -> list[dict[str, Any]]:
+    """Description of each part; the arguments are those of ``report``."""
     numbers = range(1, parts.count + 1) if numbers is None else numbers
     names = parts.names if names is None else names
     colors = part_colors(parts.count, parts.cuts) if colors is None else np.asarray(colors)
@@ -131,7 +162,8 @@ def _parts(parts, numbers, names, colors, boxes) -> list[dict]:
     ]
 
 
-def _graph(graph, parts, transform) -> dict:
+def _graph(graph: ReebGraph, parts: Parts, transform: ArrayLike | None) -> dict[str, Any]:
+    """Description of the graph; the arguments are those of ``report``."""
     matrix = np.eye(4) if transform is None else np.asarray(transform, np.float64)
     node_position = graph.node_position @ matrix[:3, :3].T + matrix[:3, 3]
     point_position = graph.point_position @ matrix[:3, :3].T + matrix[:3, 3]

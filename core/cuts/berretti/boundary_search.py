@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Boundary search of the paper (section 3.2): each cut slides along its arc to a concavity."""
+"""Boundary search of [Berretti2009] (section 3.2): each cut slides along its arc of the Reeb graph to a concavity."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
@@ -12,31 +14,37 @@ from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
 from ...surface.arrays import components, renumbered
 
-SAMPLES = 128  # points along a boundary; finer than any sigma in the range of parameters
-# A boundary as concave as a circle of its own radius is worth a move over a tenth of the range
-# of the field; three times that is all that a crease, however sharp, can be worth.
+SAMPLES = 128  # number of points along a contour at which k_min is sampled
+# With r the radius of a circle as long as the contour, E_concave = max(CREASE_WORTH * r * k_min, -MAX_WORTH), in units
+# of the range of the field. A contour whose k_min is -1 / r is thus worth a move over a tenth of this range.
 CREASE_WORTH = 0.1
 MAX_WORTH = 0.3
 
 
 def contour_curve(sets: LevelSets, contour: int) -> tuple[np.ndarray, np.ndarray, bool]:
-    """The crossings of one contour in order along the curve.
+    """List the points at which a contour crosses edges of the mesh, in order along the contour.
+
+    Parameters
+    ----------
+    sets : LevelSets
+    contour : int
+        Index of the contour in ``sets``.
 
     Returns
     -------
     edge : (c,) int64
-        Edges of the mesh that the curve crosses, in order.
+        Edges of the mesh that the contour crosses.
     points : (c, 3) float64
-        Where it crosses them.
+        Position of each crossing, in units of the vertices.
     closed : bool
-        False for a contour that ends at borders.
+        Whether the contour is a closed curve; False if it ends at borders of the surface.
     """
     segments = np.flatnonzero(sets.segment_contour == contour)
     edge, local = renumbered(sets.segment_edges[segments])
     degree = np.bincount(local.ravel())
     n = len(edge)
     graph = coo_array((np.ones(len(local), np.int8), tuple(local.T)), shape=(n, n)).tocsr()
-    # On a cycle, depth first is the order along the curve; on an open curve from an end too.
+    # Depth-first search follows the curve: a closed one from anywhere, an open one from an end, which has degree 1.
     start = int(degree.argmin())
     order = depth_first_order(graph, start, directed=False, return_predecessors=False)
     edge = edge[order]
@@ -46,25 +54,28 @@ def contour_curve(sets: LevelSets, contour: int) -> tuple[np.ndarray, np.ndarray
 
 
 def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) -> float:
-    """E_concave of a contour, eq. (9), without unit.
+    """Compute E_concave of a contour, eq. (9) of docs/method.md.
 
-    k_min is sampled along the curve, smoothed by a Gaussian over its normalized arc length, and
-    its minimum is taken times the radius of a circle as long as the curve. The paper leaves the
-    scale of k_min open: CREASE_WORTH and MAX_WORTH are ours (docs/method.md, section 4).
+    k_min is sampled along the contour and smoothed by a Gaussian; its minimum is multiplied by the radius of a circle
+    as long as the contour, so that it has no unit. [Berretti2009] leaves the scale open: CREASE_WORTH and MAX_WORTH
+    were chosen here (docs/method.md, section 4).
 
     Parameters
     ----------
     sets : LevelSets
+        n vertices.
     k_min : (n,) float64
-        1 / length.
+        Smaller principal curvature at each vertex, 1 / unit of the vertices.
     contour : int
+        Index of the contour in ``sets``.
     sigma : float
-        Share of the length of the curve.
+        Standard deviation of the Gaussian, in units of the length of the contour; 0 does not smooth.
 
     Returns
     -------
     energy : float
-        Negative where the curve passes a concavity.
+        In units of the range of the field, at least -MAX_WORTH; negative where the contour passes a concavity. 0 for
+        a contour without length.
     """
     edge, points, closed = contour_curve(sets, contour)
     share = sets.crossing(edge, np.full(len(edge), sets.contour_level[contour]))
@@ -92,28 +103,34 @@ def search_boundaries(
     alpha: float,
     sigma: float,
 ) -> np.ndarray:
-    """Move each cut along its arc of the Reeb graph to the level that minimises eq. (8).
+    """Move each cut along its arc of the Reeb graph to the level that minimizes eq. (8) of docs/method.md.
 
-    The search is exhaustive over the contours of the arc, where the paper descends a gradient;
-    it passes neither a node nor the middle between two cuts.
+    All contours of the arc are tried, where [Berretti2009] descends a gradient. A cut never passes a node of the graph
+    nor the middle between itself and the next cut on its arc.
 
     Parameters
     ----------
     sets : LevelSets
-        P pieces.
+        n vertices, P pieces.
     topology : ReebTopology
-        Simplified: its arcs say how far a cut may go.
+        Reeb graph of ``sets``, simplified; its arcs limit the moves of the cuts.
     k_min : (n,) float64
+        Smaller principal curvature at each vertex, 1 / unit of the vertices.
     piece_region : (P,) int64
+        Region of each piece; the cuts are the contours between two regions.
     alpha : float
-        Weight of concavity against staying, 0..1.
+        Weight of concavity, 0..1; the weight of the distance from the present level is 1 - alpha.
     sigma : float
-        Gaussian along the boundary, share of its length.
+        Standard deviation of the Gaussian along a contour, in units of its length.
 
     Returns
     -------
     piece_region : (P,) int64
-        With the pieces between the old and the new place of each cut relabelled.
+        Region of each piece, after the cuts have moved.
+
+    Notes
+    -----
+    ``concavity`` is computed once for each contour that a cut can reach.
     """
     lower, upper = piece_region[sets.contour_pieces].T
     cuts = np.flatnonzero((lower != upper) & (topology.contour_arc >= 0))
@@ -132,20 +149,25 @@ def search_boundaries(
         passed = sets.contour_pieces[run[min(here, best): max(here, best) + 1]]
         below, above = piece_region[sets.contour_pieces[cut]]
         old, new = (above, below) if best > here else (below, above)
-        # The links between the two contours: above all but the last, below all but the first.
+        # What lies between the contours passed: above each but the last, and below each but the first.
         links = np.intersect1d(link[passed[:-1, 1]], link[passed[1:, 0]])
         moved[np.isin(link, links) & (piece_region == old)] = new
     return moved
 
 
 def _links(sets: LevelSets, topology: ReebTopology) -> np.ndarray:
-    """(P,) the stretch between consecutive contours of the graph that each piece lies in."""
+    """Connected pieces between contours of the graph: the set of each piece, (P,) int64, from 0.
+
+    Cancelled leaves have no contour in the graph and belong to the set to which they are attached.
+    """
     inner = sets.contour_pieces[topology.contour_arc < 0]
     return components(sets.n_pieces, *inner.T)[1]
 
 
-def _search_runs(sets: LevelSets, topology: ReebTopology, cuts: np.ndarray):
-    """For each cut, the contours of its arc it may move to, from low to high."""
+def _search_runs(
+    sets: LevelSets, topology: ReebTopology, cuts: np.ndarray
+) -> Iterator[tuple[int, np.ndarray]]:
+    """Yield each cut, a contour, and the contours of its arc to which it may move, (k,) int64, from low to high."""
     order = np.lexsort((sets.contour_level, topology.contour_arc))
     for arc in np.unique(topology.contour_arc[cuts]).tolist():
         run = order[topology.contour_arc[order] == arc]

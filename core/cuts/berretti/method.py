@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The method of the paper, to the letter: candidates for the preset "Berretti 2009"."""
+"""Candidates by the rules of [Berretti2009], for the preset "Berretti 2009"."""
 
 from __future__ import annotations
 
@@ -16,26 +16,27 @@ from ..minimum_cut import move_cuts
 from .boundary_search import search_boundaries
 from .regions import berretti_regions, rank_regions
 
-DECISION = 0.5  # the salience at which the paper's threshold cuts
+DECISION = 0.5  # salience of a merge whose area ratio is the paper's threshold, Parameters.small_region
 
 
 def berretti_candidates(
     sets: LevelSets, topology: ReebTopology, parameters: Parameters
 ) -> Candidates:
-    """Regions of section 3.1 with the boundaries of section 3.2.
+    """Find the regions of [Berretti2009] (section 3.1) and move the cuts between them (section 3.2).
 
     Parameters
     ----------
     sets : LevelSets
-        Of one connected component.
+        Level sets of one connected component.
     topology : ReebTopology
-        Its Reeb graph, simplified.
+        Reeb graph of the component, simplified.
     parameters : Parameters
 
     Returns
     -------
     candidates : Candidates
-        The regions before small ones are removed. These merge first; salience 0.5 is the paper's threshold.
+        The regions, including small ones, which merge first. Merges below the paper's threshold have a salience below
+        DECISION.
     """
     regions = berretti_regions(sets, topology, parameters.small_region)
     curvature = k_min(sets.mesh)
@@ -43,7 +44,7 @@ def berretti_candidates(
     piece_part = kept[regions.piece_region]
     moved = search_boundaries(sets, topology, curvature, piece_part, parameters.concavity_weight,
                               parameters.sigma)
-    # A cut may leave little of a region: what is small is decided where the cuts have come to lie.
+    # A cut that moves may leave little of a region. Regions are therefore ranked again after the cuts have moved.
     regions = rank_regions(sets, _follow(sets, regions.piece_region, piece_part, moved),
                            parameters.small_region)
     candidate = regions.piece_region[sets.element_piece]
@@ -56,8 +57,12 @@ def berretti_candidates(
     return Candidates(label[sets.element_face], regions.hierarchy)
 
 
-def _follow(sets, piece_region, piece_part, moved) -> np.ndarray:
-    """Give pieces that changed part a region of their new part, that of a neighbor in it."""
+def _follow(sets: LevelSets, piece_region: np.ndarray, piece_part: np.ndarray, moved: np.ndarray) -> np.ndarray:
+    """Region of each piece, (P,) int64, after pieces have moved from ``piece_part`` to the part ``moved``.
+
+    A piece that changed part joins the region of a neighboring piece of its new part, so that every region stays within
+    one part.
+    """
     region = np.where(moved == piece_part, piece_region, -1)
     a, b = both_ways(sets.contour_pieces).T
     together = moved[a] == moved[b]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Regions of the paper (section 3.1): intervals fused, then regions, then small ones removed."""
+"""Regions of [Berretti2009] (section 3.1): intervals are fused, then regions, then small regions are ranked."""
 
 from __future__ import annotations
 
@@ -15,15 +15,16 @@ from ..hierarchy import Hierarchy
 
 @dataclass(frozen=True, eq=False)
 class Regions:
-    """Pieces of slabs grouped to regions, and the order in which small regions go.
+    """Pieces grouped to regions, and the order in which the regions merge.
 
     Attributes
     ----------
     piece_region : (P,) int64
-        0..count-1.
+        Region of each piece, 0..count-1.
     count : int
+        Number of regions.
     hierarchy : Hierarchy
-        The fusion of the smallest region first, continued until one is left.
+        Merges of the regions, the smallest region first, until one is left.
     """
 
     piece_region: np.ndarray
@@ -34,17 +35,17 @@ class Regions:
 def berretti_regions(
     sets: LevelSets, topology: ReebTopology, small_region: float
 ) -> Regions:
-    """The paper's regions, before and through its removal of small ones.
+    """Form the regions of [Berretti2009] and rank them.
 
     Parameters
     ----------
     sets : LevelSets
-        Of one connected component.
+        Level sets of one connected component, P pieces.
     topology : ReebTopology
-        Its Reeb graph without ripples.
+        Reeb graph of the component without ripples.
     small_region : float
-        A region is small whose area is below this share of the largest region's (paper: 0.05).
-        Salience 0.5 stands for this threshold.
+        Area of a region over that of the largest region, below which the paper removes the region (0.05 in the paper).
+        A merge at this ratio has salience 0.5.
 
     Returns
     -------
@@ -56,7 +57,24 @@ def berretti_regions(
 
 
 def rank_regions(sets: LevelSets, region: np.ndarray, small_region: float) -> Regions:
-    """The hierarchy of given regions, (P,) int64: small ones go first, as above."""
+    """Rank regions: find the order in which they merge, the smallest first.
+
+    A merge at area ratio r has the salience r / (r + small_region).
+
+    Parameters
+    ----------
+    sets : LevelSets
+        P pieces.
+    region : (P,) int64
+        Region of each piece, any whole numbers.
+    small_region : float
+        Area of a region over that of the largest region at which a merge has salience 0.5.
+
+    Returns
+    -------
+    regions : Regions
+        With regions numbered from 0.
+    """
     names, region = renumbered(region)
     merges, ratio = fuse_small(sets, len(names), region)
     salience = ratio / (ratio + small_region)
@@ -64,22 +82,30 @@ def rank_regions(sets: LevelSets, region: np.ndarray, small_region: float) -> Re
 
 
 def fuse_intervals(sets: LevelSets, topology: ReebTopology) -> tuple[int, np.ndarray]:
-    """Fuse contiguous slabs with the same number of connected components until all differ.
+    """Fuse consecutive slabs with equally many connected components, until all neighboring intervals differ.
 
-    Ripples (leaves that ``simplify`` cancelled) are not counted: each would end an interval for
-    the whole surface. They belong to the region they sit on.
+    Ripples (leaves that ``simplify`` cancelled) are not counted, since each would end an interval for the whole
+    surface. The pieces of a ripple belong to the region to which it is attached.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        Level sets of one connected component, P pieces.
+    topology : ReebTopology
+        Reeb graph of the component without ripples.
 
     Returns
     -------
     count : int
-        Of regions: connected components of the intervals.
+        Number of regions: of connected components of the intervals.
     region : (P,) int64
+        Region of each piece, 0..count-1.
     """
     kept = topology.contour_arc >= 0
     on_graph = np.zeros(sets.n_pieces, bool)
     on_graph[sets.contour_pieces[kept]] = True
     on_graph |= ~on_graph.any()  # a graph of one node has no contour
-    interval = np.arange(len(sets.levels) + 1)  # of each slab
+    interval = np.arange(len(sets.levels) + 1)  # the interval of each slab
     while True:
         piece_interval = interval[sets.piece_slab]
         lower, upper = piece_interval[sets.contour_pieces].T
@@ -94,9 +120,28 @@ def fuse_intervals(sets: LevelSets, topology: ReebTopology) -> tuple[int, np.nda
 
 
 class FusionGraph:
-    """Regions that touch, with areas and the length of the boundaries between them."""
+    """The regions while they are fused, with their areas and the lengths of the boundaries between them.
 
-    def __init__(self, sets: LevelSets, count: int, region: np.ndarray):
+    Parameters
+    ----------
+    sets : LevelSets
+        P pieces.
+    count : int
+        Number of regions.
+    region : (P,) int64
+        Region of each piece, 0..count-1.
+
+    Attributes
+    ----------
+    area : list of float
+        Area of each region, in squared units of the vertices.
+    neighbors : list of dict of int -> float
+        For each region the length of its boundary with each neighbor, in units of the vertices.
+    alive : set of int
+        Regions that have not been fused into another.
+    """
+
+    def __init__(self, sets: LevelSets, count: int, region: np.ndarray) -> None:
         self.area = np.bincount(region, sets.piece_area, count).tolist()
         self.neighbors = [{} for _ in range(count)]
         self.alive = set(range(count))
@@ -107,8 +152,8 @@ class FusionGraph:
                 self.neighbors[a][b] = self.neighbors[a].get(b, 0.0) + length
                 self.neighbors[b][a] = self.neighbors[b].get(a, 0.0) + length
 
-    def merge(self, keep: int, gone: int):
-        """Fuse one region into another."""
+    def merge(self, keep: int, gone: int) -> None:
+        """Fuse region ``gone`` into region ``keep``."""
         self.area[keep] += self.area[gone]
         self.alive.discard(gone)
         for other, length in self.neighbors[gone].items():
@@ -119,7 +164,10 @@ class FusionGraph:
         self.neighbors[gone] = {}
 
     def longest_boundary(self, region: int) -> int:
-        """The neighbor that shares the longest boundary; the first of equals."""
+        """Find the neighbor with which a region shares its longest boundary.
+
+        region : int. Returns that neighbor, of equal ones the one of smallest number. ValueError without neighbors.
+        """
         around = self.neighbors[region]
         return max(sorted(around), key=lambda other: around[other])
 
@@ -127,15 +175,26 @@ class FusionGraph:
 def fuse_equal_adjacency(
     sets: LevelSets, count: int, region: np.ndarray
 ) -> tuple[int, np.ndarray]:
-    """Fuse adjacent regions with the same number of neighbors, until no two are left.
+    """Fuse adjacent regions with equally many neighbors, until no such pair or only two regions are left.
 
-    The paper leaves the order open: the pair of least area first, so that slivers go before
-    parts.
+    [Berretti2009] leaves the order open. Here the pair of least area is fused first, so that slivers disappear before
+    larger regions do.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        P pieces.
+    count : int
+        Number of regions.
+    region : (P,) int64
+        Region of each piece, 0..count-1.
 
     Returns
     -------
     count : int
+        Number of regions left.
     region : (P,) int64
+        Region of each piece, 0..count-1.
     """
     graph = FusionGraph(sets, count, region)
     target = np.arange(count)
@@ -143,7 +202,7 @@ def fuse_equal_adjacency(
         pairs = [(graph.area[a] + graph.area[b], a, b) for a in sorted(graph.alive)
                  for b in graph.neighbors[a]
                  if a < b and len(graph.neighbors[a]) == len(graph.neighbors[b])]
-        # Two regions are each other's only neighbor: fusing them would end with none.
+        # The last two regions have one neighbor each; if they were fused, no cut would be left.
         if not pairs or len(graph.alive) <= 2:
             break
         _, keep, gone = min(pairs)
@@ -156,14 +215,23 @@ def fuse_equal_adjacency(
 def fuse_small(
     sets: LevelSets, count: int, region: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Fuse the smallest region into the neighbor with the longest boundary, until one is left.
+    """Fuse the smallest region into the neighbor along its longest boundary, until one region is left.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        Level sets of one connected component, P pieces.
+    count : int
+        Number of regions.
+    region : (P,) int64
+        Region of each piece, 0..count-1.
 
     Returns
     -------
     merges : (count - 1, 2) int64
-        Regions fused, in order.
+        The region that stays and the region fused into it, in order.
     ratio : (count - 1,) float64
-        Area of the smaller over that of the largest region at that time.
+        Area of the fused region over that of the region that was then the largest.
     """
     graph = FusionGraph(sets, count, region)
     merges, ratio = [], []

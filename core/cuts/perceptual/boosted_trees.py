@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Boosted regression trees: evaluation in whole arrays, from coefficients that ship as data."""
+"""Boosted regression trees [Friedman2001], evaluated in whole arrays; their coefficients ship as data."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ...sentence import Sentence
 from ...surface.arrays import frozen
 from .features import FEATURES
 
-ROWS = 64  # at once: what they need stays in the processor's cache
+ROWS = 64  # number of rows evaluated at once; their intermediate arrays fit into the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,15 +27,15 @@ class BoostedTrees:
     Attributes
     ----------
     feature : (T, L - 1) int64
-        Column that each inner node looks at.
+        Column of the rows that each inner node compares.
     threshold : (T, L - 1) float32
-        A value at or below it goes left. Infinite where a tree has fewer nodes.
+        A row whose value is at or below the threshold goes left. Infinite where a tree has fewer nodes.
     mask : (T, L - 1) uint16
-        Leaves that are still possible when the value goes right, one bit each.
+        Leaves that a row can still reach when it goes right at the node, one bit per leaf.
     leaf : (T, L) float64
-        What each leaf adds.
+        Value that each leaf adds to the sum.
     names : tuple of str
-        What each column of the rows holds.
+        Name of the feature in each column of the rows.
     """
 
     feature: np.ndarray
@@ -52,12 +52,18 @@ class BoostedTrees:
         ----------
         path : Path
         names : tuple of str
-            What the columns of the rows to be judged hold.
+            Name of the feature in each column of the rows that are to be judged.
+
+        Returns
+        -------
+        model : BoostedTrees
 
         Raises
         ------
         ReebError
-            The model was trained on other columns, or on these in another order.
+            The model was trained on other features, or on these in another order.
+        OSError
+            The file cannot be read.
         """
         with np.load(path, allow_pickle=False) as stored:
             trained_on = tuple(stored["names"].tolist())
@@ -69,17 +75,21 @@ class BoostedTrees:
             return cls(frozen(stored["feature"], np.int64), frozen(stored["threshold"], np.float32),
                        frozen(stored["mask"], np.uint16), frozen(stored["leaf"], np.float64), names)
 
-    def write(self, path: Path):
-        """Compressed; the coefficients of the leaves keep 32 bits."""
+    def write(self, path: Path) -> None:
+        """Write a compressed .npz file; the values of the leaves are rounded to 32 bits.
+
+        path : Path. Raises OSError if the file cannot be written.
+        """
         np.savez_compressed(path, feature=self.feature.astype(np.uint8), threshold=self.threshold,
                             mask=self.mask, leaf=self.leaf.astype(np.float32), names=np.array(self.names))
 
     def predict(self, rows: np.ndarray) -> np.ndarray:
-        """Value of each row.
+        """Evaluate the model.
 
         Parameters
         ----------
-        rows : (k, features) float64
+        rows : (k, len(names)) float64
+            One row of features per cut.
 
         Returns
         -------
@@ -88,10 +98,10 @@ class BoostedTrees:
 
         Notes
         -----
-        No tree is walked. Every inner node is asked at once; each that sends the row to the right
-        rules out the leaves on its left, and the first leaf left is the row's [Lucchese2015].
+        No tree is walked [Lucchese2015]. All inner nodes compare at once; every node that sends a row to the right
+        rules out the leaves on its left, and the row's leaf is the first that no node has ruled out.
         """
-        rows = rows.astype(np.float32)  # the thresholds were found on these
+        rows = rows.astype(np.float32)  # the thresholds were trained on values of 32 bits
         feature, threshold = self.feature.ravel(), self.threshold.ravel()
         mask, every = self.mask.ravel(), np.uint16(0xFFFF)
         n_trees, n_leaves = self.leaf.shape
@@ -109,5 +119,8 @@ class BoostedTrees:
 
 @cache
 def cut_model() -> BoostedTrees:
-    """The trees that judge cuts; benchmarks/train.py made them."""
+    """Read the model that judges cuts, which benchmarks/train.py trained; it is read once and kept.
+
+    Returns a BoostedTrees over the columns FEATURES. Raises ReebError if the file was trained on other features.
+    """
     return BoostedTrees.read(Path(__file__).parent / "cut_model.npz", FEATURES)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the model judges a cut by: the shape of the cut, of both regions, and of their union.
+"""Features by which the model judges a cut: the shape of the cut, of the regions on both sides, and of their union.
 
-All of it is computed from sums of the measures (measures.py), which add up when regions merge.
+All features are computed from sums of the measures (measures.py), which add up when regions merge.
 """
 
 from __future__ import annotations
@@ -12,15 +12,16 @@ import numpy as np
 
 from .measures import BORDER, REGION, matrices, products
 
-#: Of one region. Lengths are relative to its own size (the square root of its area) where the name says ratio or
-#: extent, to the whole surface elsewhere; "deviation" is a standard deviation.
+#: Features of one region. perimeter_ratio and extent_1 are in units of the square root of the region's area, extent_2
+#: and extent_3 are shares of the longest extent, and other lengths are in units of the square root of the area of the
+#: surface. "deviation" is a standard deviation.
 SHAPE = (
     "log_area", "perimeter_ratio", "extent_1", "extent_2", "extent_3", "normal_moment_3", "normal_moment_1",
     "mean_normal", "log_thickness", "log_thickness_deviation", "slenderness", "log_clearance",
     "log_clearance_deviation", "log_contour", "log_contour_deviation", "level", "level_deviation", "level_min",
     "level_max", "agd", "volume", "angle_defect", "hollowness")
-#: Of the cut between a smaller and a larger region. Numbers are the scales of smoothing, finest first; "other"
-#: means the other borders of the region.
+#: Features of the cut between a smaller and a larger region. 1, 2, 3 are the scales of curvature.SCALES, finest first;
+#: "other" means the other borders of the region.
 CUT = (
     "log_length", "length_small", "length_large", "share_small", "share_large", "distance",
     "curvature_1", "curvature_2", "curvature_3", "concavity_1", "concavity_2", "concavity_3",
@@ -32,23 +33,28 @@ CUT = (
     "protrusion", "second_moment", "largest", "siblings_small", "siblings_union")
 FEATURES = (*CUT, *(f"small_{s}" for s in SHAPE), *(f"large_{s}" for s in SHAPE),
             *(f"union_{s}" for s in SHAPE))
-# How much the log area, the log thickness and the level of siblings may differ.
+# Largest difference, in the unit of each feature, at which two regions count as siblings.
 SIBLING = {"log_area": 0.4, "log_thickness": 0.3, "level": 0.15}
 
 
 def region_shape(
     sums: np.ndarray, perimeter: np.ndarray, level_min: np.ndarray, level_max: np.ndarray
 ) -> np.ndarray:
-    """Shape of regions from their sums.
+    """Compute the shape of regions from their sums.
 
     Parameters
     ----------
     sums : (r, REGION.width) float64
-    perimeter, level_min, level_max : (r,) float64
+        Sum over each region of ``SurfaceMeasures.face``.
+    perimeter : (r,) float64
+        Length of the cuts around each region, in units of the square root of the area of the surface.
+    level_min, level_max : (r,) float64
+        Lowest and highest level in each region, 0..1.
 
     Returns
     -------
     shape : (r, len(SHAPE)) float64
+        The features SHAPE, in this order.
     """
     c = REGION
     area = np.maximum(sums[:, c.area], 1e-9)
@@ -63,7 +69,8 @@ def region_shape(
     volume = (sums[:, c.support] - (center * sums[:, c.normal]).sum(axis=1)) / 3
     log_size = 0.5 * np.log(area)
 
-    def deviation(square, of):
+    def deviation(square: int, of: int) -> np.ndarray:
+        """Standard deviation of column ``of``, whose squares are in column ``square``."""
         return np.sqrt(np.maximum(mean[:, square] - mean[:, of] ** 2, 0.0))
 
     columns = {
@@ -96,18 +103,27 @@ def region_shape(
 
 @dataclass(frozen=True, eq=False)
 class RegionMeasures:
-    """Live regions and borders while they merge, as their sums.
+    """What is measured on regions while they merge; a region that merged into another keeps its row.
 
     Attributes
     ----------
     sums : (r, REGION.width) float64
-    level_min, level_max, agd_max, perimeter, degree : (r,) float64
-        Degree is the number of neighbors; perimeters leave out the borders of the surface.
+        Sum over each region of ``SurfaceMeasures.face``.
+    level_min, level_max : (r,) float64
+        Lowest and highest level in each region, 0..1.
+    agd_max : (r,) float64
+        Highest AGD in each region above the lowest of the surface, in units of the square root of the area.
+    perimeter : (r,) float64
+        Length of the borders between each region and others, in units of the square root of the area; the border of
+        an open surface does not count.
+    degree : (r,) float64
+        Number of neighbors of each region.
     around : (r, BORDER.width) float64
-        Sums over all borders of each region.
+        Sum over all borders of each region of ``SurfaceMeasures.pair``.
     shape : (r, len(SHAPE)) float64
-        Of ``region_shape``; kept beside the sums because it is needed often.
+        Result of ``region_shape``, stored because it is needed often.
     alive : (r,) bool
+        Whether each region has not yet merged into another.
     """
 
     sums: np.ndarray
@@ -122,20 +138,21 @@ class RegionMeasures:
 
 
 def cut_features(regions: RegionMeasures, ends: np.ndarray, border: np.ndarray) -> np.ndarray:
-    """What the cut between two regions looks like.
+    """Describe cuts between two regions by the features that the model judges.
 
     Parameters
     ----------
     regions : RegionMeasures
+        Measures of r regions.
     ends : (k, 2) int64
         The two regions of each cut.
     border : (k, BORDER.width) float64
-        Sums over their common border.
+        Sum over each cut of ``SurfaceMeasures.pair``.
 
     Returns
     -------
     features : (k, len(FEATURES)) float64
-        Of the cut, of the smaller region, of the larger and of both together.
+        The features FEATURES, in this order: of the cut, of the smaller region, of the larger region, of their union.
     """
     r, b = REGION, BORDER
     swap = regions.sums[ends[:, 0], r.area] > regions.sums[ends[:, 1], r.area]
@@ -153,16 +170,31 @@ def cut_features(regions: RegionMeasures, ends: np.ndarray, border: np.ndarray) 
 
 @dataclass(frozen=True, eq=False)
 class _Side:
-    """One side of each cut; rows follow the cuts."""
+    """The regions on one side of k cuts, one row per cut.
+
+    Attributes
+    ----------
+    index : (k,) int64
+        Region.
+    mean : (k, REGION.width) float64
+        Mean of ``SurfaceMeasures.face`` over the region, weighted by area.
+    size : (k,) float64
+        Square root of the region's area.
+    shape : dict of str -> (k,) float64
+        Shape of the region, by feature of SHAPE.
+    other : (k, BORDER.width) float64
+        Mean of ``SurfaceMeasures.pair`` over the region's other borders, weighted by length.
+    """
 
     index: np.ndarray
-    mean: np.ndarray  # sums over the area
-    size: np.ndarray  # square root of the area
+    mean: np.ndarray
+    size: np.ndarray
     shape: dict
-    other: np.ndarray  # means over the region's other borders
+    other: np.ndarray
 
     @classmethod
     def of(cls, regions: RegionMeasures, index: np.ndarray, border: np.ndarray) -> _Side:
+        """Look up the regions ``index``, (k,), beside cuts whose sums are ``border``, (k, BORDER.width)."""
         area = np.maximum(regions.sums[index, REGION.area], 1e-9)
         rest = regions.around[index] - border
         least = 1e-3 * border[:, BORDER.length] + 1e-12
@@ -174,7 +206,11 @@ class _Side:
 def _cut_columns(
     regions: RegionMeasures, small: _Side, large: _Side, mean: np.ndarray, length: np.ndarray, union: np.ndarray
 ) -> dict[str, np.ndarray]:
-    """The columns named CUT. mean : (k, BORDER.width), over the length of each border."""
+    """The features CUT by name, (k,) each.
+
+    mean : (k, BORDER.width), mean of the measures over each cut, weighted by length. length : (k,), of each cut.
+    union : (k, len(SHAPE)), shape of the two regions of each cut together.
+    """
     r, b = REGION, BORDER
     u = dict(zip(SHAPE, union.T, strict=True))
     middle, level = mean[:, b.center], mean[:, b.level]
@@ -223,7 +259,10 @@ def _cut_columns(
 def _siblings(
     regions: RegionMeasures, shape: dict[str, np.ndarray], small: np.ndarray, large: np.ndarray
 ) -> np.ndarray:
-    """How many other live regions are as large, as thick and as far out: legs have siblings."""
+    """Number of siblings, (k,): other regions of nearly that area, thickness and level, such as a table's other legs.
+
+    shape : dict of str -> (k,), what regions are compared with. small, large : (k,), regions that do not count.
+    """
     live = np.flatnonzero(regions.alive)
     like = (live != small[:, None]) & (live != large[:, None])
     for name, limit in SIBLING.items():

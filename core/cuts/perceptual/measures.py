@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is measured on every face and every pair of faces, once, before anything merges.
+"""Measures of every face and of every pair of faces, taken once, before regions merge.
 
-Everything is relative to the whole surface - lengths to the square root of its area, areas to
-the area - and every column is weighted by area or by length, so that neither scale nor pose nor the
-density of the mesh matters. The columns of several faces or pairs add up, and what regions and the
-borders between them look like is computed from the sums (features.py).
+Lengths are in units of the square root of the area of the surface, areas are shares of it, and every column is weighted
+by area or by length, so that neither scale nor pose nor the density of the mesh matters. The columns of several faces
+or pairs add up; features.py computes the shape of regions and of the borders between them from the sums.
 """
 
 from __future__ import annotations
@@ -19,13 +18,22 @@ from ...graph.level_sets import LevelSets
 from ...surface.curvature import angle_defect, curvature_across
 from .thickness import LARGEST, thickness
 
-THICKNESS_BINS = 8
+THICKNESS_BINS = 8  # number of bins of the histogram of the logarithm of the thickness
 
 
 class Columns:
-    """Names for runs of columns: ``Columns(area=1, centroid=3).centroid`` is ``slice(1, 4)``."""
+    """Names for groups of consecutive columns.
 
-    def __init__(self, **widths: int):
+    ``Columns(area=1, centroid=3)`` has the attributes ``area``, which is 0, ``centroid``, which is ``slice(1, 4)``, and
+    ``width``, the number of columns, which is 4.
+
+    Parameters
+    ----------
+    **widths : int
+        Number of columns of each group, in order.
+    """
+
+    def __init__(self, **widths: int) -> None:
         self.width = 0
         for name, width in widths.items():
             setattr(self, name, self.width if width == 1 else slice(self.width, self.width + width))
@@ -37,13 +45,14 @@ class Columns:
             """The column of a name, or the slice of several."""
 
 
-# Per face. Second moments are the six products of three coordinates; the support is the distance of the face's
-# plane from the centroid of the surface; *_square is for standard deviations.
+# Columns per face. Moments are the six products of three coordinates; the support is the distance of the face's plane
+# from the centroid of the surface; squares are there for standard deviations.
 REGION = Columns(
     area=1, centroid=3, second_moment=6, normal=3, normal_moment=6, level=1, level_square=1, agd=1,
     log_thickness=1, log_thickness_square=1, log_clearance=1, log_clearance_square=1, support=1,
     log_contour=1, log_contour_square=1, angle_defect=1, thickness_bins=THICKNESS_BINS)
-# Per pair of faces. Curvature, its negative part (concavity) and whether it is below CREASE, at three scales.
+# Columns per pair of faces. Curvature, concavity (the negative part of curvature) and creased (1 if curvature is below
+# CREASE) have one column per scale.
 BORDER = Columns(
     length=1, curvature=3, concavity=3, creased=3, dihedral=1, level=1, agd=1, log_thickness=1,
     log_clearance=1, log_contour=1, center=3, second_moment=1)
@@ -52,16 +61,18 @@ CREASE = -3.0  # curvature below which a pair counts as creased, in units of 1 /
 
 @dataclass(frozen=True, eq=False)
 class SurfaceMeasures:
-    """Columns that add up, per face and per pair of faces.
+    """Measures of each face and of each pair of faces; the sums over a region or a border describe its shape.
 
     Attributes
     ----------
     face : (m, REGION.width) float64
-        Weighted by the share of the area.
+        Measures of each face, multiplied by its share of the area of the surface.
     pair : (p, BORDER.width) float64
-        Weighted by the length of the edge.
-    level, agd : (m,) float64
-        Equalized AGD, 0..1, and the AGD above its minimum, relative to the surface.
+        Measures of each pair of faces, multiplied by the length of their edge in units of the square root of the area.
+    level : (m,) float64
+        Equalized AGD of each face, 0..1.
+    agd : (m,) float64
+        AGD of each face above the lowest of the surface, in units of the square root of the area.
     """
 
     face: np.ndarray
@@ -71,14 +82,18 @@ class SurfaceMeasures:
 
 
 def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
-    """Measure a surface once, before anything merges.
+    """Measure every face and every pair of faces of a surface.
 
     Parameters
     ----------
     sets : LevelSets
-        Of one connected component: its mesh and the contours of its field.
+        Level sets of one connected component, m faces and p pairs of faces.
     field : ScalarField
-        Its AGD.
+        AGD of the component.
+
+    Returns
+    -------
+    measures : SurfaceMeasures
     """
     mesh = sets.mesh
     level = equalize(field.normalized, mesh.vertex_area)[mesh.faces].mean(axis=1)
@@ -109,7 +124,7 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
 
 
 def _contour_length(sets: LevelSets) -> np.ndarray:
-    """(m,) mean length of the contours that bound each face's pieces, relative to the surface."""
+    """Mean length of the contours at the pieces of each face, (m,), in units of the square root of the area."""
     pieces = sets.contour_pieces.T
     total = sum(np.bincount(p, sets.contour_length, sets.n_pieces) for p in pieces)
     count = sum(np.bincount(p, minlength=sets.n_pieces) for p in pieces)
@@ -122,18 +137,24 @@ def _contour_length(sets: LevelSets) -> np.ndarray:
 
 
 def _bins(log_thickness: np.ndarray) -> np.ndarray:
-    """(m, THICKNESS_BINS) one where the logarithm of the thickness falls."""
+    """1 in the bin into which the logarithm of each thickness falls, 0 in the others: (m, THICKNESS_BINS)."""
     low, width = np.log(0.02), -np.log(0.02) / THICKNESS_BINS
     bin_ = ((log_thickness - low) / width).astype(np.int64).clip(0, THICKNESS_BINS - 1)
     return np.eye(THICKNESS_BINS)[bin_]
 
 
 def products(v: np.ndarray) -> np.ndarray:
-    """(n, 6) products xx, yy, zz, xy, xz, yz of (n, 3) vectors."""
+    """Multiply the coordinates of vectors with each other.
+
+    v : (n, 3) float64. Returns the products xx, yy, zz, xy, xz, yz, (n, 6) float64.
+    """
     x, y, z = v.T
     return np.stack([x * x, y * y, z * z, x * y, x * z, y * z], axis=1)
 
 
 def matrices(products: np.ndarray) -> np.ndarray:
-    """(n, 3, 3) symmetric matrices of (n, 6) products."""
+    """Arrange products of coordinates as symmetric matrices.
+
+    products : (n, 6) float64, as ``products`` returns them. Returns (n, 3, 3) float64.
+    """
     return products[:, [0, 3, 4, 3, 1, 5, 4, 5, 2]].reshape(-1, 3, 3)

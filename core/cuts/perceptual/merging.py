@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Greedy merging: the weakest cut goes first, and what it changed is judged again."""
+"""Greedy merging: the two regions of the weakest cut merge, and the cuts of the new region are judged again."""
 
 from __future__ import annotations
 
@@ -12,30 +12,42 @@ from ...surface.mesh import TriMesh
 from .features import RegionMeasures, cut_features, region_shape
 from .measures import BORDER, SurfaceMeasures
 
-# So long as there are more regions than this, or cuts weaker than this, all regions merge at once
-# that are each other's weakest cut; then one at a time.
+# While there are more than MANY_REGIONS regions, several pairs merge in one round: those whose cut is the weakest of
+# both regions and among the weakest WEAKEST_SHARE of all cuts. With fewer regions, pairs whose cut is below WEAK_CUT
+# (a salience, 0..1) still merge in rounds; after that, one pair merges at a time.
 MANY_REGIONS = 60
 WEAK_CUT = 0.12
 WEAKEST_SHARE = 0.2
 
+#: Called with a graph and some of its borders, (k,) int64; returns how much each deserves to stay, (k,) float64, 0..1.
 Judge = Callable[["RegionAdjacencyGraph", np.ndarray], np.ndarray]
 
 
 class RegionAdjacencyGraph:
-    """RegionMeasures, the borders between them, and what is measured on both; merging changes it.
+    """Regions, the borders between them, and the sums of measures over both; ``merge_`` changes them.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces.
+    measures : SurfaceMeasures
+        Measures of the faces and pairs of faces of ``mesh``.
+    label : (m,) int64
+        Region of each face, 0..c-1, all in use.
 
     Attributes
     ----------
     regions : RegionMeasures
-        A merged region keeps the row of one of the two.
+        c rows. When two regions merge, the row of one of them is used for the union.
     ends : (b, 2) int64
         The two regions of each border.
     border : (b, BORDER.width) float64
-    neighbors : list of dict
-        For each region, border by neighbor.
+        Sum over each border of ``SurfaceMeasures.pair``.
+    neighbors : list of dict of int -> int
+        For each region the border that it shares with each neighbor.
     """
 
-    def __init__(self, mesh: TriMesh, measures: SurfaceMeasures, label: np.ndarray):
+    def __init__(self, mesh: TriMesh, measures: SurfaceMeasures, label: np.ndarray) -> None:
         n = int(label.max()) + 1
         low, high = np.sort(label[mesh.edges.pairs], axis=1).T
         apart = low != high
@@ -59,14 +71,30 @@ class RegionAdjacencyGraph:
 
     @property
     def n_alive(self) -> int:
+        """Number of regions that have not merged into another."""
         return int(self.regions.alive.sum())
 
     def features(self, borders: np.ndarray) -> np.ndarray:
-        """(k, len(FEATURES)) of some borders."""
+        """Compute the features of some borders.
+
+        borders : (k,) int64. Returns (k, len(FEATURES)) float64, see ``cut_features``.
+        """
         return cut_features(self.regions, self.ends[borders], self.border[borders])
 
     def merge_(self, border: int) -> list[int]:
-        """Join the two regions of a border into the first; borders that are gone."""
+        """Merge the second region of a border into the first.
+
+        The shape of the first region is not computed anew: call ``measure_`` when all merges of a round are done.
+
+        Parameters
+        ----------
+        border : int
+
+        Returns
+        -------
+        gone : list of int
+            Borders that no longer exist: the given one, and those that became one with another border.
+        """
         a, b = (int(end) for end in self.ends[border])
         r, lost = self.regions, self.border[border]
         for sums in (r.sums, r.around, r.perimeter):
@@ -93,29 +121,29 @@ class RegionAdjacencyGraph:
         r.degree[a] = len(self.neighbors[a])
         return gone
 
-    def measure_(self, changed: list[int]):
-        """Shape anew of regions that grew."""
+    def measure_(self, changed: list[int]) -> None:
+        """Compute the shape of regions anew; ``changed`` are those into which other regions have merged."""
         r = self.regions
         r.shape[changed] = region_shape(r.sums[changed], r.perimeter[changed],
                                         r.level_min[changed], r.level_max[changed])
 
 
 def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, np.ndarray]:
-    """Merge until every region is alone; changes the graph.
+    """Merge regions, the weakest cut first, until one is left; changes the graph.
 
     Parameters
     ----------
     graph : RegionAdjacencyGraph
         c regions of one connected surface.
     judge : callable
-        judge(graph, borders) gives the salience of some borders, 0..1.
+        judge(graph, borders) returns how much each of some borders deserves to stay, 0..1.
 
     Returns
     -------
     merges : (c - 1, 2) int64
-        The two regions of each merge, in order.
-    salience : (c - 1,) float64
-        As judged at the time; not monotone.
+        The region that stays and the region that merges into it, in order.
+    strength : (c - 1,) float64
+        What the judge returned for the border of each merge, at the time of the merge; not monotone.
     """
     n = len(graph.regions.alive)
     strength = judge(graph, np.arange(len(graph.ends)))
@@ -139,7 +167,10 @@ def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, n
 
 
 def _next(graph: RegionAdjacencyGraph, strength: np.ndarray, n_regions: int) -> list[int]:
-    """Borders that may merge together, weakest first: no region twice."""
+    """Borders whose regions merge in one round, the weakest first; no region occurs twice.
+
+    strength : (b,), what the judge returned for each border; infinite for a border that no longer exists.
+    """
     weakest = int(strength.argmin())
     if n_regions <= MANY_REGIONS and strength[weakest] >= WEAK_CUT:
         return [weakest]
@@ -151,7 +182,7 @@ def _next(graph: RegionAdjacencyGraph, strength: np.ndarray, n_regions: int) -> 
     mutual = (s == least[ends[:, 0]]) & (s == least[ends[:, 1]])
     chosen = live[mutual & (s <= max(limit, strength[weakest]))]
     chosen = chosen[np.argsort(strength[chosen], kind="stable")]
-    # Equal strengths can make a region twice the weakest: the first stays.
+    # A region may have two weakest borders of equal strength. The first of them merges.
     _, first = np.unique(graph.ends[chosen], return_index=True)
     once = np.zeros(2 * len(chosen), bool)
     once[first] = True

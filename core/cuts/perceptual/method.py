@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cuts where people cut: candidates for the preset "Perceptual"."""
+"""Candidates that are cut where people cut, for the preset "Perceptual"."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from .measures import BORDER, surface_measures
 from .merging import Judge, RegionAdjacencyGraph, merge_all_
 from .patches import concave_patches, level_set_patches
 
-# Share of people who must separate two regions for the cut to stay at detail 0.5.
-DECISION = 0.55
-# Denser meshes are cut on a coarse copy: parts are much larger than its faces.
+DECISION = 0.55  # share of people who separate two regions, 0..1, from which on their cut stays at detail 0.5
+# Largest number of faces of a mesh that is cut itself. A denser mesh is cut on a coarse copy of at most so many faces,
+# which are still much smaller than parts.
 MAX_FACES = 60_000
 
 
@@ -35,26 +35,31 @@ def perceptual_candidates(
     model: BoostedTrees | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Candidates:
-    """Patches between creases, merged weakest cut first as a model of people's cuts tells.
+    """Divide a component into patches between creases, and merge them as a model of people's cuts judges.
 
     Parameters
     ----------
     sets : LevelSets
-        Of one connected component.
+        Level sets of one connected component.
     field : ScalarField
-        Its AGD.
+        AGD of the component.
     pyramid : Pyramid
-        Coarser copies of its mesh.
+        Coarser copies of the component's mesh.
     parameters : Parameters
     model : BoostedTrees, optional
-        What judges cuts; the one that ships with the package without.
+        Model that judges cuts. Without it, the model that ships with the package.
     progress : callable, optional
         Called with the share done, 0..1.
 
     Returns
     -------
     candidates : Candidates
-        The patches. Salience 0.5 is the decision learned from people.
+        The patches. A cut that a share DECISION of people would make has salience 0.5.
+
+    Raises
+    ------
+    ReebError
+        The model that ships with the package was trained on other features.
     """
     progress = progress or (lambda share: None)
     judge = judge_by(model or cut_model())
@@ -69,7 +74,10 @@ def perceptual_candidates(
 
 
 def _merge(sets: LevelSets, field: ScalarField, label: np.ndarray, judge: Judge) -> tuple[Hierarchy, np.ndarray]:
-    """The hierarchy over some patches, and the curvature across each pair of faces."""
+    """Hierarchy over patches, and curvature across each pair of faces, (p,), times the square root of the area.
+
+    label : (m,) int64, patch of each face.
+    """
     measures = surface_measures(sets, field)
     graph = RegionAdjacencyGraph(sets.mesh, measures, label)
     merges, share = merge_all_(graph, judge)
@@ -81,7 +89,7 @@ def _merge(sets: LevelSets, field: ScalarField, label: np.ndarray, judge: Judge)
 def _cut_in_creases(
     sets: LevelSets, field: ScalarField, band_ratio: float, judge: Judge, progress: Callable[[float], None]
 ) -> tuple[np.ndarray, Hierarchy]:
-    """Candidate of each face, and the hierarchy over them."""
+    """Candidate of each face, (m,) int64, with cuts moved into creases, and the hierarchy over the candidates."""
     label = concave_patches(sets.mesh)
     progress(0.2)
     hierarchy, curvature = _merge(sets, field, label, judge)
@@ -93,7 +101,10 @@ def _on_coarse_copy(
     sets: LevelSets, field: ScalarField, pyramid: Pyramid, band_ratio: float, judge: Judge,
     progress: Callable[[float], None],
 ) -> tuple[np.ndarray, Hierarchy]:
-    """Candidates of a dense mesh: found on a coarse copy; the cuts of detail 0.5 are moved on the mesh itself."""
+    """Candidate of each face of a dense mesh, (m,) int64, and the hierarchy over the candidates.
+
+    The candidates are found on a coarse copy; the cuts of detail 0.5 are then moved on the mesh itself.
+    """
     mesh = sets.mesh
     owner, copy = _coarse_copy(pyramid)
     progress(0.1)
@@ -110,9 +121,10 @@ def _on_coarse_copy(
 
 
 def _coarse_copy(pyramid: Pyramid) -> tuple[np.ndarray, TriMesh]:
-    """The vertex of the copy whose cell each vertex lies in, and the first copy of at most MAX_FACES faces.
+    """Vertex of a coarse copy in whose cell each vertex lies, (n,) int64, and this copy.
 
-    A finer one where that is torn: thin places may lose their triangles.
+    The copy is the first of at most MAX_FACES faces, or the last finer one if that copy is torn: where the surface is
+    thin, copies may lack triangles.
     """
     owner, copy = np.arange(pyramid.mesh.n_vertices), pyramid.mesh
     for step in pyramid.until(lambda mesh: mesh.n_faces <= MAX_FACES):
@@ -123,13 +135,13 @@ def _coarse_copy(pyramid: Pyramid) -> tuple[np.ndarray, TriMesh]:
 
 
 def _is_whole(copy: TriMesh, area: float) -> bool:
-    """Whether a coarse copy is one surface nearly as large as the mesh that it was made of."""
+    """Whether a coarse copy is one connected surface of nearly the area of the mesh from which it was made."""
     whole = copy.n_faces > 0 and len(np.unique(copy.faces)) == copy.n_vertices
     return whole and copy.face_components[0] == 1 and copy.area > 0.9 * area
 
 
 def _prolong_labels(mesh: TriMesh, owner: np.ndarray, copy: TriMesh, label: np.ndarray) -> np.ndarray:
-    """Labels of the faces of a mesh, (m,) int64, from those of a coarse copy's faces; each connected."""
+    """Label of each face of a mesh, (m,) int64, from the labels of a coarse copy's faces; every label is connected."""
     of_vertex = majority(copy.faces.ravel(), np.repeat(label, 3), np.repeat(copy.face_area, 3),
                          copy.n_vertices)[owner]
     corners = of_vertex[mesh.faces]
@@ -141,17 +153,24 @@ def _prolong_labels(mesh: TriMesh, owner: np.ndarray, copy: TriMesh, label: np.n
 
 
 def _restrict(field: ScalarField, owner: np.ndarray, weight: np.ndarray, n: int) -> ScalarField:
-    """A field on a coarse copy of n vertices: the weighted mean of each cell."""
+    """Field on a coarse copy of n vertices: the mean over each cell, weighted by ``weight``."""
     total = np.bincount(owner, weight, n)
     return ScalarField(*(np.bincount(owner, weight * f, n) / total
                          for f in (field.values, field.normalized, field.agd)))
 
 
 def judge_by(model: BoostedTrees) -> Judge:
-    """A judge of borders: the share of people who would separate the regions on both sides, 0..1."""
+    """Make a judge of borders from a model.
+
+    model : BoostedTrees. Returns a callable that estimates, for each border, the share of people who would separate the
+    regions on both sides, 0..1.
+    """
     return lambda graph, borders: model.predict(graph.features(borders))
 
 
 def salience_of(share: np.ndarray) -> np.ndarray:
-    """Stretch shares of people so that the decision falls on 0.5."""
+    """Turn shares of people into saliences: 0, DECISION and 1 become 0, 0.5 and 1, linearly between.
+
+    share : (k,) float64, 0..1. Returns (k,) float64, 0..1.
+    """
     return np.interp(share, [0.0, DECISION, 1.0], [0.0, 0.5, 1.0])

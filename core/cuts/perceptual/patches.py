@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Patches that stop at creases: the smallest pieces a part can be made of.
+"""Patches that end at creases: the candidates of the method "perceptual".
 
-Farthest-point seeds and their geodesic cells on the faces, where turning costs, and turning in a
-concavity most: borders of patches come to lie in the concave creases where people cut.
+Seeds are spread over the faces, each as far as possible from the others, and every face joins its nearest seed. The way
+from face to face is longer where the surface turns, and longest where it turns in a concavity. Borders between patches
+therefore come to lie in concave creases, where people cut.
 """
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
@@ -15,28 +18,37 @@ from ...surface.arrays import components, first_largest, last_of_each, renumbere
 from ...surface.labels import label_boundaries, longest_neighbor, majority
 from ...surface.mesh import TriMesh
 
-N_PATCHES = 220
-ROUNDS = 3  # a third of the seeds are spread by straight distance, the others in so many rounds
-TURN = 0.1  # one radian of convex turning is as far as this share of the square root of the area
-CONCAVE = 20.0  # how much more a concave turn costs
-SLABS = 24  # where patches are to follow level sets
-SMALLEST = 0.0004  # share of the area below which a patch joins a neighbor
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+N_PATCHES = 220  # number of seeds; patches are fewer, as small ones join their neighbors
+ROUNDS = 3  # number of rounds in which two thirds of the seeds are added; the first third is spread before
+# Length of the way between two faces, in units of the square root of the area: the distance of their centroids across
+# the shared edge, plus TURN per radian of a convex turn, or TURN * CONCAVE per radian of a concave turn.
+TURN = 0.1
+CONCAVE = 20.0
+SLABS = 24  # number of slabs whose pieces are the patches of ``level_set_patches``
+SMALLEST = 0.0004  # share of the area of the surface below which a patch joins a neighbor
 
 
 def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
-    """Cut a connected surface into about ``count`` patches.
+    """Divide a surface into patches that end in concave creases.
 
     Parameters
     ----------
     mesh : TriMesh
         m faces, one connected component.
     count : int
-        At most so many.
+        Upper bound of the number of patches, 1 or more.
 
     Returns
     -------
     label : (m,) int64
-        0..c-1; every patch is connected.
+        Patch of each face, 0..c-1; every patch is connected.
+
+    Notes
+    -----
+    ROUNDS + 1 searches for shortest paths from all seeds at once, O(m log m) each.
     """
     distances = _crease_graph(mesh)
     seeds = _first_seeds(mesh, max(count // 3, 1))
@@ -44,7 +56,7 @@ def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
     for more in [*added, 0]:
         distance, _, cell = dijkstra(
             distances, directed=True, indices=seeds, min_only=True, return_predecessors=True)
-        # The farthest face of each of the widest cells becomes a seed.
+        # In each of the widest cells, the face farthest from the seed becomes a seed.
         numbers, cell_number = renumbered(cell)
         farthest = last_of_each(cell_number, distance, -np.arange(len(cell)), count=len(numbers))
         widest = farthest[np.argsort(-distance[farthest], kind="stable")][:more]
@@ -53,7 +65,18 @@ def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
 
 
 def level_set_patches(sets: LevelSets) -> np.ndarray:
-    """Patches that end at level sets only: pieces of SLABS slabs, (m,) int64 as above."""
+    """Divide a surface into patches that end at level sets only: the pieces of SLABS slabs.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        Level sets of one connected component, m faces.
+
+    Returns
+    -------
+    label : (m,) int64
+        Patch of each face, 0..c-1; every patch is connected.
+    """
     coarse = cut_at_levels(sets.mesh, sets.values, uniform_levels(SLABS))
     area = coarse.element_area + 1e-12 * sets.mesh.area
     piece = majority(coarse.element_face, coarse.element_piece, area, sets.mesh.n_faces)
@@ -61,25 +84,27 @@ def level_set_patches(sets: LevelSets) -> np.ndarray:
 
 
 def absorb_small(mesh: TriMesh, label: np.ndarray, least_area: float) -> np.ndarray:
-    """Let regions below an area join the neighbor along the longest border.
+    """Let small patches join the neighbor with which they share their longest border.
 
     Parameters
     ----------
     mesh : TriMesh
+        m faces.
     label : (m,) int64
-        0..c-1; every region is connected.
+        Patch of each face, 0..c-1; every patch is connected.
     least_area : float
+        Area below which a patch joins a neighbor that is larger, in squared units of the vertices.
 
     Returns
     -------
     label : (m,) int64
-        Numbered anew from 0.
+        Patch of each face, numbered anew from 0.
     """
     while True:
         area = np.bincount(label, mesh.face_area)
         goal = longest_neighbor(*label_boundaries(label, mesh.edges.pairs, mesh.pair_length), len(area))
         goal = np.where(goal >= 0, goal, np.arange(len(area)))
-        # Only into the larger one, so that no two swap.
+        # A patch joins larger patches only, so that two patches never join each other.
         larger = (area[goal] > area) | ((area[goal] == area) & (goal > np.arange(len(area))))
         goal = np.where((area < least_area) & larger, goal, np.arange(len(area)))
         if (goal == np.arange(len(area))).all():
@@ -89,16 +114,16 @@ def absorb_small(mesh: TriMesh, label: np.ndarray, least_area: float) -> np.ndar
         label = renumbered(goal[label])[1]
 
 
-def _crease_graph(mesh: TriMesh):
-    """Symmetric (m, m) lengths between faces: way plus turning, which add up along any path."""
+def _crease_graph(mesh: TriMesh) -> csr_array:
+    """Symmetric (m, m) matrix of the lengths of the ways between neighboring faces; TURN has the formula."""
     turn = mesh.dihedral
     length = mesh.pair_distance / np.sqrt(mesh.area) + TURN * np.where(turn < 0, -CONCAVE * turn, turn)
-    # A stored zero would read as "no edge".
+    # SciPy takes a stored 0 for "no edge".
     return symmetric_matrix(mesh.edges.pairs, np.maximum(length, 1e-9), mesh.n_faces)
 
 
 def _first_seeds(mesh: TriMesh, count: int) -> np.ndarray:
-    """Faces far from each other in a straight line."""
+    """Faces found by farthest-point sampling with straight distances, (count,) int64 or fewer."""
     center = mesh.face_centroids
     middle = mesh.face_area @ center / mesh.area
     seeds = [first_largest(((center - middle) ** 2).sum(axis=1))]
@@ -113,6 +138,6 @@ def _first_seeds(mesh: TriMesh, count: int) -> np.ndarray:
 
 
 def _connected(mesh: TriMesh, cell: np.ndarray) -> np.ndarray:
-    """Connected components of cells, numbered by their lowest face."""
+    """Connected component of each face within its cell, (m,) int64, numbered by the lowest face."""
     a, b = mesh.edges.pairs[cell[mesh.edges.pairs[:, 0]] == cell[mesh.edges.pairs[:, 1]]].T
     return components(mesh.n_faces, a, b)[1]

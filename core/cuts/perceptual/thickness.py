@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How thick the solid is under each face, and how wide the space is above it.
+"""Thickness of the solid under each face, and clearance of the space above it.
 
-Both are radii of balls that touch the surface from one side: the medial ball, found by
-shrinking a large one until no other point of the surface is left inside [Ma2012].
+Each is the radius of the medial ball, which touches the surface at the face from one side: a large ball shrinks until
+no other point of the surface lies in it [Ma2012].
 """
 
 from __future__ import annotations
@@ -12,36 +12,37 @@ from scipy.spatial import cKDTree
 
 from ...surface.mesh import TriMesh
 
-LARGEST = 0.2  # of the square root of the area: a wider ball tells nothing about a part
-N_SURFACE = 12_000  # points that stand for the surface
-N_PROBES = 2_500  # faces that are measured; the others take their neighbors' mean
-STEPS = 12
-# A ball that touches two points closer than this angle, seen from its center, rests on a bump.
+LARGEST = 0.2  # radius at which balls begin to shrink, in units of the square root of the area
+N_SURFACE = 12_000  # upper bound of the number of points that represent the surface
+N_PROBES = 2_500  # upper bound of the number of faces measured; a face gets the mean of the three nearest of them
+STEPS = 12  # upper bound of the number of times that a ball shrinks
+# Cosine of the smallest angle between the two points that a ball touches, seen from its center. A ball stops shrinking
+# before the angle falls below this one: it would only fit into the roughness of the surface.
 SEPARATION = np.cos(np.deg2rad(50.0))
 
 
 def thickness(mesh: TriMesh, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Radius of the largest ball that touches each face from inside and from outside.
+    """Measure the radius of the largest ball that touches each face from inside and from outside.
 
     Parameters
     ----------
     mesh : TriMesh
-        m faces, normals outwards.
+        m faces, turned outwards.
     order : (m,) float64
-        A value per face that does not depend on the order of the faces, such as the AGD: probes
-        are spread evenly over the area along it.
+        Value of each face by which the faces are sorted to choose some of them evenly over the area. Values that do not
+        depend on the order of the faces, such as the AGD, make the result independent of it.
 
     Returns
     -------
     inside, outside : (m,) float64
-        In units of the square root of the area, at most ``LARGEST``.
+        In units of the square root of the area, above 0 and at most LARGEST.
     """
     unit = np.sqrt(mesh.area)
     center, normal = mesh.face_centroids / unit, mesh.face_normals
     surface = center[_spread(mesh.face_area, order, N_SURFACE)]
     probe = _spread(mesh.face_area, order, N_PROBES)
     tree = cKDTree(surface)
-    # Normals tell the two sides of a thin wall apart.
+    # The nearest probe is searched by position and normal, so that it is on the same side of a thin wall.
     place = np.hstack([center, 0.05 * normal])
     _, near = cKDTree(place[probe]).query(place, k=min(3, len(probe)))
     near = near.reshape(len(place), -1)
@@ -51,7 +52,7 @@ def thickness(mesh: TriMesh, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]
 
 
 def _spread(area: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:
-    """Faces at equal steps of area along an order."""
+    """Faces at equal steps of area when sorted by ``order``, (count,) int64 or fewer."""
     along = np.argsort(order, kind="stable")
     total = np.cumsum(area[along])
     steps = (np.arange(count) + 0.5) / count * total[-1]
@@ -59,7 +60,7 @@ def _spread(area: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:
 
 
 def _ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Radius of the empty ball that touches each point, its center in the given direction."""
+    """Radius of the ball, (k,), that touches each point, with its center in the given direction and no point within."""
     radius = np.full(len(point), LARGEST)
     active = np.arange(len(point))
     for _ in range(STEPS):
@@ -78,8 +79,11 @@ def _ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray) -> np.
     return np.maximum(radius, 1e-3 * LARGEST)
 
 
-def _cosine(point, offset, to_center) -> np.ndarray:
-    """Cosine of the angle between a point and another, seen from the center of a ball."""
+def _cosine(point: np.ndarray, offset: np.ndarray, to_center: np.ndarray) -> np.ndarray:
+    """Cosine of the angle, (k,), between two points that a ball touches, seen from its center.
+
+    offset, to_center : (k, 3), from the first point to the second and to the center.
+    """
     a, b = -to_center, offset - to_center
     length = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
     return (a * b).sum(axis=1) / np.maximum(length, 1e-300)
