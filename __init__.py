@@ -8,19 +8,15 @@ without it.
 
 def register():
     """Called by Blender when the extension is switched on."""
-    from . import batch, operators, ui
+    from . import batch, operators, scene, ui, viewport
 
-    ui.register_properties()
-    operators.register()
-    ui.register()
-    batch.register()
+    for folder in (scene, viewport, operators, ui, batch):
+        folder.register()
 
 
 def unregister():
     """Called by Blender when the extension is switched off; leaves nothing behind."""
-    from . import batch, operators, ui
+    from . import batch, operators, scene, ui, viewport
 
-    batch.unregister()
-    ui.unregister()
-    operators.unregister()
-    ui.unregister_properties()
+    for folder in (batch, ui, operators, viewport, scene):
+        folder.unregister()

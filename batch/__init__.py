@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs without a window: the command ``blender --command reeb_parts``."""
 
-_handles = []
+from __future__ import annotations
+
+_handles: list[object] = []
 
 
-def register():
+def register() -> None:
     import bpy
 
     from . import command
@@ -12,7 +14,7 @@ def register():
     _handles.append(bpy.utils.register_cli_command("reeb_parts", command.main))
 
 
-def unregister():
+def unregister() -> None:
     import bpy
 
     while _handles:

@@ -8,22 +8,26 @@ One JSON object goes to standard output, progress and Blender's own messages to 
 status is 0 only if every object was decomposed and every file written. Files appear whole or not at all.
 """
 
+from __future__ import annotations
+
 import argparse
 import json
 import os
 import sys
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields, replace
 from pathlib import Path
+from typing import TextIO
 
 import bpy
 
 from ..core.errors import ReebError
-from ..core.parameters import PRESETS, Parameters
-from ..operators import decompose
-from ..scene import bridge, export
+from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
+from ..scene import bridge, export, graph_objects, results, targets
+from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core
-from ..scene.properties import OutputProperties, OverlayProperties
+from ..scene.settings import OutputProperties, OverlayProperties
 
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
@@ -34,7 +38,7 @@ IMPORTERS = {
     ".fbx": lambda path: bpy.ops.import_scene.fbx(filepath=path),
 }
 
-FAILED, WRONG_USE = 1, 2
+FAILED = 1
 
 
 def main(arguments: list[str]) -> int:
@@ -42,7 +46,7 @@ def main(arguments: list[str]) -> int:
     try:
         options = parser().parse_args(arguments)
     except SystemExit as end:  # argparse has said why, or has shown the help
-        return end.code or 0
+        return int(end.code or 0)
     with _standard_output() as answer:
         try:
             result = run(options)
@@ -93,7 +97,7 @@ def parser() -> argparse.ArgumentParser:
     return made
 
 
-def _add_parameters(group):
+def _add_parameters(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--preset", choices=list(PRESETS), help="start from the parameters of a preset")
     for field in fields(Parameters):
         meta = field.metadata
@@ -107,9 +111,12 @@ def _add_parameters(group):
             group.add_argument(name, type=int if field.type == "int" else float, metavar="N", **words)
         else:
             group.add_argument(name, action=argparse.BooleanOptionalAction, **words)
+    for old in RENAMED:  # scripts of version 0.1.0
+        kind = {"action": argparse.BooleanOptionalAction} if old == "equalise" else {"type": float}
+        group.add_argument(f"--{old}", help=argparse.SUPPRESS, **kind)
 
 
-def _size(text):
+def _size(text: str) -> tuple[int, int]:
     """Width and height out of "960x540"; argparse turns the error into a sentence."""
     width, height = (int(number) for number in text.split("x"))
     if not (16 <= width <= 8192 and 16 <= height <= 8192):
@@ -117,30 +124,31 @@ def _size(text):
     return width, height
 
 
-def _dashed(name):
+def _dashed(name: str) -> str:
     return name.replace("_", "-")
 
 
-def run(options) -> dict:
+def run(options: argparse.Namespace) -> dict:
     """Do all that the options ask for; returns the JSON."""
     load_core()
     from ..scene.object_report import object_report  # imports SciPy
 
-    parameters = replace(
-        PRESETS[options.preset] if options.preset else Parameters(),
-        **{field.name: value for field in fields(Parameters)
-           if (value := getattr(options, field.name)) is not None},
-    )
+    names = (*RENAMED, *(field.name for field in fields(Parameters)))
+    values, notes = present_names(
+        {name: value for name in names if (value := getattr(options, name)) is not None})
+    for note in notes:
+        _say(note)
+    parameters = replace(PRESETS[options.preset] if options.preset else Parameters(), **values)
     objects = find_objects(options)
     reports = []
     for obj in objects:
         outcome = decompose_object(obj, parameters)
-        decompose.write_result(bpy.context, obj, outcome, options)
+        results.write_result(bpy.context, obj, outcome, options)
         reports.append(object_report(obj, options.labels))
     return write_files(options, objects, reports)
 
 
-def find_objects(options) -> list:
+def find_objects(options: argparse.Namespace) -> list:
     """Open what is asked for; the objects to decompose."""
     if options.model is None:
         meshes = []
@@ -172,28 +180,28 @@ def _open(path: Path) -> list:
     return meshes
 
 
-def decompose_object(obj, parameters):
+def decompose_object(obj: bpy.types.Object, parameters: Parameters) -> Outcome:
     """Read and compute one object; raises what the user should hear."""
-    bridge.check_object(obj)
+    targets.check_object(obj)
     shape = bridge.read_shape(obj)
     last = [-1]
 
-    def progress(stage, share):
+    def progress(stage: str, share: float) -> None:
         if round(20 * share) > last[0]:  # twenty lines at most
             last[0] = round(20 * share)
             _say(f"{obj.name}: {stage} {share:.0%}")
 
-    (outcome,) = decompose.compute_all([(obj.name, shape)], parameters, progress)
+    (outcome,) = compute_all([(obj.name, shape)], parameters, progress)
     if outcome.decomposition is None:
         raise SceneError(f"{obj.name}: {outcome.problem}")
     return outcome
 
 
-def write_files(options, objects, reports) -> dict:
+def write_files(options: argparse.Namespace, objects: list[bpy.types.Object], reports: list[dict]) -> dict:
     """Write what is asked for; returns the JSON with what was written."""
     from ..core.uses.report import document
 
-    written = {}
+    written: dict[str, str | list[str]] = {}
     if options.parts:
         options.parts.mkdir(parents=True, exist_ok=True)
         written["parts"] = [str(path) for obj in objects
@@ -203,7 +211,6 @@ def write_files(options, objects, reports) -> dict:
             bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)
         written["save"] = str(options.save)
     if options.picture:
-        from ..scene import graph_objects
         from .picture import render_parts, view_from
 
         with _whole(options.picture) as path:
@@ -220,7 +227,7 @@ def write_files(options, objects, reports) -> dict:
 
 
 @contextmanager
-def _whole(path: Path):
+def _whole(path: Path) -> Iterator[Path]:
     """A name to write to beside the path; the file is moved to the path when it is complete."""
     path = path.resolve()
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -234,7 +241,7 @@ def _whole(path: Path):
 
 
 @contextmanager
-def _standard_output():
+def _standard_output() -> Iterator[TextIO]:
     """Standard output for the answer alone: all that Blender prints goes to standard error.
 
     That stays so to the end of the process, which has more to print.
@@ -246,5 +253,5 @@ def _standard_output():
         yield answer
 
 
-def _say(text):
+def _say(text: str) -> None:
     print(f"reeb_parts: {text}", file=sys.stderr, flush=True)

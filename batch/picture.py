@@ -5,9 +5,12 @@ Everything is set up in a scene of its own and removed afterwards; the objects' 
 render settings are left alone. Cycles on the processor renders, since that works on any machine.
 """
 
+from __future__ import annotations
+
 import os
 import sys
 import tempfile
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -43,12 +46,13 @@ ARC_COLOR = (0.012, 0.012, 0.016)
 NODE_COLORS = {"minimum": (0.02, 0.02, 0.025), "saddle": (1.0, 0.62, 0.02), "maximum": (1.0, 1.0, 1.0)}
 
 
-def view_from(degrees):
+def view_from(degrees: float) -> Vector:
     """Direction from the objects to a camera turned about the vertical, (3,) float."""
     return Matrix.Rotation(np.radians(degrees), 3, "Z") @ Vector(VIEW)
 
 
-def render_parts(objects, path, *, size=(960, 540), samples=16, view=VIEW):
+def render_parts(objects: list[tuple[bpy.types.Object, bpy.types.Collection | None]], path: str | Path, *,
+                 size: tuple[int, int] = (960, 540), samples: int = 16, view: Sequence[float] = VIEW) -> None:
     """Render objects and their graphs into a PNG file.
 
     Parameters
@@ -87,7 +91,7 @@ def render_parts(objects, path, *, size=(960, 540), samples=16, view=VIEW):
         bpy.data.batch_remove(made)
 
 
-def _collection(scene, name, made):
+def _collection(scene: bpy.types.Scene, name: str, made: list[bpy.types.ID]) -> bpy.types.Collection:
     """A new collection in the scene."""
     collection = bpy.data.collections.new(name)
     scene.collection.children.link(collection)
@@ -95,7 +99,8 @@ def _collection(scene, name, made):
     return collection
 
 
-def _place(data, name, collection, made, matrix=None):
+def _place(data: bpy.types.ID, name: str, collection: bpy.types.Collection, made: list[bpy.types.ID],
+           matrix: Matrix | None = None) -> bpy.types.Object:
     """A new object in the collection, rendered even if its like in the user's scene is not."""
     obj = bpy.data.objects.new(name, data)
     obj.matrix_world = matrix or Matrix()
@@ -104,7 +109,7 @@ def _place(data, name, collection, made, matrix=None):
     return obj
 
 
-def _add_model(obj, collection, made):
+def _add_model(obj: bpy.types.Object, collection: bpy.types.Collection, made: list[bpy.types.ID]) -> None:
     """The object's mesh in its part colours."""
     mesh = obj.data.copy()
     name = mesh.color_attributes.active_color_name
@@ -115,7 +120,8 @@ def _add_model(obj, collection, made):
     _place(mesh, "model", collection, made, obj.matrix_world.copy())
 
 
-def _add_graph(graph, extent, collection, made):
+def _add_graph(graph: bpy.types.Collection, extent: float, collection: bpy.types.Collection,
+               made: list[bpy.types.ID]) -> None:
     """Arcs as tubes and nodes as balls, both of a size that shows at this distance."""
     arcs = _material("arcs", made, color=ARC_COLOR)
     for source in graph.all_objects:
@@ -143,7 +149,8 @@ def _add_graph(graph, extent, collection, made):
             _place(ball, "node", collection, made, Matrix.Translation(source.matrix_world.translation))
 
 
-def _material(name, made, *, attribute=None, color=None):
+def _material(name: str, made: list[bpy.types.ID], *, attribute: str | None = None,
+              color: tuple[float, float, float] = (0.8, 0.8, 0.8)) -> bpy.types.Material:
     """A matt material of one colour or of a colour attribute."""
     material = bpy.data.materials.new(name)
     _use_nodes(material)
@@ -160,13 +167,13 @@ def _material(name, made, *, attribute=None, color=None):
     return material
 
 
-def _use_nodes(data):
+def _use_nodes(data: bpy.types.Material | bpy.types.World) -> None:
     """Give a material or a world its nodes; from Blender 5.0 it always has them."""
     if bpy.app.version < (5, 0, 0):
         data.use_nodes = True
 
 
-def _add_light(scene, view, made):
+def _add_light(scene: bpy.types.Scene, view: Sequence[float], made: list[bpy.types.ID]) -> None:
     """Even light from all sides and a soft sun, over the left shoulder of who looks."""
     world = bpy.data.worlds.new("sky")
     _use_nodes(world)
@@ -183,7 +190,7 @@ def _add_light(scene, view, made):
     _place(sun, "sun", scene.collection, made, turn)
 
 
-def _add_floor(points, extent, collection, made):
+def _add_floor(points: np.ndarray, extent: float, collection: bpy.types.Collection, made: list[bpy.types.ID]) -> None:
     """A floor under the points that shows nothing but the shadow on it."""
     floor = bpy.data.meshes.new("floor")
     center, reach = points.mean(axis=0), 20.0 * extent
@@ -193,7 +200,7 @@ def _add_floor(points, extent, collection, made):
     _place(floor, "floor", collection, made).is_shadow_catcher = True
 
 
-def _points(obj):
+def _points(obj: bpy.types.Object) -> np.ndarray:
     """Vertices of the object in the world, (n, 3)."""
     points = np.empty(3 * len(obj.data.vertices), np.float32)
     obj.data.vertices.foreach_get("co", points)
@@ -201,7 +208,8 @@ def _points(obj):
     return points.reshape(-1, 3) @ world[:3, :3].T + world[:3, 3]
 
 
-def _add_camera(scene, points, view, size, made):
+def _add_camera(scene: bpy.types.Scene, points: np.ndarray, view: Sequence[float], size: tuple[int, int],
+                made: list[bpy.types.ID]) -> None:
     """A camera that sees all points, as near as it can."""
     camera = bpy.data.cameras.new("camera")
     camera.lens, camera.clip_end = 70.0, 1e6
@@ -220,7 +228,7 @@ def _add_camera(scene, points, view, size, made):
     scene.camera = _place(camera, "camera", scene.collection, made, Matrix.LocRotScale(position, turn, None))
 
 
-def _set_up_cycles(scene, size, samples):
+def _set_up_cycles(scene: bpy.types.Scene, size: tuple[int, int], samples: int) -> None:
     """A few samples on the processor, denoised where this build can, with transparent background."""
     import _cycles
 
@@ -244,7 +252,7 @@ def _set_up_cycles(scene, size, samples):
     scene.view_settings.view_transform = "Standard"
 
 
-def _render(scene, parts, layer, folder):
+def _render(scene: bpy.types.Scene, parts: dict[str, bpy.types.Collection], layer: Layer, folder: Path) -> np.ndarray:
     """Pixels of one layer of the picture, (height, width, 4), bottom row first."""
     for name, collection in parts.items():
         collection.hide_render = name not in layer.there
@@ -264,7 +272,7 @@ def _render(scene, parts, layer, folder):
 
 
 @contextmanager
-def _silence():
+def _silence() -> Iterator[None]:
     """Without what the renderer prints, a line for each of its steps."""
     sys.stdout.flush()
     kept = os.dup(1)
@@ -278,7 +286,7 @@ def _silence():
         os.close(nowhere)
 
 
-def _read_png(path):
+def _read_png(path: str) -> np.ndarray:
     """Pixels of a PNG file, (height, width, 4), bottom row first."""
     image = bpy.data.images.load(path)
     try:
@@ -289,7 +297,7 @@ def _read_png(path):
         bpy.data.images.remove(image)
 
 
-def _over(layers):
+def _over(layers: list[np.ndarray]) -> np.ndarray:
     """Layers from back to front upon the background, (height, width, 4)."""
     result = np.empty_like(layers[0])
     result[...] = (*BACKGROUND, 1.0)
@@ -299,7 +307,7 @@ def _over(layers):
     return result
 
 
-def _write_png(pixels, path):
+def _write_png(pixels: np.ndarray, path: str | Path) -> None:
     """Write (height, width, 4) pixels, bottom row first, as a PNG file."""
     height, width, _ = pixels.shape
     image = bpy.data.images.new("Reeb Parts picture", width, height)

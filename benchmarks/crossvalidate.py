@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How good are cuts on meshes, and on categories, that were not learned from?
 
-    python benchmarks/crossvalidate.py MESHES --kind half|category|groups --out LABELS
+    python3 benchmarks/crossvalidate.py MESHES --kind half|category|groups --out LABELS
 
 Decomposes every mesh with a model that has not seen it and writes its parts to LABELS/N.npy, one
 number per face, for the benchmark's own measures; prints the Rand index error per category.
@@ -15,18 +15,18 @@ may have seen the category left out, which shapes the states they met but no ans
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
+import packages
+
+packages.need("numpy", "scipy", "lightgbm")
+
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-from people import Subject, rand_index_error
+from people import Subject
 from train import N_MODELS, add_variants, by_category, fit_many, folds_of, learn, read_subjects
 
 from core.cuts.perceptual.boosted_trees import BoostedTrees
+from core.metrics import rand_index_error
 from core.pipeline import decompose
 
 
@@ -68,7 +68,7 @@ def main():
             vertices, faces, human = (stored[k] for k in ("vertices", "faces", "human"))
         labels = decompose(vertices, faces, model=model).parts().labels
         np.save(options.out / f"{number}.npy", labels)
-        errors[number] = rand_index_error(labels, human)
+        errors[number] = np.mean([rand_index_error(labels, person) for person in human])
         parts[number] = abs(np.log2((labels.max() + 1) / subjects[number].median_parts))
     for name, value in by_category(errors).items():
         print(f"{name:12} {value:.4f}")

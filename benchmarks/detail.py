@@ -23,11 +23,15 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
+import packages
+
+packages.need("bpy")
+
 import bpy
 import checkout
 import numpy as np
+from meshes import refined
 from snapshot import activate
-from timing import refined
 
 LIMITS = {50_000: 60.0, 1_000_000: 500.0}  # vertices: ms
 N_VALUES = 30

@@ -22,18 +22,13 @@ from pathlib import Path
 # One thread per process: the meshes are what is done in parallel. Set before NumPy is loaded.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import packages
+
+packages.need("numpy", "scipy", "tqdm", "trimesh")
 
 import numpy as np
-
-try:
-    from tqdm import tqdm
-except ImportError:  # the labels do not need it
-
-    def tqdm(items, **_):
-        """No progress bar."""
-        return items
-
+from meshes import load_mesh
+from tqdm import tqdm
 
 from core import PRESETS, Parameters, decompose
 
@@ -105,21 +100,6 @@ def label_mesh(path: Path, out: Path, parameters: Parameters) -> dict:
         "mesh": path.stem, "vertices": len(vertices), "faces": len(faces), "parts": int(labels.max()) + 1,
         "total seconds": round(sum(result.seconds.values()), 4), **seconds,
     }  # fmt: skip
-
-
-def load_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (n, 3) and triangles (m, 3) of a mesh file, in its own order."""
-    if path.suffix.lower() == ".npz":
-        with np.load(path) as data:
-            return data["vertices"], data["faces"]
-    import trimesh
-
-    # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
-    scene = trimesh.load_scene(path, process=False, maintain_order=True, skip_materials=True)
-    meshes = list(scene.geometry.values())
-    first = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
-    vertices = np.concatenate([mesh.vertices for mesh in meshes])
-    return vertices, np.concatenate([mesh.faces + start for mesh, start in zip(meshes, first, strict=False)])
 
 
 def write_times(path: Path, rows: list[dict]) -> None:

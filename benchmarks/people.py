@@ -4,19 +4,17 @@
 from __future__ import annotations
 
 import re
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from core.cuts.perceptual.measures import SurfaceMeasures, surface_measures
 from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
 from core.cuts.perceptual.patches import concave_patches
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.metrics import Overlap
 from core.parameters import Parameters
 from core.surface.coarsening import Pyramid
 from core.surface.mesh import TriMesh
@@ -122,23 +120,8 @@ def prepare(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray,
 
 def _error(votes: list[np.ndarray]) -> float:
     """Mean Rand index error of the patches against people, from their tables of counts."""
-    def pairs(count):
-        return (count * (count - 1)).sum() / 2
-
-    n = votes[0].sum()
-    split = [pairs(v.sum(axis=1)) + pairs(v.sum(axis=0)) - 2 * pairs(v) for v in votes]
-    return float(np.mean(split) / (n * (n - 1) / 2))
-
-
-def rand_index_error(labels: np.ndarray, human: np.ndarray) -> float:
-    """Share of pairs of faces on which a labelling and a person disagree, mean over people."""
-    n = int(labels.max()) + 1
-    tables = []
-    for person in human.astype(np.int64):
-        width = int(person.max()) + 1
-        cells = np.bincount(labels * width + person, minlength=n * width)
-        tables.append(cells.reshape(n, width).astype(float))
-    return _error(tables)
+    overlaps = [Overlap(np.argwhere(table), table[table > 0], table[table > 0]) for table in votes]
+    return float(np.mean([overlap.rand_index_error for overlap in overlaps]))
 
 
 class VotedGraph(RegionAdjacencyGraph):

@@ -15,16 +15,19 @@ import argparse
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import packages
+
+packages.need("numpy", "scipy", "tqdm", "trimesh", "fast_simplification")
 
 import numpy as np
-from label import load_mesh
+from meshes import load_mesh
 from scipy.spatial import cKDTree
 from tqdm import tqdm
 
 from core import PRESETS, Parameters, TriMesh, decompose
+from core.metrics import agreement, rand_index_error
 
-SPOT = Path(__file__).resolve().parent.parent / "models" / "spot.obj"
+SPOT = packages.ROOT / "models" / "spot.obj"
 SEED = 2009
 
 
@@ -140,29 +143,6 @@ CHANGES = {
 }
 
 
-def rand_index(a: np.ndarray, b: np.ndarray) -> float:
-    """Share of the pairs of faces that both labellings join or both separate."""
-    table = _overlap(a, b)
-
-    def pairs(count):
-        return (count * (count - 1.0)).sum() / 2
-
-    apart = pairs(table.sum(axis=1)) + pairs(table.sum(axis=0)) - 2 * pairs(table)
-    return 1.0 - apart / (len(a) * (len(a) - 1.0) / 2)
-
-
-def agreement(a: np.ndarray, b: np.ndarray) -> float:
-    """The paper's agreement of a with b, eq. (12), over faces."""
-    table = _overlap(a, b)
-    larger = np.maximum(table.sum(axis=1)[:, None], table.sum(axis=0)[None])
-    return float((table / larger).max(axis=1).mean())
-
-
-def _overlap(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Faces in common of each label of a and each of b."""
-    return np.bincount(a * (b.max() + 1) + b, minlength=(a.max() + 1) * (b.max() + 1)).reshape(a.max() + 1, -1)
-
-
 def compare(mesh: TriMesh, labels: np.ndarray, change, parameters: Parameters) -> tuple[float, float, float]:
     """Rand index, agreement and ratio of the numbers of parts of a mesh and its changed copy."""
     changed, polygon, place = change(mesh), None, None
@@ -175,7 +155,7 @@ def compare(mesh: TriMesh, labels: np.ndarray, change, parameters: Parameters) -
         back = parts.labels
     else:
         back = parts.labels[cKDTree(changed.face_centroids).query(mesh.face_centroids)[1]]
-    return rand_index(back, labels), agreement(back, labels), parts.count / (labels.max() + 1)
+    return 1 - rand_index_error(back, labels), agreement(back, labels), parts.count / (labels.max() + 1)
 
 
 def main() -> int:

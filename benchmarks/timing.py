@@ -24,17 +24,19 @@ from pathlib import Path
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+import packages
+
+packages.need("numpy", "scipy", "trimesh")
 
 import numpy as np
 import scipy
-from label import load_mesh
+from meshes import load_mesh, refined
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from core import PRESETS, Parameters, decompose
 
+ROOT = packages.ROOT
 SIZES = (10_000, 36_000, 40_000, 160_000)
 TARGET_VERTICES, TARGET_SECONDS, TARGET_GIGABYTES = 36_000, 2.5, 1.0
 N_SOURCES = 140
@@ -82,31 +84,6 @@ def measure(size: int, preset: str, repeat: int) -> dict:
         "us per face": 1e6 * total / len(faces), "yardstick": yardstick, "of yardstick": total / yardstick,
         "peak GB": peak,
     }  # fmt: skip
-
-
-def refined(vertices: np.ndarray, faces: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
-    """Halve edges, longest first, until there are ``size`` vertices; the shape stays as it is."""
-    while len(vertices) < size:
-        edge = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1), axis=-1)  # (m, 3, 2)
-        edges, number = np.unique(edge.reshape(-1, 2), axis=0, return_inverse=True)
-        number = number.reshape(-1, 3)
-        length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
-        rank = np.empty(len(edges), np.int64)
-        rank[np.argsort(-length, kind="stable")] = np.arange(len(edges))
-        # The longest edge of both its faces: no face is cut twice in one round.
-        first = rank[number].argmin(axis=1)
-        longest = number[np.arange(len(faces)), first]
-        chosen = np.flatnonzero(np.bincount(longest, minlength=len(edges)) == np.bincount(number.ravel()))
-        chosen = chosen[np.argsort(rank[chosen])][: size - len(vertices)]
-        middle = np.full(len(edges), -1)
-        middle[chosen] = len(vertices) + np.arange(len(chosen))
-        vertices = np.concatenate([vertices, vertices[edges[chosen]].mean(axis=1)])
-        cut = middle[longest] >= 0
-        # Turn the corners so that the halved edge joins corners 0 and 1.
-        a, b, c = (faces[cut, (first[cut] + k) % 3] for k in range(3))
-        m = middle[longest[cut]]
-        faces = np.concatenate([faces[~cut], np.stack([a, m, c], 1), np.stack([m, b, c], 1)])
-    return vertices, faces
 
 
 def dijkstra_seconds(vertices: np.ndarray, faces: np.ndarray) -> float:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Learn from people which cuts to keep; writes core/cuts/perceptual/cut_model.npz.
 
-    python benchmarks/train.py MESHES [--out core/cuts/perceptual/cut_model.npz] [--rounds 2]
+    python3 benchmarks/train.py MESHES [--out core/cuts/perceptual/cut_model.npz] [--rounds 2]
 
 MESHES holds N.npz with ``vertices`` (n, 3), ``faces`` (m, 3) and ``human`` (people, m): the layout
 of the Princeton Segmentation Benchmark as converted for this project. Cuts are learned without
-their category or any other knowledge of what the mesh shows. Needs lightgbm (requirements.txt).
+their category or any other knowledge of what the mesh shows.
 
 The model first sees the states that merging with people's help goes through, then, round by round,
 those that its own merging reaches on meshes it was not trained on: a model that never met its own
@@ -15,16 +15,15 @@ mistakes does not know how to go on from them.
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from pathlib import Path
 
-import numpy as np
+import packages
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+packages.need("numpy", "scipy", "lightgbm")
 
 import lightgbm
+import numpy as np
 from people import Run, Subject, category_of, merge_and_record, mesh_numbers, prepare, varied
 
 from core.cuts.perceptual.boosted_trees import BoostedTrees
@@ -199,7 +198,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", type=Path)
     parser.add_argument("--out", type=Path,
-                        default=Path(__file__).resolve().parents[1] / "core" / "cuts" / "perceptual" / "cut_model.npz")
+                        default=packages.ROOT / "core" / "cuts" / "perceptual" / "cut_model.npz")
     parser.add_argument("--rounds", type=int, default=2)
     options = parser.parse_args()
     subjects = read_subjects(options.meshes)

@@ -7,7 +7,7 @@ import math
 import warnings
 from dataclasses import dataclass, field, fields, replace
 from functools import wraps
-from typing import Any
+from typing import Any, ClassVar
 
 from .errors import ParameterError
 from .sentence import Sentence
@@ -59,13 +59,13 @@ def _with_warnings(values: dict) -> dict:
 
 def _with_old_names(cls: type) -> type:
     """Class decorator: the class also takes names of version 0.1.0, with a DeprecationWarning for each."""
-    made = cls.__init__
+    made = cls.__init__  # type: ignore[misc]  # it is that of the class given, whatever inherits from it
 
     @wraps(made)
     def init(self: Any, *args: Any, **values: Any) -> None:
         made(self, *args, **_with_warnings(values))
 
-    cls.__init__ = init
+    cls.__init__ = init  # type: ignore[misc]
     return cls
 
 
@@ -75,7 +75,7 @@ class Parameters:
     """The parameters of a run, all optional; the description of each is in its field's metadata.
 
     The metadata of a field holds its "range", (lowest, highest), if it is a number, its "choices" if it is one of
-    several words, and always a "label" and a "description" for tooltips. ``Parameters.RANGES`` has all ranges by name.
+    several words, and always a "label" and a "description" for tooltips. ``RANGES`` has all ranges by name.
 
     Names of version 0.1.0 are understood as well, with a DeprecationWarning.
 
@@ -86,6 +86,8 @@ class Parameters:
     TypeError
         There is no parameter of a name.
     """
+
+    RANGES: ClassVar[dict[str, tuple[float, float]]]
 
     method: str = field(default=PERCEPTUAL, metadata={
         "choices": METHODS, "label": "Method",
@@ -137,7 +139,7 @@ class Parameters:
             limits = item.metadata.get("range")
             value = getattr(self, item.name)
             if limits is not None:
-                self._check_number(item.name, value, *limits, whole=item.type == "int")
+                self._check_number(item.name, value, *limits, whole=item.type == "int")  # type: ignore[misc]
             elif "choices" in item.metadata and value not in item.metadata["choices"]:
                 choices = ", ".join(item.metadata["choices"])
                 raise ParameterError(

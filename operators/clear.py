@@ -4,22 +4,10 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import armature, bridge, explode, graph_objects, reactions, store, uv_map
+from ..scene import graph_objects, results, store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
-from ..scene.outputs import attributes
 from ..viewport import shading
-
-
-def clear(obj):
-    """Remove parts, graph and stored result of an object; Object Mode."""
-    for user in reactions.users(obj.data):
-        explode.forget(user)
-        armature.remove_modifier(user)
-    uv_map.remove(obj.data)
-    attributes.remove_outputs(obj)
-    graph_objects.remove(obj)
-    obj.data.property_unset("reeb_parts")
 
 
 class REEB_PARTS_OT_clear(bpy.types.Operator):
@@ -30,21 +18,24 @@ class REEB_PARTS_OT_clear(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH" or not (store.has_result(obj.data) or graph_objects.find(obj)):
             cls.poll_message_set(rpt_("The active object has no parts"))
             return False
         return True
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         try:
-            objects = bridge.targets(context)
+            objects = targets.chosen_objects(context)
         except SceneError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         with object_mode(context):
             for obj in objects:
-                clear(obj)
+                results.clear(obj)
         shading.restore_colors(context)
         return {"FINISHED"}
+
+
+CLASSES = (REEB_PARTS_OT_clear,)

@@ -1,91 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cut a part where somebody points: along the contour of the field through a place of the graph or surface."""
+"""Cut a part where the user points: along the contour of the field through a place of the graph or surface."""
 
 import bpy
-import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import bridge, store
-from ..scene.errors import SceneError
+from ..scene.store import Stored
 from ..viewport import pointing
+from ..viewport.knife import Knife, cut_at
+from ..viewport.pointing import Target
 from ..viewport.view_tool import ViewTool
-from . import edit
-from .parts import PartOperator, make_active
-
-
-class Knife:
-    """The contours of an object's field, ready to be asked for; read once."""
-
-    def __init__(self, obj, model):
-        mesh = obj.data
-        self.model = model
-        self.edges = bridge.edge_ends(mesh)
-        self.corner_edge, (_, self.corner_face) = bridge.corner_edges(mesh), bridge.face_corners(mesh)
-        self.vertices = bridge.shown_points(obj).astype(np.float64)
-
-    def contour(self, target):
-        """The contour that a target asks for: all contours of its level in its part, and which one it is.
-
-        Returns
-        -------
-        contours : core.contours.Contours
-        chosen : int
-            -1 if there is none.
-        """
-        from ..core.graph.contours import contours
-
-        inside = self.model.numbers == self.model.number(target)
-        found = contours(self.model.stored.decomposition.field, target.level, self.vertices, self.edges,
-                         self.corner_edge, self.corner_face, inside)
-        return found, found.around(target.location) if target.on_graph else found.through(target.face)
-
-    def ring(self, target) -> np.ndarray:
-        """The lines of the contour, (s, 2, 3) float64 in coordinates of the mesh."""
-        found, chosen = self.contour(target)
-        return found.segments[found.label == chosen]
-
-    def sides(self, target, face_graph):
-        """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off.
-
-        face_graph : what bridge.face_graph says of the object.
-        """
-        from ..core.graph.contours import contour_sides
-        from ..core.surface.labels import FaceGraph
-
-        found, chosen = self.contour(target)
-        if chosen < 0:
-            return None
-        area, pairs, length = face_graph
-        inside = self.model.numbers == self.model.number(target)
-        crossed = np.zeros(len(inside), bool)
-        crossed[found.face[found.label == chosen]] = True
-        graph = FaceGraph(len(inside), pairs, length, area)
-        side = contour_sides(graph, inside, self.model.face_value >= target.level, crossed)
-        if side is not None and area[side].sum() > area[inside & ~side].sum():
-            side = inside & ~side
-        return side
-
-
-def cut_at(context, obj, model, target) -> str:
-    """Cut the part that a target lies in; what happened, in a sentence.
-
-    Raises
-    ------
-    SceneError
-        The part is locked, or nothing would be cut off.
-    """
-    number = model.number(target)
-    name = store.part_name(obj.data, number)
-    edit.check_unlocked(obj, [number])
-    graph = bridge.face_graph(obj)
-    side = Knife(obj, model).sides(target, graph)
-    if side is None:
-        raise SceneError(rpt_("Nothing of {name} would be cut off there. Point at another place.").format(name=name))
-    new = edit.free_number(obj.data, model.stored)
-    edit.assign_faces(context, obj, model.stored, np.where(side, new, model.numbers), graph)
-    make_active(obj.data, new)
-    return rpt_("{new} was cut from {name}").format(new=store.part_name(obj.data, new), name=name)
+from .parts import PartOperator
 
 
 class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):
@@ -103,20 +28,20 @@ class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):
         description="The location is on an arc of the graph; without it, on the surface",
     )
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         model = pointing.Model(obj)
         return cut_at(context, obj, model, model.at(obj, self.location, self.on_graph))
 
-    def hint(self):
+    def hint(self) -> str:
         return rpt_("Click the graph or the surface to cut the part there    Enter, Esc: end")
 
-    def begin(self, context, obj):
+    def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         self.knife = Knife(obj, self.model)
 
-    def hover(self, context, target, event):
+    def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
         self.preview.lines = None if target is None else self.knife.ring(target)
 
-    def press(self, context, target, event):
+    def press(self, context: bpy.types.Context, target: Target, event: bpy.types.Event) -> set[str]:
         obj = context.view_layer.objects.active
         self.location, self.on_graph = obj.matrix_world @ Vector(target.location), target.on_graph
         self.report({"INFO"}, cut_at(context, obj, self.model, target))

@@ -1,102 +1,32 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Decompose: read, compute, write. The scene is untouched until the result exists."""
 
-from dataclasses import dataclass
-
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.errors import Cancelled, ReebError
-from ..scene import bridge, compute, defaults, graph_objects, jobs, notes, store
+from ..core.errors import ReebError
+from ..core.parameters import Parameters
+from ..scene import bridge, defaults, jobs, redraw, targets
 from ..scene.bridge import Shape
+from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
-from ..scene.outputs import attributes
-from ..scene.properties import (
+from ..scene.results import check_unchanged, write_result
+from ..scene.settings import (
     OUTPUTS,
     OVERLAY,
     PARAMETERS,
+    FormerArguments,
     OutputProperties,
     OverlayProperties,
     ParameterProperties,
+    take_over_former_names,
 )
 from ..viewport import shading
 
 
-@dataclass(frozen=True, eq=False)
-class Outcome:
-    """What became of one object: a decomposition, or the sentence why there is none."""
-
-    object_name: str
-    shape: Shape
-    decomposition: object = None
-    problem: str = ""  # a Sentence
-    seconds: float = 0.0
-
-
-def compute_all(shapes, parameters, progress) -> list[Outcome]:
-    """Decompose shapes one after the other; no Blender data is touched.
-
-    Parameters
-    ----------
-    shapes : list of (object name, Shape)
-    parameters : core.Parameters
-    progress : callable(stage, share, name of the object if there are several)
-        What it raises ends everything.
-    """
-    outcomes = []
-    for index, (name, shape) in enumerate(shapes):
-        of = (name,) if len(shapes) > 1 else ()
-
-        def step(stage, share, index=index, of=of):
-            progress(stage, (index + share) / len(shapes), *of)
-
-        try:
-            result = compute.decomposition(shape, parameters, step)
-        except Cancelled:
-            raise
-        except ReebError as error:
-            outcomes.append(Outcome(name, shape, problem=error.args[0]))
-        else:
-            outcomes.append(Outcome(name, shape, result, seconds=sum(result.seconds.values())))
-    return outcomes
-
-
-def write_result(context, obj, outcome: Outcome, settings):
-    """Write one object's parts and graph; Object Mode.
-
-    Parameters
-    ----------
-    context : bpy.types.Context
-    obj : bpy.types.Object
-    outcome : Outcome
-        With a decomposition.
-    settings
-        Has the values of OutputProperties and OverlayProperties.
-    """
-    mesh, decomposition = obj.data, outcome.decomposition
-    parameters = decomposition.parameters
-    stored = store.succeed(mesh, decomposition)
-    numbered = stored.shown_parts()
-    result = mesh.reeb_parts
-    with store.quiet():
-        store.save(mesh, stored)
-        result.object_name = obj.name
-        result.stretch = outcome.shape.stretch.ravel().tolist()
-        result.seconds = outcome.seconds
-        notes.keep(result, decomposition.notes + outcome.shape.notes)
-        result.detail, result.by_number = parameters.detail, parameters.n_parts > 0
-        attributes.write_outputs(obj, numbered, decomposition.field, settings)
-    store.mark_pins(mesh, stored)
-    if settings.graph:
-        graph_objects.draw_graph(context, obj, decomposition.graph, outcome.shape.stretch, settings)
-        graph_objects.update_parts(obj, numbered)
-    else:
-        graph_objects.remove(obj)
-
-
 class REEB_PARTS_OT_decompose(
-    bpy.types.Operator, ParameterProperties, OutputProperties, OverlayProperties
+    bpy.types.Operator, FormerArguments, ParameterProperties, OutputProperties, OverlayProperties
 ):
     """Cut the selected mesh into the parts a person would name, and show its Reeb graph"""
 
@@ -105,7 +35,7 @@ class REEB_PARTS_OT_decompose(
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH":
             cls.poll_message_set(rpt_("Select a mesh first"))
@@ -116,8 +46,9 @@ class REEB_PARTS_OT_decompose(
             return False
         return True
 
-    def invoke(self, context, event):
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """From the panel: with the panel's settings, in a thread, so that the window stays alive."""
+        self._take_over_former_names()
         defaults.adopt(context.scene)
         settings = context.scene.reeb_parts
         for name in (*PARAMETERS, *OUTPUTS, *OVERLAY):
@@ -125,8 +56,9 @@ class REEB_PARTS_OT_decompose(
                 setattr(self, name, getattr(settings, name))
         return self._start(context)
 
-    def execute(self, context):
+    def execute(self, context: bpy.types.Context) -> set[str]:
         """From scripts and the redo panel: all at once; what a script leaves out is as in the preferences."""
+        self._take_over_former_names()
         defaults.complete(self)
         try:
             parameters, shapes = self._read(context)
@@ -136,7 +68,11 @@ class REEB_PARTS_OT_decompose(
             return {"CANCELLED"}
         return self._write(context, outcomes)
 
-    def draw(self, context):
+    def _take_over_former_names(self) -> None:
+        for note in take_over_former_names(self.properties):
+            self.report({"INFO"}, note)
+
+    def draw(self, context: bpy.types.Context) -> None:
         """The redo panel: what changes the parts first."""
         self.layout.use_property_split = True
         for names in (PARAMETERS, OUTPUTS, OVERLAY):
@@ -144,13 +80,13 @@ class REEB_PARTS_OT_decompose(
             for name in names:
                 column.prop(self, name)
 
-    def _read(self, context):
+    def _read(self, context: bpy.types.Context) -> tuple[Parameters, list[tuple[str, Shape]]]:
         """The parameters and the shapes; raises SceneError or ReebError."""
         load_core()
         parameters = self.parameters()
-        return parameters, [(obj.name, bridge.read_shape(obj)) for obj in bridge.targets(context)]
+        return parameters, [(obj.name, bridge.read_shape(obj)) for obj in targets.chosen_objects(context)]
 
-    def _write(self, context, outcomes):
+    def _write(self, context: bpy.types.Context, outcomes: list[Outcome]) -> set[str]:
         """Write what was computed and report on it."""
         done = [outcome for outcome in outcomes if outcome.decomposition is not None]
         if not done:
@@ -163,7 +99,7 @@ class REEB_PARTS_OT_decompose(
             self._report(outcome, len(outcomes) > 1)
         return {"FINISHED"}
 
-    def _report(self, outcome, several):
+    def _report(self, outcome: Outcome, several: bool) -> None:
         name = f"{outcome.object_name}: " if several else ""
         if outcome.decomposition is None:
             self.report({"WARNING"}, name + translated(outcome.problem))
@@ -176,7 +112,7 @@ class REEB_PARTS_OT_decompose(
 
     # In the window
 
-    def _start(self, context):
+    def _start(self, context: bpy.types.Context) -> set[str]:
         try:
             parameters, shapes = self._read(context)
             self._job = jobs.Job(lambda progress: compute_all(shapes, parameters, progress))
@@ -192,7 +128,7 @@ class REEB_PARTS_OT_decompose(
         self._job.start()
         return {"RUNNING_MODAL"}
 
-    def modal(self, context, event):
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Watch the thread; every other event goes its usual way."""
         if event.type == "ESC" and event.value == "PRESS":
             self._job.cancel()
@@ -200,19 +136,19 @@ class REEB_PARTS_OT_decompose(
             self._show_progress(context)
         if self._job.running and not self._job.cancelled:
             return {"PASS_THROUGH" if event.type != "ESC" else "RUNNING_MODAL"}
-        # A cancelled thread ends by itself at its next step, and nobody looks at what it leaves.
+        # A cancelled thread ends by itself at its next step, and what it returns is not used.
         self._stop_watching(context)
         if self._job.cancelled:
             self.report({"INFO"}, rpt_("Cancelled; nothing was changed"))
             return {"CANCELLED"}
         return self._finish(context)
 
-    def cancel(self, context):
+    def cancel(self, context: bpy.types.Context) -> None:
         """Blender closes the window or opens another file."""
         self._job.cancel()
         self._stop_watching(context)
 
-    def _finish(self, context):
+    def _finish(self, context: bpy.types.Context) -> set[str]:
         error = self._job.error
         if isinstance(error, (SceneError, ReebError)):
             self.report({"ERROR"}, translated(error))
@@ -220,7 +156,7 @@ class REEB_PARTS_OT_decompose(
         if error is not None:
             raise error
         try:
-            self._check_unchanged()
+            check_unchanged(self._digests)
         except SceneError as problem:
             self.report({"ERROR"}, str(problem))
             return {"CANCELLED"}
@@ -228,32 +164,21 @@ class REEB_PARTS_OT_decompose(
             shading.show_colors(context)
         return self._write(context, self._job.result)
 
-    def _check_unchanged(self):
-        """Raise SceneError if an object was edited while it was being computed."""
-        for name, digest in self._digests.items():
-            obj = bpy.data.objects.get(name)
-            if obj is None or obj.type != "MESH":
-                raise SceneError(rpt_("{name} is gone; its parts were computed in vain.").format(name=name))
-            bridge.check_object(obj)
-            if bridge.read_shape(obj).digest != digest:
-                raise SceneError(
-                    rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=name))
-
-    def _show_progress(self, context):
+    def _show_progress(self, context: bpy.types.Context) -> None:
         text = rpt_("Reeb Parts: {stage} ({share:.0%})    Esc: cancel").format(
             stage=self._job.text, share=self._job.share)
         if text != self._shown:
             self._shown = text
             context.window_manager.progress_update(round(100 * self._job.share))
             context.workspace.status_text_set(text)
-            _redraw_sidebars(context)
+            redraw.sidebars()
 
-    def _stop_watching(self, context):
+    def _stop_watching(self, context: bpy.types.Context) -> None:
         jobs.current = None
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)
-        _redraw_sidebars(context)
+        redraw.sidebars()
 
 
 class REEB_PARTS_OT_cancel(bpy.types.Operator):
@@ -264,21 +189,15 @@ class REEB_PARTS_OT_cancel(bpy.types.Operator):
     bl_options = {"INTERNAL"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         if jobs.current is None:
             cls.poll_message_set(rpt_("Nothing is being computed"))
             return False
         return True
 
-    def execute(self, context):
-        jobs.current.cancel()
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        jobs.cancel()
         return {"FINISHED"}
 
 
-def _redraw_sidebars(context):
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                for region in area.regions:
-                    if region.type == "UI":
-                        region.tag_redraw()
+CLASSES = (REEB_PARTS_OT_decompose, REEB_PARTS_OT_cancel)

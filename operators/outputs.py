@@ -1,31 +1,40 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seams, face sets and materials of the parts, each with one click, and taken back with another."""
 
+from types import ModuleType
+
 import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import reactions, store
-from ..scene.outputs import attributes
+from ..scene import outputs, store, targets
+from ..scene.outputs import face_sets, materials, seams
+from ..scene.store import Stored
 from .parts import PartOperator
 
 
 class OutputOperator(PartOperator):
-    """For operators that write one thing more to the mesh, which then follows the parts until it is taken back."""
+    """For operators that write one thing more to the mesh, which then follows the parts until it is taken back.
+
+    A class that inherits gives ``output``: the module of scene.outputs, and the sentences said of it when it was
+    written and when it was taken back.
+    """
+
+    output: tuple[ModuleType, str, str]
 
     remove: bpy.props.BoolProperty(
         name="Take back", options={"SKIP_SAVE"},
         description="Take them away again; what was there before is back",
     )
 
-    def work(self, context, obj, stored):
-        add, remove, done, undone = self.steps
-        obj = reactions.users(obj.data)[0]
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
+        output, done, undone = self.output
+        obj = targets.users(obj.data)[0]
         with store.quiet():
-            (remove if self.remove else add)(obj)
+            (output.remove if self.remove else output.add)(obj)
             if not self.remove:
                 numbered = stored.shown_parts()
-                attributes.update_outputs(obj, numbered, numbered.candidate_numbers)
+                outputs.update_outputs(obj, numbered, numbered.candidate_numbers)
         obj.data.update()
         return rpt_(undone) if self.remove else rpt_(done).format(n=len(obj.data.reeb_parts.parts))
 
@@ -35,8 +44,7 @@ class REEB_PARTS_OT_seams(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.seams"
     bl_label = "Mark Seams between Parts"
-    steps = (attributes.add_seams, attributes.remove_seams,
-             n_("Seams around {n} parts"), n_("The seams are yours alone again"))
+    output = (seams, n_("Seams around {n} parts"), n_("The seams are yours alone again"))
 
 
 class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
@@ -44,8 +52,7 @@ class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.face_sets"
     bl_label = "Make Face Sets of Parts"
-    steps = (attributes.add_face_sets, attributes.remove_face_sets,
-             n_("{n} parts are face sets"), n_("The face sets are yours alone again"))
+    output = (face_sets, n_("{n} parts are face sets"), n_("The face sets are yours alone again"))
 
 
 class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
@@ -53,8 +60,7 @@ class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.materials"
     bl_label = "Give Each Part a Material"
-    steps = (attributes.add_materials, attributes.remove_materials,
-             n_("{n} parts have materials"), n_("The materials are yours alone again"))
+    output = (materials, n_("{n} parts have materials"), n_("The materials are yours alone again"))
 
 
 CLASSES = (REEB_PARTS_OT_seams, REEB_PARTS_OT_face_sets, REEB_PARTS_OT_materials)

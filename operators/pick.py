@@ -5,10 +5,13 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import store
+from ..scene import part_names, redraw
+from ..scene.part_list import choose, toggle
+from ..scene.store import Stored
 from ..viewport import pointing
+from ..viewport.pointing import Target
 from ..viewport.view_tool import ViewTool
-from .parts import PartOperator, choose, toggle
+from .parts import PartOperator
 
 
 class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):
@@ -24,36 +27,35 @@ class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):
         name="Extend", description="Add the part to those that are chosen, or take it away again",
     )
 
-    def work(self, context, obj, stored):
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         model = pointing.Model(obj)
         self._choose(obj, model.number(model.at(obj, self.location, False)), self.extend)
 
-    def hint(self):
+    def hint(self) -> str:
         return rpt_("Click a part or the graph to choose it    Shift: several    Enter, Esc: end")
 
-    def hover(self, context, target, event):
+    def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
         text = self.hint()
         if target is not None:
             mesh = context.view_layer.objects.active.data
-            text = f"{store.part_name(mesh, self.model.number(target))}    {text}"
+            text = f"{part_names.part_name(mesh, self.model.number(target))}    {text}"
         context.workspace.status_text_set(text)
 
-    def press(self, context, target, event):
+    def press(self, context: bpy.types.Context, target: Target, event: bpy.types.Event) -> None:
         obj = context.view_layer.objects.active
         self.location, self.extend = obj.matrix_world @ Vector(target.location), event.shift
         self._choose(obj, self.model.number(target), event.shift)
-        for area in context.screen.areas:
-            area.tag_redraw()
+        redraw.viewports()
 
-    def give_up(self, context):
+    def give_up(self, context: bpy.types.Context) -> set[str]:
         # What was chosen is chosen, and can be undone.
         return {"FINISHED"}
 
-    def _choose(self, obj, number, extend):
+    def _choose(self, obj: bpy.types.Object, number: int, extend: bool) -> None:
         if extend:
-            toggle(obj, number)
+            toggle(obj.data, number)
         else:
-            choose(obj, [number])
+            choose(obj.data, [number])
 
 
 CLASSES = (REEB_PARTS_OT_pick,)

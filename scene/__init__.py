@@ -1,2 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads and writes Blender's data: the stored result, its outputs, and what is made of parts."""
+"""Blender's data, read and written: meshes as arrays, results stored with their meshes, and what is made of them."""
+
+from __future__ import annotations
+
+from . import compute, defaults, mesh_arrays, schema, settings, store, watch
+from .outputs import vertex_groups
+
+
+def register() -> None:
+    settings.register()
+    schema.register()
+    defaults.register()
+    watch.register()
+
+
+def unregister() -> None:
+    watch.unregister()
+    defaults.unregister()
+    schema.unregister()
+    settings.unregister()
+    for module in (mesh_arrays, vertex_groups, compute, store):
+        module.forget()

@@ -1,35 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An armature with a bone for each part, as a start for a rig; the parts' vertex groups are its weights."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import bpy
 import numpy as np
-from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
-from ..operators.parts import PartOperator
-from . import bridge, pieces, reactions, store
-from .outputs import attributes
+from ..core.result.decomposition import Decomposition
+from ..core.result.numbering import NumberedParts
+from . import bridge, mesh_arrays, outputs, part_names, piece_objects, store, targets
+from .selection import nothing_selected
+from .store import Stored
+
+if TYPE_CHECKING:
+    from ..core.uses.bones import Bones
 
 NAME = "Reeb Parts Armature"
 ROLE = "reeb_parts_role"  # on the armature, "armature"
 MADE = "reeb_parts_looks"  # on the armature: what it was like when it was made
 
 
-def remove_modifier(obj):
+def remove_modifier(obj: bpy.types.Object) -> None:
     """Take our modifier off an object; the armature stays."""
     modifier = obj.modifiers.get(NAME)
     if modifier is not None and modifier.type == "ARMATURE":
         obj.modifiers.remove(modifier)
 
 
-def make(context, obj, stored, deform):
-    """Make an armature in place of an earlier one that nobody has worked on; Object Mode.
+def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, deform: bool) -> bpy.types.Object:
+    """Make an armature in place of an earlier one, unless the user has worked on that one; Object Mode.
 
     Parameters
     ----------
     context : bpy.types.Context
     obj : bpy.types.Object
-    stored : store.Stored
+    stored : Stored
     deform : bool
         Give the object a modifier, so that the bones move it.
 
@@ -39,9 +47,9 @@ def make(context, obj, stored, deform):
     """
     numbered = stored.shown_parts()
     place, bones = _bones(obj, stored.decomposition, numbered)
-    names = [store.part_name(obj.data, number) for number in numbered.numbers.tolist()]
+    names = [part_names.part_name(obj.data, number) for number in numbered.numbers.tolist()]
     _write_groups(obj, numbered)
-    collection = pieces.make_collection(context, obj)
+    collection = piece_objects.make_collection(context, obj)
     _remove_earlier(collection)
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
     rig = bpy.data.objects.new(data.name, data)
@@ -58,7 +66,7 @@ def make(context, obj, stored, deform):
     return rig
 
 
-def _bones(obj, decomposition, numbered):
+def _bones(obj: bpy.types.Object, decomposition: Decomposition, numbered: NumberedParts) -> tuple[Matrix, Bones]:
     """Where the armature is in the world, and the bones in its coordinates."""
     from ..core.uses.bones import part_bones  # imports SciPy
 
@@ -66,39 +74,27 @@ def _bones(obj, decomposition, numbered):
     world = obj.matrix_world
     place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
     turn = np.array(place.inverted() @ world, np.float64)
-    points = bridge.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3]
-    stretch = store.stretch_of(mesh)
-    line = decomposition.graph.point_position @ np.linalg.pinv(stretch).T @ turn[:3, :3].T + turn[:3, 3]
-    nodes = decomposition.graph.node_position @ np.linalg.pinv(stretch).T @ turn[:3, :3].T + turn[:3, 3]
-    center = bridge.face_means(mesh, points)
-    height = bridge.face_means(mesh, np.nan_to_num(decomposition.field))
-    edges, sides = _cut_edges(mesh, parts.labels)
-    ends = points[edges]
+    points = mesh_arrays.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3]
+    back = turn[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
+    line = decomposition.graph.point_position @ back.T + turn[:3, 3]
+    nodes = decomposition.graph.node_position @ back.T + turn[:3, 3]
     bones = part_bones(
-        parts.labels, bridge.face_graph(obj)[0], center, height,
-        sides, ends.mean(axis=1), np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1),
-        np.concatenate([line, nodes]), np.concatenate([parts.point_part, parts.node_part]),
-    )  # fmt: skip
+        mesh_arrays.corner_table(mesh, points), parts.labels, bridge.face_graph(obj)[0].area,
+        np.nan_to_num(decomposition.field), np.concatenate([line, nodes]),
+        np.concatenate([parts.point_part, parts.node_part]))
     return place, bones
 
 
-def _cut_edges(mesh, labels):
-    """Vertices of the edges on cuts, (e, 2), and the parts on their sides, (e, 2)."""
-    low, high = bridge.edge_labels(mesh, labels)
-    cut = low < high
-    return bridge.edge_ends(mesh)[cut], np.stack([low, high], axis=1)[cut]
-
-
-def _write_groups(obj, numbered):
+def _write_groups(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     """The bones find their vertices by the names of groups: make these unless they are there."""
     result = obj.data.reeb_parts
     if not result.has_groups:
         result.has_groups = True
         with store.quiet():
-            attributes.update_outputs(reactions.users(obj.data)[0], numbered)
+            outputs.update_outputs(targets.users(obj.data)[0], numbered)
 
 
-def _remove_earlier(collection):
+def _remove_earlier(collection: bpy.types.Collection) -> None:
     for rig in list(collection.objects):
         if rig.get(ROLE) != "armature":
             continue
@@ -111,30 +107,25 @@ def _remove_earlier(collection):
             del rig[ROLE], rig[MADE]
 
 
-def _add_bones(context, rig, bones, names):
+def _add_bones(context: bpy.types.Context, rig: bpy.types.Object, bones: Bones, names: list[str]) -> None:
     """Write the bones, in the Edit Mode that they can only be written in."""
     layer = context.view_layer
-    active, selected = layer.objects.active, list(layer.objects.selected)
-    for other in selected:
-        other.select_set(False)
-    layer.objects.active = rig
-    with context.temp_override(active_object=rig, object=rig):
-        bpy.ops.object.mode_set(mode="EDIT")
-        made = [rig.data.edit_bones.new(name) for name in names]
-        for index, bone in enumerate(made):
-            bone.head, bone.tail = Vector(bones.head[index]), Vector(bones.tail[index])
-        for index, bone in enumerate(made):
-            if bones.parent[index] >= 0:
-                bone.parent = made[bones.parent[index]]
-                bone.use_connect = bool(bones.connected[index])
-        bpy.ops.object.mode_set(mode="OBJECT")
-    for other in selected:
-        other.select_set(True)
-    layer.objects.active = active
+    with nothing_selected(layer):
+        layer.objects.active = rig
+        with context.temp_override(active_object=rig, object=rig):
+            bpy.ops.object.mode_set(mode="EDIT")
+            made = [rig.data.edit_bones.new(name) for name in names]
+            for index, bone in enumerate(made):
+                bone.head, bone.tail = Vector(bones.head[index]), Vector(bones.tail[index])
+            for index, bone in enumerate(made):
+                if bones.parent[index] >= 0:
+                    bone.parent = made[bones.parent[index]]
+                    bone.use_connect = bool(bones.connected[index])
+            bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def _looks(rig) -> str:
-    """Differs once somebody has worked on the armature."""
+def _looks(rig: bpy.types.Object) -> str:
+    """A text that differs once the user has worked on the armature."""
     bones = [(bone.name, bone.parent.name if bone.parent else "",
               [round(x, 5) for x in (*bone.head_local, *bone.tail_local)]) for bone in rig.data.bones]
     place = [round(value, 5) for row in rig.matrix_basis for value in row]
@@ -142,22 +133,3 @@ def _looks(rig) -> str:
     posed = [bone.name for bone in rig.pose.bones if len(bone.constraints) or bone.matrix_basis != Matrix()] \
         if rig.pose else []
     return str([rig.name, place, animated, posed, bones])
-
-
-class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
-    """Make an armature with a bone for each part, along the part's centre line, as a start for a rig"""
-
-    bl_idname = "reeb_parts.armature"
-    bl_label = "Make Armature from Parts"
-
-    deform: bpy.props.BoolProperty(
-        name="Move the mesh", default=False,
-        description="Add an Armature modifier, so that posing the bones moves the parts",
-    )
-
-    def work(self, context, obj, stored):
-        rig = make(context, obj, stored, self.deform)
-        return rpt_("{name} has {n} bones").format(name=rig.name, n=len(rig.data.bones))
-
-
-CLASSES = (REEB_PARTS_OT_armature,)

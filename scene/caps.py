@@ -1,18 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Caps: faces that close what a cut has opened."""
 
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
 import bmesh
+import bpy
 import numpy as np
+from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
 from mathutils.geometry import tessellate_polygon
 
 #: Face attribute: 1 on a cap.
 CAP = "reeb_cap"
 
+Pairs = dict[BMVert, set[BMVert]]  # what each vertex is paired with
+Triple = tuple[int, int, int]  # corners of a triangle, by their place around the hole
+
 # A loop that leaves its plane by less than this share of its size is filled with one face.
 _FLAT = 1e-3
 
 
-def close_cuts(mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray) -> tuple[int, int]:
+def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray) -> tuple[int, int]:
     """Fill the holes that a cut has left; borders that were there before stay open.
 
     A cut that ends on a border makes one hole together with a stretch of it: that is filled as a whole.
@@ -41,14 +50,14 @@ def close_cuts(mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray
         bm.edges.ensure_lookup_table()
         edges = [edge for i in np.flatnonzero(opened).tolist() if (edge := bm.edges[i]).is_boundary]
         bm.verts.ensure_lookup_table()
-        meeting = {bm.verts[i] for i in np.flatnonzero(meeting).tolist()}
-        joined = _both_ways((bm.verts[a], bm.verts[b]) for a, b in joined.tolist())
+        meets = {bm.verts[i] for i in np.flatnonzero(meeting).tolist()}
+        pairs = _both_ways((bm.verts[a], bm.verts[b]) for a, b in joined.tolist())
         holes, left = _holes(edges)
         if not holes:
             return 0, left
         layer = bm.faces.layers.int.get(CAP) or bm.faces.layers.int.new(CAP)
-        sheets = [sheet for hole in holes for sheet in _sheets(bm, hole, meeting, set(edges))]
-        made = [face for sheet in sheets for face in _fill(bm, sheet, joined)]
+        sheets = [sheet for hole in holes for sheet in _sheets(bm, hole, meets, set(edges))]
+        made = [face for sheet in sheets for face in _fill(bm, sheet, pairs)]
         for face in made:
             face[layer] = 1
         bm.to_mesh(mesh)
@@ -57,16 +66,16 @@ def close_cuts(mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray
     return len(holes), left
 
 
-def _both_ways(pairs) -> dict:
+def _both_ways(pairs: Iterable[tuple[BMVert, BMVert]]) -> Pairs:
     """What each is paired with."""
-    found = {}
+    found: Pairs = {}
     for a, b in pairs:
         found.setdefault(a, set()).add(b)
         found.setdefault(b, set()).add(a)
     return found
 
 
-def _holes(edges):
+def _holes(edges: list[BMEdge]) -> tuple[list[list[BMVert]], int]:
     """Vertices around each hole with some of the edges, so that a face on them looks outwards."""
     done, holes, left = set(), [], 0
     for edge in edges:
@@ -82,7 +91,7 @@ def _holes(edges):
     return holes, left
 
 
-def _around(start):
+def _around(start: BMEdge) -> list[tuple[BMEdge, BMVert]] | None:
     """Edges of a hole in order, each with the vertex it leads to; None if faces do not lie in one sheet."""
     loop = start.link_loops[0]
     edge, vertex = start, loop.vert
@@ -98,7 +107,7 @@ def _around(start):
         vertex = edge.other_vert(vertex)
 
 
-def _next_border(loop, vertex):
+def _next_border(loop: BMLoop, vertex: BMVert) -> BMLoop | None:
     """Turn around a vertex from one border edge to the other of the same sheet of faces."""
     while True:
         loop = loop.link_loop_prev if loop.vert == vertex else loop.link_loop_next
@@ -109,9 +118,11 @@ def _next_border(loop, vertex):
         loop = loop.link_loop_radial_next
 
 
-def _simple(vertices):
+def _simple(vertices: list[BMVert]) -> list[list[BMVert]]:
     """Take a closed walk apart into closed walks that meet no vertex twice."""
-    walks, path, place = [], [], {}
+    walks: list[list[BMVert]] = []
+    path: list[BMVert] = []
+    place: dict[BMVert, int] = {}
     for vertex in vertices:
         if vertex in place:
             at = place[vertex]
@@ -124,43 +135,61 @@ def _simple(vertices):
     return [walk for walk in [*walks, path] if len(walk) > 2]
 
 
-def _sheets(bm, hole, meeting, opened):
+def _sheets(bm: BMesh, hole: list[BMVert], meeting: set[BMVert], opened: set[BMEdge]) -> list[list[BMVert]]:
     """Take a hole apart where cuts meet: a closed walk for each stretch, and one for what is between them."""
     at = [i for i, vertex in enumerate(hole) if vertex in meeting]
-    if len(at) < 2 or any(_edge(a, b) not in opened for a, b in zip(hole, [*hole[1:], hole[0]], strict=True)):
-        return [hole]  # along a border nobody is on the other side
-    hole = hole[at[0] :] + hole[: at[0] + 1]
-    at = [i - at[0] for i in at] + [len(hole) - 1]
-    stretches = [hole[i : j + 1] for i, j in zip(at, at[1:], strict=False)]
-    if len(stretches) == 2:
-        if any(_is_straight(stretch) for stretch in stretches):
-            return [hole[:-1]]
-        middle = _between(bm, (hole[0], stretches[1][0]), (0.5, 0.5))
-        return [[*stretch, middle] for stretch in stretches]
+    if len(at) < 2 or _has_border(hole, opened):
+        return [hole]
+    # Round the hole from the first place where cuts meet, back to it.
+    around = hole[at[0] :] + hole[: at[0] + 1]
+    at = [i - at[0] for i in at] + [len(hole)]
+    stretches = [around[i : j + 1] for i, j in zip(at, at[1:], strict=False)]
+    return _two_sheets(bm, stretches) if len(stretches) == 2 else _many_sheets(bm, stretches)
+
+
+def _has_border(hole: list[BMVert], opened: set[BMEdge]) -> bool:
+    """Whether an edge of the hole was a border before the cut: no other piece lies on its other side."""
+    return any(_edge(a, b) not in opened for a, b in zip(hole, [*hole[1:], hole[0]], strict=True))
+
+
+def _two_sheets(bm: BMesh, stretches: list[list[BMVert]]) -> list[list[BMVert]]:
+    """One closed walk for each of two stretches; for both together if one of them is the straight line."""
+    if any(_is_straight(stretch) for stretch in stretches):
+        return [[vertex for stretch in stretches for vertex in stretch[:-1]]]
+    middle = _half_way(bm, stretches[0])
+    return [[*stretch, middle] for stretch in stretches]
+
+
+def _many_sheets(bm: BMesh, stretches: list[list[BMVert]]) -> list[list[BMVert]]:
+    """A closed walk for each stretch that is not straight, and one along the straight lines between all ends."""
     sheets, inner = [], []
     for stretch in stretches:
         if _is_straight(stretch):
             inner += stretch[:-1]
         else:
-            # A vertex half way, so that there is no second edge between the ends.
-            middle = _between(bm, (stretch[0], stretch[-1]), (0.5, 0.5))
+            middle = _half_way(bm, stretch)
             sheets.append([*stretch, middle])
             inner += [stretch[0], middle]
     return [*sheets, inner]
 
 
-def _is_straight(stretch):
+def _half_way(bm: BMesh, stretch: list[BMVert]) -> BMVert:
+    """A new vertex half way between the ends of a stretch, so that no second edge joins the ends."""
+    return _between(bm, (stretch[0], stretch[-1]), np.array([0.5, 0.5]))
+
+
+def _is_straight(stretch: list[BMVert]) -> bool:
     points = np.array([vertex.co[:] for vertex in stretch], np.float64) - stretch[0].co
     way = points[-1]
     aside = np.cross(points[1:-1], way)
     return bool((np.linalg.norm(aside, axis=1) <= _FLAT * (way @ way)).all())
 
 
-def _edge(vertex, other):
+def _edge(vertex: BMVert, other: BMVert) -> BMEdge:
     return next(edge for edge in vertex.link_edges if edge.other_vert(vertex) == other)
 
 
-def _fill(bm, hole, joined):
+def _fill(bm: BMesh, hole: list[BMVert], joined: Pairs) -> list[BMFace]:
     """Faces on a hole; never an edge with three faces.
 
     One face if the hole is flat; a fan around its middle if that can be seen from all of the rim; else
@@ -168,93 +197,116 @@ def _fill(bm, hole, joined):
     """
     beside = _edge(hole[0], hole[1]).link_loops[0]
     corners = {vertex: _border_corner(vertex, beside) for vertex in hole}
-    points = np.array([vertex.co[:] for vertex in hole], np.float64)
-    if _is_flat(points) and bm.faces.get(hole) is None:
-        polygons = [hole]
-    else:
-        polygons = None if _is_star(points) else _triangles(hole, points, joined)
-        polygons = polygons or _fan(bm, hole)
-    faces = [bm.faces.new(polygon) for polygon in polygons]
+    faces = [bm.faces.new(polygon) for polygon in _polygons(bm, hole, joined)]
+    layers = [*bm.loops.layers.color.values(), *bm.loops.layers.float_color.values()]
     for face in faces:
         face.material_index = beside.face.material_index
-        for layers in (bm.loops.layers.color, bm.loops.layers.float_color):
-            for layer in layers.values():
-                for loop in face.loops:
-                    loop[layer] = corners.get(loop.vert, beside)[layer]
+        for loop in face.loops:
+            for layer in layers:
+                loop[layer] = corners.get(loop.vert, beside)[layer]
     return faces
 
 
-def _border_corner(vertex, otherwise):
+def _polygons(bm: BMesh, hole: list[BMVert], joined: Pairs) -> list[tuple[BMVert, ...]]:
+    """The corners of the faces that fill a hole."""
+    points = np.array([vertex.co[:] for vertex in hole], np.float64)
+    if _is_flat(points) and bm.faces.get(hole) is None:
+        return [tuple(hole)]
+    triangles = None if _is_star(points) else _triangles(hole, points, joined)
+    return triangles or _fan(bm, hole)
+
+
+def _border_corner(vertex: BMVert, otherwise: BMLoop) -> BMLoop:
     """A corner at the vertex whose face lies on the border."""
     corners = (c for c in vertex.link_loops if c.edge.is_boundary or c.link_loop_prev.edge.is_boundary)
     return next(corners, otherwise)
 
 
-def _middle(points):
+def _middle(points: np.ndarray) -> np.ndarray:
     """Shares of the points in their middle: short edges count less, so that dense stretches do not draw it."""
     length = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1)
     weight = length + np.roll(length, -1)
     return weight / weight.sum() if weight.any() else np.full(len(points), 1 / len(points))
 
 
-def _spokes(points):
+def _spokes(points: np.ndarray) -> np.ndarray:
     """Normals of the triangles of a fan, twice their area long, (n, 3)."""
     out = points - _middle(points) @ points
     return np.cross(out, np.roll(out, -1, axis=0))
 
 
-def _is_flat(points):
+def _is_flat(points: np.ndarray) -> bool:
     normal = _spokes(points).sum(axis=0)
     height = (points - points[0]) @ normal
     return np.ptp(height) <= _FLAT * np.linalg.norm(normal) * np.linalg.norm(np.ptp(points, axis=0))
 
 
-def _is_star(points):
+def _is_star(points: np.ndarray) -> bool:
     spokes = _spokes(points)
     return bool((spokes @ spokes.sum(axis=0) > 0).all())
 
 
-def _triangles(hole, points, joined):
+def _triangles(hole: list[BMVert], points: np.ndarray, joined: Pairs) -> list[tuple[BMVert, ...]] | None:
     """Triangles between the corners of a hole, or None if some edge would meet a third face on either side."""
     n = len(hole)
-    # From the same corner in the same direction on both sides of the cut.
-    first = min(range(n), key=lambda i: tuple(points[i]))
-    turn = 1 if tuple(points[first - 1]) < tuple(points[(first + 1) % n]) else -1
-    order = [(first + turn * i) % n for i in range(n)]
+    order = _common_order(points)
     triples = [tuple(order[i] for i in t) for t in tessellate_polygon([[hole[i].co for i in order]])]
     rim = {(i, (i + 1) % n) for i in range(n)}
-    if any((t[i - 2], t[i]) in rim for t in triples for i in range(3)):
-        triples = [t[::-1] for t in triples]
-    directed = {(t[i], t[i - 2]) for t in triples for i in range(3)}
+    if any((b, a) in rim for triple in triples for a, b in _edges_of(triple)):
+        triples = [triple[::-1] for triple in triples]
+    inner = _inner_edges(triples, rim)
+    if n == 3 or inner is None or _is_joined(hole, inner, joined):
+        return None
+    return [tuple(hole[i] for i in triple) for triple in triples]
+
+
+def _common_order(points: np.ndarray) -> list[int]:
+    """The corners from the same one in the same direction, whichever of the two sides of a cut asks."""
+    n = len(points)
+    first = min(range(n), key=lambda i: tuple(points[i]))
+    turn = 1 if tuple(points[first - 1]) < tuple(points[(first + 1) % n]) else -1
+    return [(first + turn * i) % n for i in range(n)]
+
+
+def _edges_of(triple: Triple) -> tuple[tuple[int, int], ...]:
+    a, b, c = triple
+    return (a, b), (b, c), (c, a)
+
+
+def _inner_edges(triples: list[Triple], rim: set[tuple[int, int]]) -> set[tuple[int, int]] | None:
+    """The edges between triangles, in both directions; None unless the triangles are one sheet that fills the rim."""
+    directed = {edge for triple in triples for edge in _edges_of(triple)}
     inner = directed - rim
-    neighbours = [{edge.other_vert(v) for edge in v.link_edges} | joined.get(v, set()) for v in hole]
-    proper = (
-        n > 3
-        and len(directed) == 3 * len(triples) == 3 * (n - 2)
+    is_sheet = (
+        len(directed) == 3 * len(triples) == 3 * (len(rim) - 2)
         and rim <= directed
         and all((b, a) in inner for a, b in inner)
-        and not any(hole[b] in neighbours[a] for a, b in inner)
     )
-    return [tuple(hole[i] for i in t) for t in triples] if proper else None
+    return inner if is_sheet else None
 
 
-def _fan(bm, hole):
+def _is_joined(hole: list[BMVert], inner: set[tuple[int, int]], joined: Pairs) -> bool:
+    """Whether an edge joins two of these pairs of corners already, in this piece or in another."""
+    near = [{edge.other_vert(v) for edge in v.link_edges} | joined.get(v, set()) for v in hole]
+    return any(hole[b] in near[a] for a, b in inner)
+
+
+def _fan(bm: BMesh, hole: list[BMVert]) -> list[tuple[BMVert, ...]]:
     """Triangles to a new vertex in the middle of a hole."""
     share = _middle(np.array([vertex.co[:] for vertex in hole], np.float64))
     middle = _between(bm, hole, share)
     return [(a, b, middle) for a, b in zip(hole, [*hole[1:], hole[0]], strict=True)]
 
 
-def _between(bm, vertices, share):
-    """A new vertex that is what others are on average."""
-    share = np.asarray(share)
+def _between(bm: BMesh, vertices: Sequence[BMVert], share: np.ndarray) -> BMVert:
+    """A new vertex that is what others are on average. share : (k,) float64, of each of them, 1 together."""
     middle = bm.verts.new()
     middle.copy_from_vert_interp([vertices[0], vertices[len(vertices) // 2]], 0.5)
     middle.co = share @ np.array([vertex.co[:] for vertex in vertices])
     for layer in bm.verts.layers.shape.values():
         middle[layer] = share @ np.array([vertex[layer][:] for vertex in vertices])
     if deform := bm.verts.layers.deform.active:
-        sums = {}
+        sums: dict[int, float] = {}
         for vertex, part in zip(vertices, share.tolist(), strict=True):
             for group, value in vertex[deform].items():
                 sums[group] = sums.get(group, 0.0) + part * value

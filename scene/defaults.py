@@ -1,33 +1,46 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the preferences say, taken over by new scenes and by scripts.
 
-A scene takes it over once, when it is first seen, at the latest with its first object. What somebody sets
+A scene takes it over once, when it is first seen, at the latest with its first object. What the user sets
 in it later is the scene's own, and a file looks the same whatever the preferences are where it is opened.
 """
+
+from __future__ import annotations
+
+from collections.abc import Iterable
 
 import bpy
 from bpy.app.handlers import persistent
 
+from .. import __package__ as base_package
 from ..core.parameters import PRESETS
-from ..ui import preferences
 from . import store
-from .properties import OUTPUTS, OVERLAY, PARAMETERS
+from .settings import OUTPUTS, OVERLAY, PARAMETERS, take_over_former_names
 
 
-def adopt(scene):
+def preferences() -> bpy.types.AddonPreferences | None:
+    """The preferences of the extension; None when it runs without being listed in Blender's preferences."""
+    addon = bpy.context.preferences.addons.get(base_package)
+    return addon.preferences if addon else None
+
+
+def adopt(scene: bpy.types.Scene) -> None:
     """Set a scene up as the preferences say, the first time it is seen."""
-    if scene.is_editable and not scene.reeb_parts.adopted:
-        settings = scene.reeb_parts
+    if not scene.is_editable:
+        return
+    settings = scene.reeb_parts
+    take_over_former_names(settings)
+    if not settings.adopted:
         names = [name for name in (*OUTPUTS, *OVERLAY) if not settings.is_property_set(name)]
-        # In an empty scene somebody may have been faster.
+        # In an empty scene the user may have chosen a preset already.
         if not any(settings.is_property_set(name) for name in ("preset", *PARAMETERS)):
             names.append("preset")
         use(settings, names)
 
 
-def use(settings, names):
+def use(settings: bpy.types.PropertyGroup, names: Iterable[str]) -> None:
     """Take over some settings from the preferences."""
-    chosen = preferences.get()
+    chosen = preferences()
     if chosen is None:
         return
     # No graph is drawn anew by this.
@@ -38,9 +51,9 @@ def use(settings, names):
                 setattr(settings, name, getattr(chosen, name))
 
 
-def complete(operator):
+def complete(operator: bpy.types.Operator) -> None:
     """Give an operator the preferences' value of every property that its caller left out."""
-    chosen = preferences.get()
+    chosen = preferences()
     if chosen is None:
         return
     for source, names in ((PRESETS[chosen.preset], PARAMETERS), (chosen, (*OUTPUTS, *OVERLAY))):
@@ -49,66 +62,25 @@ def complete(operator):
                 setattr(operator, name, getattr(source, name))
 
 
-class SceneOperator:
-    """For operators on the settings of the scene."""
-
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        return context.scene.is_editable
-
-
-class REEB_PARTS_OT_use_preferences(SceneOperator, bpy.types.Operator):
-    """Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons"""
-
-    bl_idname = "reeb_parts.use_preferences"
-    bl_label = "Use Preferences in This Scene"
-
-    def execute(self, context):
-        settings = context.scene.reeb_parts
-        use(settings, ("preset", *OUTPUTS, *OVERLAY))
-        # Also what was changed after the preset was chosen.
-        settings.preset = settings.preset
-        return {"FINISHED"}
-
-
-class REEB_PARTS_OT_reset_parameters(SceneOperator, bpy.types.Operator):
-    """Set the parameters back to those of the preset; some of them were changed"""
-
-    bl_idname = "reeb_parts.reset_parameters"
-    bl_label = "Reset Parameters to Preset"
-
-    def execute(self, context):
-        settings = context.scene.reeb_parts
-        detail, n_parts = settings.detail, settings.n_parts
-        settings.use_parameters(PRESETS[settings.preset])
-        settings.detail, settings.n_parts = detail, n_parts
-        return {"FINISHED"}
-
-
-CLASSES = (REEB_PARTS_OT_use_preferences, REEB_PARTS_OT_reset_parameters)
-
-
 @persistent
-def _adopt_all(*_):
+def _adopt_all(*_: object) -> None:
     for scene in bpy.data.scenes:
         adopt(scene)
 
 
 @persistent
-def _adopt_one(scene, depsgraph):
+def _adopt_one(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     adopt(scene)
 
 
-def register():
+def register() -> None:
     bpy.app.handlers.load_post.append(_adopt_all)
     bpy.app.handlers.depsgraph_update_post.append(_adopt_one)
     # While an extension is switched on, Blender's data may be out of reach.
     bpy.app.timers.register(_adopt_all, first_interval=0.0)
 
 
-def unregister():
+def unregister() -> None:
     if bpy.app.timers.is_registered(_adopt_all):
         bpy.app.timers.unregister(_adopt_all)
     bpy.app.handlers.depsgraph_update_post.remove(_adopt_one)

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the scene can get wrong, what users are told of it, and the way into core."""
 
+from __future__ import annotations
+
 import importlib
+from types import ModuleType
+from typing import Any
 
 from bpy.app.translations import pgettext_rpt as rpt_
 
@@ -10,19 +14,19 @@ class SceneError(Exception):
     """The scene does not allow what was asked; the message is the sentence the user reads, translated."""
 
 
-def translated(words) -> str:
+def translated(words: str | Exception) -> str:
     """A sentence of core, or an error that carries one, in the language of the interface.
 
     What is in that language already, like a SceneError, stays as it is.
     """
-    sentence = words.args[0] if isinstance(words, Exception) else words
+    sentence: Any = words.args[0] if isinstance(words, Exception) else words
     # By what it has, not by its type: Blender may have loaded the extension anew in the meantime.
     if not hasattr(sentence, "message"):
         return str(sentence)
     return rpt_(sentence.message).format(**sentence.values)
 
 
-def load_core():
+def load_core() -> ModuleType:
     """The package ``core`` with SciPy behind it.
 
     SciPy is imported as late as possible: another extension may have replaced the copy that came with

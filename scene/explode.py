@@ -5,18 +5,22 @@ A modifier of ours moves the faces of each part away from the middle of the whol
 the object, which drives a value in the modifier's nodes: so it can be dragged, typed and animated.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable
+
 import bpy
 
-from . import reactions, store
+from . import outputs, store, targets
 from .errors import SceneError
-from .outputs import attributes
+from .outputs import face_attribute
 
 NAME = "Reeb Parts Explode"
 PROPERTY = "reeb_parts_made.explode"
 OURS = "reeb_parts_explode"  # on the node group
 
 
-def find(obj):
+def find(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
     """Our modifier on an object, or None."""
     for modifier in obj.modifiers:
         if modifier.type == "NODES" and modifier.node_group and OURS in modifier.node_group:
@@ -24,7 +28,7 @@ def find(obj):
     return None
 
 
-def changed(made, context):
+def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The slider was moved: the modifier is there while there is something for it to do."""
     obj = made.id_data
     if made.explode or (obj.animation_data and obj.animation_data.action):
@@ -33,13 +37,13 @@ def changed(made, context):
         _remove_modifier(obj)
 
 
-def forget(obj):
+def forget(obj: bpy.types.Object) -> None:
     """Take the modifier away and forget what was made of the object; pieces are the user's from now on."""
     _remove_modifier(obj)
     obj.property_unset("reeb_parts_made")
 
 
-def _remove_modifier(obj):
+def _remove_modifier(obj: bpy.types.Object) -> None:
     modifier = find(obj)
     if modifier is not None:
         group = modifier.node_group
@@ -48,7 +52,7 @@ def _remove_modifier(obj):
             bpy.data.node_groups.remove(group)
 
 
-def _ensure(obj):
+def _ensure(obj: bpy.types.Object) -> None:
     """Put the modifier last, for the parts as they are now."""
     if obj.type != "MESH" or not store.has_result(obj.data):
         return
@@ -63,7 +67,7 @@ def _ensure(obj):
     group.nodes["Part"].inputs["Name"].default_value = name
 
 
-def _face_attribute(obj):
+def _face_attribute(obj: bpy.types.Object) -> str:
     """Name of the attribute with the part numbers; made unless it is there."""
     result = obj.data.reeb_parts
     if result.face_attribute not in obj.data.attributes:
@@ -72,12 +76,12 @@ def _face_attribute(obj):
         except SceneError:  # the mesh was edited: the panel says so
             return ""
         with store.quiet():
-            attributes.add_face_attribute(obj)
-            attributes.update_outputs(reactions.users(obj.data)[0], numbered, numbered.candidate_numbers)
+            face_attribute.add(obj)
+            outputs.update_outputs(targets.users(obj.data)[0], numbered, numbered.candidate_numbers)
     return result.face_attribute
 
 
-def _node_group(obj):
+def _node_group(obj: bpy.types.Object) -> bpy.types.NodeTree:
     """Nodes that move each part from the middle of the whole by a multiple of its distance from there."""
     group = bpy.data.node_groups.new(f"{NAME} {obj.name}", "GeometryNodeTree")
     group[OURS] = obj.name
@@ -101,7 +105,7 @@ def _node_group(obj):
     return group
 
 
-def _drive(socket, obj):
+def _drive(socket: bpy.types.NodeSocket, obj: bpy.types.Object) -> None:
     driver = socket.driver_add("default_value").driver
     driver.type = "SUM"
     variable = driver.variables.new()
@@ -112,10 +116,11 @@ def _drive(socket, obj):
 class _Nodes:
     """Makes nodes in a row."""
 
-    def __init__(self, group):
+    def __init__(self, group: bpy.types.NodeTree) -> None:
         self.group = group
 
-    def new(self, kind, name="", inputs=(), **values):
+    def new(self, kind: str, name: str = "", inputs: Iterable[bpy.types.NodeSocket] = (),
+            **values: object) -> bpy.types.Node:
         """A node with what comes in, in order."""
         node = self.group.nodes.new(kind)
         node.location.x = 180 * len(self.group.nodes)
@@ -127,17 +132,18 @@ class _Nodes:
             self.link(source, socket)
         return node
 
-    def link(self, source, target):
+    def link(self, source: bpy.types.NodeSocket, target: bpy.types.NodeSocket) -> None:
         self.group.links.new(source, target)
 
-    def math(self, operation, first, second):
+    def math(self, operation: str, first: bpy.types.NodeSocket, second: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
         """Vector arithmetic; the output."""
         node = self.new("ShaderNodeVectorMath", operation=operation)
         self.link(first, node.inputs[0])
         self.link(second, node.inputs["Scale"] if operation == "SCALE" else node.inputs[1])
         return node.outputs[0]
 
-    def middle(self, moment, area, part=None):
+    def middle(self, moment: bpy.types.NodeSocket, area: bpy.types.NodeSocket,
+               part: bpy.types.NodeSocket | None = None) -> bpy.types.NodeSocket:
         """Middle of the surface, or of each part's."""
         total = []
         for value, kind in ((moment, "FLOAT_VECTOR"), (area, "FLOAT")):

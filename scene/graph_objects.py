@@ -5,11 +5,18 @@ The objects are children of the decomposed one and live in its coordinates, so t
 carries them along. They are recognised by custom properties, never by name.
 """
 
+from __future__ import annotations
+
+from collections.abc import Container
+from typing import Any
+
 import bpy
 import numpy as np
 
-from . import store
-from .outputs import attributes
+from ..core.graph.reeb import ReebGraph
+from ..core.result.numbering import NumberedParts
+from . import bridge, part_names, store
+from .outputs.colors import linear
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 ROLE = "reeb_parts_role"  # on our objects: "node" or "arcs"
@@ -17,7 +24,7 @@ KINDS = ("minimum", "saddle", "maximum")
 _DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
 
 
-def find(obj):
+def find(obj: bpy.types.Object) -> bpy.types.Collection | None:
     """The graph's collection of an object, or None."""
     for collection in bpy.data.collections:
         if collection.get(SOURCE) == obj:
@@ -25,14 +32,14 @@ def find(obj):
     return None
 
 
-def arcs(obj):
+def arcs(obj: bpy.types.Object) -> bpy.types.Object | None:
     """The curve with the arcs of an object's graph, or None."""
     collection = find(obj)
     items = collection.objects if collection else ()
     return next((item for item in items if item.get(ROLE) == "arcs"), None)
 
 
-def set_hidden(context, obj, hidden) -> bool:
+def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> bool:
     """Hide the graph of an object in the view layer, or show it again; whether there is one."""
     collection = find(obj)
     if collection is None:
@@ -46,21 +53,22 @@ def set_hidden(context, obj, hidden) -> bool:
     return True
 
 
-def draw_graph(context, obj, graph, stretch, style):
+def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, graph: ReebGraph, stretch: np.ndarray,
+               style: Any) -> None:
     """Draw a graph in place of an earlier one.
 
     Parameters
     ----------
     context : bpy.types.Context
     obj : bpy.types.Object
-    graph : core.ReebGraph
+    graph : ReebGraph
     stretch : (3, 3) float64
         What took the mesh's coordinates to the graph's; undone here.
     style
-        Has the values of ui.properties.OverlayProperties.
+        Has the values of settings.OverlayProperties.
     """
     remove(obj)
-    back = np.linalg.pinv(stretch).T
+    back = bridge.unstretch(stretch).T
     collection = bpy.data.collections.new(f"Reeb Graph {obj.name}")
     collection[SOURCE] = obj
     collection.hide_render = True
@@ -80,14 +88,14 @@ def draw_graph(context, obj, graph, stretch, style):
     restyle(obj, style)
 
 
-def _place(item, role, obj, collection):
+def _place(item: bpy.types.Object, role: str, obj: bpy.types.Object, collection: bpy.types.Collection) -> None:
     item[ROLE] = role
     item.parent = obj
     item.hide_render = True
     collection.objects.link(item)
 
 
-def _curve(graph, points, radii, nodes):
+def _curve(graph: ReebGraph, points: np.ndarray, radii: np.ndarray, nodes: np.ndarray) -> bpy.types.Curve:
     """A poly spline for each arc, from its lower node through its centre points to its upper node."""
     curve = bpy.data.curves.new("Reeb arcs", "CURVE")
     curve.dimensions = "3D"
@@ -104,23 +112,23 @@ def _curve(graph, points, radii, nodes):
     return curve
 
 
-def update_parts(obj, numbered):
+def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     """Tell the nodes which part they are in now."""
     collection = find(obj)
     if collection is None:
         return
     numbers = numbered.numbers[numbered.parts.node_part].tolist()
-    colors = store.number_colors(obj.data)
+    colors = part_names.number_colors(obj.data)
     for item in collection.objects:
         if item.get(ROLE) == "node":
             item["part"] = numbers[item["node"]]
-            item.color = (*attributes.linear(colors[item["part"], :3].tolist()), 1.0)
+            item.color = (*linear(colors[item["part"], :3].tolist()), 1.0)
 
 
-def restyle(obj, style):
+def restyle(obj: bpy.types.Object | None, style: Any) -> None:
     """Draw an object's graph in another size or thickness."""
-    collection = find(obj) if obj else None
-    if collection is None:
+    collection = find(obj) if obj is not None else None
+    if obj is None or collection is None:
         return
     corners = np.array([corner[:] for corner in obj.bound_box])
     size = style.node_size * float(np.linalg.norm(np.ptp(corners, axis=0)))
@@ -133,7 +141,7 @@ def restyle(obj, style):
             item.show_in_front = style.in_front
 
 
-def remove(obj):
+def remove(obj: bpy.types.Object) -> None:
     """Remove the graph of an object, and those of objects that are gone."""
     for collection in list(bpy.data.collections):
         if SOURCE not in collection or collection[SOURCE] not in (obj, None):
@@ -148,3 +156,28 @@ def remove(obj):
             del collection[SOURCE]  # the user put something in it: it is the user's now
         else:
             bpy.data.collections.remove(collection)
+
+
+def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | None:
+    """The decomposed object and the part's number that an object of a graph stands for, or None."""
+    if item is None or item.get(ROLE) != "node" or item.parent is None:
+        return None
+    source = item.parent
+    if source.type != "MESH" or not store.has_result(source.data):
+        return None
+    return source, item["part"]
+
+
+def source_of_arcs(item: bpy.types.Object | None) -> bpy.types.Object | None:
+    """The decomposed object that a curve of arcs stands for, or None."""
+    if item is None or item.get(ROLE) != "arcs" or item.parent is None or item.parent.type != "MESH":
+        return None
+    return item.parent if store.has_result(item.parent.data) else None
+
+
+def select_nodes(obj: bpy.types.Object, numbers: Container[int]) -> None:
+    """Select the nodes of some parts, and no other node."""
+    collection = find(obj)
+    for item in collection.objects if collection else ():
+        if item.get(ROLE) == "node":
+            item.select_set(item["part"] in numbers)

@@ -4,7 +4,11 @@
 The thread works on arrays and never touches Blender's data; Blender's thread asks how far it is.
 """
 
+from __future__ import annotations
+
 import threading
+from collections.abc import Callable
+from typing import Any
 
 from bpy.app.translations import pgettext_rpt as rpt_
 
@@ -28,17 +32,18 @@ class Job:
         What it raised instead.
     """
 
-    def __init__(self, work):
+    def __init__(self, work: Callable[[Callable[..., None]], object]) -> None:
         self.stage, self.of, self.share = "", "", 0.0
-        self.result = self.error = None
+        self.result: Any = None
+        self.error: BaseException | None = None
         self._cancelled_error = load_core().Cancelled
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, args=(work,), name="Reeb Parts", daemon=True)
 
-    def start(self):
+    def start(self) -> None:
         self._thread.start()
 
-    def cancel(self):
+    def cancel(self) -> None:
         """Ask it to stop at the next step."""
         self._stop.set()
 
@@ -56,13 +61,13 @@ class Job:
         stage = rpt_(self.stage)
         return f"{self.of}: {stage}" if self.of else stage
 
-    def _run(self, work):
+    def _run(self, work: Callable[[Callable[..., None]], object]) -> None:
         try:
             self.result = work(self._progress)
         except BaseException as error:  # noqa: BLE001 - carried to the thread that asked, raised there
             self.error = error
 
-    def _progress(self, stage, share, of=""):
+    def _progress(self, stage: str, share: float, of: str = "") -> None:
         self.stage, self.share, self.of = stage, share, of
         if self._stop.is_set():
             raise self._cancelled_error
@@ -70,3 +75,9 @@ class Job:
 
 # The job that the window shows, if any.
 current: Job | None = None
+
+
+def cancel() -> None:
+    """Ask the job that the window shows to stop, if there is one."""
+    if current is not None:
+        current.cancel()

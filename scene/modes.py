@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Leave Edit, Sculpt or a paint mode to write to a mesh, and return to it."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 import bpy
@@ -9,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from .errors import SceneError
 
 
-def check_mode(obj):
+def check_mode(obj: bpy.types.Object) -> None:
     """Raise SceneError in a mode that cannot be left without a loss."""
     if obj.mode == "SCULPT" and obj.use_dynamic_topology_sculpting:
         raise SceneError(
@@ -19,7 +22,7 @@ def check_mode(obj):
 
 
 @contextmanager
-def object_mode(context):
+def object_mode(context: bpy.types.Context) -> Iterator[None]:
     """Write in Object Mode whatever the mode was; the mode is as before afterwards."""
     active = context.view_layer.objects.active
     mode = active.mode if active else "OBJECT"

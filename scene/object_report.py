@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the JSON says of an object."""
 
+from __future__ import annotations
 
+import bpy
 import numpy as np
 
 from ..core.uses.report import bounding_boxes, report
-from . import bridge, store
+from . import bridge, mesh_arrays, part_names, store
 
 
-def object_report(obj, labels=False) -> dict:
+def object_report(obj: bpy.types.Object, labels: bool = False) -> dict:
     """The JSON of an object's stored result, in coordinates of the world; Object Mode.
 
     Raises
@@ -22,12 +24,12 @@ def object_report(obj, labels=False) -> dict:
     world = np.array(obj.matrix_world, np.float64)
     stretch = store.stretch_of(mesh)
     from_result = world.copy()
-    from_result[:3, :3] = world[:3, :3] @ np.linalg.pinv(stretch)
-    vertex, face = bridge.face_corners(mesh)
-    points = bridge.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
+    from_result[:3, :3] = world[:3, :3] @ bridge.unstretch(stretch)
+    vertex, face = mesh_arrays.face_corners(mesh)
+    points = mesh_arrays.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
     boxes = bounding_boxes(numbered.parts.labels[face], points[vertex], numbered.parts.count)
-    colors = store.number_colors(mesh)[numbered.numbers, :3].astype(np.float64)
-    names = [store.part_name(mesh, number) for number in numbered.numbers.tolist()]
+    colors = part_names.number_colors(mesh)[numbered.numbers, :3].astype(np.float64)
+    names = [part_names.part_name(mesh, number) for number in numbered.numbers.tolist()]
     result = report(stored.decomposition, numbered.parts, obj.name, numbers=numbered.numbers, names=names,
                     colors=np.round(colors, 6), boxes=boxes, transform=from_result, labels=labels)
     result["notes"] = mesh.reeb_parts.notes.splitlines()

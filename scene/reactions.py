@@ -4,52 +4,57 @@
 Blender itself makes an undo step for a property of the mesh that is changed in the interface.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable
 from dataclasses import replace
 
 import bpy
 import numpy as np
 
-from . import graph_objects, store
+from ..core.result.numbering import NumberedParts
+from . import graph_objects, outputs, part_names, store, targets
 from .errors import SceneError
 from .modes import object_mode
-from .outputs import attributes, vertex_groups
+from .outputs import vertex_groups
+from .store import Stored
 
 
-def show_detail(result, context):
+def show_detail(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The Detail slider was moved."""
     if not store.is_quiet():
         result.by_number = False
         show(result, context)
 
 
-def show_number(result, context):
+def show_number(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A number of parts was typed."""
     if not store.is_quiet():
         result.by_number = True
         show(result, context)
 
 
-def rename(part, context):
+def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A part was renamed: its vertex group and its number take the name."""
     if store.is_quiet():
         return
     mesh = part.id_data
     with store.quiet():
         if not part.name.strip():
-            part.name = store.part_name(mesh, part.number)
-        for obj in users(mesh)[:1]:
-            vertex_groups.rename_group(obj, part)
-        store.keep_name(mesh, part.number, part.name)
+            part.name = part_names.part_name(mesh, part.number)
+        for obj in targets.users(mesh)[:1]:
+            vertex_groups.rename(obj, part)
+        part_names.keep_name(mesh, part.number, part.name)
 
 
-def show_graph(obj, shown, context):
+def show_graph(obj: bpy.types.Object, shown: bool, context: bpy.types.Context) -> None:
     """Hide the graph of an object, or show it; it is drawn if there is none yet."""
     if store.is_quiet() or not store.has_result(obj.data):
         return
     if graph_objects.set_hidden(context, obj, not shown) or not shown:
         return
 
-    def draw(stored):
+    def draw(stored: Stored) -> None:
         stretch = store.stretch_of(obj.data)
         graph_objects.draw_graph(context, obj, stored.decomposition.graph, stretch, context.scene.reeb_parts)
         graph_objects.update_parts(obj, stored.shown_parts())
@@ -57,77 +62,72 @@ def show_graph(obj, shown, context):
     _with_result(obj.data, context, draw)
 
 
-def use_palette(mesh, palette, context):
+def use_palette(mesh: bpy.types.Mesh, palette: str, context: bpy.types.Context) -> None:
     """Colour the parts of a mesh from another palette."""
     if store.is_quiet() or not store.has_result(mesh) or mesh.reeb_parts.palette == palette:
         return
 
-    def recolor_all(stored):
+    def recolor_all(stored: Stored) -> None:
         mesh.reeb_parts.palette = palette
         refresh(context, mesh, stored, stored.shown_parts())
 
     _with_result(mesh, context, recolor_all)
 
 
-def recolor(part, context):
+def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A part was given another colour: all that is coloured by it takes it, and it stays."""
     if store.is_quiet():
         return
     mesh = part.id_data
 
-    def keep(stored):
+    def keep(stored: Stored) -> None:
         numbered = stored.shown_parts()
-        own = attributes.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
+        own = outputs.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
         # Blender's popup, when it is cancelled, sets the colour back.
         chosen = np.abs(own - part.color).max() > 0.5 / 255
-        store.keep_color(mesh, part.number, part.color[:] if chosen else None)
-        # The list stays as it is: somebody has a hand on one of its colours.
-        attributes.update_colors(mesh, numbered)
-        for obj in users(mesh):
+        part_names.keep_color(mesh, part.number, part.color[:] if chosen else None)
+        # The list is not filled anew: the user is just changing one of its colours.
+        outputs.update_colors(mesh, numbered)
+        for obj in targets.users(mesh):
             graph_objects.update_parts(obj, numbered)
 
     _with_result(mesh, context, keep)
 
 
-def lock(part, context):
+def lock(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A part was locked or unlocked in the list."""
     if store.is_quiet():
         return
     mesh = part.id_data
     number, locked = part.number, part.locked
 
-    def fix(stored):
-        fixed = np.where(stored.shown == number, number if locked else 0, stored.fixed)
+    def pin(stored: Stored) -> None:
+        pinned = np.where(stored.shown == number, number if locked else 0, stored.pinned)
         with store.quiet():
-            store.save_numbers(mesh, replace(stored, fixed=fixed))
+            store.save_numbers(mesh, replace(stored, pinned=pinned))
         show(mesh.reeb_parts, context)
 
-    _with_result(mesh, context, fix)
+    _with_result(mesh, context, pin)
 
 
-def refresh(context, mesh, stored, numbered):
+def refresh(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbered: NumberedParts) -> None:
     """Write other parts of the same decomposition: outputs, list and graphs."""
     before = stored.shown
     stored = stored.showing(numbered)
-    objects = users(mesh)
+    objects = targets.users(mesh)
     with store.quiet():
         store.save_numbers(mesh, stored)
-        attributes.update_outputs(objects[0], numbered, before)
+        outputs.update_outputs(objects[0], numbered, before)
     store.mark_pins(mesh, stored)
     for obj in objects:
         graph_objects.update_parts(obj, numbered)
 
 
-def users(mesh):
-    """The objects of a mesh; vertex groups can be written through any of them."""
-    return [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data == mesh]
-
-
-def show(result, context):
+def show(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Show the parts of the detail or number that is set."""
     mesh = result.id_data
 
-    def write(stored):
+    def write(stored: Stored) -> None:
         numbered = stored.parts(result.detail, result.n_parts if result.by_number else 0)
         if np.array_equal(numbered.candidate_numbers, stored.shown):
             store.mark_pins(mesh, stored)
@@ -139,7 +139,7 @@ def show(result, context):
     _with_result(mesh, context, write)
 
 
-def _with_result(mesh, context, work):
+def _with_result(mesh: bpy.types.Mesh, context: bpy.types.Context, work: Callable[[Stored], None]) -> None:
     """Do something with the stored result of a mesh, in Object Mode."""
     try:
         with object_mode(context):

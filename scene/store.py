@@ -1,25 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The result kept with its mesh: in the .blend file, through undo, until the mesh is edited.
 
-With it goes what is known of the candidate parts: ``former``, the number each was last known by;
-``fixed``, the number of the locked part that it is tied to whatever the detail; ``shown``, the number of
-the part that it is in now.
+Beside the decomposition, three numbers of each candidate are stored: ``previous_number``, which it was given when
+the mesh was decomposed; ``pinned``, the number of the part that it stays in whatever the detail, 0 for none;
+``shown``, the number of the part that it is in now.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
+import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.result.numbering import NumberedParts, Numbering, default_name, inherited
+from ..core.result.decomposition import Decomposition
+from ..core.result.numbering import NumberedParts, Numbering, inherited
 from ..core.surface.labels import majority
-from . import bridge
+from . import mesh_arrays
 from .errors import SceneError, load_core, translated
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
-_read: dict[bytes, object] = {}
+_read: dict[bytes, Decomposition] = {}
 _KEEP = 4
 
 # Set while properties are written that would otherwise act as if the user had changed them.
@@ -27,7 +32,7 @@ _writing = False
 
 
 @contextmanager
-def quiet():
+def quiet() -> Iterator[None]:
     """Write properties without their update functions doing anything."""
     global _writing
     before, _writing = _writing, True
@@ -48,23 +53,29 @@ class Stored:
 
     Attributes
     ----------
-    decomposition : core.Decomposition
+    decomposition : Decomposition
         With c candidates.
-    former, fixed, shown : (c,) int64
-        Part numbers; see core.numbering.Numbering for the first two.
+    previous_number, pinned, shown : (c,) int64
+        Numbers of parts, 0 for none; see core.result.numbering.Numbering.of for the first two. They are stored in
+        this order, as int32.
     """
 
-    decomposition: object
-    former: np.ndarray
-    fixed: np.ndarray
+    decomposition: Decomposition
+    previous_number: np.ndarray
+    pinned: np.ndarray
     shown: np.ndarray
 
     @cached_property
     def numbering(self) -> Numbering:
         """The numbers of the parts at every level of detail."""
-        return _numbering(self.decomposition, self.former.tobytes(), self.fixed.tobytes())
+        return _numbering(self.decomposition, self.previous_number.tobytes(), self.pinned.tobytes())
 
-    def parts(self, detail, n_parts) -> NumberedParts:
+    @cached_property
+    def face_numbers(self) -> np.ndarray:
+        """(p,) int64, the number of the part that each face is in now."""
+        return self.shown[self.decomposition.candidates]
+
+    def parts(self, detail: float, n_parts: int) -> NumberedParts:
         """Parts at a level of detail, or of an exact number if that is not 0."""
         return self.numbering.parts(detail, n_parts)
 
@@ -72,17 +83,17 @@ class Stored:
         """Parts as they are now."""
         return self.numbering.numbered(self.shown)
 
-    def showing(self, numbered: NumberedParts) -> "Stored":
+    def showing(self, numbered: NumberedParts) -> Stored:
         """The same with other parts shown."""
         return replace(self, shown=numbered.candidate_numbers)
 
 
-def has_result(mesh) -> bool:
+def has_result(mesh: bpy.types.Mesh) -> bool:
     """Whether a decomposition is stored with the mesh."""
     return mesh.is_property_set("reeb_parts") and bool(mesh.reeb_parts.data)
 
 
-def is_edited(mesh) -> bool:
+def is_edited(mesh: bpy.types.Mesh) -> bool:
     """Whether the mesh was edited since: only the quick checks, for the panel."""
     result = mesh.reeb_parts
     return result.edited or (
@@ -90,7 +101,7 @@ def is_edited(mesh) -> bool:
     )
 
 
-def load(mesh) -> Stored:
+def load(mesh: bpy.types.Mesh) -> Stored:
     """The stored result of a mesh in Object Mode.
 
     Raises
@@ -103,133 +114,79 @@ def load(mesh) -> Stored:
     if mesh.is_editmode:
         raise SceneError(rpt_("{name} is being edited. Leave Edit Mode first.").format(name=mesh.name))
     result = mesh.reeb_parts
-    if bridge.fingerprint(mesh) != result.fingerprint:
+    if mesh_arrays.fingerprint(mesh) != result.fingerprint:
         raise SceneError(
             rpt_("{name} was edited since it was decomposed. Decompose it again.").format(name=mesh.name))
     return last(mesh)
 
 
-def last(mesh) -> Stored:
+def last(mesh: bpy.types.Mesh) -> Stored:
     """The stored result of a mesh that has one, in any mode; the mesh may have been edited since."""
     numbers = np.frombuffer(mesh.reeb_parts.numbers, np.int32).astype(np.int64)
     return Stored(_decomposition(mesh.reeb_parts.data), *numbers.reshape(3, -1))
 
 
-def save(mesh, stored: Stored):
+def save(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Keep a result with its mesh; Object Mode."""
     result = mesh.reeb_parts
     data = stored.decomposition.to_bytes()
     _remember(data, stored.decomposition)
     result.data = data
     save_numbers(mesh, stored)
-    result.fingerprint = bridge.fingerprint(mesh)
+    result.fingerprint = mesh_arrays.fingerprint(mesh)
     result.n_vertices, result.n_faces = len(mesh.vertices), len(mesh.polygons)
     result.edited = False
     graph = stored.decomposition.graph
     result.n_nodes, result.n_arcs, result.n_loops = graph.n_nodes, graph.n_arcs, int(graph.n_loops)
 
 
-def save_numbers(mesh, stored: Stored):
+def save_numbers(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Keep which candidate has which number."""
-    rows = np.stack([stored.former, stored.fixed, stored.shown])
+    rows = np.stack([stored.previous_number, stored.pinned, stored.shown])
     mesh.reeb_parts.numbers = rows.astype(np.int32).tobytes()
 
 
-def succeed(mesh, decomposition) -> Stored:
+def succeed(mesh: bpy.types.Mesh, decomposition: Decomposition) -> Stored:
     """A new result for a mesh; its parts take over the numbers of those that the faces were in until now."""
-    former = fixed = np.zeros(decomposition.n_candidates, np.int64)
+    previous = pinned = np.zeros(decomposition.n_candidates, np.int64)
     if has_result(mesh):
-        faces, fixed_faces = _face_numbers(mesh)
-        if len(faces) == decomposition.n_faces and faces.any():
-            weight = np.ones(len(faces))
-            former = majority(decomposition.candidates, faces, weight, decomposition.n_candidates)
-            fixed = majority(decomposition.candidates, fixed_faces, weight, decomposition.n_candidates)
+        face_previous, face_pinned = _face_numbers(mesh)
+        if len(face_previous) == decomposition.n_faces and face_previous.any():
+            weight = np.ones(len(face_previous))
+            previous = majority(decomposition.candidates, face_previous, weight, decomposition.n_candidates)
+            pinned = majority(decomposition.candidates, face_pinned, weight, decomposition.n_candidates)
     parameters = decomposition.parameters
-    numbers = inherited(decomposition, parameters.detail, parameters.n_parts, former, fixed)
-    return Stored(decomposition, former=numbers, fixed=fixed, shown=numbers)
+    numbers = inherited(decomposition, parameters.detail, parameters.n_parts, previous, pinned)
+    return Stored(decomposition, previous_number=numbers, pinned=pinned, shown=numbers)
 
 
-def _face_numbers(mesh) -> tuple[np.ndarray, np.ndarray]:
-    """The number that each face has, and the one that it is tied to; 0 for none. Survives edits."""
+def _face_numbers(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """The number of each face's part, and of the part that it is pinned to; 0 for none. Survives edits of the mesh."""
     result = mesh.reeb_parts
     try:
         old = load(mesh)
     except SceneError:  # edited, or from another version: what is left is on the faces
         pass
     else:
-        # A finer part that somebody named or coloured is one to find again, too.
-        ours = np.isin(old.shown, [entry.number for entry in result.names])
+        # A part of a finer level that the user has named or colored is found again by the next run, too.
+        kept = np.isin(old.shown, [entry.number for entry in result.names])
         candidates = old.decomposition.candidates
-        return np.where(ours, old.shown, old.former)[candidates], old.fixed[candidates]
+        return np.where(kept, old.shown, old.previous_number)[candidates], old.pinned[candidates]
     attribute = mesh.attributes.get(result.face_attribute)
     faces = np.zeros(len(mesh.polygons), np.int32)
     if attribute is not None and attribute.domain == "FACE" and len(attribute.data) == len(faces):
         attribute.data.foreach_get("value", faces)
     faces = faces.astype(np.int64)
-    tied = [part.number for part in result.parts if part.pinned]
-    return faces, np.where(np.isin(faces, tied), faces, 0)
+    pinned = [part.number for part in result.parts if part.pinned]
+    return faces, np.where(np.isin(faces, pinned), faces, 0)
 
 
-def stretch_of(mesh) -> np.ndarray:
+def stretch_of(mesh: bpy.types.Mesh) -> np.ndarray:
     """What the object did to its mesh when it was decomposed, (3, 3) float64; see bridge.world_stretch."""
     return np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
 
 
-def part_name(mesh, number) -> str:
-    """The name somebody gave to a number, or its own."""
-    entry = _kept(mesh, number)
-    return entry.name if entry is not None and entry.name else default_name(number)
-
-
-def keep_name(mesh, number, name):
-    """Remember a name, also while its part is not shown."""
-    if entry := _keep(mesh, number, name != default_name(number)):
-        entry.name = "" if name == default_name(number) else name
-        _drop_empty(mesh)
-
-
-def keep_color(mesh, number, color):
-    """Remember a colour, also while its part is not shown. color : three values, sRGB; None for the palette's."""
-    if entry := _keep(mesh, number, color is not None):
-        entry.color, entry.has_color = color or (0.0, 0.0, 0.0), color is not None
-        _drop_empty(mesh)
-
-
-def kept_colors(mesh) -> dict:
-    """The colours that somebody gave to parts, by number."""
-    return {entry.number: entry.color[:] for entry in mesh.reeb_parts.names if entry.has_color}
-
-
-def number_colors(mesh) -> np.ndarray:
-    """The colour of each part of the list by its number, (largest number + 1, 4) float32, sRGB and alpha."""
-    parts = mesh.reeb_parts.parts
-    colors = np.ones((max((part.number for part in parts), default=0) + 1, 4), np.float32)
-    for part in parts:
-        colors[part.number, :3] = part.color
-    return colors
-
-
-def _kept(mesh, number):
-    return next((entry for entry in mesh.reeb_parts.names if entry.number == number), None)
-
-
-def _keep(mesh, number, make):
-    """The entry of a number; made if it is not there and asked for."""
-    entry = _kept(mesh, number)
-    if entry is None and make:
-        entry = mesh.reeb_parts.names.add()
-        entry.number = number
-    return entry
-
-
-def _drop_empty(mesh):
-    names = mesh.reeb_parts.names
-    for index in reversed(range(len(names))):
-        if not names[index].name and not names[index].has_color:
-            names.remove(index)
-
-
-def _decomposition(data: bytes):
+def _decomposition(data: bytes) -> Decomposition:
     if data not in _read:
         core = load_core()
         try:
@@ -239,27 +196,27 @@ def _decomposition(data: bytes):
     return _read[data]
 
 
-def _remember(data: bytes, decomposition):
+def _remember(data: bytes, decomposition: Decomposition) -> None:
     _read[data] = decomposition
     while len(_read) > _KEEP:
         del _read[next(iter(_read))]
 
 
 @lru_cache(_KEEP)
-def _numbering(decomposition, former: bytes, fixed: bytes) -> Numbering:
+def _numbering(decomposition: Decomposition, previous: bytes, pinned: bytes) -> Numbering:
     """While the detail is dragged, the numbers of all levels stay the same."""
-    return Numbering.of(decomposition, np.frombuffer(former, np.int64), np.frombuffer(fixed, np.int64))
+    return Numbering.of(decomposition, np.frombuffer(previous, np.int64), np.frombuffer(pinned, np.int64))
 
 
-def forget():
+def forget() -> None:
     """Free what is kept in memory."""
     _read.clear()
     _numbering.cache_clear()
 
 
-def mark_pins(mesh, stored: Stored):
+def mark_pins(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Tell the list which parts stay whatever the detail."""
-    pinned = set(stored.fixed.tolist())
+    pinned = set(stored.pinned.tolist())
     with quiet():
         for part in mesh.reeb_parts.parts:
             part.pinned = part.number in pinned

@@ -1,26 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Unwrap along cuts: a UV map of ours with an island for each part, or several where one would tear."""
 
+from __future__ import annotations
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.errors import ReebError
-from ..operators.parts import PartOperator
-from . import bridge, pieces, store
-from .errors import SceneError, translated
-from .outputs import attributes
+from . import mesh_arrays, part_meshes, store
+from .errors import SceneError
+from .selection import nothing_selected
 
 UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
 
 
-def find(mesh):
+def find(mesh: bpy.types.Mesh) -> bpy.types.MeshUVLoopLayer | None:
     """Our UV map, or None."""
     return mesh.uv_layers.get(mesh.get(MADE, ""))
 
 
-def remove(mesh):
+def remove(mesh: bpy.types.Mesh) -> None:
     """Remove our UV map."""
     layer = find(mesh)
     if layer is not None:
@@ -29,8 +29,9 @@ def remove(mesh):
         del mesh[MADE]
 
 
-def unwrap(context, obj, face_numbers, open_parts, method):
-    """Unwrap an object into our UV map, which becomes the active one; Object Mode.
+def unwrap(context: bpy.types.Context, obj: bpy.types.Object, face_numbers: np.ndarray, open_parts: bool,
+           method: str) -> str:
+    """Unwrap an object into our UV map, which becomes the active one; Object Mode. Returns the name of the map.
 
     Parameters
     ----------
@@ -55,53 +56,52 @@ def unwrap(context, obj, face_numbers, open_parts, method):
         mesh.uv_layers.active = layer
     layer.uv.foreach_set("vector", coordinates)
     mesh.update()
+    return layer.name
 
 
-def _seams(obj, face_numbers, open_parts):
+def _seams(obj: bpy.types.Object, face_numbers: np.ndarray, open_parts: bool) -> np.ndarray:
     """The user's seams, the cuts between parts and, if asked for, what opens parts; (e,) bool."""
     mesh = obj.data
     seams = np.empty(len(mesh.edges), bool)
     mesh.edges.foreach_get("use_seam", seams)
-    seams |= attributes.cut_edges(mesh, face_numbers)
+    seams |= mesh_arrays.cut_edges(mesh, face_numbers)
     if open_parts:
         from ..core.uses.unfold import opening_seams  # imports SciPy
 
-        points = bridge.shown_points(obj) @ store.stretch_of(mesh).T
-        _, face = bridge.face_corners(mesh)
-        seams |= opening_seams(points, bridge.edge_ends(mesh), bridge.corner_edges(mesh), face, seams)
+        points = mesh_arrays.shown_points(obj) @ store.stretch_of(mesh).T
+        seams |= opening_seams(mesh_arrays.corner_table(mesh, points), seams)
     return seams
 
 
-def _unwrapped(context, obj, seams, method):
+def _unwrapped(context: bpy.types.Context, obj: bpy.types.Object, seams: np.ndarray, method: str) -> np.ndarray:
     """The UV coordinates of each corner, flat float32; unwrapped on a copy, so that no selection is touched."""
-    layer = context.view_layer
-    active, selected = layer.objects.active, list(layer.objects.selected)
-    copy = pieces.plain_copy(obj.data)
+    copy = part_meshes.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
     try:
-        _prepare(twin, bridge.shown_points(obj) @ store.stretch_of(obj.data).T, seams)
+        _prepare(twin, mesh_arrays.shown_points(obj) @ store.stretch_of(obj.data).T, seams)
         context.scene.collection.objects.link(twin)
-        for other in selected:
-            other.select_set(False)
-        twin.select_set(True)
-        layer.objects.active = twin
-        with context.temp_override(active_object=twin, object=twin):
-            bpy.ops.object.mode_set(mode="EDIT")
-            with context.temp_override(edit_object=twin):
-                bpy.ops.uv.unwrap(method=method, margin=0.005)
-            bpy.ops.object.mode_set(mode="OBJECT")
+        with nothing_selected(context.view_layer):
+            _unwrap_all(context, twin, method)
         coordinates = np.empty(2 * len(copy.loops), np.float32)
         copy.uv_layers.active.uv.foreach_get("vector", coordinates)
     finally:
         bpy.data.objects.remove(twin)
         bpy.data.meshes.remove(copy)
-        for other in selected:
-            other.select_set(True)
-        layer.objects.active = active
     return coordinates
 
 
-def _prepare(twin, points, seams):
+def _unwrap_all(context: bpy.types.Context, twin: bpy.types.Object, method: str) -> None:
+    """Unwrap all faces of an object with Blender's operator, which works on the active object in Edit Mode."""
+    twin.select_set(True)
+    context.view_layer.objects.active = twin
+    with context.temp_override(active_object=twin, object=twin):
+        bpy.ops.object.mode_set(mode="EDIT")
+        with context.temp_override(edit_object=twin):
+            bpy.ops.uv.unwrap(method=method, margin=0.005)
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def _prepare(twin: bpy.types.Object, points: np.ndarray, seams: np.ndarray) -> None:
     """Give a copy the shape that is seen, our seams, one UV map, and all selected."""
     mesh = twin.data
     if mesh.shape_keys:
@@ -117,32 +117,3 @@ def _prepare(twin, points, seams):
     for name in mesh.uv_layers.keys():  # noqa: SIM118
         mesh.uv_layers.remove(mesh.uv_layers[name])
     mesh.uv_layers.new(name=UV_MAP)
-
-
-class REEB_PARTS_OT_unwrap(PartOperator, bpy.types.Operator):
-    """Unwrap the mesh along the cuts between parts and your own seams, into a UV map of its own"""
-
-    bl_idname = "reeb_parts.unwrap"
-    bl_label = "Unwrap along Cuts"
-
-    open_parts: bpy.props.BoolProperty(
-        name="Open tubes", default=True,
-        description="Also cut tubes along and closed parts open, by the shortest way, so that they lie flat; "
-        "these seams are not marked on the mesh",
-    )
-    method: bpy.props.EnumProperty(
-        name="Method", default="ANGLE_BASED",
-        items=[("ANGLE_BASED", "Angle based", "Good for organic shapes"),
-               ("CONFORMAL", "Conformal", "Faster, less even")],
-        description="How faces are laid flat",
-    )
-
-    def work(self, context, obj, stored):
-        try:
-            unwrap(context, obj, stored.shown_parts().face_numbers, self.open_parts, self.method)
-        except ReebError as error:
-            raise SceneError(translated(error)) from error
-        return rpt_("Unwrapped into the UV map {name}").format(name=find(obj.data).name)
-
-
-CLASSES = (REEB_PARTS_OT_unwrap,)

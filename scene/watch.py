@@ -4,12 +4,14 @@
 A mesh is looked at once it has been left alone for a moment: while it is sculpted, nothing is computed.
 """
 
+from __future__ import annotations
+
 import time
 
 import bpy
 from bpy.app.handlers import persistent
 
-from . import bridge, store
+from . import mesh_arrays, redraw, store
 
 REST = 0.3  # seconds
 
@@ -17,25 +19,17 @@ _waiting: set[int] = set()  # meshes by session_uid
 _last = 0.0
 
 
-def check(mesh):
+def check(mesh: bpy.types.Mesh) -> None:
     """Set or take back the mark that a mesh differs from the one its result belongs to."""
     result = mesh.reeb_parts
-    edited = bridge.fingerprint(mesh) != result.fingerprint
+    edited = mesh_arrays.fingerprint(mesh) != result.fingerprint
     if result.edited != edited:
         result.edited = edited
-        _redraw()
-
-
-def _redraw():
-    """So that panels say it without waiting for the pointer."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+        redraw.viewports()
 
 
 @persistent
-def _changed(scene, depsgraph):
+def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     global _last
     found = {
         update.id.original.data.session_uid
@@ -51,7 +45,7 @@ def _changed(scene, depsgraph):
         bpy.app.timers.register(_look, first_interval=REST)
 
 
-def _look():
+def _look() -> float | None:
     rested = time.monotonic() - _last
     if rested < REST:
         return REST - rested
@@ -63,11 +57,11 @@ def _look():
     return None
 
 
-def register():
+def register() -> None:
     bpy.app.handlers.depsgraph_update_post.append(_changed)
 
 
-def unregister():
+def unregister() -> None:
     bpy.app.handlers.depsgraph_update_post.remove(_changed)
     if bpy.app.timers.is_registered(_look):
         bpy.app.timers.unregister(_look)

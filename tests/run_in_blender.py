@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Install the built extension into a full Blender and test the installed package.
 
-    python3 tests/run_in_blender.py --blender PATH [--part inside|command|window] [--gui PATH]
+    python3 tests/run_in_blender.py --blender PATH [--part install|inside|command|window] [--gui PATH] [-k WORDS]
 
 Run tools/build.py first. Nothing of the user's Blender settings is touched: the extension goes into a
 settings folder of its own, which --resources keeps. The parts are
 
+install  nothing more than that
 inside   tests/unit and tests/blender, in Blender's own Python, on the shipped files
 command  tests/installed: "blender --command reeb_parts" and scripts, as processes
 window   tests/window: buttons pressed with the real pointer; --gui names the program that opens the window
@@ -33,9 +34,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--blender", required=True, metavar="PATH")
     parser.add_argument("--gui", metavar="PATH", help="opens Blender in a window, see tests/window/driver.py")
-    parser.add_argument("--part", choices=PARTS, default="inside")
+    parser.add_argument("--part", choices=("install", *PARTS), default="inside")
     parser.add_argument("--resources", type=Path, metavar="DIR", help="settings folder, used again if it exists")
     parser.add_argument("--junit", type=Path, metavar="FILE", help="also write the results as XML")
+    parser.add_argument("-k", metavar="WORDS", help="only the tests whose names have these words")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         resources = (arguments.resources or Path(scratch) / "resources").resolve()
@@ -45,7 +47,10 @@ def main() -> int:
         if not resources.exists():
             resources.mkdir(parents=True)
             install(arguments.blender, resources)
+        if arguments.part == "install":
+            return 0
         pytest_arguments = ["-q", "-p", "no:cacheprovider", *PARTS[arguments.part]]
+        pytest_arguments += ["-k", arguments.k] if arguments.k else []
         if arguments.junit:
             pytest_arguments.append(f"--junitxml={arguments.junit.resolve()}")
         if arguments.part == "inside":

@@ -52,11 +52,7 @@ def main() -> None:
 
 def _tool_of_module() -> list[str]:
     """The extension tool out of the bpy wheel: it needs no Blender executable."""
-    choices = (environments.BLENDER_45, environments.BLENDER_52)
-    environment = next((e for e in choices if environments.find_python(e.python)), None)
-    if environment is None:
-        fail("Python 3.11 or 3.13 was not found; install one, or give a Blender with --blender.")
-    python = environments.prepare(environment)
+    python = environments.prepare(environments.any_blender())
     return [str(python), str(next((python.parent.parent / "lib").rglob("bl_pkg/cli/blender_ext.py")))]
 
 

@@ -43,10 +43,7 @@ def main() -> None:
     if len({model.stem for model in models}) < len(models):
         fail("two of the models have the same name, so their results would overwrite each other.")
 
-    choices = (environments.BLENDER_45, environments.BLENDER_52)
-    environment = next((e for e in choices if environments.find_python(e.python)), None)
-    if environment is None:
-        fail("Python 3.11 or 3.13 is needed; on Debian and Ubuntu: apt install python3")
+    environment = environments.any_blender()
     say(f"setting up {environment.packages[0].replace('==', ' ')}, the Blender of Python {environment.python}")
     python = environments.prepare(environment)
     arguments.out.mkdir(parents=True, exist_ok=True)

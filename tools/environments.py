@@ -101,6 +101,25 @@ def any_python(name: str, *packages: str) -> Environment:
     fail("Python 3.11 or 3.13 is needed; on Debian and Ubuntu: apt install python3")
 
 
+def any_blender() -> Environment:
+    """Blender as a module for the first Python that is here, the older first."""
+    for environment in (BLENDER_45, BLENDER_52):
+        if find_python(environment.python):
+            return environment
+    fail("Python 3.11 or 3.13 is needed; on Debian and Ubuntu: apt install python3")
+
+
+def lint() -> Environment:
+    """What checks the style and the types."""
+    return any_python("lint", "ruff==0.17.5", "mypy==2.4.1")
+
+
+def benchmarks() -> Environment:
+    """What the programs in benchmarks/ import."""
+    lines = (ROOT / "benchmarks" / "requirements.txt").read_text(encoding="utf-8").splitlines()
+    return any_python("benchmarks", *(line for line in lines if line and not line.startswith("#")))
+
+
 def prepare(environment: Environment) -> Path:
     """Make the environment unless it is there; returns its interpreter."""
     folder = ROOT / ".venv" / environment.name

@@ -1,44 +1,70 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Set everything up and run the tests.
 
-    ./test                                     the unit tests and the operator tests
+    ./test                                     the unit tests, the operator tests, and the commands that the pages name
     ./test unit-newest blender-5.2             only these
     ./test --blender PATH [--gui PATH]         also on the built extension, installed into a full Blender
     ./test unit-newest -- -k torus --pdb       everything after -- goes to pytest
 
 The unit tests of core/ need no Blender and run with the oldest and the newest NumPy and SciPy that the
 product supports. The operator tests run in Blender as a Python module, with the NumPy that each official
-Blender comes with. What this machine has no Python for is left out, and said so.
+Blender comes with. The newest of these tries every operator in every situation; each other Blender tries every operator
+once and every situation at least once, on diagonals of this table that differ. What this machine has no Python for is
+left out, and said so.
+
+Two steps run at a time, the tests in the real window alone; what each printed is shown when it ends. A single step, or
+--jobs 1, prints at once.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import environments
 from environments import JSONSCHEMA, PYTEST, ROOT, SCIPY, Environment, say
 
-RUFF = Environment("lint", environments.any_python("lint").python, ("ruff==0.17.5",))
+LINT = environments.lint()
 NEWEST = environments.any_python("unit-newest", "numpy", "scipy", PYTEST, JSONSCHEMA)
 OLDEST = Environment("unit-oldest", "3.11", ("numpy==1.24.3", SCIPY, PYTEST, JSONSCHEMA))
+
+
+
+@dataclass(frozen=True)
+class Suite:
+    """A folder of tests and where it runs."""
+
+    environment: Environment
+    folder: str
+
+
 SUITES = {
-    "unit-oldest": (OLDEST, "tests/unit"),
-    "unit-newest": (NEWEST, "tests/unit"),
-    "blender-4.2": (environments.BLENDER_42, "tests/blender"),
-    "blender-4.5": (environments.BLENDER_45, "tests/blender"),
-    "blender-5.2": (environments.BLENDER_52, "tests/blender"),
+    "unit-oldest": Suite(OLDEST, "tests/unit"),
+    "unit-newest": Suite(NEWEST, "tests/unit"),
+    "documents": Suite(NEWEST, "tests/documents"),
+    "blender-4.2": Suite(environments.BLENDER_42, "tests/blender"),
+    "blender-4.5": Suite(environments.BLENDER_45, "tests/blender"),
+    "blender-5.2": Suite(environments.BLENDER_52, "tests/blender"),
 }
 # Blender as a module may crash or wait for ever while it is torn down at the end of Python: 4.2 as soon as anything
 # has registered a callback (a command, a handler, an update function), 4.5 in a thread of its own. So it is left.
 PYTEST_AND_LEAVE = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
+#: Which diagonal of operators and situations a Blender runs, for tests/blender; the newest runs the whole table.
+DIAGONAL = "REEB_PARTS_DIAGONAL"
+NOT_RUN: list[str] = []
+PREPARING = threading.Lock()  # two of pip and apt at a time would get in each other's way
 
 
 @dataclass(frozen=True)
@@ -51,8 +77,18 @@ class Outcome:
     seconds: float
 
 
+@dataclass(frozen=True)
+class Step:
+    """Something to run: ``work`` is given where its output goes, and returns how many passed and failed."""
+
+    name: str
+    work: Callable[[Path | None], tuple[int, int]]
+    after: str = ""  # the step that has to pass before
+    alone: bool = False  # nothing else runs meanwhile
+
+
 def main() -> None:
-    """Run the chosen suites, then print one line each and the sum."""
+    """Run the chosen steps, then print one line each and the sum."""
     words = sys.argv[1:]
     cut = words.index("--") if "--" in words else len(words)
     ours, for_pytest = words[:cut], words[cut + 1 :]
@@ -60,81 +96,177 @@ def main() -> None:
         prog="./test", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("suites", nargs="*", metavar="SUITE", help=", ".join(SUITES))
-    parser.add_argument("--lint", action="store_true", help="also run ruff")
+    parser.add_argument("--lint", action="store_true", help="also check the style and the types")
     parser.add_argument("--blender", metavar="PATH", help="also build, install and test in this full Blender")
     parser.add_argument("--gui", metavar="PATH", help="with --blender: also press the buttons in a real window")
+    parser.add_argument("--jobs", type=int, default=2, metavar="N", help="steps at a time, default 2")
     arguments = parser.parse_args(ours)
     if unknown := set(arguments.suites) - set(SUITES):
         parser.error(f"no such suite: {', '.join(sorted(unknown))} (there are {', '.join(SUITES)})")
-
-    outcomes = []
     with tempfile.TemporaryDirectory() as scratch:
-        if arguments.lint:
-            outcomes.append(_lint())
-        for name in arguments.suites or SUITES:
-            environment, folder = SUITES[name]
-            if environments.find_python(environment.python) is None:
-                say(f"NOT RUN: {name} needs Python {environment.python}, which was not found here")
-                continue
-            outcomes.append(_pytest(name, environment, folder, Path(scratch), for_pytest))
-        if arguments.blender:
-            outcomes += _full_blender(arguments.blender, arguments.gui, Path(scratch))
+        outcomes = _run(_steps(arguments, for_pytest, Path(scratch)), arguments.jobs, Path(scratch))
     _summary(outcomes)
 
 
-def _lint() -> Outcome:
-    """Check the style of every Python file; one outcome for all."""
+def _steps(arguments: argparse.Namespace, for_pytest: list[str], scratch: Path) -> list[Step]:
+    """What was asked for and can be run here; of those that are ready, the first is started first."""
+    steps = [Step("lint", _lint)] if arguments.lint else []
+    if arguments.blender:
+        steps += _full_blender(arguments.blender, arguments.gui, scratch)
+    elif not arguments.suites:
+        _left_out("the installed extension in a full Blender, no --blender was given")
+    chosen = []
+    for name in arguments.suites or SUITES:
+        if environments.find_python(SUITES[name].environment.python):
+            chosen.append(name)
+        else:
+            _left_out(f"{name} needs Python {SUITES[name].environment.python}, which was not found here")
+    blenders = [name for name in SUITES if name in chosen and SUITES[name].environment.blender]
+    for name in reversed(chosen):  # the longest are the last ones of SUITES
+        number = blenders.index(name) if name in blenders[:-1] else None
+        work = partial(_pytest, name, number, scratch, for_pytest)
+        after = ""
+        if name == "documents":
+            after = "build" if arguments.blender else ""
+            work = partial(_documents, arguments.blender, scratch, for_pytest)
+        steps.append(Step(name, work, after))
+    return sorted(steps, key=lambda step: step.alone)
+
+
+def _run(steps: list[Step], jobs: int, scratch: Path) -> list[Outcome]:
+    """Run the steps, several at a time; what each printed is shown when it ends."""
+    waiting, outcomes = list(steps), {}
+    running: dict[Future, Step] = {}
+    at_once = jobs <= 1 or len(steps) == 1
+    with ThreadPoolExecutor(max(jobs, 1)) as pool:
+        while waiting or running:
+            for step in [step for step in waiting if not step.after or step.after in outcomes]:
+                if step.after and outcomes[step.after].failed:
+                    _left_out(f"{step.name}, because {step.after} failed")
+                    waiting.remove(step)
+                elif not running or (len(running) < jobs and not step.alone):
+                    waiting.remove(step)
+                    running[pool.submit(_timed, step, None if at_once else scratch / f"{step.name}.log")] = step
+                if any(step.alone for step in running.values()):
+                    break
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                step, outcome = running.pop(future), future.result()
+                outcomes[step.name] = outcome
+                if not at_once:
+                    _show(outcome, scratch / f"{step.name}.log")
+    return [outcomes[step.name] for step in steps if step.name in outcomes]
+
+
+def _timed(step: Step, log: Path | None) -> Outcome:
+    """Run one step; an environment that cannot be made has said why, and is a failure of this step alone."""
     start = time.perf_counter()
-    python = environments.prepare(RUFF)
-    say("lint: ruff check")
-    status = subprocess.run([str(python), "-m", "ruff", "check", "--quiet", str(ROOT)], check=False).returncode
-    return Outcome("lint", int(status == 0), int(status != 0), time.perf_counter() - start)
+    try:
+        passed, failed = step.work(log)
+    except SystemExit:
+        passed, failed = 0, 1
+    return Outcome(step.name, passed, failed, time.perf_counter() - start)
 
 
-def _pytest(name: str, environment: Environment, folder: str, scratch: Path, extra: list[str]) -> Outcome:
+def _show(outcome: Outcome, log: Path) -> None:
+    """What a step printed, in one piece."""
+    text = log.read_text(encoding="utf-8", errors="replace") if log.exists() else ""
+    print(f"\n=== {outcome.name}: {outcome.seconds:.1f} s\n{text}", flush=True)
+
+
+def _left_out(what: str) -> None:
+    """Say what is not run: now, and again at the end."""
+    NOT_RUN.append(what)
+    say(f"NOT RUN: {what}")
+
+
+def _call(command: list[str], log: Path | None, **options) -> int:
+    """Exit status of a command in the checkout; its output is added to the log, if there is one."""
+    if log is None:
+        return subprocess.run(command, cwd=ROOT, check=False, **options).returncode
+    with log.open("ab") as sink:
+        return subprocess.run(
+            command, cwd=ROOT, check=False, stdin=subprocess.DEVNULL, stdout=sink, stderr=sink, **options
+        ).returncode
+
+
+def _prepare(environment: Environment) -> str:
+    """The interpreter of an environment, made when missing."""
+    with PREPARING:
+        return str(environments.prepare(environment))
+
+
+def _lint(log: Path | None) -> tuple[int, int]:
+    """Check the style and the types of the code."""
+    _prepare(LINT)
+    say("lint: tools/lint.py, ruff and mypy")
+    checks = [_call([sys.executable, str(ROOT / "tools" / "lint.py"), name], log) for name in ("ruff", "mypy")]
+    return checks.count(0), len(checks) - checks.count(0)
+
+
+def _pytest(name: str, diagonal: int | None, scratch: Path, extra: list[str], log: Path | None,
+            **variables: str) -> tuple[int, int]:
     """Run one folder of tests in one environment."""
-    start = time.perf_counter()
-    python = environments.prepare(environment)
+    environment, folder = SUITES[name].environment, SUITES[name].folder
+    python = _prepare(environment)
     say(f"{name}: pytest {folder} (Python {environment.python}; {', '.join(environment.packages)})")
     report = scratch / f"{name}.xml"
     # A settings folder of its own keeps the user's Blender preferences and extensions out of it.
-    variables = {**os.environ, "BLENDER_USER_RESOURCES": str(scratch / name), "PYTHONDONTWRITEBYTECODE": "1"}
+    own = {"BLENDER_USER_RESOURCES": str(scratch / name), "PYTHONDONTWRITEBYTECODE": "1"}
+    variables = {**os.environ, **own, **variables}
     variables.pop("PYTHONPATH", None)
-    (scratch / name).mkdir()
+    if diagonal is not None:
+        _left_out(f"{name}: all but one situation of each operator")
+        variables[DIAGONAL] = str(diagonal)
+    (scratch / name).mkdir(exist_ok=True)
     run = ["-c", PYTEST_AND_LEAVE] if environment.blender else ["-m", "pytest"]
     options = ["-q", f"--junitxml={report}", "-p", "no:cacheprovider", *extra]
-    command = [str(python), *run, folder, *options]
-    status = subprocess.run(command, cwd=ROOT, env=variables, check=False).returncode
-    return _outcome(name, report, status, time.perf_counter() - start)
+    return _count(name, report, _call([python, *run, folder, *options], log, env=variables))
 
 
-def _full_blender(blender: str, gui: str | None, scratch: Path) -> list[Outcome]:
+def _documents(blender: str | None, scratch: Path, extra: list[str], log: Path | None) -> tuple[int, int]:
+    """Run the commands that the pages name."""
+    # Made here, under the lock, rather than by the commands.
+    for environment in (environments.any_blender(), environments.benchmarks(), LINT):
+        _prepare(environment)
+    if not blender:
+        _left_out("the commands of a full Blender that the pages name, no --blender was given")
+        return _pytest("documents", None, scratch, extra, log, BLENDER="")
+    shutil.copytree(scratch / "resources", scratch / "documents", symlinks=True)
+    return _pytest("documents", None, scratch, extra, log, BLENDER=blender)
+
+
+def _full_blender(blender: str, gui: str | None, scratch: Path) -> list[Step]:
     """Build the extension, install it into a full Blender and test it there, inside and from outside."""
-    start = time.perf_counter()
-    say("build: tools/build.py")
-    command = [sys.executable, str(ROOT / "tools" / "build.py"), "--blender", blender]
-    status = subprocess.run(command, check=False).returncode
-    outcomes = [Outcome("build", int(status == 0), int(status != 0), time.perf_counter() - start)]
-    if status:
-        return outcomes
+    resources = scratch / "resources"
+    runner = [str(ROOT / "tests" / "run_in_blender.py"), "--blender", blender, *(["--gui", gui] if gui else [])]
 
-    python = environments.prepare(NEWEST)
-    runner = [str(python), str(ROOT / "tests" / "run_in_blender.py"), "--blender", blender]
-    runner += ["--gui", gui] if gui else []
-    parts = ["inside", "command", *(["window"] if gui else [])]
+    def build(log: Path | None) -> tuple[int, int]:
+        say("build: tools/build.py, and into the full Blender")
+        python = _prepare(NEWEST)
+        commands = [[sys.executable, str(ROOT / "tools" / "build.py"), "--blender", blender],
+                    [python, *runner, "--part", "install", "--resources", str(resources)]]  # fmt: skip
+        failed = any(_call(command, log) for command in commands)
+        return int(not failed), int(failed)
+
+    def part(name: str, log: Path | None) -> tuple[int, int]:
+        say(f"installed, {name}: tests/run_in_blender.py --part {name}")
+        # Several Blenders run at a time: each has settings of its own.
+        own, report = scratch / f"resources-{name}", scratch / f"{name}.xml"
+        shutil.copytree(resources, own, symlinks=True)
+        if name == "inside":
+            _left_out("installed, inside: all but one situation of each operator")
+        command = [_prepare(NEWEST), *runner, "--part", name, "--resources", str(own), "--junit", str(report)]
+        return _count(name, report, _call(command, log, env={**os.environ, DIAGONAL: str(len(SUITES))}))
+
     if not gui:
-        say("NOT RUN: the real-window test, no --gui was given")
-    for part in parts:
-        start = time.perf_counter()
-        report = scratch / f"{part}.xml"
-        say(f"{part}: tests/run_in_blender.py --part {part}")
-        command = [*runner, "--part", part, "--resources", str(scratch / "resources"), "--junit", str(report)]
-        status = subprocess.run(command, cwd=ROOT, check=False).returncode
-        outcomes.append(_outcome(f"installed, {part}", report, status, time.perf_counter() - start))
-    return outcomes
+        _left_out("the real-window tests, no --gui was given")
+    # Window tests measure how long a person waits, and draw in software: they need both cores.
+    parts = {"inside": False, "command": False, **({"window": True} if gui else {})}
+    return [Step("build", build), *(Step(f"installed, {name}", partial(part, name), after="build", alone=alone)
+                                    for name, alone in parts.items())]
 
 
-def _outcome(name: str, report: Path, status: int, seconds: float) -> Outcome:
+def _count(name: str, report: Path, status: int) -> tuple[int, int]:
     """Count what pytest wrote; a run that failed without a failing test counts as one, a skipped test too."""
     passed = failed = 0
     if report.is_file():
@@ -145,7 +277,7 @@ def _outcome(name: str, report: Path, status: int, seconds: float) -> Outcome:
     if (status and not failed) or not passed + failed:
         say(f"{name}: ended with status {status} and {passed} passed tests, which counts as a failure")
         failed += 1
-    return Outcome(name, passed, failed, seconds)
+    return passed, failed
 
 
 def _summary(outcomes: list[Outcome]) -> None:
@@ -153,6 +285,8 @@ def _summary(outcomes: list[Outcome]) -> None:
     print(f"\n{'step':<22} {'passed':>7} {'failed':>7} {'seconds':>8}")
     for outcome in outcomes:
         print(f"{outcome.name:<22} {outcome.passed:>7} {outcome.failed:>7} {outcome.seconds:>8.1f}")
+    for what in NOT_RUN:
+        print(f"NOT RUN: {what}")
     passed = sum(outcome.passed for outcome in outcomes)
     failed = sum(outcome.failed for outcome in outcomes)
     print(f"{passed} passed, {failed} failed", flush=True)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sidebar tab and the properties behind it."""
+"""The sidebar tab, menus, preferences and translations. An operator is named by its id, never imported."""
+
+from __future__ import annotations
 
 import bpy
 
-from ..scene import properties, use_properties
 from . import menus, panel, preferences, translations, use_panel
 
 # Sub-panels stand in the order of their registration: what is used often comes before the settings.
@@ -11,28 +12,17 @@ _PLACE = panel.CLASSES.index(panel.REEB_PARTS_PT_parts) + 1
 CLASSES = (*menus.CLASSES, *panel.CLASSES[:_PLACE], *use_panel.CLASSES, *panel.CLASSES[_PLACE:])
 
 
-def register_properties():
-    """Before the operators, which inherit from the properties."""
-    properties.register()
-    preferences.register()
-    use_properties.register()
-
-
-def unregister_properties():
-    use_properties.unregister()
-    preferences.unregister()
-    properties.unregister()
-
-
-def register():
+def register() -> None:
     translations.register()
+    preferences.register()
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     menus.register()
 
 
-def unregister():
+def unregister() -> None:
     menus.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
+    preferences.unregister()
     translations.unregister()

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Menus: of the parts in the list, and "Reeb Parts" in the header, where search (F3) finds every operator."""
 
+from __future__ import annotations
+
 import bpy
 
 
@@ -8,11 +10,11 @@ class REEB_PARTS_MT_parts(bpy.types.Menu):
     bl_idname = "REEB_PARTS_MT_parts"
     bl_label = "Parts"
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         draw_part_menu(self.layout)
 
 
-def draw_part_menu(layout):
+def draw_part_menu(layout: bpy.types.UILayout) -> None:
     """All that can be done with the chosen parts; also in the list's context menu."""
     layout.operator_menu_enum("reeb_parts.mark", "action", icon="CHECKBOX_HLT")
     layout.separator()
@@ -35,7 +37,7 @@ def draw_part_menu(layout):
     layout.operator("reeb_parts.to_nodes", icon="EMPTY_AXIS")
 
 
-def _draw_list_menu(self, context):
+def _draw_list_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     """Under what Blender itself offers for an entry of a list."""
     ui_list = getattr(context, "ui_list", None)
     if ui_list is not None and ui_list.bl_idname == "REEB_PARTS_UL_parts":
@@ -47,7 +49,7 @@ class REEB_PARTS_MT_main(bpy.types.Menu):
     bl_idname = "REEB_PARTS_MT_main"
     bl_label = "Reeb Parts"
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         layout.operator("reeb_parts.decompose", icon="MOD_EXPLODE")
         layout.operator("reeb_parts.clear", icon="TRASH")
@@ -85,18 +87,18 @@ PLACES = (
 CLASSES = (REEB_PARTS_MT_parts, REEB_PARTS_MT_main)
 
 
-def _draw(self, context):
+def _draw(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     self.layout.separator()
     self.layout.menu("REEB_PARTS_MT_main")
 
 
-def register():
+def register() -> None:
     bpy.types.UI_MT_list_item_context_menu.append(_draw_list_menu)
     for name in PLACES:
         getattr(bpy.types, name).append(_draw)
 
 
-def unregister():
+def unregister() -> None:
     for name in PLACES:
         getattr(bpy.types, name).remove(_draw)
     bpy.types.UI_MT_list_item_context_menu.remove(_draw_list_menu)

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar tab "Reeb Parts": draws stored facts, never computes."""
 
+from __future__ import annotations
+
 import textwrap
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
-from ..operators import graph
-from ..scene import jobs, notes, store
+from ..core.parameters import BERRETTI
+from ..scene import graph_objects, jobs, notes, part_names, store
 
 
-def _result(context):
+def _result(context: bpy.types.Context) -> bpy.types.PropertyGroup | None:
     """The stored result of the active mesh, or None."""
     obj = context.object
     if obj is None or obj.type != "MESH" or not store.has_result(obj.data):
@@ -26,16 +28,21 @@ class ReebPanel:
     bl_region_type = "UI"
     bl_category = "Reeb Parts"
 
-    def _column(self, context):
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
-        return self.layout.column(), context.scene.reeb_parts
+
+def settings_column(panel: bpy.types.Panel, context: bpy.types.Context
+                    ) -> tuple[bpy.types.UILayout, bpy.types.PropertyGroup]:
+    """A column for properties with their names before them, and the settings of the scene."""
+    panel.layout.use_property_split = True
+    panel.layout.use_property_decorate = False
+    return panel.layout.column(), context.scene.reeb_parts
 
 
 class REEB_PARTS_UL_parts(bpy.types.UIList):
     """Parts with colour, name, share of the area, lock and mark."""
 
-    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index):
+    def draw_item(self, context: bpy.types.Context, layout: bpy.types.UILayout, data: bpy.types.PropertyGroup,
+                  item: bpy.types.PropertyGroup, icon: int, active_data: bpy.types.PropertyGroup, active_property: str,
+                  index: int) -> None:
         row = layout.row(align=True)
         chip = row.row()
         chip.ui_units_x = 1.0
@@ -54,7 +61,7 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
     bl_idname = "REEB_PARTS_PT_main"
     bl_label = "Reeb Parts"
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         settings = context.scene.reeb_parts
         row = layout.row(align=True)
@@ -68,9 +75,10 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
             row.scale_y = 1.5
             row.operator("reeb_parts.decompose", text="Decompose", icon="MOD_EXPLODE")
         result = _result(context)
-        if result is None and graph.part_of(context.object) is not None:
-            source, number = graph.part_of(context.object)
-            text = iface_("{part} of {name}").format(part=store.part_name(source.data, number), name=source.name)
+        found = graph_objects.part_of(context.object) if result is None else None
+        if found is not None:
+            source, number = found
+            text = iface_("{part} of {name}").format(part=part_names.part_name(source.data, number), name=source.name)
             layout.label(text=text, icon="EMPTY_AXIS")
             layout.operator("reeb_parts.from_nodes")
             layout.operator("reeb_parts.split_at_node", icon="MOD_EDGESPLIT")
@@ -86,14 +94,14 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
             _draw_result(layout, context.object.data, result, max(width, 20))
 
 
-def _draw_progress(layout, job):
+def _draw_progress(layout: bpy.types.UILayout, job: jobs.Job) -> None:
     row = layout.row(align=True)
     row.scale_y = 1.5
     row.progress(factor=job.share, text=job.text[:1].upper() + job.text[1:])
     row.operator("reeb_parts.cancel", text="", icon="X")
 
 
-def _draw_result(layout, mesh, result, width):
+def _draw_result(layout: bpy.types.UILayout, mesh: bpy.types.Mesh, result: bpy.types.PropertyGroup, width: int) -> None:
     edited = store.is_edited(mesh)
     if edited:
         box = layout.box().column(align=True)
@@ -115,7 +123,7 @@ def _draw_result(layout, mesh, result, width):
     layout.operator("reeb_parts.clear", icon="TRASH")
 
 
-def facts(result) -> list[str]:
+def facts(result: bpy.types.PropertyGroup) -> list[str]:
     """What came out, in two lines."""
     parts = _count(len(result.parts), n_("{n} part"), n_("{n} parts"))
     graph = (
@@ -126,7 +134,7 @@ def facts(result) -> list[str]:
     return [iface_("{parts} in {seconds:.2f} s").format(parts=parts, seconds=result.seconds), ", ".join(graph)]
 
 
-def _count(number, one, several):
+def _count(number: int, one: str, several: str) -> str:
     return iface_(one if number == 1 else several).format(n=number)
 
 
@@ -135,10 +143,10 @@ class REEB_PARTS_PT_parts(ReebPanel, bpy.types.Panel):
     bl_label = "Parts"
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         return _result(context) is not None
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         result = _result(context)
         row = layout.row()
@@ -158,7 +166,7 @@ class REEB_PARTS_PT_parts(ReebPanel, bpy.types.Panel):
         row.operator("reeb_parts.isolate", text="Show All").show_all = True
 
 
-def _draw_tools(layout):
+def _draw_tools(layout: bpy.types.UILayout) -> None:
     """What works with the pointer over the model; in two rows, since other languages have longer words."""
     flow = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
     # In a context of our own: by "Cut", Blender means the clipboard, and in some languages says so.
@@ -173,11 +181,11 @@ class REEB_PARTS_PT_field(ReebPanel, bpy.types.Panel):
     bl_label = "Field"
     bl_options = {"DEFAULT_CLOSED"}
 
-    def draw(self, context):
-        column, settings = self._column(context)
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
         column.prop(settings, "base_spacing")
-        column.prop(settings, "equalise")
-        column.prop(settings, "levels")
+        column.prop(settings, "equalize")
+        column.prop(settings, "n_slabs")
 
 
 class REEB_PARTS_PT_graph(ReebPanel, bpy.types.Panel):
@@ -185,8 +193,8 @@ class REEB_PARTS_PT_graph(ReebPanel, bpy.types.Panel):
     bl_label = "Graph"
     bl_options = {"DEFAULT_CLOSED"}
 
-    def draw(self, context):
-        column, settings = self._column(context)
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
         column.prop(settings, "method")
         column.prop(settings, "small_region")
         column.prop(settings, "loose_part")
@@ -197,11 +205,13 @@ class REEB_PARTS_PT_boundaries(ReebPanel, bpy.types.Panel):
     bl_label = "Boundaries"
     bl_options = {"DEFAULT_CLOSED"}
 
-    def draw(self, context):
-        column, settings = self._column(context)
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
         column.prop(settings, "follow_level_sets")
-        column.prop(settings, "alpha")
-        column.prop(settings, "sigma")
+        column.prop(settings, "band_ratio")
+        if settings.method == BERRETTI:
+            column.prop(settings, "concavity_weight")
+            column.prop(settings, "sigma")
         column.prop(settings, "smoothing")
 
 
@@ -210,8 +220,8 @@ class REEB_PARTS_PT_output(ReebPanel, bpy.types.Panel):
     bl_label = "Output"
     bl_options = {"DEFAULT_CLOSED"}
 
-    def draw(self, context):
-        column, settings = self._column(context)
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
         for name in ("vertex_groups", "face_attribute", "colors", "palette"):
             column.prop(settings, name)
         for name in ("face_sets", "materials", "seams", "field"):
@@ -223,8 +233,8 @@ class REEB_PARTS_PT_overlay(ReebPanel, bpy.types.Panel):
     bl_label = "Overlay"
     bl_options = {"DEFAULT_CLOSED"}
 
-    def draw(self, context):
-        column, settings = self._column(context)
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
         column.prop(settings, "graph", text="Show graph")
         column = column.column()
         column.enabled = settings.graph

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What every new scene starts with, in Blender's preferences."""
 
+from typing import Any
+
 import bpy
 from bpy.props import EnumProperty
 
 from .. import __package__ as base_package
-from ..scene.properties import OUTPUTS, OVERLAY, PRESET_ITEMS, OutputProperties, OverlayProperties
+from ..scene.settings import OUTPUTS, OVERLAY, PRESET_ITEMS, OutputProperties, OverlayProperties
 
 
-def _without_update(prop):
+def _without_update(prop: Any) -> Any:
     """The same property, for a place where changing it draws nothing."""
     return prop.function(**{key: value for key, value in prop.keywords.items() if key != "update"})
 
@@ -28,7 +30,7 @@ class ReebPartsPreferences(bpy.types.AddonPreferences, OutputProperties, Overlay
         name="Preset", items=PRESET_ITEMS, description="The parameters that new scenes start with",
     )
 
-    def draw(self, context):
+    def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         layout.use_property_split = True
         layout.label(text="New scenes start with these settings.")
@@ -42,15 +44,9 @@ class ReebPartsPreferences(bpy.types.AddonPreferences, OutputProperties, Overlay
         layout.operator("reeb_parts.use_preferences")
 
 
-def get():
-    """The preferences; None when the extension runs without being listed in them."""
-    addon = bpy.context.preferences.addons.get(base_package)
-    return addon.preferences if addon else None
-
-
-def register():
+def register() -> None:
     bpy.utils.register_class(ReebPartsPreferences)
 
 
-def unregister():
+def unregister() -> None:
     bpy.utils.unregister_class(ReebPartsPreferences)

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sub-panel "Use Parts": what parts can become."""
 
+from __future__ import annotations
+
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
-from ..scene import pieces, store
-from .panel import ReebPanel
+from ..scene import piece_objects, store
+from .panel import ReebPanel, settings_column
 
 
 class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
@@ -15,12 +17,12 @@ class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
-    def poll(cls, context):
+    def poll(cls, context: bpy.types.Context) -> bool:
         obj = context.object
         return obj is not None and obj.type == "MESH" and store.has_result(obj.data)
 
-    def draw(self, context):
-        column, _ = self._column(context)
+    def draw(self, context: bpy.types.Context) -> None:
+        column, _ = settings_column(self, context)
         settings = context.scene.reeb_parts_use
         # Separate stands above its options, so that no one has to scroll for it in a small window.
         column.row().prop(settings, "which", expand=True)
@@ -31,7 +33,7 @@ class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
         column.prop(context.object.reeb_parts_made, "explode", slider=True)
         self._draw_outputs(context.object.data.reeb_parts)
 
-    def _draw_outputs(self, result):
+    def _draw_outputs(self, result: bpy.types.PropertyGroup) -> None:
         """Buttons that stay pressed for as long as there is what they make."""
         row = self.layout.row(align=True)
         for name, text, there in (
@@ -50,11 +52,12 @@ class REEB_PARTS_PT_piece(ReebPanel, bpy.types.Panel):
     bl_label = "Separated Part"
 
     @classmethod
-    def poll(cls, context):
-        return context.object is not None and pieces.original(context.object) is not None
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return context.object is not None and piece_objects.original(context.object) is not None
 
-    def draw(self, context):
-        obj = pieces.original(context.object)
+    def draw(self, context: bpy.types.Context) -> None:
+        obj = piece_objects.original(context.object)
+        assert obj is not None  # poll
         self.layout.label(text=iface_("A part of {name}").format(name=obj.name), icon="MESH_DATA")
         show = iface_("Show {name}").format(name=obj.name)
         self.layout.operator("reeb_parts.show_original", text=show, icon="HIDE_OFF")

@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The arcs of a graph as lines to draw and to point at."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
+
+from ..core.graph.reeb import ReebGraph
+from ..core.result.decomposition import Decomposition
+from ..scene import bridge
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,18 +36,16 @@ class GraphLines:
     segments: np.ndarray
 
     @classmethod
-    def of(cls, decomposition, stretch):
+    def of(cls, decomposition: Decomposition, stretch: np.ndarray) -> GraphLines:
         """Lines of a decomposition's graph. stretch : (3, 3), of the mesh when it was decomposed."""
         graph = decomposition.graph
-        back = np.linalg.pinv(stretch).T
-        ends = [np.concatenate([node, point]) @ back if node.ndim > 1 else np.concatenate([node, point])
-                for node, point in (
-                    (graph.node_position, graph.point_position), (graph.node_value, graph.point_value),
-                    (decomposition.node_candidate, decomposition.point_candidate))]
-        return cls(*ends, _segments(graph))
+        position = np.concatenate([graph.node_position, graph.point_position]) @ bridge.unstretch(stretch).T
+        value = np.concatenate([graph.node_value, graph.point_value])
+        candidate = np.concatenate([decomposition.node_candidate, decomposition.point_candidate])
+        return cls(position, value, candidate, _segments(graph))
 
 
-def _segments(graph) -> np.ndarray:
+def _segments(graph: ReebGraph) -> np.ndarray:
     """Nodes come first, then the centre points of the arcs in order."""
     points = graph.n_nodes + np.arange(len(graph.point_value))
     following = np.flatnonzero(graph.point_arc[1:] == graph.point_arc[:-1])
@@ -54,7 +58,7 @@ def _segments(graph) -> np.ndarray:
     ]).astype(np.int64)  # fmt: skip
 
 
-def nearest(points: np.ndarray, segments: np.ndarray, target) -> tuple[int, float, float]:
+def nearest(points: np.ndarray, segments: np.ndarray, target: np.ndarray) -> tuple[int, float, float]:
     """The segment nearest to a point, in the plane or in space.
 
     Parameters

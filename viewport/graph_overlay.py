@@ -6,12 +6,14 @@ kind it is: a disc for a minimum, a square for a saddle, a triangle for a maximu
 what is hidden, or was taken away, is not drawn.
 """
 
+from __future__ import annotations
+
 import bpy
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..scene import graph_objects, store
+from ..scene import graph_objects, part_names, store
 from ..scene.errors import SceneError
 from .graph_lines import GraphLines
 
@@ -23,10 +25,10 @@ _DARK, _LIGHT = (0.05, 0.05, 0.05, 1.0), (0.9, 0.9, 0.9, 1.0)  # of the rim, aro
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722, 0.0])
 
 _handle = None
-_lines = {}  # of each graph, with what they were built of
+_lines: dict[int, tuple] = {}  # of each graph, with what they were built of
 
 
-def _corners(count, start):
+def _corners(count: int, start: float) -> np.ndarray:
     angle = start + 2 * np.pi * np.arange(count) / count
     return np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
@@ -39,13 +41,13 @@ SHAPES = {
 }
 
 
-def register():
+def register() -> None:
     global _handle
     if not bpy.app.background:  # there is nothing to draw on
         _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
 
 
-def unregister():
+def unregister() -> None:
     global _handle
     if _handle is not None:
         bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
@@ -53,7 +55,8 @@ def unregister():
     _lines.clear()
 
 
-def marks(places, kinds, colors, right, up, radii):
+def marks(places: np.ndarray, kinds: list[str], colors: np.ndarray, right: np.ndarray, up: np.ndarray,
+          radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Triangles of the marks of some nodes, each with its rim behind it.
 
     Parameters
@@ -83,7 +86,7 @@ def marks(places, kinds, colors, right, up, radii):
     return tuple(np.ascontiguousarray(np.concatenate(rows), np.float32) for rows in (points, shades))
 
 
-def _draw():
+def _draw() -> None:
     context = bpy.context
     if not context.space_data.overlay.show_overlays:
         return
@@ -101,7 +104,7 @@ def _draw():
         del _lines[gone]
 
 
-def _draw_graph(context, source, items):
+def _draw_graph(context: bpy.types.Context, source: bpy.types.Object, items: list[bpy.types.Object]) -> None:
     gpu.state.depth_test_set("NONE" if items[0].show_in_front else "LESS_EQUAL")
     gpu.state.blend_set("ALPHA")
     if any(item.get(graph_objects.ROLE) == "arcs" for item in items):
@@ -113,7 +116,7 @@ def _draw_graph(context, source, items):
     gpu.state.depth_test_set("NONE")
 
 
-def _draw_arcs(source):
+def _draw_arcs(source: bpy.types.Object) -> None:
     result = source.data.reeb_parts
     key = (source.data.is_editmode, result.fingerprint, result.numbers, [part.color[:] for part in result.parts])
     if _lines.get(source.session_uid, (None,))[0] != key:
@@ -129,7 +132,7 @@ def _draw_arcs(source):
         batch.draw(shader)
 
 
-def _arc_batch(source):
+def _arc_batch(source: bpy.types.Object) -> gpu.types.GPUBatch | None:
     """The arcs for the card, None if there is nothing to draw."""
     try:
         points, colors = colored_arcs(source.data)
@@ -141,7 +144,7 @@ def _arc_batch(source):
     return batch_for_shader(shader, "LINES", {"pos": points, "color": colors})
 
 
-def colored_arcs(mesh):
+def colored_arcs(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """The arcs of a graph as lines in the colours of their parts.
 
     Returns
@@ -160,7 +163,7 @@ def colored_arcs(mesh):
     else:
         stored = store.load(mesh)
     lines = GraphLines.of(stored.decomposition, store.stretch_of(mesh))
-    colors = store.number_colors(mesh)[stored.shown[lines.candidate]]
+    colors = part_names.number_colors(mesh)[stored.shown[lines.candidate]]
     ends = lines.segments
     middle = lines.position[ends].mean(axis=1)
     # Each half of a segment is in the part that its end is in.
@@ -169,10 +172,10 @@ def colored_arcs(mesh):
     return points.reshape(-1, 3).astype(np.float32), shades.reshape(-1, 4).astype(np.float32)
 
 
-def _draw_nodes(context, source, nodes):
+def _draw_nodes(context: bpy.types.Context, source: bpy.types.Object, nodes: list[bpy.types.Object]) -> None:
     region, view = context.region, context.region_data
     places = np.array([node.matrix_world.translation for node in nodes])
-    shown = store.number_colors(source.data)
+    shown = part_names.number_colors(source.data)
     colors = shown[np.clip([node["part"] for node in nodes], 0, len(shown) - 1)]
     matrix = np.array(view.view_matrix, np.float64)
     whole = np.array(view.perspective_matrix, np.float64)

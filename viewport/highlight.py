@@ -4,15 +4,16 @@
 Built when the choice or the parts change, drawn as often as the view is; nothing is written anywhere.
 """
 
+from __future__ import annotations
+
 import bpy
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..operators import parts
-from ..scene import bridge, explode, store
+from ..scene import explode, mesh_arrays, store
 from ..scene.errors import SceneError
-from ..scene.outputs import attributes
+from ..scene.part_list import chosen_numbers
 
 COLOR = (1.0, 1.0, 1.0, 0.9)
 WIDTH = 2.5
@@ -22,20 +23,20 @@ _built = None  # what the lines below were built of
 _lines = None
 
 
-def register():
+def register() -> None:
     global _handle
     if not bpy.app.background:  # there is nothing to draw on
         _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
 
 
-def unregister():
+def unregister() -> None:
     global _handle, _built, _lines
     if _handle is not None:
         bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
     _handle = _built = _lines = None
 
 
-def outline(obj, numbers) -> np.ndarray:
+def outline(obj: bpy.types.Object, numbers: list[int]) -> np.ndarray:
     """Where some parts border on others: ends of edges, (2e, 3) float32, in the object's coordinates.
 
     Raises
@@ -45,12 +46,12 @@ def outline(obj, numbers) -> np.ndarray:
     """
     mesh = obj.data
     stored = store.load(mesh)
-    mine = np.isin(stored.shown[stored.decomposition.candidates], numbers)
-    edges = bridge.edge_ends(mesh)[attributes.cut_edges(mesh, mine.astype(np.int64))]
-    return bridge.shown_points(obj)[edges.ravel()]
+    mine = np.isin(stored.face_numbers, numbers)
+    edges = mesh_arrays.edge_ends(mesh)[mesh_arrays.cut_edges(mesh, mine.astype(np.int64))]
+    return mesh_arrays.shown_points(obj)[edges.ravel()]
 
 
-def _draw():
+def _draw() -> None:
     global _built, _lines
     context = bpy.context
     obj = context.object
@@ -60,7 +61,7 @@ def _draw():
             or explode.find(obj)):  # the parts are elsewhere then
         return
     result = obj.data.reeb_parts
-    numbers = parts.chosen_numbers(obj.data)
+    numbers = chosen_numbers(obj.data)
     key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers))
     if key != _built:
         _built = key
@@ -78,7 +79,7 @@ def _draw():
     gpu.state.blend_set("NONE")
 
 
-def _batch(obj, numbers):
+def _batch(obj: bpy.types.Object, numbers: list[int]) -> gpu.types.GPUBatch | None:
     """Lines for the card, None if there are none."""
     try:
         points = outline(obj, numbers)

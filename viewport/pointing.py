@@ -1,14 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What lies under the pointer: a point of the graph, or a face of the mesh."""
 
-from dataclasses import dataclass
+from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import bpy
 import numpy as np
 from bpy_extras import view3d_utils
-from mathutils import Vector
+from mathutils import Matrix, Vector
 
-from ..scene import bridge, graph_objects, store
+from ..scene import graph_objects, mesh_arrays, store
 from .graph_lines import GraphLines, nearest
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 REACH = 10.0  # pixels around an arc, of a screen without scaling
 
@@ -48,22 +56,23 @@ class Model:
         There are no parts, or they are out of date.
     """
 
-    def __init__(self, obj):
+    def __init__(self, obj: bpy.types.Object) -> None:
         self.name = obj.name
         self.stored = store.load(obj.data)
         self.stretch = store.stretch_of(obj.data)
         self.lines = GraphLines.of(self.stored.decomposition, self.stretch)
-        self.face_value = bridge.face_means(obj.data, np.nan_to_num(self.stored.decomposition.field))
-        self.face_center = bridge.face_means(obj.data, bridge.shown_points(obj).astype(np.float64))
+        table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
+        self.face_value = table.face_means(np.nan_to_num(self.stored.decomposition.field))
+        self.face_center = table.face_means(table.vertices)
         self._tree = None
 
     @property
     def numbers(self) -> np.ndarray:
         """(p,) int64, the part of each face."""
-        return self.stored.shown[self.stored.decomposition.candidates]
+        return self.stored.face_numbers
 
     @property
-    def tree(self):
+    def tree(self) -> cKDTree:
         """Finds face centres; made when it is needed first."""
         from scipy.spatial import cKDTree
 
@@ -71,11 +80,11 @@ class Model:
             self._tree = cKDTree(self.face_center)
         return self._tree
 
-    def number(self, target) -> int:
+    def number(self, target: Target) -> int:
         """The part that a target lies in."""
         return int(self.stored.shown[target.candidate])
 
-    def at(self, obj, location, on_graph) -> Target:
+    def at(self, obj: bpy.types.Object, location: Sequence[float], on_graph: bool) -> Target:
         """The place of the graph, or of the surface, nearest to a location in the world."""
         location = np.array(obj.matrix_world.inverted_safe() @ Vector(location), np.float64)
         if not on_graph:
@@ -83,13 +92,15 @@ class Model:
         segment, share, _ = nearest(self.lines.position, self.lines.segments, location)
         return self._on_line(segment, share)
 
-    def under(self, context, obj, region, mouse, graph=True, surface=True) -> Target | None:
+    def under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
+              mouse: tuple[float, float], graph: bool = True, surface: bool = True) -> Target | None:
         """What is at a (2,) place of a region, in its pixels: of the graph first; None beside the model."""
         view = region.data  # each region of a quad view has its own
         target = self._graph_under(context, obj, region, view, mouse) if graph else None
         return target or (self._face_under(context, obj, region, view, mouse) if surface else None)
 
-    def _graph_under(self, context, obj, region, view, mouse):
+    def _graph_under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
+                     view: bpy.types.RegionView3D, mouse: tuple[float, float]) -> Target | None:
         arcs = graph_objects.arcs(obj)
         if arcs is None or not arcs.visible_get():
             return None
@@ -99,18 +110,20 @@ class Model:
             return None
         return self._on_line(segment, share)
 
-    def _on_line(self, segment, share):
+    def _on_line(self, segment: int, share: float) -> Target:
         low, high = self.lines.segments[segment]
         end = high if share > 0.5 else low
         blend = np.array([1.0 - share, share])
         return Target(int(self.lines.candidate[end]), blend @ self.lines.position[[low, high]],
                       float(blend @ self.lines.value[[low, high]]), -1)
 
-    def _face_under(self, context, obj, region, view, mouse):
+    def _face_under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
+                    view: bpy.types.RegionView3D, mouse: tuple[float, float]) -> Target | None:
         start = view3d_utils.region_2d_to_origin_3d(region, view, mouse)
         return self.along(context, obj, start, view3d_utils.region_2d_to_vector_3d(region, view, mouse))
 
-    def along(self, context, obj, start, direction) -> Target | None:
+    def along(self, context: bpy.types.Context, obj: bpy.types.Object, start: Vector,
+              direction: Vector) -> Target | None:
         """The place of the surface, as it is shown, that a ray meets first; all in the world."""
         back = obj.matrix_world.inverted_safe()
         ahead = back.to_3x3() @ direction
@@ -125,11 +138,12 @@ class Model:
             face = int(self.tree.query(location)[1])
         return self._on_face(face, location)
 
-    def _on_face(self, face, location):
+    def _on_face(self, face: int, location: np.ndarray) -> Target:
         return Target(int(self.stored.decomposition.candidates[face]), location, float(self.face_value[face]), face)
 
 
-def on_screen(positions, matrix, region, view) -> np.ndarray:
+def on_screen(positions: np.ndarray, matrix: Matrix, region: bpy.types.Region,
+              view: bpy.types.RegionView3D) -> np.ndarray:
     """Where points are seen, (m, 2) float64 in pixels of the region; nan behind the viewer."""
     whole = np.array(view.perspective_matrix, np.float64) @ np.array(matrix, np.float64)
     seen = np.concatenate([positions, np.ones((len(positions), 1))], axis=1) @ whole.T
@@ -137,7 +151,7 @@ def on_screen(positions, matrix, region, view) -> np.ndarray:
     return (seen[:, :2] / depth + 1.0) * 0.5 * (region.width, region.height)
 
 
-def viewport_region(screen, x, y):
+def viewport_region(screen: bpy.types.Screen, x: int, y: int) -> tuple[bpy.types.Region, tuple[float, float]] | None:
     """The region of any viewport of a screen at a place of the window, as of ``view_region``."""
     for area in screen.areas:
         if area.type == "VIEW_3D" and 0 <= x - area.x < area.width and 0 <= y - area.y < area.height:
@@ -145,7 +159,7 @@ def viewport_region(screen, x, y):
     return None
 
 
-def view_region(area, x, y):
+def view_region(area: bpy.types.Area, x: int, y: int) -> tuple[bpy.types.Region, tuple[float, float]] | None:
     """The region of a viewport at a place of the window: (region, place in it), or None over a panel."""
     window = None
     for region in area.regions:

@@ -1,50 +1,55 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Show the parts' colours in the viewport that Decompose was pressed in."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+
+import bpy
 
 
 @dataclass
-class Former:
-    """What a viewport was set to before."""
+class ViewSettings:
+    """What a viewport was set to before its parts were shown."""
 
     color_type: str
     relationship_lines: bool
 
 
 # By viewport, for the time that Blender runs.
-_former: dict[int, Former] = {}
+_before: dict[int, ViewSettings] = {}
 
 
-def show_colors(context):
+def show_colors(context: bpy.types.Context) -> None:
     """Colour the solid view by the active colour attribute, without lines from each node to its parent."""
     space = _solid_view(context)
     if space is None:
         return
-    _former.setdefault(space.as_pointer(), Former(space.shading.color_type, space.overlay.show_relationship_lines))
+    before = ViewSettings(space.shading.color_type, space.overlay.show_relationship_lines)
+    _before.setdefault(space.as_pointer(), before)
     space.shading.color_type = "VERTEX"
     space.overlay.show_relationship_lines = False
 
 
-def show_pieces(context):
+def show_pieces(context: bpy.types.Context) -> None:
     """Colour the solid view by object, where it showed the parts: now these are objects."""
     space = _solid_view(context)
-    if space is not None and space.as_pointer() in _former and space.shading.color_type == "VERTEX":
+    if space is not None and space.as_pointer() in _before and space.shading.color_type == "VERTEX":
         space.shading.color_type = "OBJECT"
 
 
-def restore_colors(context):
-    """Show the view as before ``show_colors``; what somebody has set since stays."""
+def restore_colors(context: bpy.types.Context) -> None:
+    """Show the view as before ``show_colors``; what the user has set since stays."""
     space = context.space_data
-    if space is None or space.type != "VIEW_3D" or space.as_pointer() not in _former:
+    if space is None or space.type != "VIEW_3D" or space.as_pointer() not in _before:
         return
-    former = _former.pop(space.as_pointer())
+    before = _before.pop(space.as_pointer())
     if space.shading.color_type in {"VERTEX", "OBJECT"}:
-        space.shading.color_type = former.color_type
+        space.shading.color_type = before.color_type
     if not space.overlay.show_relationship_lines:
-        space.overlay.show_relationship_lines = former.relationship_lines
+        space.overlay.show_relationship_lines = before.relationship_lines
 
 
-def _solid_view(context):
+def _solid_view(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
     space = context.space_data
     return space if space is not None and space.type == "VIEW_3D" and space.shading.type == "SOLID" else None

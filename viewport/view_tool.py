@@ -1,39 +1,40 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tools that are used with the pointer over the model until they are confirmed or cancelled."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import bpy
 import gpu
-import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 from gpu_extras.batch import batch_for_shader
 
-from ..operators import edit
-from ..scene import store
 from ..scene.errors import SceneError
-from ..scene.outputs import attributes
 from . import pointing
+from .pointing import Target
 
 _CONFIRM = {"RET", "NUMPAD_ENTER"}
 _CANCEL = {"ESC", "RIGHTMOUSE"}
 _MOVES = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}
-_CHANGED = n_("The object was changed meanwhile.")
+CHANGED = n_("The object was changed meanwhile.")
 _TURNS = {"view3d.rotate", "view3d.move", "view3d.zoom", "view3d.dolly"}
 
 
 class Preview:
     """Lines that are drawn over the view while a tool is at work; outlives nothing of Blender's."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.lines = None  # (k, 2, 3) float, in coordinates of the mesh
         self.matrix = None  # of the object, in the world
         self.color = (1.0, 1.0, 1.0, 1.0)
         self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
 
-    def remove(self):
+    def remove(self) -> None:
         bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
 
-    def _draw(self):
+    def _draw(self) -> None:
         if self.lines is None or not len(self.lines):
             return
         shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
@@ -54,35 +55,40 @@ class ViewTool:
     """
 
     cursor = "EYEDROPPER"
-    aims = True  # at places of the model
+    aims = True  # at places of the model; a tool that does not is confirmed by a click
     uses_graph = True  # or only the surface
+
+    if TYPE_CHECKING:
+
+        def report(self, kind: set[str], message: str) -> None:
+            """Of bpy.types.Operator, which the class that inherits is, too."""
 
     def hint(self) -> str:
         """What the status bar says."""
         raise NotImplementedError
 
-    def begin(self, context, obj):
+    def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         """Read what more is needed; raises SceneError."""
 
-    def hover(self, context, target, event):
+    def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
         """The pointer moved; target is None beside the model."""
 
-    def press(self, context, target, event):
+    def press(self, context: bpy.types.Context, target: Target, event: bpy.types.Event) -> set[str] | None:
         """The left button went down on the model; the operator's result, or None to go on."""
 
-    def other(self, context, target, event):
+    def other(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> bool:
         """Any other event over the view; True if it was used."""
         return False
 
-    def confirm(self, context):
+    def confirm(self, context: bpy.types.Context) -> set[str]:
         """Enter was pressed; the operator's result."""
         return {"FINISHED"}
 
-    def give_up(self, context):
+    def give_up(self, context: bpy.types.Context) -> set[str]:
         """Esc was pressed; the operator's result."""
         return {"CANCELLED"}
 
-    def invoke(self, context, event):
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         obj = context.view_layer.objects.active
         try:
             if context.area is None or context.area.type != "VIEW_3D":
@@ -99,16 +105,16 @@ class ViewTool:
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
-    def modal(self, context, event):
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         result = self._answer(context, event)
         if result & {"FINISHED", "CANCELLED"}:
             self._end(context)
         return result
 
-    def cancel(self, context):
+    def cancel(self, context: bpy.types.Context) -> None:
         self._end(context)
 
-    def _answer(self, context, event):
+    def _answer(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         try:
             if event.type in _CANCEL and event.value == "PRESS":
                 return self.give_up(context)
@@ -123,44 +129,49 @@ class ViewTool:
             self.report({"ERROR"}, str(error))
             return self.give_up(context)
 
-    def _use(self, context, target, event):
+    def _use(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> set[str]:
         if event.type in _MOVES:
             self.hover(context, target, event)
             self._redraw(context)
             return {"RUNNING_MODAL"}
         if event.type == "LEFTMOUSE" and event.value == "PRESS" and not event.alt:  # Alt turns the view
+            if not self.aims:
+                return self.confirm(context)
             # Beside the model a click would deselect it.
-            hit = target is not None or not self.aims
-            return (self.press(context, target, event) if hit else None) or {"RUNNING_MODAL"}
+            return (None if target is None else self.press(context, target, event)) or {"RUNNING_MODAL"}
         used = self.other(context, target, event)
         self._redraw(context)
         return {"RUNNING_MODAL"} if used else {"PASS_THROUGH"}
 
-    def _target(self, context, place):
+    def _target(self, context: bpy.types.Context,
+                place: tuple[bpy.types.Region, tuple[float, float]] | None) -> Target | None:
         """What is under the pointer; everything is read again if parts or object have changed."""
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH" or obj.mode != "OBJECT":
-            raise SceneError(rpt_(_CHANGED))
+            raise SceneError(rpt_(CHANGED))
         if not self.is_current(obj):
             self._read(context, obj)
         self.preview.matrix = obj.matrix_world.copy()
-        return self.model.under(context, obj, *place, graph=self.uses_graph) if self.aims else None
+        if place is None or not self.aims:
+            return None
+        region, mouse = place
+        return self.model.under(context, obj, region, mouse, graph=self.uses_graph)
 
-    def is_current(self, obj) -> bool:
+    def is_current(self, obj: bpy.types.Object | None) -> bool:
         """Whether an object is the one that was read, with the parts that it had then; it may be None."""
-        return obj is not None and obj.type == "MESH" and self._key == _key(obj)
+        return obj is not None and obj.type == "MESH" and self._key == result_key(obj)
 
-    def _read(self, context, obj):
+    def _read(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         self.model = pointing.Model(obj)
-        self._key = _key(obj)
+        self._key = result_key(obj)
         self.begin(context, obj)
 
-    def _redraw(self, context):
+    def _redraw(self, context: bpy.types.Context) -> None:
         for area in context.window.screen.areas:
             if area.type == "VIEW_3D":
                 area.tag_redraw()
 
-    def _end(self, context):
+    def _end(self, context: bpy.types.Context) -> None:
         self.preview.remove()
         context.window.cursor_modal_restore()
         for workspace in bpy.data.workspaces:
@@ -168,69 +179,14 @@ class ViewTool:
         self._redraw(context)
 
 
-def _key(obj):
+def result_key(obj: bpy.types.Object) -> tuple:
     """Changes with the object, its mesh and its parts."""
     result = obj.data.reeb_parts
     return obj.name, obj.data.session_uid, result.fingerprint, result.numbers
 
 
-class ColoredTool(ViewTool):
-    """Shows in colours what the active part would be; all else is written once that is confirmed.
-
-    A class that inherits gives ``finish(context, obj)``, too.
-    """
-
-    _shown = None  # (p,) int64, the part that each face has the colour of
-
-    def finish(self, context, obj):
-        """It was confirmed; the operator's result. Raises SceneError."""
-        raise NotImplementedError
-
-    def begin(self, context, obj):
-        if self._shown is not None:  # another command has written its parts, and maybe not over all that was shown
-            self._shown = np.full(len(self.model.numbers), -1)
-            self.restore()
-        self._shown = self.model.numbers
-        self.number = active_number(obj)
-        edit.check_unlocked(obj, [self.number])
-
-    def show(self, obj, numbers):
-        """Colour the faces as if they were in other parts. numbers : (p,) int64."""
-        changed = np.flatnonzero(numbers != self._shown)
-        attributes.color_faces(obj.data, numbers, store.number_colors(obj.data), changed)
-        obj.data.update()
-        self._shown = numbers
-
-    def restore(self):
-        """Show the parts as they are."""
-        obj = bpy.data.objects.get(self.model.name)
-        if self.is_current(obj):
-            self.show(obj, self.model.numbers)
-
-    def confirm(self, context):
-        self.restore()
-        obj = context.view_layer.objects.active
-        if not self.is_current(obj):
-            raise SceneError(rpt_(_CHANGED))
-        return self.finish(context, obj)
-
-    def give_up(self, context):
-        self.restore()
-        return {"CANCELLED"}
-
-    def cancel(self, context):
-        self.restore()
-        super().cancel(context)
-
-
-def turns_view(context, event) -> bool:
+def turns_view(context: bpy.types.Context, event: bpy.types.Event) -> bool:
     """Whether an event moves the view, by the keys and buttons that the user has set."""
     keymap = context.window_manager.keyconfigs.user.keymaps["3D View"]
     found = keymap.keymap_items.match_event(event)
     return found is not None and (found.idname in _TURNS or found.idname.startswith(("view3d.view_", "view3d.ndof_")))
-
-
-def active_number(obj) -> int:
-    """The part that is active in the list."""
-    result = obj.data.reeb_parts
-    return result.parts[result.active].number

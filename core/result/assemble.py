@@ -156,7 +156,8 @@ def _face_candidates(
         label.append(first + numbers)
         weight.append(working.mesh.face_area[rest] + LEAST_WEIGHT * working.mesh.area)
         hierarchies.append(Hierarchy.of(len(names), [], []))
-    face_label = majority(*map(np.concatenate, (owner, label, weight)), given.n_polygons)
+    face_label = majority(
+        np.concatenate(owner), np.concatenate(label), np.concatenate(weight), given.n_polygons)
     face_label = connect(face_graph, fill_unlabelled(face_graph, face_label))
     face_label = connect(face_graph, straighten(face_graph, face_label, rounds))
     return settle(face_graph, face_label, Hierarchy.join(hierarchies))

@@ -158,7 +158,7 @@ def distinct_pairs(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, n
     """
     # NumPy sorts pairs that are packed into one integer far faster than rows.
     width = int(second.max(initial=0)) + 1
-    keys, index = renumbered(first * np.int64(width) + second)
+    keys, index = renumbered(np.asarray(first, np.int64) * width + second)
     return np.stack(np.divmod(keys, width), axis=1), index
 
 

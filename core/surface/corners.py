@@ -100,8 +100,30 @@ class CornerTable:
         labels : (p,) int64, 0 or more. Returns two (e,) int64 arrays. They are equal inside a part and differ on a
         cut; for an edge without faces the smallest is the largest int64 and the largest is -1.
         """
-        low = np.full(len(self.edges), np.iinfo(np.int64).max)
-        high = np.full(len(self.edges), -1, np.int64)
-        np.minimum.at(low, self.corner_edge, labels[self.corner_face])
-        np.maximum.at(high, self.corner_edge, labels[self.corner_face])
-        return low, high
+        return edge_labels(self.corner_edge, self.corner_face, labels, len(self.edges))
+
+
+def edge_labels(
+    corner_edge: np.ndarray, corner_face: np.ndarray, labels: np.ndarray, n_edges: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Find the smallest and the largest label of the faces at each edge, without a ``CornerTable``.
+
+    Parameters
+    ----------
+    corner_edge, corner_face : (c,) int64
+        Edge and face of each corner, as in ``CornerTable``.
+    labels : (p,) int64
+        Label of each face, 0 or more.
+    n_edges : int
+        Number of edges, e.
+
+    Returns
+    -------
+    low, high : (e,) int64
+        Equal inside a part, different on a cut; for an edge without faces the largest int64 and -1.
+    """
+    low = np.full(n_edges, np.iinfo(np.int64).max)
+    high = np.full(n_edges, -1, np.int64)
+    np.minimum.at(low, corner_edge, labels[corner_face])
+    np.maximum.at(high, corner_edge, labels[corner_face])
+    return low, high

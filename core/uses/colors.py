@@ -154,7 +154,7 @@ def _chosen_by_number(graph: NumberGraph, palette_bytes: bytes) -> np.ndarray:
     """Place in the palette of each number of a graph, (k,) int64; kept, since all levels of detail share one graph."""
     palette = np.frombuffer(palette_bytes).reshape(-1, 3)
     wanted = None
-    if graph.unpinned is not None:
+    if graph.unpinned is not None and graph.unpinned_index is not None:
         before = _chosen_by_number(graph.unpinned, palette_bytes)
         wanted = np.where(graph.unpinned_index >= 0, before[graph.unpinned_index], -1)
     return frozen(chosen_colors(len(graph.numbers), graph.pairs, palette, wanted), np.int64)

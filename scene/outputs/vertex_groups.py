@@ -4,11 +4,15 @@
 Blender has no way to write weights in bulk but a list of vertices per group, so only what changes is written.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
+import bpy
 import numpy as np
 
-from .. import bridge
+from ...core.result.numbering import NumberedParts
+from .. import mesh_arrays
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +34,7 @@ class Grains:
     shared: np.ndarray
 
     @classmethod
-    def of(cls, vertex: np.ndarray, candidate: np.ndarray) -> "Grains":
+    def of(cls, vertex: np.ndarray, candidate: np.ndarray) -> Grains:
         """From the vertex and the candidate of each corner, two (k,) integer arrays."""
         n_vertices, count = int(vertex.max(initial=-1)) + 1, int(candidate.max(initial=-1)) + 1
         # Small whole numbers are sorted much faster.
@@ -70,7 +74,7 @@ class Grains:
         moved = np.flatnonzero(before != after).tolist()
         found = []
         for numbers, mine, others in ((after, new, old), (before, old, new)):
-            lists = {}
+            lists: dict[int, list[np.ndarray]] = {}
             for index in moved:
                 inside = self.inner[self.bounds[index] : self.bounds[index + 1]]
                 lists.setdefault(int(numbers[index]), []).append(inside)
@@ -79,36 +83,38 @@ class Grains:
             for first, vertices in zip(number[start].tolist(), np.split(there, start)[1:], strict=True):
                 lists.setdefault(first, []).append(vertices)
             found.append({number: np.concatenate(there) for number, there in lists.items() if number > 0})
-        return tuple(found)
+        come, gone = found
+        return come, gone
 
 
 _grains: list[tuple[np.ndarray, np.ndarray, Grains]] = []  # the last, with what it was made of
 
 
-def grains(mesh, candidates: np.ndarray) -> Grains:
+def grains(mesh: bpy.types.Mesh, candidates: np.ndarray) -> Grains:
     """The grains of a mesh, kept for the next step of a drag. candidates : (p,) int64, of each face."""
-    vertex, face = bridge.face_corners(mesh)
+    vertex, face = mesh_arrays.face_corners(mesh)
     if not _grains or _grains[0][0] is not vertex or _grains[0][1] is not candidates:
         _grains[:] = [(vertex, candidates, Grains.of(vertex, candidates.astype(np.int32)[face]))]
     return _grains[0][2]
 
 
-def forget():
+def forget() -> None:
     """Free what is kept in memory."""
     _grains.clear()
 
 
-def plan_groups(obj):
+def add(obj: bpy.types.Object) -> None:
     """Let there be groups from the next update on."""
     obj.data.reeb_parts.has_groups = True
 
 
-def write_groups(obj, numbered, before):
-    """Make each part's group hold the part's vertices.
+def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | None = None) -> None:
+    """Make each part's group hold the part's vertices, if there are to be groups.
 
-    numbered : core.numbering.NumberedParts. before : (c,) int64, the candidates' numbers as they are written
-    now, or None.
+    before : (c,) int64, the candidates' numbers as they are written now, if that is known.
     """
+    if not obj.data.reeb_parts.has_groups:
+        return
     parts = {part.number: part for part in obj.data.reeb_parts.parts}
     fresh = [number for number, part in parts.items() if part.group not in obj.vertex_groups]
     if before is None or np.isin(before, fresh).any():
@@ -128,28 +134,28 @@ def write_groups(obj, numbered, before):
         obj.vertex_groups.active_index = active
 
 
-def remove_group(obj, name):
+def remove_one(obj: bpy.types.Object, name: str) -> None:
     """Remove a group, if it is there; the active one stays active."""
     group = obj.vertex_groups.get(name) if name else None
     if group is None:
         return
     active = obj.vertex_groups.active
-    former = active.name if active else ""
+    kept = active.name if active else ""
     obj.vertex_groups.remove(group)
-    if former in obj.vertex_groups:
-        obj.vertex_groups.active_index = obj.vertex_groups[former].index
+    if kept in obj.vertex_groups:
+        obj.vertex_groups.active_index = obj.vertex_groups[kept].index
 
 
-def remove_groups(obj):
+def remove(obj: bpy.types.Object) -> None:
     """Remove the vertex groups that were made, and no other."""
     result = obj.data.reeb_parts
     for part in result.parts:
-        remove_group(obj, part.group)
+        remove_one(obj, part.group)
         part.group = ""
     result.has_groups = False
 
 
-def rename_group(obj, part):
+def rename(obj: bpy.types.Object, part: bpy.types.PropertyGroup) -> None:
     """Give the part's vertex group the part's name, or the nearest that is free."""
     if part.group in obj.vertex_groups:
         group = obj.vertex_groups[part.group]

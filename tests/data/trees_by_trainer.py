@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes trees_by_trainer.npz: a small model, rows on and beside its thresholds, the trainer's own answers.
 
-    python tests/data/trees_by_trainer.py
-
-Needs lightgbm (benchmarks/requirements.txt).
+    python3 tests/data/trees_by_trainer.py
 """
 
 import sys
 from pathlib import Path
 
-import lightgbm
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "benchmarks"))
 
+import packages  # noqa: E402
+
+packages.need("numpy", "scipy", "lightgbm")
+
+import lightgbm  # noqa: E402
+import numpy as np  # noqa: E402
 from train import SETTINGS, trees_of  # noqa: E402
 
 rng = np.random.default_rng(0)

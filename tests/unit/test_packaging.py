@@ -50,6 +50,15 @@ def test_every_platform_has_one_wheel_for_every_official_blender(manifest, pytho
     assert len(platforms) == len(manifest["platforms"])
 
 
+def test_everything_in_the_checkout_is_shipped_or_left_out_on_purpose(manifest):
+    builder = ast.parse((ROOT / "tools" / "build.py").read_text(encoding="utf-8"))
+    (shipped,) = (node.value for node in builder.body
+                  if isinstance(node, ast.Assign) and node.targets[0].id == "SHIPPED")
+    known = {item.value for item in shipped.elts if isinstance(item, ast.Constant)} | {"blender_manifest.toml"}
+    known |= {pattern.strip("/") for pattern in manifest["build"]["paths_exclude_pattern"]}
+    assert {path.name for path in ROOT.iterdir() if not path.name.startswith(".")} - known == set()
+
+
 def test_official_blenders_share_one_scipy(manifest):
     # The one release that works with the NumPy of Blender 4.2 (1.24) and of 5.2 (2.3).
     assert {wheel_fields(wheel)[1] for wheel in manifest["wheels"] if "cp314" not in wheel} == {"1.15.3"}

@@ -17,8 +17,6 @@ import bpy
 sys.path.append(os.path.dirname(__file__))
 import pointer
 
-DECOMPOSE = 3.7  # rows below the top of the sidebar
-
 
 def steps():
     """One step after the other; yields the seconds to wait."""
@@ -56,24 +54,19 @@ def turn_view():
 
 
 def open_tab():
-    """N over the view, then the tabs from the last one up until ours is open."""
+    """N over the view, then our tab."""
     yield from pointer.rest(*pointer.in_view(0.4))
     yield from pointer.tap("n")
-    yield 0.8
+    yield from pointer.until(lambda: pointer.region("UI").width > 1)
     pointer.region("UI").active_panel_category = "Item"
     yield 0.3
-    sidebar = pointer.region("UI")
-    for row in range(sidebar.height // 12):
-        if sidebar.active_panel_category == pointer.TAB:
-            break
-        x, y = sidebar.x + sidebar.width - pointer.unit() * 0.6, sidebar.y + 12 * row + 6
-        yield from pointer.press(*pointer.from_top(x, y))
+    yield from pointer.open_tab()
     yield 0.5
 
 
 def press_decompose(seen):
     """Press the large button below the preset menu and wait for the parts."""
-    yield from pointer.press(*pointer.in_sidebar(DECOMPOSE, 0.4))
+    yield from pointer.push("reeb_parts.decompose")
     start = time.monotonic()
     yield from pointer.until(lambda: "reeb_part" in model().data.attributes, pointer.PATIENCE)
     seen["seconds"] = time.monotonic() - start

@@ -15,14 +15,8 @@ sys.path += [os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__
 import pointer
 from snapshot import changes, snapshot
 
-# Rows below the top of the sidebar.
-DECOMPOSE, DETAIL, NUMBER, LIST, USE, OUTPUT, OVERLAY = 3.7, 7.0, 8.0, 12.55, 23.4, 28.35, 29.65
-EMPTY = 31.75  # below the last title
-# Below the title of a sub-panel that is open.
-EXPLODE, PALETTE, SHOW_GRAPH = 9.65, 5.0, 1.6
-# Across the list.
-CHIP, NAME, LOCK, TICK = 0.12, 0.25, 0.56, 0.635
-# In pixels: from a chip to the field of its popup; from a right click to an entry of the menu.
+# In pixels, where Blender's own popups have something: from a chip to the field of its popup; from a right
+# click to an entry of the menu.
 HEX, MERGE = (99, -32), (-60, 205)
 
 
@@ -39,22 +33,20 @@ def steps():
     yield from undone(seen, "slide undone", "drag undone")
     for scene in (numbered, recolored, renamed, locked, merged_by_menu, exploded, graph_hidden, palette_chosen):
         if scene in PANELS:  # Blender makes settings where there are none when it draws them
-            yield from pointer.press(*pointer.in_sidebar(PANELS[scene]))
-            yield 0.7
+            yield from pointer.fold(PANELS[scene])
         bpy.context.view_layer.update()  # undo leaves that for the next redraw
         before = snapshot()
         yield from scene(seen)
         yield from all_undone(seen, scene.__name__, before)
         if scene in PANELS:
-            yield from pointer.press(*pointer.in_sidebar(PANELS[scene]))
-            yield 0.7
+            yield from pointer.fold(PANELS[scene])
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
 
 def cancelled(seen):
     """Esc while it computes; fine base vertices make that long enough."""
     bpy.context.scene.reeb_parts.base_spacing = 0.0005
-    yield from pointer.press(*pointer.in_sidebar(DECOMPOSE))
+    yield from pointer.push("reeb_parts.decompose")
     start = time.monotonic()
     pointer.xdo("key", "Escape")
     while bpy.ops.reeb_parts.cancel.poll():
@@ -66,7 +58,7 @@ def cancelled(seen):
 
 def decomposed(seen):
     """Decompose with the pointer."""
-    yield from pointer.press(*pointer.in_sidebar(DECOMPOSE))
+    yield from pointer.push("reeb_parts.decompose")
     yield from pointer.until(lambda: "reeb_part" in mesh().attributes, pointer.PATIENCE)
     yield 1.0
     seen["decomposed"] = facts()
@@ -75,7 +67,7 @@ def decomposed(seen):
 
 def dragged(seen):
     """Drag the Detail slider to the right."""
-    x, y = pointer.in_sidebar(DETAIL, 0.6)
+    x, y = yield from pointer.find("detail")
     yield from pointer.drag([(x + 4 * step, y) for step in range(9)])
     yield 0.5
     seen["dragged"] = facts()
@@ -92,8 +84,8 @@ def undone(seen, name, before):
 
 def clicked(seen):
     """Click a part in the list that is not the first."""
-    yield from pointer.press(*in_list(3))
-    yield 0.5
+    yield from press_entry(3, "name")
+    yield from pointer.until(lambda: mesh().reeb_parts.active > 0)
     seen["active"] = mesh().reeb_parts.active
     pointer.shot("7_clicked.png")
 
@@ -139,20 +131,19 @@ def slide_now():
 
 def numbered(seen):
     """Type a number of parts."""
-    yield from pointer.type_over(*pointer.in_sidebar(NUMBER, 0.6), "4")
+    yield from pointer.type_into("n_parts", "4")
     seen["typed"] = facts()
 
 
 def recolored(seen):
     """The chip of a part, and a colour typed into Blender's popup."""
     before = corner_colors()
-    x, y = in_list(1, CHIP)
-    yield from pointer.press(x, y)
-    yield 0.5
+    x, y = yield from press_entry(1, "color")
+    yield 0.4
     pointer.shot("9_popup.png")
     yield from pointer.type_over(x + HEX[0], y + HEX[1], "#FF00FF")
-    yield from pointer.press(*pointer.in_sidebar(EMPTY))  # beside the popup, which closes
-    yield 0.3
+    yield from pointer.press(*pointer.in_view(0.1, 0.1))  # beside the popup, which closes
+    yield from pointer.until(lambda: corner_colors() != before)
     after = corner_colors()
     seen["color"] = [round(channel, 3) for channel in mesh().reeb_parts.parts[1].color]
     seen["recolored"] = sorted({after[i] for i in after if after[i] != before[i]})
@@ -162,17 +153,15 @@ def recolored(seen):
 
 def renamed(seen):
     """A double click on a name."""
-    x, y = in_list(2, NAME)
-    yield from pointer.press(x, y)
-    yield from pointer.type_over(x, y, "Leg", clicks=2)
+    place = yield from press_entry(2, "name")
+    yield from pointer.type_over(*place, "Leg", clicks=2)
     seen["renamed"] = facts()["groups"]
 
 
 def locked(seen):
     """The lock, and two boxes ticked."""
-    yield from pointer.press(*in_list(1, LOCK))
-    yield from pointer.press(*in_list(3, TICK))
-    yield from pointer.press(*in_list(5, TICK))
+    for index, key in ((1, "locked"), (3, "selected"), (5, "selected")):
+        yield from press_entry(index, key)
     parts = mesh().reeb_parts.parts
     seen["locked"] = [part.name for part in parts if part.locked]
     seen["ticked"] = [part.name for part in parts if part.selected]
@@ -181,20 +170,20 @@ def locked(seen):
 
 def merged_by_menu(seen):
     """Tick two parts, right click on the list, Merge Parts."""
-    yield from pointer.press(*in_list(3, TICK))
-    yield from pointer.press(*in_list(5, TICK))
-    yield from pointer.press(*in_list(5, NAME), button=3)
-    yield 0.5
+    n_parts = len(mesh().reeb_parts.parts)
+    for index in (3, 5):
+        yield from press_entry(index, "selected")
+    x, y = yield from press_entry(5, "name", button=3)
+    yield 0.4
     pointer.shot("12_menu.png")
-    x, y = in_list(5, NAME)
     yield from pointer.press(x + MERGE[0], y + MERGE[1])
-    yield 0.3
+    yield from pointer.until(lambda: len(mesh().reeb_parts.parts) < n_parts)
     seen["merged"] = facts()["shares"]
 
 
 def exploded(seen):
     """The slider, away and back."""
-    x, y = pointer.in_sidebar(USE + EXPLODE, 0.7)
+    x, y = yield from pointer.find("explode")
     yield from pointer.drag([(x + 6 * step, y) for step in range(9)])
     yield 0.3
     seen["exploded"] = [modifier.name for modifier in spot().modifiers]
@@ -207,23 +196,24 @@ def graph_hidden(seen):
     """The tick box under Overlay, off and on."""
     seen["graph"] = [graph_shown()]
     for _ in range(2):
-        yield from pointer.press(*pointer.in_sidebar(OVERLAY + SHOW_GRAPH, 0.5))
+        yield from pointer.push("reeb_parts.graph")
+        yield from pointer.until(lambda: graph_shown() != seen["graph"][-1])
         seen["graph"].append(graph_shown())
 
 
 def palette_chosen(seen):
     """The menu of palettes under Output: Pastel, by its letter."""
     before = corner_colors()
-    yield from pointer.press(*pointer.in_sidebar(OUTPUT + PALETTE, 0.6))
+    yield from pointer.push("palette")
     yield 0.4
     pointer.shot("15_palettes.png")
     yield from pointer.tap("p")
-    yield 0.4
+    yield from pointer.until(lambda: corner_colors() != before)
     seen["palette"] = [mesh().reeb_parts.palette, corner_colors() != before]
     pointer.shot("16_palette.png")
 
 
-PANELS = {exploded: USE, graph_hidden: OVERLAY, palette_chosen: OUTPUT}  # what is open for them
+PANELS = {exploded: "Use Parts", graph_hidden: "Overlay", palette_chosen: "Output"}  # what is open for them
 
 
 def all_undone(seen, name, before):
@@ -262,9 +252,11 @@ def spot():
     return bpy.data.objects["spot"]
 
 
-def in_list(index, across=0.3):
-    """A place in an entry of the list."""
-    return pointer.in_sidebar(LIST + 1.01 * index, across)
+def press_entry(index, key, button=1):
+    """Click something in an entry of the list; where it is."""
+    place = yield from pointer.entry(index, key)
+    yield from pointer.press(*place, button=button)
+    return place
 
 
 def facts():

@@ -16,8 +16,6 @@ import numpy as np
 sys.path.append(os.path.dirname(__file__))
 import pointer
 
-DECOMPOSE, DETAIL = 3.7, 7.0  # rows below the top of the sidebar
-
 
 def steps():
     """One step after the other; yields the seconds to wait."""
@@ -28,11 +26,11 @@ def steps():
     bpy.ops.mesh.subdivide(number_cuts=3)
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.ed.undo_push(message="Subdivide")
-    yield from pointer.press(*pointer.in_sidebar(DECOMPOSE))
+    yield from pointer.push("reeb_parts.decompose")
     yield from pointer.until(lambda: len(mesh().reeb_parts.parts), pointer.PATIENCE)
     yield 1.0
     seen["decomposed"] = facts()
-    yield from pointer.type_over(*pointer.in_sidebar(DETAIL, 0.7), "0.9")
+    yield from pointer.type_into("detail", "0.9")
     yield 1.0
     seen["typed"] = facts()
     pointer.shot("1_typed.png")
@@ -42,7 +40,7 @@ def steps():
         yield from pointer.tap(keys)
         yield 1.0
         seen[step] = facts()
-    x, y = pointer.in_sidebar(DETAIL, 0.7)
+    x, y = yield from pointer.find("detail")
     yield from pointer.drag([(x - 3 * step, y) for step in range(12)])
     yield 1.0
     seen["dragged"] = facts()

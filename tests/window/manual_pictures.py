@@ -18,9 +18,6 @@ from mathutils import Quaternion, Vector
 sys.path.append(os.path.dirname(__file__))
 import pointer
 
-# Rows below the top of the sidebar.
-DETAIL, PARTS, LIST, USE, OUTPUT, OVERLAY = 7.0, 10.8, 12.55, 23.4, 28.35, 29.65
-CHIP, NAME = 0.12, 0.25  # across the list
 HEX = (99, -32)  # from a chip to the field of its popup
 BODY, LEG, HEAD, EAR = "Part 01", "Part 02", "Part 06", "Part 04"
 MODEL = (350, 110, 850, 690)  # what is seen of the model
@@ -79,7 +76,7 @@ def few_and_many():
 
 def colored():
     """The popup of a chip, and a colour typed into it."""
-    x, y = in_list(1, CHIP)
+    x, y = yield from pointer.entry(1, "color")
     yield from pointer.press(x, y)
     yield 0.4
     yield from pointer.rest(x + HEX[0], y + HEX[1])
@@ -90,7 +87,7 @@ def colored():
     yield from pointer.tap("Return")
     yield 0.3
     pointer.shot("colour.png", ALL)
-    yield from pointer.press(*pointer.in_sidebar(31.25))
+    yield from pointer.press(*pointer.in_view(0.1, 0.1))  # beside the popup, which closes
     yield from pointer.tap("ctrl+z")
     yield 0.3
 
@@ -106,8 +103,9 @@ def palettes():
 
 def listed():
     """A name being changed; the menu of the list; isolated."""
-    yield from pointer.press(*in_list(5, NAME))
-    yield from pointer.press(*in_list(5, NAME), button=3)
+    place = yield from pointer.entry(5, "name")
+    yield from pointer.press(*place)
+    yield from pointer.press(*place, button=3)
     yield 0.5
     pointer.shot("menu.png", (830, 130, 1280, 800))
     yield from pointer.tap("Escape")
@@ -206,7 +204,7 @@ def face_sets():
 
 def changed():
     """The button that appears beside the preset."""
-    bpy.context.scene.reeb_parts.alpha = 0.8
+    bpy.context.scene.reeb_parts.band_ratio = 0.8
     pointer.region("UI").tag_redraw()
     yield 0.5
     ui = pointer.region("UI")
@@ -257,19 +255,18 @@ def browser():
 
 def folded_out():
     """The panels Output and Overlay, with the list folded away above them."""
-    yield from pointer.press(*pointer.in_sidebar(PARTS))
-    yield 0.7
+    above = "reeb_parts.clear"
+    yield from pointer.fold("Parts", above)
     ui = pointer.region("UI")
-    for name, row, rows in (("output.png", 17.0, 10.5), ("overlay.png", 18.25, 7.2)):
-        yield from pointer.press(*pointer.in_sidebar(row))
+    left, _ = pointer.from_top(ui.x, ui.y)
+    for label, rows in (("Output", 10.5), ("Overlay", 7.5)):
+        _, y = yield from pointer.fold(label, above)
         yield from pointer.rest(*pointer.in_view(0.1, 0.1))
-        yield 0.7
-        left, top = pointer.in_sidebar(row - 0.7, 0.0)
-        pointer.shot(name, (left + 9, top, left + 0.88 * ui.width, top + rows * pointer.unit()))
-        yield from pointer.press(*pointer.in_sidebar(row))
-        yield 0.7
-    yield from pointer.press(*pointer.in_sidebar(PARTS))
-    yield 0.7
+        yield 0.3
+        top = y - 0.7 * pointer.unit()
+        pointer.shot(f"{label.lower()}.png", (left + 9, top, left + 0.88 * ui.width, top + rows * pointer.unit()))
+        yield from pointer.fold(label, above)
+    yield from pointer.fold("Parts", above)
 
 
 def seamed():
@@ -316,11 +313,6 @@ def choose(name):
 
 def number(name):
     return spot().data.reeb_parts.parts[name].number
-
-
-def in_list(index, across=0.3):
-    """A place in an entry of the list."""
-    return pointer.in_sidebar(LIST + 1.01 * index, across)
 
 
 def spot():

@@ -15,8 +15,6 @@ from mathutils import Euler, Vector
 sys.path.append(os.path.dirname(__file__))
 import pointer
 
-# Rows below the top of the sidebar.
-DECOMPOSE, TAB, USE_PARTS, SEPARATE = 3.7, 12.0, 26.45, 29.0
 CLICKS = []  # what was clicked since Suzanne was selected
 
 
@@ -27,21 +25,28 @@ def steps():
     seen["added"] = facts()
     pointer.shot("2_added.png")
     yield from pointer.tap("n")
-    yield 0.8
-    yield from click_on("the tab", *pointer.in_sidebar(TAB, 0.96))
+    yield from pointer.until(lambda: pointer.region("UI").width > 1)
+    tab = yield from pointer.open_tab()
+    pointer.region("UI").active_panel_category = "Item"  # and away, to be opened by one click
+    yield 0.3
+    yield from click_on("the tab", tab)
     seen["tab"] = pointer.region("UI").active_panel_category
-    yield from pointer.rest(*pointer.in_sidebar(DECOMPOSE))
+    place = yield from pointer.find("reeb_parts.decompose")
+    yield 0.1
     pointer.shot("3_tab.png", (300, 60, 1050, 500))
-    yield from click_on("Decompose", *pointer.in_sidebar(DECOMPOSE))
+    yield from click_on("Decompose", place)
     yield from pointer.until(lambda: "reeb_part" in suzanne().data.attributes, pointer.PATIENCE)
-    yield 1.0
+    yield 0.5
     seen["decomposed"] = facts()
-    yield from pointer.rest(*pointer.in_sidebar(USE_PARTS))
+    place = yield from pointer.title("Use Parts")
+    yield from pointer.rest(*place)
     pointer.shot("4_decomposed.png", (300, 60, 1050, 700))
-    yield from click_on("Use Parts", *pointer.in_sidebar(USE_PARTS))
-    yield from pointer.rest(*pointer.in_sidebar(SEPARATE))
+    yield from click_on("Use Parts", place)
+    yield 0.3
+    place = yield from pointer.find("reeb_parts.separate")
+    yield 0.1
     pointer.shot("5_use.png", (300, 60, 1050, 720))
-    yield from click_on("Separate", *pointer.in_sidebar(SEPARATE))
+    yield from click_on("Separate", place)
     yield from pointer.rest(*pointer.in_view(0.3, 0.75))
     seen["separated"] = facts()
     seen["clicks"] = CLICKS
@@ -85,11 +90,11 @@ def facts():
     }
 
 
-def click_on(what, x, y):
+def click_on(what, place):
     """A click, counted."""
-    yield from pointer.press(x, y)
+    yield from pointer.press(*place)
     CLICKS.append(what)
-    yield 0.8
+    yield 0.3
 
 
 def suzanne():

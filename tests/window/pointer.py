@@ -32,9 +32,9 @@ def xdo(*words):
 def rest(x, y):
     """The pointer goes there and stays, too short for a tooltip; a button takes a click only after that."""
     xdo("mousemove", x - 2, y)
-    yield 0.1
+    yield 0.05
     xdo("mousemove", x, y)
-    yield 0.2
+    yield 0.05
 
 
 def press(x, y, *held, button=1):
@@ -48,7 +48,7 @@ def press(x, y, *held, button=1):
     for key in held:
         yield 0.1
         xdo("keyup", key)
-    yield 0.2
+    yield 0.1
 
 
 def drag(places, button=1):
@@ -60,20 +60,33 @@ def drag(places, button=1):
         xdo("mousemove", *place)
         yield 0.05
     xdo("mouseup", button)
-    yield 0.2
+    yield 0.1
 
 
 def tap(*keys):
     """Keys like "ctrl+z", one after the other."""
     for key in keys:
         xdo("key", key)
-        yield 0.2
+        yield 0.1
 
 
 def write(text):
     """Type into the field that is open."""
     xdo("type", "--delay", 4, text)
     yield 0.2
+
+
+def push(name, beside=None):
+    """A click on a button of the sidebar, which find() names."""
+    yield from find(name, beside)
+    xdo("click", 1)
+    yield 0.1
+
+
+def type_into(name, text):
+    """Type over what is in a field of the sidebar, which find() names."""
+    place = yield from find(name)
+    yield from type_over(*place, text)
 
 
 def type_over(x, y, text, clicks=2):
@@ -103,7 +116,7 @@ def until(condition, patience=5.0):
     """Wait until something has happened, or until patience ends; who asks looks at what there is then."""
     end = time.monotonic() + patience
     while not condition() and time.monotonic() < end:
-        yield 0.05
+        yield 0.02
 
 
 # Pictures
@@ -139,12 +152,6 @@ def in_view(across=0.3, up=0.5):
     """A place in the viewport, by shares of its width and height."""
     area = view_area()
     return from_top(area.x + across * area.width, area.y + up * area.height)
-
-
-def in_sidebar(rows, across=0.5):
-    """A place in the sidebar, a number of rows of buttons below its top."""
-    ui = region("UI")
-    return from_top(ui.x + across * ui.width, ui.y + ui.height - rows * unit())
 
 
 def over(point, window=None):
@@ -209,6 +216,143 @@ def from_top(x, y):
 def unit():
     """Height of a row of buttons."""
     return 20.0 * bpy.context.preferences.system.ui_scale
+
+
+# The sidebar, where Blender is asked what is under the pointer
+
+
+def find(name, beside=None, below=None):
+    """Where a button or a field of the sidebar is; the pointer is moved over the sidebar until it rests there.
+
+    name : id of an operator, as "reeb_parts.decompose"; or the end of the path of a property, as "detail" or
+    "parts[0].color". Looked for from the top down, in the middle of the sidebar; in the row of another one that
+    is ``beside`` it; or straight ``below`` a place.
+    """
+    place = yield from _known(name)
+    if place:
+        return place
+    ui, reach = region("UI"), int(0.75 * unit())
+    if beside is not None:
+        _, y = yield from find(beside)
+        line = [(x, y) for x in range(ui.x + reach, ui.x + ui.width, reach)]
+    else:
+        x, top = below or from_top(ui.x + 0.5 * ui.width, ui.y + ui.height - reach)
+        line = [(x, y) for y in range(top, top + ui.height, reach)]
+    for place in line:
+        if (yield from _shows(place, name)):
+            return place
+    shot("not_found.png")
+    raise LookupError(f"{name} is not in the sidebar, see not_found.png")
+
+
+def _known(name):
+    """Where it was seen last, if it is still there: what was opened or closed since may have moved it."""
+    for shown in [shown for shown in PLACES if _is(shown, name)]:
+        place = PLACES.pop(shown)
+        if (yield from _shows(place, name)):
+            return place
+    return None
+
+
+PLACES = {}  # of all that was seen, by what under() said
+
+
+def under():
+    """What the pointer is over in the sidebar, or None: a call of an operator, or the path of a property.
+
+    Blender tells it of the button that is highlighted, by its commands that copy it to the clipboard.
+    """
+    with bpy.context.temp_override(window=bpy.context.window, area=view_area(), region=region("UI")):
+        if bpy.ops.ui.copy_python_command_button.poll():
+            bpy.ops.ui.copy_python_command_button()
+        elif bpy.ops.ui.copy_data_path_button.poll():
+            bpy.ops.ui.copy_data_path_button(full_path=True)
+        else:
+            return None
+    return bpy.context.window_manager.clipboard
+
+
+def _shows(place, name):
+    """Go there; whether a button or field is there, once Blender has seen the pointer arrive."""
+    xdo("mousemove", *place)
+    x, y = place[0], bpy.context.window.height - place[1]
+    yield from until(lambda: max(abs(Arrival.at[0] - x), abs(Arrival.at[1] - y)) < 2, 0.5)
+    yield 0.02  # a button that is left is highlighted until the next round
+    shown = under()
+    if shown:
+        PLACES[shown] = place
+    return _is(shown, name)
+
+
+def _is(shown, name):
+    return shown is not None and (shown.endswith(f".{name}") or f".{name}(" in shown)
+
+
+class Arrival(bpy.types.Operator):
+    """Notes where the pointer is whenever it moves over buttons."""
+
+    bl_idname = "window_test.arrival"
+    bl_label = "Arrival"
+    bl_options = {"INTERNAL"}
+    at = (0, 0)
+
+    def invoke(self, context, event):
+        Arrival.at = event.mouse_x, event.mouse_y
+        return {"PASS_THROUGH"}
+
+
+bpy.utils.register_class(Arrival)
+_KEYS = bpy.context.window_manager.keyconfigs.addon.keymaps.new("User Interface")
+_KEYS.keymap_items.new(Arrival.bl_idname, "MOUSEMOVE", "ANY")
+
+
+def entry(index, key):
+    """Where something of an entry in the list of parts is: its "color", "name", "locked" or "selected"."""
+    if key == "name":
+        x, y = yield from entry(index, "color")
+        return x + round(2 * unit()), y
+    place = yield from _known(f"parts[{index}].{key}")
+    if not place:
+        first = yield from find("parts[0].color", beside="reeb_parts.active")
+        _, y = yield from find(f"parts[{index}].color", below=first)
+        x, _ = yield from find(f"parts[0].{key}", beside="parts[0].color")
+        place = yield from find(f"parts[{index}].{key}", below=(x, y))
+    return place
+
+
+def title(label, below="reeb_parts.isolate"):
+    """Where the title of a sub-panel is; the panels between it and the last button above them are closed.
+
+    Blender tells nothing about titles. In its layout each is a row and a quarter high, and the middle of the first
+    is a row below that button. below : of the panel "Parts", or one above that panel where it is closed, too.
+    """
+    x, y = yield from find(below)
+    while (yield from _shows((x, y + 2), below)):
+        y += 2
+    closed = TITLES[1 if below == "reeb_parts.isolate" else 0 :].index(label)
+    return x, round(y + (1.0 + 1.25 * closed) * unit())
+
+
+def fold(label, below="reeb_parts.isolate"):
+    """Open or close a sub-panel by its title(); where that is."""
+    place = yield from title(label, below)
+    yield from press(*place)
+    yield 0.4  # panels slide open and shut
+    return place
+
+
+TITLES = ("Parts", "Use Parts", "Field", "Graph", "Boundaries", "Output", "Overlay")
+
+
+def open_tab():
+    """Click the tabs of the sidebar from the top down until ours is open; where it is."""
+    sidebar = region("UI")
+    x, top = from_top(sidebar.x + sidebar.width - 0.6 * unit(), sidebar.y + sidebar.height)
+    for y in range(round(top + unit()), top + sidebar.height, round(1.5 * unit())):
+        yield from press(x, y)
+        if sidebar.active_panel_category == TAB:
+            return x, y
+    raise LookupError(f"no tab {TAB}")
 
 
 # What most drivers begin with

@@ -94,7 +94,7 @@ def separated(obj):
 
 
 def other_parameters(obj):
-    bpy.context.scene.reeb_parts.alpha = 0.9
+    bpy.context.scene.reeb_parts.band_ratio = 0.9
 
 
 def other_overlay(obj):

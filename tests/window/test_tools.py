@@ -30,7 +30,7 @@ def test_enter_ends_picking(seen):
 
 
 def test_a_click_cuts_a_part(seen):
-    assert len(seen["cut"]) == 11
+    assert len(seen["cut"]) == len(seen["before painting"]) + 1  # the cut was taken back before
 
 
 def test_a_stroke_with_a_larger_brush_gives_faces_to_the_active_part(seen):
@@ -98,7 +98,8 @@ def test_a_tool_is_carried_into_another_viewport(seen):
     assert {"Part 01", "Part 06"} <= set(seen["seen next door"])
     assert seen["picked next door"] == ["Part 06", ["Part 01", "Part 06"]]
     before, cut, painted = seen["before painting"], seen["cut next door"], seen["painted next door"]
-    assert cut["Part 06"] + cut["Part 11"] == pytest.approx(before["Part 06"], abs=2e-3)
+    (new,) = set(cut) - set(before)
+    assert cut["Part 06"] + cut[new] == pytest.approx(before["Part 06"], abs=2e-3)
     assert painted["Part 01"] > before["Part 01"]
     assert painted["Part 06"] < before["Part 06"]
 

@@ -18,9 +18,8 @@ from snapshot import changes, snapshot
 
 SEEN = {}
 TOOLS = ("Pick Parts", "Cut Part", "Paint into", "Slide Boundary")
-# Rows below the top of the sidebar; of the buttons, the share of its width, too.
-DECOMPOSE, DETAIL = 3.7, 7.0
-BUTTONS = {"Pick": (19.55, 0.3), "Cut": (19.55, 0.7), "Slide": (20.6, 0.3), "Paint": (20.6, 0.7)}
+# The buttons that start them, and what is beside those in the sidebar.
+BUTTONS = {"Pick": "reeb_parts.cut", "Cut": None, "Slide": "reeb_parts.paint", "Paint": None}
 
 
 def steps():
@@ -159,7 +158,7 @@ def disturbed():
                 bpy.ops.ed.undo()
     yield from detail_while_painting()
     yield from pointer.search("Pick Parts")
-    yield from pointer.press(*pointer.in_sidebar(DECOMPOSE))
+    yield from pointer.push("reeb_parts.decompose")
     yield from pointer.until(lambda: at_work() == ["REEB_PARTS_OT_pick"])
     yield from pointer.press(*places[number("Part 06")])
     note("picked after Decompose", chosen())
@@ -175,15 +174,14 @@ def detail_while_painting():
     choose("Part 01")
     bpy.ops.ed.undo_push(message="ready")
     ready = snapshot()
-    place = pointer.in_sidebar(DETAIL, 0.6)
-    yield from pointer.type_over(*place, "0.6")
+    yield from pointer.type_into("detail", "0.6")
     wanted = snapshot()
     note("more parts", [len(shares())])
     yield from undo_to("Detail undone", ready)
     note("more parts", [*SEEN["more parts"], len(shares())])
     yield from pointer.search("Paint into")
     yield from pointer.drag(stroke("Part 01", "Part 06"))
-    yield from pointer.type_over(*place, "0.6")
+    yield from pointer.type_into("detail", "0.6")
     yield from pointer.rest(*pointer.in_view(0.1, 0.1))
     yield from pointer.tap("Escape")
     note("Detail within Paint into", differences(wanted))
@@ -192,8 +190,9 @@ def detail_while_painting():
 
 def elsewhere():
     """From the button in the sidebar; in local view; in a maximised area; in each of four views."""
-    for name, place in BUTTONS.items():
-        yield from pointer.press(*pointer.in_sidebar(*place))
+    for name, beside in BUTTONS.items():
+        yield from pointer.push(f"reeb_parts.{name.lower()}", beside)
+        yield from pointer.until(at_work)
         note(f"button {name}", at_work())
         yield from pointer.rest(*pointer.in_view())
         yield from pointer.tap("Escape")

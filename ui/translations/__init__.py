@@ -4,8 +4,10 @@
 Such a file has three dictionaries from English to that language: OPERATORS for the names of operators and
 what stands on buttons, TOOLS for the buttons of tools, in short words, TEXTS for all else. Values in braces
 stay as they are; they may change places.
-tests/blender/test_translations.py lists what a language still lacks and what it no longer needs.
+tests/blender/ui/test_translations.py lists what a language still lacks and what it no longer needs.
 """
+
+from __future__ import annotations
 
 import bpy
 
@@ -25,9 +27,9 @@ def dictionary() -> dict:
     }
 
 
-def register():
+def register() -> None:
     bpy.app.translations.register(base_package, dictionary())
 
 
-def unregister():
+def unregister() -> None:
     bpy.app.translations.unregister(base_package)

@@ -139,6 +139,14 @@ TEXTS = {
     "Concavity": "Konkavität",
     "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)":
         "Wie weit ein Schnitt rutschen darf, um in einer Falte zu liegen: 0 lässt ihn, wo er ist (Alpha im Artikel)",
+    "Band": "Band",
+    "How far to either side a cut may move into a crease, as a share of the radius of a circle as long as the cut; 0 "
+    "leaves it where it is":
+        "Wie weit ein Schnitt zu beiden Seiten in eine Falte rücken darf, als Anteil des Radius eines Kreises, der so "
+        "lang wie der Schnitt ist; 0 lässt ihn, wo er ist",
+    "The parameter {old} is called {new} now.": "Der Parameter {old} heißt jetzt {new}.",
+    "The model {file} was trained on other features (first: {name}). Train it again.":
+        "Das Modell {file} wurde an anderen Merkmalen angelernt (das erste: {name}). Es muss neu angelernt werden.",
     "Crease length": "Faltenlänge",
     "How much of a cut's length must be concave to count (the paper's sigma)":
         "Wie viel von der Länge eines Schnitts konkav sein muss, um zu zählen (Sigma im Artikel)",
@@ -445,6 +453,11 @@ TEXTS = {
     "{n} vertices cannot be reached from vertex {source}.": "{n} Punkte sind von Punkt {source} aus nicht erreichbar.",
     "Vertices must have shape (n, 3), not {shape}.": "Punkte müssen die Form (n, 3) haben, nicht {shape}.",
     "Triangles must have shape (m, 3), not {shape}.": "Dreiecke müssen die Form (m, 3) haben, nicht {shape}.",
+    "Labels must be a row of whole numbers, at least one, not {type} of shape {shape}.":
+        "Kennzahlen müssen eine Reihe ganzer Zahlen sein, mindestens eine, nicht {type} der Form {shape}.",
+    "There are {n} values for {total} elements: each needs one.":
+        "Es gibt {n} Werte für {total} Elemente: Jedes braucht einen.",
+    "Weights must be 0 or more, and not all of them 0.": "Gewichte müssen 0 oder mehr sein, und nicht alle 0.",
     "Faces must have shape (m, corners), not {shape}.": "Flächen müssen die Form (m, Ecken) haben, nicht {shape}.",
     "Face indices must be whole numbers, not {type}.": "Flächenindizes müssen ganze Zahlen sein, nicht {type}.",
     "Polygon numbers must be {n} whole numbers from 0, one per triangle.":

@@ -169,7 +169,7 @@ class FusionGraph:
         region : int. Returns that neighbor, of equal ones the one of smallest number. ValueError without neighbors.
         """
         around = self.neighbors[region]
-        return max(sorted(around), key=around.get)
+        return max(sorted(around), key=lambda other: around[other])
 
 
 def fuse_equal_adjacency(

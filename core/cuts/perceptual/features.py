@@ -163,8 +163,8 @@ def cut_features(regions: RegionMeasures, ends: np.ndarray, border: np.ndarray) 
         np.maximum(regions.perimeter[small] + regions.perimeter[large] - 2 * length, 0.0),
         np.minimum(regions.level_min[small], regions.level_min[large]),
         np.maximum(regions.level_max[small], regions.level_max[large]))
-    sides = [_Side.of(regions, index, border) for index in (small, large)]
-    cut = _cut_columns(regions, *sides, border / length[:, None], length, union)
+    cut = _cut_columns(regions, _Side.of(regions, small, border), _Side.of(regions, large, border),
+                       border / length[:, None], length, union)
     return np.column_stack([*(cut[name] for name in CUT), regions.shape[small], regions.shape[large], union])
 
 

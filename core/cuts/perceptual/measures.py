@@ -9,6 +9,7 @@ or pairs add up; features.py computes the shape of regions and of the borders be
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -37,6 +38,11 @@ class Columns:
         for name, width in widths.items():
             setattr(self, name, self.width if width == 1 else slice(self.width, self.width + width))
             self.width += width
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Index of a column, or slice of a group of columns."""
 
 
 # Columns per face. Moments are the six products of three coordinates; the support is the distance of the face's plane

@@ -6,8 +6,13 @@ import pytest
 import shapes
 
 from core import Parameters, TriMesh, decompose
-from core.cuts.perceptual.method import DECISION, MAX_FACES, salience_of
+from core.cuts.minimum_cut import WIDEST
+from core.cuts.perceptual.method import DECISION, MAX_FACES, perceptual_candidates, salience_of
+from core.cuts.perceptual.patches import concave_patches
+from core.field.agd import agd_field, coarse_agd
+from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.surface.arrays import components
+from core.surface.coarsening import Pyramid
 
 
 def halves(shape, labels):
@@ -39,12 +44,37 @@ def test_scale_and_pose_change_nothing():
     assert (plain.parts().labels != moved.parts().labels).mean() < 0.02
 
 
-def test_nothing_moves_without_a_band():
-    """Both are cut alike but for where the cuts run."""
-    shape = shapes.tube_tree()
-    still, moved = (decompose(*shape, Parameters(band_ratio=a)) for a in (0.0, 0.5))
-    assert still.parts().count == moved.parts().count
-    assert (still.candidates != moved.candidates).any()
+@pytest.fixture(scope="module")
+def tree():
+    """A tree of tubes, cut at the levels of its field, and its patches before any cut has moved."""
+    mesh = TriMesh(*shapes.tube_tree())
+    pyramid = Pyramid(mesh)
+    field = agd_field(mesh, coarse_agd(pyramid, np.sqrt(0.02 * mesh.area)), True)
+    return cut_at_levels(mesh, field.values, uniform_levels(30)), field, pyramid, concave_patches(mesh)
+
+
+def test_nothing_moves_without_a_band(tree):
+    sets, field, pyramid, patches = tree
+    found = perceptual_candidates(sets, field, pyramid, Parameters(band_ratio=0.0))
+    np.testing.assert_array_equal(found.element_candidate, patches[sets.element_face])
+
+
+def test_with_a_band_faces_beside_the_cuts_move_and_nothing_else(tree):
+    sets, field, pyramid, patches = tree
+    mesh = sets.mesh
+    still, found = (perceptual_candidates(sets, field, pyramid, Parameters(band_ratio=ratio)) for ratio in (0.0, 1.0))
+    element, hierarchy = found.element_candidate, found.hierarchy
+    np.testing.assert_array_equal(hierarchy.merges, still.hierarchy.merges)
+    np.testing.assert_array_equal(hierarchy.salience, still.hierarchy.salience)
+    moved = np.empty(mesh.n_faces, np.int64)
+    moved[sets.element_face] = element
+    np.testing.assert_array_equal(element, moved[sets.element_face])  # faces move as a whole
+    before, after = (hierarchy.parts(hierarchy.n_parts(0.75))[label] for label in (patches, moved))
+    a, b = mesh.edges.pairs.T
+    beside = np.unique(mesh.edges.pairs[before[a] != before[b]])
+    away = np.linalg.norm(mesh.face_centroids[:, None] - mesh.face_centroids[beside], axis=2).min(axis=1)
+    assert (before != after).any()
+    assert away[patches != moved].max() <= WIDEST * np.sqrt(mesh.area)
 
 
 def test_salience_stretches_the_decision_to_one_half():

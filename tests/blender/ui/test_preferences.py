@@ -70,27 +70,27 @@ def test_a_new_scene_takes_them_and_the_others_stay(preferences, presets):
 def test_what_was_set_in_an_empty_scene_stays(preferences):
     change(preferences)
     new = bpy.data.scenes.new("New")
-    new.reeb_parts.levels, new.reeb_parts.colors = 50, True
+    new.reeb_parts.n_slabs, new.reeb_parts.colors = 50, True
     bpy.context.window.scene = new
     new.collection.objects.link(bpy.data.objects.new("First", None))
     bpy.context.view_layer.update()
     settings = new.reeb_parts
-    assert (settings.levels, settings.preset, settings.colors, settings.seams) == (50, "Perceptual", True, True)
+    assert (settings.n_slabs, settings.preset, settings.colors, settings.seams) == (50, "Perceptual", True, True)
 
 
 def test_a_saved_file_keeps_its_own(preferences, tmp_path):
-    bpy.context.scene.reeb_parts.levels = 50
+    bpy.context.scene.reeb_parts.n_slabs = 50
     path = str(tmp_path / "own.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     change(preferences)
     bpy.ops.wm.open_mainfile(filepath=path)
     settings = bpy.context.scene.reeb_parts
-    assert (settings.levels, settings.preset, settings.colors, settings.in_front) == (50, "Perceptual", True, True)
+    assert (settings.n_slabs, settings.preset, settings.colors, settings.in_front) == (50, "Perceptual", True, True)
 
 
 def test_what_was_changed_in_a_scene_is_reset(preferences, presets):
     settings = bpy.context.scene.reeb_parts
-    settings.levels = 50
+    settings.n_slabs = 50
     bpy.ops.reeb_parts.use_preferences()
     assert settings.parameters() == presets["Perceptual"]
 

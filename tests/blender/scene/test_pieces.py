@@ -12,7 +12,7 @@ import pytest
 import shapes
 from snapshot import activate, changes, check_undo, snapshot
 
-SPOT = Path(__file__).resolve().parents[2] / "models" / "spot.obj"
+SPOT = Path(__file__).resolve().parents[3] / "models" / "spot.obj"
 KEEP = {"hide": False, "center": False}
 WIDTH = {"FLOAT_VECTOR": ("vector", 3), "FLOAT2": ("vector", 2), "FLOAT_COLOR": ("color", 4),
          "BYTE_COLOR": ("color", 4), "INT32_2D": ("value", 2), "INT16_2D": ("value", 2)}  # fmt: skip
@@ -182,7 +182,7 @@ def test_without_custom_normals_none_are_made(obj):
 @pytest.fixture
 def separate(package):
     """The module behind the operator, to try parts that no decomposition would give."""
-    return importlib.import_module(f"{package}.scene.pieces")
+    return importlib.import_module(f"{package}.scene.part_meshes")
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -1,29 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings on the scene, and the result on the mesh it belongs to.
+"""Settings: what the next run, and what is made of its parts, will be like; on the scene.
 
-The properties of the method are made from the fields of ``Parameters``: names, defaults, ranges and
-tooltips are written down once.
+The properties of the method are made from the fields of ``Parameters``: names, defaults, ranges and tooltips
+are written down once. Classes that end in Properties are for operators and property groups to inherit.
 """
 
-from dataclasses import asdict, fields
+from dataclasses import Field, asdict, fields
+from typing import Any
 
 import bpy
-from bpy.props import (
-    BoolProperty,
-    CollectionProperty,
-    EnumProperty,
-    FloatProperty,
-    FloatVectorProperty,
-    IntProperty,
-    PointerProperty,
-    StringProperty,
-)
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
-from ..core.parameters import PRESETS, Parameters
+from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
 from ..core.uses.colors import PALETTES
+from . import graph_objects, reactions, store
+from .errors import translated
 
 
-def _property(field):
+def _property(field: Field) -> Any:
     """The Blender property of a field of Parameters."""
     meta = field.metadata
     words = {"name": meta["label"], "description": meta["description"], "default": field.default}
@@ -40,11 +34,11 @@ def _property(field):
 
 
 class ParameterProperties:
-    """One property for each field of Parameters; for operators and property groups to inherit."""
+    """One property for each field of Parameters."""
 
     __annotations__ = {field.name: _property(field) for field in fields(Parameters)}
 
-    def parameters(self):
+    def parameters(self) -> Parameters:
         """The values as Parameters; raises ParameterError."""
         values = {field.name: getattr(self, field.name) for field in fields(Parameters)}
         for name, value in values.items():
@@ -53,7 +47,7 @@ class ParameterProperties:
                 values[name] = float(f"{value:.6g}")
         return Parameters(**values)
 
-    def use_parameters(self, parameters):
+    def use_parameters(self, parameters: Parameters) -> None:
         """Take over all values of a Parameters."""
         for name, value in asdict(parameters).items():
             setattr(self, name, value)
@@ -62,8 +56,38 @@ class ParameterProperties:
 PARAMETERS = tuple(ParameterProperties.__annotations__)
 
 
+def _former_property(present: str, **more: Any) -> Any:
+    """The Blender property for the name that version 0.1.0 had for a parameter; shown nowhere."""
+    prop = ParameterProperties.__annotations__[present]
+    words = {key: value for key, value in prop.keywords.items() if key not in {"name", "description"}}
+    return prop.function(**words, **more)
+
+
+def take_over_former_names(holder: Any) -> list[str]:
+    """Set parameters that are set by their names of version 0.1.0 by their names of today.
+
+    Parameters
+    ----------
+    holder : bpy.types.OperatorProperties or bpy.types.PropertyGroup
+        Has the properties of a ParameterProperties and of RENAMED. Present names that are set, too, win.
+
+    Returns
+    -------
+    notes : list of str
+        A sentence for each former name that was set, in the language of the interface.
+    """
+    former = {name: getattr(holder, name) for name in RENAMED if holder.is_property_set(name)}
+    values, notes = present_names(former)
+    for name, value in values.items():
+        if not holder.is_property_set(name):
+            setattr(holder, name, value)
+    for name in former:
+        holder.property_unset(name)
+    return [translated(note) for note in notes]
+
+
 class OutputProperties:
-    """What is written to the object; for operators and property groups to inherit."""
+    """What is written to the object."""
 
     vertex_groups: BoolProperty(
         name="Vertex groups", default=True,
@@ -108,15 +132,13 @@ class OutputProperties:
 OUTPUTS = tuple(OutputProperties.__annotations__)
 
 
-def _redraw_graph(self, context):
-    from . import graph_objects, store
-
+def _redraw_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     if not store.is_quiet():
         graph_objects.restyle(context.object, self)
 
 
 class OverlayProperties:
-    """How the graph is drawn; for operators and property groups to inherit."""
+    """How the graph is drawn."""
 
     node_size: FloatProperty(
         name="Node size", default=0.01, min=0.001, max=0.5, precision=3, step=0.1, update=_redraw_graph,
@@ -135,29 +157,87 @@ class OverlayProperties:
 OVERLAY = tuple(OverlayProperties.__annotations__)
 
 
-def _use_preset(self, context):
-    if self.preset != "CUSTOM":
-        self.use_parameters(PRESETS[self.preset])
+class WhichProperties:
+    """All parts or some."""
+
+    which: EnumProperty(
+        name="Parts", default="ALL",
+        items=[("ALL", "All", "All parts of the mesh"),
+               ("CHOSEN", "Chosen", "The parts ticked in the list, or else the active one")],
+        description="Which parts to use",
+    )
+
+
+class SeparateProperties(WhichProperties):
+    """How parts become objects."""
+
+    caps: BoolProperty(
+        name="Close holes", default=False,
+        description="Close the holes where parts were joined, so that each piece is closed; borders that "
+        "the mesh had before stay open. The faces are marked by the attribute reeb_cap",
+    )
+    center: BoolProperty(
+        name="Origin in the middle", default=True,
+        description="Put the origin of each piece to the middle of its surface; without it, all keep the "
+        "origin of the object",
+    )
+    modifiers: BoolProperty(
+        name="Keep modifiers", default=True,
+        description="Copy the object's modifiers to each piece",
+    )
+    parent: BoolProperty(
+        name="Parent to original", default=False,
+        description="Make the pieces children of the object, so that they follow it; without it, they have "
+        "the parent that the object has",
+    )
+    hide: BoolProperty(
+        name="Hide original", default=True,
+        description="Hide the object, which stays as it is, in the viewport and in renders",
+    )
 
 
 PRESET_ITEMS = [(name, name, "") for name in PRESETS]
 
 
-def _repaint(self, context):
-    from . import reactions
+def _use_preset(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    if self.preset != "CUSTOM":
+        self.use_parameters(PRESETS[self.preset])
 
+
+def _repaint(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     if context.object is not None and context.object.type == "MESH":
         reactions.use_palette(context.object.data, self.palette, context)
 
 
-def _show_graph(self, context):
-    from . import reactions
-
+def _show_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     if context.object is not None and context.object.type == "MESH":
         reactions.show_graph(context.object, self.graph, context)
 
 
-class ReebPartsSettings(bpy.types.PropertyGroup, ParameterProperties, OutputProperties, OverlayProperties):
+def _set_by_former_name(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    for name in [name for name in RENAMED if self.is_property_set(name)]:
+        for present in RENAMED[name]:  # what a script sets last counts
+            self.property_unset(present)
+    take_over_former_names(self)
+
+
+class FormerParameters:
+    """The parameters by their names of version 0.1.0, for scenes of then and scripts that set them."""
+
+    __annotations__ = {name: _former_property(present[0], update=_set_by_former_name)
+                       for name, present in RENAMED.items()}
+
+
+class FormerArguments:
+    """The parameters by their names of version 0.1.0, for scripts that call an operator with them."""
+
+    __annotations__ = {name: _former_property(present[0], options={"HIDDEN", "SKIP_SAVE"})
+                       for name, present in RENAMED.items()}
+
+
+class ReebPartsSettings(
+    bpy.types.PropertyGroup, FormerParameters, ParameterProperties, OutputProperties, OverlayProperties
+):
     """What the next run will do; on the scene."""
 
     # Here, and only here, they are seen at once.
@@ -182,138 +262,22 @@ class ReebPartsSettings(bpy.types.PropertyGroup, ParameterProperties, OutputProp
     adopted: BoolProperty(description="The preferences were taken over")
 
 
-def _rename(self, context):
-    from . import reactions
-
-    reactions.rename(self, context)
+class ReebPartsUse(bpy.types.PropertyGroup, SeparateProperties):
+    """What the buttons under Use Parts will do; on the scene."""
 
 
-def _recolor(self, context):
-    from . import reactions
-
-    reactions.recolor(self, context)
+CLASSES = (ReebPartsSettings, ReebPartsUse)
 
 
-def _lock(self, context):
-    from . import reactions
-
-    reactions.lock(self, context)
-
-
-def _pick(self, context):
-    from ..operators import parts
-
-    parts.pick(self, context)
-
-
-def _show_detail(self, context):
-    from . import reactions
-
-    reactions.show_detail(self, context)
-
-
-def _show_number(self, context):
-    from . import reactions
-
-    reactions.show_number(self, context)
-
-
-class ReebPart(bpy.types.PropertyGroup):
-    """A part as the list shows it."""
-
-    name: StringProperty(
-        name="Name", update=_rename, maxlen=63,
-        description="Name of the part and of its vertex group; double click to change it",
-    )
-    number: IntProperty(name="Number", description="What the part is known by; the value of reeb_part")
-    color: FloatVectorProperty(
-        name="Colour", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0, update=_recolor,
-        description="Colour of the part; one that you choose stays with it",
-    )
-    share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")
-    locked: BoolProperty(
-        name="Locked", update=_lock,
-        description="The part stays as it is, whatever the detail and whatever is done to its neighbours",
-    )
-    pinned: BoolProperty(name="Pinned", description="The part was changed by hand and stays whatever the detail")
-    selected: BoolProperty(name="Selected", description="Included in what is done to the selected parts")
-    group: StringProperty(description="The vertex group made for the part")
-    material: PointerProperty(type=bpy.types.Material, description="The material made for the part")
-
-
-class ReebName(bpy.types.PropertyGroup):
-    """A name or a colour that somebody gave to a part, kept while the part is not shown."""
-
-    name: StringProperty(description="Empty: the part's own")
-    number: IntProperty()
-    has_color: BoolProperty()
-    color: FloatVectorProperty(subtype="COLOR_GAMMA", size=3)
-
-
-class ReebPartsResult(bpy.types.PropertyGroup):
-    """A decomposition and what was written of it; on the mesh."""
-
-    # The result itself
-    data: StringProperty(subtype="BYTE_STRING")
-    numbers: StringProperty(subtype="BYTE_STRING")
-    fingerprint: StringProperty()
-    stretch: FloatVectorProperty(size=9)
-    object_name: StringProperty()
-
-    # What the panel shows of it
-    seconds: FloatProperty()
-    n_nodes: IntProperty()
-    n_arcs: IntProperty()
-    n_loops: IntProperty()
-    n_vertices: IntProperty()
-    n_faces: IntProperty()
-    notes: StringProperty()
-    note_words: StringProperty()
-    edited: BoolProperty(description="The mesh was edited since")
-
-    # What can be changed
-    detail: FloatProperty(
-        name="Detail", min=0.0, max=1.0, default=0.5, subtype="FACTOR", update=_show_detail,
-        description="How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate. "
-        "Nothing is computed again",
-    )
-    n_parts: IntProperty(
-        name="Number of parts", min=1, update=_show_number,
-        description="Exactly this many parts, whatever the detail. Nothing is computed again",
-    )
-    by_number: BoolProperty(description="The number of parts decides, not the detail")
-    parts: CollectionProperty(type=ReebPart)
-    active: IntProperty(name="Active part", update=_pick)
-    names: CollectionProperty(type=ReebName)
-
-    # What was written, under which name, and what was there before
-    face_attribute: StringProperty()
-    color_attribute: StringProperty()
-    palette: StringProperty()
-    field_attribute: StringProperty()
-    has_groups: BoolProperty()
-    has_face_sets: BoolProperty()
-    has_materials: BoolProperty()
-    has_seams: BoolProperty()
-    former_color: StringProperty()
-    former_render_color: StringProperty()
-    had_face_sets: BoolProperty()
-    had_material_index: BoolProperty()
-    had_seams: BoolProperty()
-
-
-CLASSES = (ReebPartsSettings, ReebPart, ReebName, ReebPartsResult)
-
-
-def register():
+def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.Scene.reeb_parts = PointerProperty(type=ReebPartsSettings)
-    bpy.types.Mesh.reeb_parts = PointerProperty(type=ReebPartsResult)
+    bpy.types.Scene.reeb_parts_use = PointerProperty(type=ReebPartsUse)
 
 
-def unregister():
-    del bpy.types.Mesh.reeb_parts
+def unregister() -> None:
+    del bpy.types.Scene.reeb_parts_use
     del bpy.types.Scene.reeb_parts
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes for the benchmarks: read from files, and refined to a size."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+
+def load_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (n, 3) and triangles (m, 3) of a mesh file, in its own order."""
+    if path.suffix.lower() == ".npz":
+        with np.load(path) as data:
+            return data["vertices"], data["faces"]
+    import trimesh
+
+    # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
+    scene = trimesh.load_scene(path, process=False, maintain_order=True, skip_materials=True)
+    meshes = list(scene.geometry.values())
+    first = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
+    vertices = np.concatenate([mesh.vertices for mesh in meshes])
+    return vertices, np.concatenate([mesh.faces + start for mesh, start in zip(meshes, first, strict=False)])
+
+
+def refined(vertices: np.ndarray, faces: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Halve edges, longest first, until there are ``size`` vertices; the shape stays as it is."""
+    while len(vertices) < size:
+        edge = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1), axis=-1)  # (m, 3, 2)
+        edges, number = np.unique(edge.reshape(-1, 2), axis=0, return_inverse=True)
+        number = number.reshape(-1, 3)
+        length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
+        rank = np.empty(len(edges), np.int64)
+        rank[np.argsort(-length, kind="stable")] = np.arange(len(edges))
+        # The longest edge of both its faces: no face is cut twice in one round.
+        first = rank[number].argmin(axis=1)
+        longest = number[np.arange(len(faces)), first]
+        chosen = np.flatnonzero(np.bincount(longest, minlength=len(edges)) == np.bincount(number.ravel()))
+        chosen = chosen[np.argsort(rank[chosen])][: size - len(vertices)]
+        middle = np.full(len(edges), -1)
+        middle[chosen] = len(vertices) + np.arange(len(chosen))
+        vertices = np.concatenate([vertices, vertices[edges[chosen]].mean(axis=1)])
+        cut = middle[longest] >= 0
+        # Turn the corners so that the halved edge joins corners 0 and 1.
+        a, b, c = (faces[cut, (first[cut] + k) % 3] for k in range(3))
+        m = middle[longest[cut]]
+        faces = np.concatenate([faces[~cut], np.stack([a, m, c], 1), np.stack([m, b, c], 1)])
+    return vertices, faces

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write each part to a file."""
+
+from pathlib import Path
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from ..scene import store, targets
+from ..scene.errors import SceneError
+from ..scene.export import export_parts
+from ..scene.modes import object_mode
+from ..scene.panel_settings import use_panel_settings
+from ..scene.part_list import has_parts, wanted_numbers
+from ..scene.settings import WhichProperties
+
+
+class REEB_PARTS_OT_export(bpy.types.Operator, WhichProperties):
+    """Write each part to a file of its own, in a folder; files of the same names are replaced"""
+
+    bl_idname = "reeb_parts.export"
+    bl_label = "Export Parts to Files"
+    bl_options = {"REGISTER"}
+
+    directory: bpy.props.StringProperty(
+        name="Folder", subtype="DIR_PATH", description="Where the files go; made if it is not there"
+    )
+    filter_folder: bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
+    format: bpy.props.EnumProperty(
+        name="Format", default="obj",
+        items=[("obj", "OBJ", "Wavefront, with materials"), ("ply", "PLY", "Stanford, with colours"),
+               ("stl", "STL", "For 3D printing"), ("glb", "glTF Binary", "With materials and textures")],
+        description="Kind of the files",
+    )
+    caps: bpy.props.BoolProperty(
+        name="Close holes", default=False,
+        description="Close the holes where parts were joined, so that each file holds a closed body",
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return has_parts(cls, context)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        use_panel_settings(self, WhichProperties, context)
+        if not self.properties.is_property_set("caps"):
+            self.caps = context.scene.reeb_parts_use.caps
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            if not self.directory:
+                raise SceneError(rpt_("There is no folder to write to. Choose one and try again."))
+            folder = Path(bpy.path.abspath(self.directory))
+            objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
+            with object_mode(context):
+                folder.mkdir(parents=True, exist_ok=True)
+                paths = [path for obj in objects for path in
+                         export_parts(obj, folder, self.format, wanted_numbers(obj.data, self.which), self.caps)]
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        except (OSError, RuntimeError) as error:  # what Blender's exporters report arrives as RuntimeError
+            self.report({"ERROR"}, rpt_("The parts could not be written: {reason}").format(reason=str(error).strip()))
+            return {"CANCELLED"}
+        self.report({"INFO"}, rpt_("{n} files in {folder}").format(n=len(paths), folder=folder))
+        return {"FINISHED"}
+
+
+CLASSES = (REEB_PARTS_OT_export,)

@@ -1,0 +1,294 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Change parts by hand: merge, split, grow, shrink, assign, release.
+
+Every part that is changed by hand is pinned: it stays as it is while the detail changes around it, and through
+another run, until it is released. A part that the user has locked is pinned, too, and cannot be changed at all.
+
+The functions want Object Mode and raise SceneError where a change is not possible. They import what needs SciPy
+from core when they are called, so that the panel comes up without it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import bpy
+import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from ..core.result.decomposition import Decomposition
+from ..core.surface.corners import CornerTable
+from ..core.surface.labels import FaceGraph
+from . import bridge, part_names, reactions, store
+from .errors import SceneError
+from .outputs import face_sets
+from .selection import selected_faces
+from .store import Stored
+
+
+def free_number(mesh: bpy.types.Mesh, stored: Stored, also: Iterable[int] = ()) -> int:
+    """The smallest number that no part has or had, that no name is kept for, and that is none of some others."""
+    kept = [entry.number for entry in mesh.reeb_parts.names]
+    used = {*stored.shown.tolist(), *stored.previous_number.tolist(), *kept, *also}
+    return next(number for number in range(1, len(used) + 2) if number not in used)
+
+
+def check_unlocked(mesh: bpy.types.Mesh, numbers: Iterable[int]) -> None:
+    """Raise SceneError if one of some parts is locked."""
+    for part in mesh.reeb_parts.parts:
+        if part.locked and part.number in numbers:
+            raise SceneError(rpt_("{name} is locked. Unlock it in the list first.").format(name=part.name))
+
+
+def locked_others(mesh: bpy.types.Mesh, number: int) -> list[int]:
+    """Numbers of the locked parts but for one."""
+    return [part.number for part in mesh.reeb_parts.parts if part.locked and part.number != number]
+
+
+def merge(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: list[int], into: int) -> None:
+    """Make one part of several; raises SceneError if they do not touch."""
+    from ..core.result.editing import pieces
+
+    check_unlocked(mesh, numbers)
+    mask = np.isin(stored.shown, numbers)
+    if pieces(stored.decomposition, mask).max() > 0:
+        raise SceneError(rpt_("These parts do not touch each other. Choose parts that do."))
+    _show_pinned(context, mesh, stored, np.where(mask, into, stored.shown), [into])
+
+
+def merge_into_neighbor(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
+    """Merge a part into the neighbor beyond its least salient cut; of equals, beyond the longest."""
+    numbered = stored.shown_parts()
+    cuts = numbered.numbers[numbered.parts.cuts]
+    own = (cuts == number).any(axis=1)
+    if not own.any():
+        raise SceneError(rpt_("{name} touches no other part.").format(name=part_names.part_name(mesh, number)))
+    order = np.lexsort((-numbered.parts.cut_length[own], numbered.parts.cut_salience[own]))
+    first, second = cuts[own][order[0]].tolist()
+    neighbor = first if second == number else second
+    merge(context, mesh, stored, [number, neighbor], neighbor)
+
+
+def split(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
+    """Split a part in two at the most salient cut inside it."""
+    from ..core.result.editing import best_split
+
+    side = best_split(stored.decomposition, stored.shown == number)
+    _split_off(context, mesh, stored, number, side)
+
+
+def split_at_node(context: bpy.types.Context, mesh: bpy.types.Mesh, node: int) -> tuple[int, int]:
+    """Split the part that holds a node of the graph; the smaller side becomes a new part.
+
+    Returns
+    -------
+    number, new : int
+        The part that was split, and the new one.
+
+    Raises
+    ------
+    SceneError
+        The part is locked, cannot be split, or the mesh was edited.
+    """
+    from ..core.result.editing import node_split
+
+    stored = store.load(mesh)
+    number = int(stored.shown[stored.decomposition.node_candidate[node]])
+    check_unlocked(mesh, [number])
+    mask = stored.shown == number
+    side = node_split(stored.decomposition, mask, node)
+    area = stored.decomposition.candidate_area
+    if side is not None and area[side].sum() > area[mask & ~side].sum():
+        side = mask & ~side
+    return number, _split_off(context, mesh, stored, number, side)
+
+
+def _split_off(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int,
+               side: np.ndarray | None) -> int:
+    """Make a new part of some candidates of a part, (c,) bool; its number. Raises SceneError if there are none."""
+    if side is None:
+        raise SceneError(
+            rpt_("No cut was found inside {name}. Select faces in Edit Mode and assign them to another "
+                 "part instead.").format(name=part_names.part_name(mesh, number))
+        )
+    new = free_number(mesh, stored)
+    _show_pinned(context, mesh, stored, np.where(side, new, stored.shown), [number, new])
+    return new
+
+
+def grow(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
+    """Give a part the next candidate beyond its weakest boundary, unless that candidate is of a locked part."""
+    from ..core.result.editing import growth
+
+    taken = growth(stored.decomposition, stored.shown == number, _not_locked(mesh, stored, number))
+    if taken is None:
+        raise SceneError(rpt_("Nothing is left around {name} that is not locked.").format(
+            name=part_names.part_name(mesh, number)))
+    _move(context, mesh, stored, taken, number)
+
+
+def shrink(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
+    """Give a candidate of a part to the part beside it, unless that part is locked."""
+    from ..core.result.editing import shrinkage
+
+    step = shrinkage(stored.decomposition, stored.shown == number, _not_locked(mesh, stored, number))
+    if step is None:
+        raise SceneError(rpt_("{name} cannot give away anything more.").format(name=part_names.part_name(mesh, number)))
+    given, receiver = step
+    _move(context, mesh, stored, given, int(stored.shown[receiver]))
+
+
+def _not_locked(mesh: bpy.types.Mesh, stored: Stored, number: int) -> np.ndarray:
+    """Candidates that are in no locked part, or in the part itself, (c,) bool."""
+    return ~np.isin(stored.shown, locked_others(mesh, number))
+
+
+def _move(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int) -> None:
+    """Give a candidate to a part; what the candidate leaves behind stays in one piece, or becomes several parts."""
+    giver = int(stored.shown[candidate])
+    numbers = stored.shown.copy()
+    numbers[candidate] = number
+    changed = {giver, number} | _part_pieces(mesh, stored, numbers, giver)
+    _show_pinned(context, mesh, stored, numbers, changed)
+
+
+def assign_selected(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, number: int) -> int:
+    """Give the selected faces to a part; how many faces these are."""
+    faces = selected_faces(obj.data)
+    if not faces.any():
+        raise SceneError(rpt_("No faces are selected. Select some in Edit Mode."))
+    before = stored.face_numbers
+    check_unlocked(obj.data, {number, *before[faces].tolist()})
+    assign_faces(context, obj, stored, np.where(faces, number, before))
+    return int(faces.sum())
+
+
+def assign_face_sets(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> int:
+    """Give each face to the part of its face set, as painted in Sculpt Mode; how many faces changed their part.
+
+    A face set that is no part's number becomes a new part.
+    """
+    mesh = obj.data
+    sets = mesh.attributes.get(face_sets.NAME)
+    if not mesh.reeb_parts.has_face_sets or sets is None:
+        raise SceneError(rpt_("The parts are not face sets yet. Press Face Sets, then paint them in Sculpt Mode."))
+    painted = np.empty(len(mesh.polygons), np.int32)
+    sets.data.foreach_get("value", painted)
+    before = stored.face_numbers
+    after = before.copy()
+    new: list[int] = []
+    for value in np.unique(painted).tolist():
+        number = value
+        if value not in before:
+            number = free_number(mesh, stored, new)
+            new.append(number)
+        after[painted == value] = number
+    changed = after != before
+    check_unlocked(mesh, {*after[changed].tolist(), *before[changed].tolist()})
+    assign_faces(context, obj, stored, after)
+    return int(changed.sum())
+
+
+def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, face_numbers: np.ndarray,
+                 mesh_tables: tuple[FaceGraph, CornerTable] | None = None) -> None:
+    """Give faces to parts, and pin all parts concerned; what falls apart becomes several parts.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    stored : Stored
+    face_numbers : (p,) int64
+        The part of each face from now on.
+    mesh_tables : optional
+        What ``bridge.face_graph`` gives for the object, if it is known already.
+    """
+    from ..core.result.editing import split_candidates
+
+    before = stored.face_numbers
+    moved = face_numbers != before
+    if not moved.any():
+        return
+    concerned = set(np.unique(np.concatenate([face_numbers[moved], before[moved]])).tolist())
+    mesh_tables = mesh_tables or bridge.face_graph(obj)
+    for number in np.unique(face_numbers[moved]).tolist():
+        inside = moved & (face_numbers == number)
+        stored = _finer(stored, split_candidates(stored.decomposition, inside, *mesh_tables))
+    with store.quiet():
+        store.save(obj.data, stored)
+    numbers = stored.shown.copy()
+    numbers[stored.decomposition.candidates[moved]] = face_numbers[moved]
+    for number in sorted(concerned):
+        if (numbers == number).any():
+            concerned |= _part_pieces(obj.data, stored, numbers, number)
+    _show_pinned(context, obj.data, stored, numbers, concerned)
+
+
+def _finer(stored: Stored, decomposition: Decomposition) -> Stored:
+    """The stored result with finer candidates, which have the numbers of those that they were cut from."""
+    origin = np.empty(decomposition.n_candidates, np.int64)
+    origin[: len(stored.shown)] = np.arange(len(stored.shown))
+    origin[decomposition.candidates] = stored.decomposition.candidates
+    return Stored(decomposition, stored.previous_number[origin], stored.pinned[origin], stored.shown[origin])
+
+
+def _part_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, number: int) -> set[int]:
+    """Give all but the largest piece of a part numbers of their own.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+    stored : Stored
+    numbers : (c,) int64
+        The part of each candidate; changed in place.
+    number : int
+        The part that may have fallen apart.
+
+    Returns
+    -------
+    made : set of int
+        The new numbers.
+    """
+    from ..core.result.editing import pieces
+
+    piece = pieces(stored.decomposition, numbers == number)
+    made = set()
+    for index in range(1, piece.max() + 1):
+        new = free_number(mesh, stored, numbers.tolist())
+        made.add(new)
+        numbers[piece == index] = new
+    return made
+
+
+def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: Iterable[int]) -> None:
+    """Let the detail decide about parts again; locked parts stay pinned."""
+    result = mesh.reeb_parts
+    locked = {part.number for part in result.parts if part.locked}
+    pinned = np.where(np.isin(stored.pinned, list(set(numbers) - locked)), 0, stored.pinned)
+    with store.quiet():
+        store.save_numbers(mesh, replace(stored, pinned=pinned))
+    result.by_number = False
+    reactions.show(result, context)
+
+
+def _show_pinned(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, candidate_numbers: np.ndarray,
+                 changed: Iterable[int]) -> None:
+    """Show parts that were changed by hand, and pin those that are part of the change.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    mesh : bpy.types.Mesh
+    stored : Stored
+    candidate_numbers : (c,) int64
+        The part of each candidate from now on.
+    changed : iterable of int
+        Numbers of the parts to pin.
+    """
+    result = mesh.reeb_parts
+    to_pin = np.isin(candidate_numbers, list(changed)) | (stored.pinned > 0)
+    stored = replace(stored, pinned=np.where(to_pin, candidate_numbers, 0))
+    # Around the pinned parts everything is as the hierarchy has it.
+    count = len(np.unique(candidate_numbers)) if result.by_number else 0
+    reactions.refresh(context, mesh, stored, stored.parts(result.detail, count))

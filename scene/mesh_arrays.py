@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The arrays of a Blender mesh: positions, corners, edges, triangles, and what tells that the mesh was edited.
+
+Everything is read in bulk. n vertices, e edges, c corners, p faces.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from concurrent.futures import ThreadPoolExecutor
+
+import bpy
+import numpy as np
+
+from ..core.surface.corners import CornerTable, edge_labels
+
+_face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
+_digested: list[tuple[tuple[np.ndarray, ...], str]] = []
+
+
+def forget() -> None:
+    """Free what is kept in memory."""
+    _face_corners.clear()
+    _digested.clear()
+
+
+def fingerprint(mesh: bpy.types.Mesh) -> str:
+    """Changes when the mesh is edited: its basis positions or its faces. Not in Edit Mode."""
+    # The edges of the corners tell where a face ends, and can be read much faster than that.
+    arrays = (basis_points(mesh), _corners(mesh, ".corner_vert"), _corners(mesh, ".corner_edge"),
+              np.array([len(mesh.polygons)]))
+    # While a slider is dragged, all is as it was a moment ago; to compare is faster than to digest.
+    for known, made in _digested:
+        if all(np.array_equal(a.view(np.int32), b.view(np.int32)) for a, b in zip(arrays, known, strict=True)):
+            return made
+    fresh = digest(*arrays)
+    _digested[:] = [(arrays, fresh)]
+    return fresh
+
+
+def digest(*arrays: np.ndarray) -> str:
+    """Equal for arrays of equal shapes and bytes."""
+    whole = hashlib.blake2b(digest_size=16)
+    with ThreadPoolExecutor() as pool:  # hashing large arrays leaves the interpreter to the others
+        for array, part in zip(arrays, pool.map(_digest_of, arrays), strict=True):
+            whole.update(str(array.shape).encode() + part)
+    return whole.hexdigest()
+
+
+def _digest_of(array: np.ndarray) -> bytes:
+    return hashlib.blake2b(np.ascontiguousarray(array), digest_size=16).digest()
+
+
+def face_corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Vertex and face of each corner of a mesh, two (c,) int32 arrays; not in Edit Mode.
+
+    Kept for as long as the stored result is that of the mesh: the caller has made sure of that, or has
+    just stored it.
+    """
+    result = mesh.reeb_parts
+    key = (result.fingerprint, len(mesh.vertices), len(mesh.polygons), len(mesh.loops))
+    if key not in _face_corners:
+        total = np.empty(len(mesh.polygons), np.int32)
+        mesh.polygons.foreach_get("loop_total", total)
+        face = np.repeat(np.arange(len(total), dtype=np.int32), total)
+        corners = _corners(mesh, ".corner_vert"), face
+        if not result.fingerprint:
+            return corners
+        _face_corners.clear()
+        _face_corners[key] = corners
+    return _face_corners[key]
+
+
+def corner_edges(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Edge from each corner to the next of its face, (c,) int32; not in Edit Mode."""
+    return _corners(mesh, ".corner_edge")
+
+
+def _corners(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
+    """The vertex or the edge of each corner."""
+    corners = np.empty(len(mesh.loops), np.int32)
+    if len(corners):
+        mesh.attributes[name].data.foreach_get("value", corners)
+    return corners
+
+
+def edge_ends(mesh: bpy.types.Mesh) -> np.ndarray:
+    """The vertices of each edge, (e, 2) int32; not in Edit Mode."""
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    return ends.reshape(-1, 2)
+
+
+def corner_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> CornerTable:
+    """The faces of a mesh corner by corner, for core; not in Edit Mode.
+
+    points : (n, 3), positions in any coordinates; those of the basis without.
+    """
+    vertex, face = face_corners(mesh)
+    points = basis_points(mesh) if points is None else points
+    return CornerTable(points.astype(np.float64), edge_ends(mesh), vertex, corner_edges(mesh), face, len(mesh.polygons))
+
+
+def cut_edges(mesh: bpy.types.Mesh, numbers: np.ndarray) -> np.ndarray:
+    """Whether faces of different parts meet at each edge, (e,) bool."""
+    _, face = face_corners(mesh)
+    low, high = edge_labels(corner_edges(mesh), face, numbers, len(mesh.edges))
+    return low < high
+
+
+def basis_points(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Positions without shape keys, (n, 3) float32; not in Edit Mode."""
+    points = np.empty(3 * len(mesh.vertices), np.float32)
+    if len(points):
+        mesh.attributes["position"].data.foreach_get("vector", points)
+    return points.reshape(-1, 3)
+
+
+def triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Blender's own triangulation, and the face of each triangle."""
+    mesh.calc_loop_triangles()
+    vertices = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", vertices)
+    polygon = np.empty(len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("polygon_index", polygon)
+    return vertices.reshape(-1, 3), polygon
+
+
+def shown_points(obj: bpy.types.Object) -> np.ndarray:
+    """Positions with the shape keys as the object shows them; the basis where keys are absolute."""
+    keys = obj.data.shape_keys
+    if keys is None:
+        return basis_points(obj.data)
+    if obj.show_only_shape_key:
+        return _key_points(obj.active_shape_key)
+    basis = _key_points(keys.reference_key)
+    if not keys.use_relative:
+        return basis
+    mix = basis.copy()
+    for key in keys.key_blocks:
+        if key.mute or not key.value or key == keys.reference_key:
+            continue
+        move = _key_points(key) - _key_points(key.relative_key)
+        if key.vertex_group in obj.vertex_groups:
+            move *= _weights(obj, key.vertex_group)[:, None]
+        mix += np.float32(key.value) * move
+    return mix
+
+
+def _key_points(key: bpy.types.ShapeKey) -> np.ndarray:
+    points = np.empty(3 * len(key.data), np.float32)
+    key.data.foreach_get("co", points)
+    return points.reshape(-1, 3)
+
+
+def _weights(obj: bpy.types.Object, name: str) -> np.ndarray:
+    """Weight of each vertex in a group, (n,) float32."""
+    index = obj.vertex_groups[name].index
+    weights = np.zeros(len(obj.data.vertices), np.float32)
+    for vertex in obj.data.vertices:  # groups cannot be read in bulk
+        for entry in vertex.groups:
+            if entry.group == index:
+                weights[vertex.index] = entry.weight
+    return weights

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The colours of the parts as a colour attribute."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import bpy
+import numpy as np
+
+from .. import mesh_arrays, targets
+from .kept_aside import add_attribute, remove_attribute
+
+NAME = "Reeb Parts"
+
+# Up to this share of the faces, their corners one by one cost less than all corners at once: Blender sets
+# byte colours slowly.
+FEW = 0.01
+
+# From so many corners on, Blender's operator that converts colours is worth calling.
+MANY = 200_000
+
+
+def add(obj: bpy.types.Object) -> None:
+    """Make the colour attribute active, for the viewport and for rendering; remember what was."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    if result.color_attribute in mesh.color_attributes:
+        return
+    result.former_color = mesh.attributes.active_color_name or ""
+    result.former_render_color = mesh.attributes.default_color_name or ""
+    result.color_attribute = add_attribute(mesh, "", NAME, "BYTE_COLOR", "CORNER")
+    mesh.attributes.active_color_name = result.color_attribute
+    mesh.attributes.default_color_name = result.color_attribute
+
+
+def remove(obj: bpy.types.Object) -> None:
+    """Remove the colour attribute; what was active before is active again."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    ours = result.color_attribute
+    if ours in mesh.color_attributes:
+        # If the user has chosen another one since, that stays.
+        if mesh.attributes.active_color_name == ours:
+            mesh.attributes.active_color_name = result.former_color
+        if mesh.attributes.default_color_name == ours:
+            mesh.attributes.default_color_name = result.former_render_color
+        remove_attribute(mesh, ours)
+    result.color_attribute = result.former_color = result.former_render_color = ""
+
+
+def write(mesh: bpy.types.Mesh, numbers: np.ndarray, colors: np.ndarray, changed: np.ndarray | None = None) -> None:
+    """Write the colours of parts into our colour attribute, if it is there.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+    numbers : (p,) int64
+        The part of each face.
+    colors : (count, 4) float32
+        By number, see part_names.number_colors.
+    changed : (k,) int, optional
+        The only faces that are coloured otherwise than before.
+    """
+    attribute = mesh.attributes.get(mesh.reeb_parts.color_attribute)
+    if attribute is None:
+        return
+    _, face = mesh_arrays.face_corners(mesh)
+    if changed is not None and len(changed) <= FEW * len(numbers):
+        _write_few(attribute, face, changed, colors[numbers[changed]].tolist())
+    elif len(face) < MANY or not _write_many(mesh, attribute, numbers, colors):
+        attribute.data.foreach_set("color_srgb", _spread(colors, numbers[face]))
+
+
+def _write_few(attribute: bpy.types.Attribute, face: np.ndarray, changed: np.ndarray | None,
+               shades: list[list[float]]) -> None:
+    """Colour the corners of some faces one by one."""
+    first, end = np.searchsorted(face, changed), np.searchsorted(face, changed, side="right")
+    for low, high, shade in zip(first.tolist(), end.tolist(), shades, strict=True):
+        for corner in range(low, high):
+            attribute.data[corner].color_srgb = shade
+
+
+def _write_many(mesh: bpy.types.Mesh, attribute: bpy.types.Attribute, numbers: np.ndarray, colors: np.ndarray) -> bool:
+    """Colour faces, and let Blender make byte colours of the corners of that: three times as fast as to set them.
+
+    Whether that was done: Blender's operator evaluates the scene, which modifiers make slow.
+    """
+    users = targets.users(mesh)
+    if not users or any(obj.modifiers for obj in users):
+        return False
+    name, chosen = attribute.name, (mesh.attributes.active_color_name, mesh.attributes.default_color_name)
+    active = mesh.attributes.active.name if mesh.attributes.active else ""
+    exact = [(*linear(color), 1.0) for color in (np.floor(255.0 * colors[:, :3] + 0.5) / 255.0).tolist()]
+    made = mesh.attributes.new(name, "FLOAT_COLOR", "FACE").name
+    done = False
+    try:
+        mesh.attributes[made].data.foreach_set("color", _spread(exact, numbers))
+        mesh.attributes.active = mesh.attributes[made]
+        with bpy.context.temp_override(object=users[0], active_object=users[0]):
+            done = "FINISHED" in bpy.ops.geometry.attribute_convert(
+                mode="GENERIC", domain="CORNER", data_type="BYTE_COLOR")
+    except RuntimeError:  # not in this context
+        pass
+    finally:
+        mesh.attributes.remove(mesh.attributes[name if done else made])
+        if done:
+            mesh.attributes[made].name = name
+        mesh.attributes.active = mesh.attributes.get(active)
+        mesh.attributes.active_color_name, mesh.attributes.default_color_name = chosen
+    return done
+
+
+def _spread(colors: np.ndarray, index: np.ndarray) -> np.ndarray:
+    """The colours of an index, four values each, in a row, float32."""
+    # A colour as one number of sixteen bytes is copied four times as fast as a row.
+    whole = np.ascontiguousarray(colors, np.float32).view(np.complex128)[:, 0]
+    return whole[index].view(np.float32)
+
+
+def linear(color: Iterable[float]) -> list:
+    """sRGB, which lists and vertex colours use, as what objects and materials are coloured with."""
+    return [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color]

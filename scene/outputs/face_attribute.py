@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The number of each face's part as an attribute."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...core.result.numbering import NumberedParts
+from .kept_aside import add_attribute, remove_attribute
+
+NAME = "reeb_part"
+
+
+def add(obj: bpy.types.Object) -> None:
+    """Make the attribute with each face's part number, unless it is there."""
+    result = obj.data.reeb_parts
+    result.face_attribute = add_attribute(obj.data, result.face_attribute, NAME, "INT", "FACE")
+
+
+def remove(obj: bpy.types.Object) -> None:
+    """Remove the attribute with each face's part number."""
+    remove_attribute(obj.data, obj.data.reeb_parts.face_attribute)
+    obj.data.reeb_parts.face_attribute = ""
+
+
+def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
+    """Bring the numbers up to date, if the attribute is there."""
+    if attribute := mesh.attributes.get(mesh.reeb_parts.face_attribute):
+        attribute.data.foreach_set("value", numbered.face_numbers.astype(np.int32))

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Attributes of ours on a mesh, and what stood there before, kept aside in hidden attributes.
+
+The names of hidden attributes start with a dot: Blender does not show them and carries them through edits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import bpy
+import numpy as np
+
+#: How the names of all attributes begin in which values of the user are kept aside.
+PREFIX = ".reeb_former"
+
+
+def add_attribute(mesh: bpy.types.Mesh, known: str, name: str, kind: str, domain: str) -> str:
+    """The name of an attribute of ours: the known one if it is still there, or a new one beside any of the user's."""
+    attribute = mesh.attributes.get(known) if known else None
+    if attribute is not None and attribute.data_type == kind and attribute.domain == domain:
+        return known
+    index = mesh.attributes.active_index
+    name = mesh.attributes.new(name, kind, domain).name
+    mesh.attributes.active_index = index
+    return name
+
+
+def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:
+    """Remove an attribute, if it is there; the active one stays active."""
+    attribute = mesh.attributes.get(name) if name else None
+    if attribute is not None:
+        active = mesh.attributes.active
+        kept = active.name if active else ""
+        mesh.attributes.remove(attribute)
+        if kept in mesh.attributes:
+            mesh.attributes.active = mesh.attributes[kept]
+
+
+def keep_aside(mesh: bpy.types.Mesh, items: bpy.types.bpy_prop_collection, key: str, name: str, kind: str,
+               domain: str) -> None:
+    """Copy a value of each element into a hidden attribute."""
+    values = np.empty(len(items), bool if kind == "BOOLEAN" else np.int32)
+    items.foreach_get(key, values)
+    remove_attribute(mesh, name)
+    name = add_attribute(mesh, "", name, kind, domain)
+    mesh.attributes[name].data.foreach_set("value", values)
+
+
+def bring_back(mesh: bpy.types.Mesh, items: Callable[[], bpy.types.bpy_prop_collection], key: str, name: str) -> None:
+    """Copy a hidden attribute back to where it came from, and remove it."""
+    attribute = mesh.attributes[name]
+    values = np.empty(len(attribute.data), bool if attribute.data_type == "BOOLEAN" else np.int32)
+    attribute.data.foreach_get("value", values)
+    items().foreach_set(key, values)
+    remove_attribute(mesh, name)

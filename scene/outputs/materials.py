@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A material for each part, in the part's colour."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...core.result.numbering import NumberedParts
+from .colors import linear
+from .kept_aside import PREFIX, bring_back, keep_aside, remove_attribute
+
+_MATERIAL_INDEX = "material_index"
+_KEPT = f"{PREFIX}_material"
+
+
+def add(obj: bpy.types.Object) -> None:
+    """Keep aside which material slot each face uses."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    if not result.has_materials:
+        result.had_material_index = _MATERIAL_INDEX in mesh.attributes
+        keep_aside(mesh, mesh.polygons, "material_index", _KEPT, "INT", "FACE")
+        result.has_materials = True
+
+
+def remove(obj: bpy.types.Object) -> None:
+    """Remove our materials and their slots; each face uses the slot it used before."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    for part in result.parts:
+        remove_one(mesh, part.material)
+    if result.has_materials and _KEPT in mesh.attributes:
+        bring_back(mesh, lambda: mesh.polygons, "material_index", _KEPT)
+        if not result.had_material_index:
+            remove_attribute(mesh, _MATERIAL_INDEX)
+    result.has_materials = result.had_material_index = False
+
+
+def remove_one(mesh: bpy.types.Mesh, material: bpy.types.Material | None) -> None:
+    """Remove the material that was made for a part, with its slot; None is none."""
+    if material is None:
+        return
+    for index in reversed(range(len(mesh.materials))):
+        if mesh.materials[index] == material:
+            mesh.materials.pop(index=index)
+    if not len(mesh.materials):
+        mesh.materials.clear()  # popping the last one leaves an empty slot on the objects
+    for part in mesh.reeb_parts.parts:
+        if part.material == material:
+            part.material = None
+    if material.users == 0:
+        bpy.data.materials.remove(material)
+
+
+def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
+    """Give each part a material and a slot, in the part's colour of the list, if the materials are ours."""
+    if not mesh.reeb_parts.has_materials:
+        return
+    slots = np.zeros(numbered.parts.count, np.int32)
+    for label, part in enumerate(mesh.reeb_parts.parts):
+        if part.material is None:
+            part.material = bpy.data.materials.new(part.name)
+            if bpy.app.version < (5, 0):  # newer ones always do
+                part.material.use_nodes = True
+        _color_material(part.material, linear(part.color))
+        if part.material not in mesh.materials[:]:
+            mesh.materials.append(part.material)
+        slots[label] = mesh.materials.find(part.material.name)
+    mesh.polygons.foreach_set("material_index", slots[numbered.parts.labels])
+
+
+def _color_material(material: bpy.types.Material, color: list[float]) -> None:
+    material.diffuse_color = (*color, 1.0)
+    for node in material.node_tree.nodes:
+        if node.type == "BSDF_PRINCIPLED":
+            node.inputs["Base Color"].default_value = (*color, 1.0)

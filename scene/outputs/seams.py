@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""UV seams where parts meet, beside the user's own."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...core.result.numbering import NumberedParts
+from .. import mesh_arrays
+from .kept_aside import PREFIX, bring_back, keep_aside, remove_attribute
+
+_KEPT = f"{PREFIX}_seam"
+
+
+def add(obj: bpy.types.Object) -> None:
+    """Keep aside which seams the user has."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    if not result.has_seams:
+        result.had_seams = _seam_name(mesh) is not None
+        keep_aside(mesh, mesh.edges, "use_seam", _KEPT, "BOOLEAN", "EDGE")
+        result.has_seams = True
+
+
+def remove(obj: bpy.types.Object) -> None:
+    """Leave the user's seams alone again."""
+    mesh = obj.data
+    result = mesh.reeb_parts
+    if result.has_seams and _KEPT in mesh.attributes:
+        bring_back(mesh, lambda: mesh.edges, "use_seam", _KEPT)
+        if not result.had_seams and (name := _seam_name(mesh)):
+            remove_attribute(mesh, name)
+    result.has_seams = result.had_seams = False
+
+
+def _seam_name(mesh: bpy.types.Mesh) -> str | None:
+    """The attribute that holds seams, None before there is one."""
+    return next((name for name in (".uv_seam", "uv_seam") if name in mesh.attributes), None)
+
+
+def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
+    """Bring the seams up to date, if we have added some."""
+    if not mesh.reeb_parts.has_seams:
+        return
+    seams = np.empty(len(mesh.edges), bool)
+    mesh.attributes[_KEPT].data.foreach_get("value", seams)
+    mesh.edges.foreach_set("use_seam", seams | mesh_arrays.cut_edges(mesh, numbered.face_numbers))

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All outputs of the parts together, and the list that the panel shows; Object Mode.
+
+Each output is a module with ``add(obj)``, which makes room for it, ``write``, which brings it up to date with
+the parts, and ``remove(obj)``, which takes it back. What was made is remembered in ``mesh.reeb_parts`` under the
+name that Blender gave it, so that nothing of the user's is touched, not even under the same name.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...core.result.numbering import NumberedParts
+from ...core.uses.colors import PALETTE, PALETTES, number_colors
+from .. import part_names, store
+from . import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
+
+#: The outputs by the names of their switches, see settings.OutputProperties.
+OUTPUTS = {
+    "vertex_groups": vertex_groups, "face_attribute": face_attribute, "colors": colors, "field": field,
+    "face_sets": face_sets, "materials": materials, "seams": seams,
+}  # fmt: skip
+
+
+def write_outputs(obj: bpy.types.Object, numbered: NumberedParts, distances: np.ndarray, outputs: Any) -> None:
+    """Write the chosen outputs, and take back what an earlier run wrote and this one does not want.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    numbered : NumberedParts
+    distances : (n,) float64
+        The field.
+    outputs
+        Has the switches of settings.OutputProperties.
+    """
+    vertex_groups.remove(obj)
+    for name, output in OUTPUTS.items():
+        (output.add if getattr(outputs, name) else output.remove)(obj)
+    obj.data.reeb_parts.palette = outputs.palette
+    field.write(obj.data, distances)
+    update_outputs(obj, numbered)
+
+
+def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | None = None) -> None:
+    """Bring the list and all that was written up to date with the parts.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    numbered : NumberedParts
+    before : (c,) int64, optional
+        Numbers of the candidates' parts as they are written now, so that only what differs is written
+        where writing is slow.
+    """
+    mesh = obj.data
+    old = part_names.number_colors(mesh)
+    gone = _list_parts(mesh, numbered)
+    new = part_names.number_colors(mesh)
+    # Colours first: what evaluates the scene there finds nothing else changed yet.
+    colors.write(mesh, numbered.face_numbers, new, _recolored(numbered, before, old, new))
+    for group, material in gone:
+        vertex_groups.remove_one(obj, group)
+        materials.remove_one(mesh, material)
+    vertex_groups.write(obj, numbered, before)
+    for output in (face_attribute, materials, face_sets, seams):
+        output.write(mesh, numbered)
+    mesh.update()
+
+
+def update_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
+    """Bring the colour attribute and the materials up to date with the colours of the list, which stays."""
+    colors.write(mesh, numbered.face_numbers, part_names.number_colors(mesh))
+    materials.write(mesh, numbered)
+    mesh.update()
+
+
+def _recolored(numbered: NumberedParts, before: np.ndarray | None, old: np.ndarray,
+               new: np.ndarray) -> np.ndarray | None:
+    """The faces whose colour changes, None if that is not known."""
+    if before is None:
+        return None
+    same = np.zeros(len(new), bool)
+    both = min(len(old), len(new))
+    same[:both] = (old[:both] == new[:both]).all(axis=1)
+    changed = (before != numbered.candidate_numbers) | ~same[numbered.candidate_numbers]
+    return np.flatnonzero(changed[numbered.candidates])
+
+
+def remove_outputs(obj: bpy.types.Object) -> None:
+    """Take back all that was written to the mesh; the result itself stays."""
+    for output in OUTPUTS.values():
+        output.remove(obj)
+    obj.data.update()
+
+
+def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
+    """Fill the list of parts; what is known of a number stays.
+
+    Returns the vertex group and the material of each part that was in the list and is gone.
+    """
+    result = mesh.reeb_parts
+    active = result.parts[result.active].number if result.active < len(result.parts) else 0
+    keys = ("group", "material", "locked", "selected")
+    known = {part.number: [getattr(part, key) for key in keys] for part in result.parts}
+    wanted = numbered.numbers.tolist()
+    shades = _part_colors(mesh, numbered)
+    with store.quiet():
+        result.parts.clear()
+        for label, number in enumerate(wanted):
+            part = result.parts.add()
+            part.number = number
+            part.name = part_names.part_name(mesh, number)
+            part.color = shades[label]
+            part.share = numbered.parts.share[label]
+            for key, value in zip(keys, known.get(number, ()), strict=False):
+                setattr(part, key, value)
+        result.active = wanted.index(active) if active in wanted else 0
+        result.n_parts = len(wanted)
+    return [values[:2] for number, values in known.items() if number not in wanted]
+
+
+def palette_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
+    """The colour of each part from the mesh's palette, (count, 3) float64 sRGB."""
+    return number_colors(numbered, PALETTES.get(mesh.reeb_parts.palette, PALETTE))
+
+
+def _part_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
+    """The colour of each part, (count, 3) float64 sRGB: what the user chose, or else of the palette."""
+    shades = palette_colors(mesh, numbered)
+    for number, color in part_names.kept_colors(mesh).items():
+        shades[numbered.numbers == number] = color
+    return shades

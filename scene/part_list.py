@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The list of parts: which parts are chosen in it, which one is active."""
+
+from __future__ import annotations
+
+import bmesh
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from . import store, targets
+from .errors import SceneError
+
+
+def has_parts(operator: type[bpy.types.Operator], context: bpy.types.Context,
+              obj: bpy.types.Object | None = None) -> bool:
+    """Whether the parts of an object, by default the active one, can be worked on; the operator's poll says why not."""
+    obj = obj or context.view_layer.objects.active
+    if obj is None or obj.type != "MESH" or not store.has_result(obj.data):
+        operator.poll_message_set(rpt_("Decompose the mesh first"))
+        return False
+    try:
+        targets.check_object(obj)
+    except SceneError as error:
+        operator.poll_message_set(str(error))
+        return False
+    return True
+
+
+def active_number(mesh: bpy.types.Mesh) -> int:
+    """The number of the part that is active in the list."""
+    result = mesh.reeb_parts
+    return result.parts[result.active].number
+
+
+def chosen_numbers(mesh: bpy.types.Mesh) -> list[int]:
+    """Numbers of the parts marked in the list; of the active part if none is marked."""
+    result = mesh.reeb_parts
+    marked = [part.number for part in result.parts if part.selected]
+    return marked or [part.number for part in result.parts[result.active : result.active + 1]]
+
+
+def wanted_numbers(mesh: bpy.types.Mesh, which: str) -> list[int]:
+    """Numbers of all parts, or of those chosen in the list. which : "ALL" or "CHOSEN"."""
+    if which == "CHOSEN":
+        return chosen_numbers(mesh)
+    return [part.number for part in mesh.reeb_parts.parts]
+
+
+def choose(mesh: bpy.types.Mesh, numbers: list[int]) -> None:
+    """Choose these parts and no others: the first becomes the active one, and several are marked."""
+    result = mesh.reeb_parts
+    with store.quiet():
+        for index, part in enumerate(result.parts):
+            part.selected = part.number in numbers and len(numbers) > 1
+            if part.number == numbers[0]:
+                result.active = index
+
+
+def make_active(mesh: bpy.types.Mesh, number: int) -> None:
+    """Make a part the active one of the list, which scrolls to it; no mark changes."""
+    with store.quiet():
+        for index, part in enumerate(mesh.reeb_parts.parts):
+            if part.number == number:
+                mesh.reeb_parts.active = index
+
+
+def toggle(mesh: bpy.types.Mesh, number: int) -> None:
+    """Mark a part that is not marked, or take its mark away; it becomes the active one."""
+    result = mesh.reeb_parts
+    with store.quiet():
+        if not any(part.selected for part in result.parts):
+            result.parts[result.active].selected = True
+        for index, part in enumerate(result.parts):
+            if part.number == number:
+                part.selected = not part.selected
+                result.active = index
+
+
+def mark(mesh: bpy.types.Mesh, action: str, with_faces: set[int]) -> None:
+    """Change the marks of all parts.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+    action : str
+        "ALL", "NONE", "INVERT", "SMALL" (parts smaller than the active one) or "FACES".
+    with_faces : set of int
+        Numbers of the parts that "FACES" marks.
+    """
+    result = mesh.reeb_parts
+    share = result.parts[result.active].share
+    for part in result.parts:
+        part.selected = {
+            "ALL": True, "NONE": False, "INVERT": not part.selected,
+            "SMALL": part.share < share, "FACES": part.number in with_faces,
+        }[action]
+
+
+def unmark_all(mesh: bpy.types.Mesh) -> None:
+    """Take every mark away."""
+    with store.quiet():
+        for part in mesh.reeb_parts.parts:
+            part.selected = False
+
+
+def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """The user has clicked a part in the list: only it is chosen, and in Edit Mode its faces are selected."""
+    mesh = result.id_data
+    if store.is_quiet() or result.active >= len(result.parts):
+        return
+    for part in result.parts:
+        part.selected = False
+    if mesh.is_editmode:
+        _select_in_edit_mode(mesh, active_number(mesh))
+
+
+def _select_in_edit_mode(mesh: bpy.types.Mesh, number: int) -> None:
+    """Select the faces of a part that are not hidden, and nothing else; the edit mesh cannot be written in bulk."""
+    edit = bmesh.from_edit_mesh(mesh)
+    layer = edit.faces.layers.int.get(mesh.reeb_parts.face_attribute)
+    if layer is None:
+        return
+    for item in (*edit.verts, *edit.edges):
+        item.select = False
+    for face in edit.faces:
+        face.select_set(face[layer] == number and not face.hide)
+    edit.select_flush_mode()
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Names and colours of parts, by their numbers; those that the user gave are kept while the part is not shown."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ..core.result.numbering import default_name
+
+
+def part_name(mesh: bpy.types.Mesh, number: int) -> str:
+    """The name that the user gave to a part, or else its default name."""
+    entry = _kept(mesh, number)
+    return entry.name if entry is not None and entry.name else default_name(number)
+
+
+def keep_name(mesh: bpy.types.Mesh, number: int, name: str) -> None:
+    """Remember a name, also while its part is not shown."""
+    if entry := _keep(mesh, number, name != default_name(number)):
+        entry.name = "" if name == default_name(number) else name
+        _drop_empty(mesh)
+
+
+def keep_color(mesh: bpy.types.Mesh, number: int, color: tuple[float, float, float] | None) -> None:
+    """Remember a colour, also while its part is not shown. color : three values, sRGB; None for the palette's."""
+    if entry := _keep(mesh, number, color is not None):
+        entry.color, entry.has_color = color or (0.0, 0.0, 0.0), color is not None
+        _drop_empty(mesh)
+
+
+def kept_colors(mesh: bpy.types.Mesh) -> dict:
+    """The colours that the user gave to parts, by number."""
+    return {entry.number: entry.color[:] for entry in mesh.reeb_parts.names if entry.has_color}
+
+
+def number_colors(mesh: bpy.types.Mesh) -> np.ndarray:
+    """The colour of each part of the list by its number, (largest number + 1, 4) float32, sRGB and alpha."""
+    parts = mesh.reeb_parts.parts
+    colors = np.ones((max((part.number for part in parts), default=0) + 1, 4), np.float32)
+    for part in parts:
+        colors[part.number, :3] = part.color
+    return colors
+
+
+def _kept(mesh: bpy.types.Mesh, number: int) -> bpy.types.PropertyGroup | None:
+    return next((entry for entry in mesh.reeb_parts.names if entry.number == number), None)
+
+
+def _keep(mesh: bpy.types.Mesh, number: int, make: bool) -> bpy.types.PropertyGroup | None:
+    """The entry of a number; made if it is not there and asked for."""
+    entry = _kept(mesh, number)
+    if entry is None and make:
+        entry = mesh.reeb_parts.names.add()
+        entry.number = number
+    return entry
+
+
+def _drop_empty(mesh: bpy.types.Mesh) -> None:
+    names = mesh.reeb_parts.names
+    for index in reversed(range(len(names))):
+        if not names[index].name and not names[index].has_color:
+            names.remove(index)

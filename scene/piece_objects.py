@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts as objects of their own: pieces.
+
+Pieces are copies of the object, as Blender's own Separate makes them: with its materials, modifiers,
+constraints and parent.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+from . import explode, graph_objects, mesh_arrays, part_names
+from .outputs.colors import linear
+from .part_meshes import part_meshes
+from .settings import SeparateProperties
+from .store import Stored
+
+COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: name of the object that the pieces come from
+NUMBER = "reeb_parts_number"  # on a piece: of its part
+MADE = "reeb_parts_looks"  # on a piece: what it was like when it was made
+
+
+def collection_of(obj: bpy.types.Object) -> bpy.types.Collection | None:
+    """The collection with the pieces of an object, or None."""
+    collection = obj.reeb_parts_made.pieces
+    # A copy of the object has this too, but another name.
+    return collection if collection is not None and collection.get(COLLECTION_OF) == obj.name else None
+
+
+def piece_objects(obj: bpy.types.Object) -> list:
+    """What was separated from an object and is still there, in the order of the part numbers."""
+    collection = collection_of(obj)
+    found = [piece for piece in collection.objects if NUMBER in piece] if collection else []
+    return sorted(found, key=lambda piece: piece[NUMBER])
+
+
+def original(piece: bpy.types.Object) -> bpy.types.Object | None:
+    """The object in the scene that a piece was separated from, or None."""
+    for collection in piece.users_collection:
+        obj = bpy.context.view_layer.objects.get(collection.get(COLLECTION_OF, ""))
+        if obj is not None and collection_of(obj) == collection and NUMBER in piece:
+            return obj
+    return None
+
+
+def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: list[int],
+             style: SeparateProperties) -> tuple[list[bpy.types.Object], int, int]:
+    """Make an object of each of some parts; Object Mode.
+
+    Pieces that an earlier run made of these parts are replaced. A piece that the user has edited, moved or
+    renamed since stays, and belongs to the user from now on.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    stored : Stored
+    numbers : list of int
+    style
+        Has the values of settings.SeparateProperties.
+
+    Returns
+    -------
+    made : list of bpy.types.Object
+    left_open : int
+        Edges of holes that could not be filled.
+    kept : int
+        Earlier pieces that were left alone.
+    """
+    kept = _remove_earlier(obj, numbers)
+    meshes, left_open = part_meshes(obj.data, stored.shown_parts().face_numbers, numbers, style.caps)
+    collection = make_collection(context, obj)
+    colors = {part.number: part.color[:] for part in obj.data.reeb_parts.parts}
+    made = []
+    for number, mesh in meshes.items():
+        piece = _piece(obj, mesh, part_names.part_name(obj.data, number), style)
+        piece.color = (*linear(colors[number]), 1.0)
+        piece[NUMBER] = number
+        collection.objects.link(piece)
+        made.append(piece)
+    for piece in made:
+        piece[MADE] = _looks(piece)
+    return made, left_open, kept
+
+
+def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Collection:
+    """The collection with what is made from an object's parts; made if it is not there."""
+    collection = collection_of(obj)
+    if collection is None:
+        collection = bpy.data.collections.new(f"Parts of {obj.name}")
+        collection[COLLECTION_OF] = obj.name
+        obj.reeb_parts_made.pieces = collection
+    if collection not in context.scene.collection.children_recursive:
+        context.scene.collection.children.link(collection)
+    return collection
+
+
+def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
+    """Remove pieces of these parts unless the user has worked on them; how many stay."""
+    kept = 0
+    for piece in piece_objects(obj):
+        if piece[NUMBER] not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
+            continue
+        if piece.mode == "OBJECT" and not piece.children and _looks(piece) == piece[MADE]:
+            mesh = piece.data
+            bpy.data.objects.remove(piece)
+            if mesh.users == 0:
+                bpy.data.meshes.remove(mesh)
+            continue
+        del piece[NUMBER], piece[MADE]
+        kept += 1
+    return kept
+
+
+def _looks(piece: bpy.types.Object) -> str:
+    """A text that differs once the user has edited, moved or renamed the piece, or given it something."""
+    place = [round(value, 6) for row in piece.matrix_basis for value in row]
+    materials = [slot.material.name if slot.material else "" for slot in piece.material_slots]
+    parent = piece.parent.name if piece.parent else ""
+    return str([piece.name, mesh_arrays.fingerprint(piece.data), place, parent, piece.modifiers.keys(), materials])
+
+
+def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: SeparateProperties) -> bpy.types.Object:
+    """An object like the given one with another mesh."""
+    piece = obj.copy()
+    explode.forget(piece)
+    piece.name = mesh.name = name
+    piece.data = mesh
+    piece.hide_viewport = piece.hide_render = False
+    if not style.modifiers:
+        piece.modifiers.clear()
+    if style.parent:
+        # What moved the object moves its child already.
+        piece.animation_data_clear()
+        piece.constraints.clear()
+    # The origin of an object that something holds cannot be moved.
+    free = not piece.animation_data and not piece.constraints
+    middle = _center(mesh) if style.center and free else Vector()
+    if style.parent:
+        piece.parent, piece.parent_type = obj, "OBJECT"
+        piece.matrix_parent_inverse = Matrix()
+        piece.matrix_basis = Matrix.Translation(middle)
+    else:
+        piece.location += piece.matrix_basis.to_3x3() @ middle
+    return piece
+
+
+def _center(mesh: bpy.types.Mesh) -> Vector:
+    """Move a mesh so that the middle of its surface is its origin; where that was."""
+    area = np.empty(len(mesh.polygons), np.float32)
+    center = np.empty(3 * len(mesh.polygons), np.float32)
+    mesh.polygons.foreach_get("area", area)
+    mesh.polygons.foreach_get("center", center)
+    weight = area if area.any() else np.ones_like(area)
+    middle = Vector(np.average(center.reshape(-1, 3).astype(np.float64), axis=0, weights=weight).tolist())
+    mesh.transform(Matrix.Translation(-middle), shape_keys=True)
+    return middle
+
+
+def show_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    """Show the object that pieces come from, with its graph if the scene shows graphs."""
+    obj.hide_set(False)
+    obj.hide_render = False
+    graph_objects.set_hidden(context, obj, not context.scene.reeb_parts.graph)
+
+
+def hide_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    """Hide the object that pieces come from, with its graph, in the viewport and in renders."""
+    obj.hide_set(True)
+    obj.hide_render = True
+    graph_objects.set_hidden(context, obj, True)

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The result of a run: whether it still fits its object, written to the object, and removed from it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from . import armature, bridge, explode, graph_objects, notes, outputs, store, targets, uv_map
+from .compute import Outcome
+from .errors import SceneError
+
+
+def check_unchanged(digests: dict[str, str]) -> None:
+    """Raise SceneError if an object is gone or was edited while it was being computed.
+
+    digests : the digest of the shape that was computed, by the name of its object.
+    """
+    for name, digest in digests.items():
+        obj = bpy.data.objects.get(name)
+        if obj is None or obj.type != "MESH":
+            raise SceneError(rpt_("{name} is gone; its parts were computed in vain.").format(name=name))
+        targets.check_object(obj)
+        if bridge.read_shape(obj).digest != digest:
+            raise SceneError(
+                rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=name))
+
+
+def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> None:
+    """Write one object's parts and graph; Object Mode.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    outcome : Outcome
+        With a decomposition.
+    settings
+        Has the values of OutputProperties and OverlayProperties.
+    """
+    mesh, decomposition = obj.data, outcome.decomposition
+    assert decomposition is not None
+    parameters = decomposition.parameters
+    stored = store.succeed(mesh, decomposition)
+    numbered = stored.shown_parts()
+    result = mesh.reeb_parts
+    with store.quiet():
+        store.save(mesh, stored)
+        result.object_name = obj.name
+        result.stretch = outcome.shape.stretch.ravel().tolist()
+        result.seconds = outcome.seconds
+        notes.keep(result, decomposition.notes + outcome.shape.notes)
+        result.detail, result.by_number = parameters.detail, parameters.n_parts > 0
+        outputs.write_outputs(obj, numbered, decomposition.field, settings)
+    store.mark_pins(mesh, stored)
+    if settings.graph:
+        graph_objects.draw_graph(context, obj, decomposition.graph, outcome.shape.stretch, settings)
+        graph_objects.update_parts(obj, numbered)
+    else:
+        graph_objects.remove(obj)
+
+
+def clear(obj: bpy.types.Object) -> None:
+    """Remove parts, graph and stored result of an object; Object Mode."""
+    for user in targets.users(obj.data):
+        explode.forget(user)
+        armature.remove_modifier(user)
+    uv_map.remove(obj.data)
+    outputs.remove_outputs(obj)
+    graph_objects.remove(obj)
+    obj.data.property_unset("reeb_parts")

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is stored in the file: the result on the mesh that it belongs to, and what was made of it on the object.
+
+The names of the properties and of the pointers to them are those of files that exist: they never change.
+"""
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from . import explode, part_list, reactions
+
+
+class ReebPart(bpy.types.PropertyGroup):
+    """A part as the list shows it."""
+
+    name: StringProperty(
+        name="Name", update=reactions.rename, maxlen=63,
+        description="Name of the part and of its vertex group; double click to change it",
+    )
+    number: IntProperty(name="Number", description="What the part is known by; the value of reeb_part")
+    color: FloatVectorProperty(
+        name="Colour", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0, update=reactions.recolor,
+        description="Colour of the part; one that you choose stays with it",
+    )
+    share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")
+    locked: BoolProperty(
+        name="Locked", update=reactions.lock,
+        description="The part stays as it is, whatever the detail and whatever is done to its neighbours",
+    )
+    pinned: BoolProperty(name="Pinned", description="The part was changed by hand and stays whatever the detail")
+    selected: BoolProperty(name="Selected", description="Included in what is done to the selected parts")
+    group: StringProperty(description="The vertex group made for the part")
+    material: PointerProperty(type=bpy.types.Material, description="The material made for the part")
+
+
+class ReebName(bpy.types.PropertyGroup):
+    """A name or a colour that the user gave to a part, kept while the part is not shown."""
+
+    name: StringProperty(description="Empty: the part's own")
+    number: IntProperty()
+    has_color: BoolProperty()
+    color: FloatVectorProperty(subtype="COLOR_GAMMA", size=3)
+
+
+class ReebPartsResult(bpy.types.PropertyGroup):
+    """A decomposition and what was written of it; on the mesh."""
+
+    # The result itself
+    data: StringProperty(subtype="BYTE_STRING")
+    numbers: StringProperty(subtype="BYTE_STRING")
+    fingerprint: StringProperty()
+    stretch: FloatVectorProperty(size=9)
+    object_name: StringProperty()
+
+    # What the panel shows of it
+    seconds: FloatProperty()
+    n_nodes: IntProperty()
+    n_arcs: IntProperty()
+    n_loops: IntProperty()
+    n_vertices: IntProperty()
+    n_faces: IntProperty()
+    notes: StringProperty()
+    note_words: StringProperty()
+    edited: BoolProperty(description="The mesh was edited since")
+
+    # What can be changed
+    detail: FloatProperty(
+        name="Detail", min=0.0, max=1.0, default=0.5, subtype="FACTOR", update=reactions.show_detail,
+        description="How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate. "
+        "Nothing is computed again",
+    )
+    n_parts: IntProperty(
+        name="Number of parts", min=1, update=reactions.show_number,
+        description="Exactly this many parts, whatever the detail. Nothing is computed again",
+    )
+    by_number: BoolProperty(description="The number of parts decides, not the detail")
+    parts: CollectionProperty(type=ReebPart)
+    active: IntProperty(name="Active part", update=part_list.on_list_click)
+    names: CollectionProperty(type=ReebName)
+
+    # What was written, under which name, and what was there before
+    face_attribute: StringProperty()
+    color_attribute: StringProperty()
+    palette: StringProperty()
+    field_attribute: StringProperty()
+    has_groups: BoolProperty()
+    has_face_sets: BoolProperty()
+    has_materials: BoolProperty()
+    has_seams: BoolProperty()
+    former_color: StringProperty()
+    former_render_color: StringProperty()
+    had_face_sets: BoolProperty()
+    had_material_index: BoolProperty()
+    had_seams: BoolProperty()
+
+
+class ReebPartsMade(bpy.types.PropertyGroup):
+    """What was made from an object's parts; on the object."""
+
+    pieces: PointerProperty(type=bpy.types.Collection, description="Where the separated parts are")
+    explode: FloatProperty(
+        name="Explode", default=0.0, min=0.0, soft_max=2.0, step=1, update=explode.changed,
+        description="How far the parts drift apart, as a multiple of their distance from the middle. Only "
+        "looks so: at 0 the mesh is as it was. Can be animated",
+    )
+
+
+CLASSES = (ReebPart, ReebName, ReebPartsResult, ReebPartsMade)
+
+
+def register() -> None:
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Mesh.reeb_parts = PointerProperty(type=ReebPartsResult)
+    bpy.types.Object.reeb_parts_made = PointerProperty(type=ReebPartsMade)
+
+
+def unregister() -> None:
+    del bpy.types.Object.reeb_parts_made
+    del bpy.types.Mesh.reeb_parts
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

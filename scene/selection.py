@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which faces are selected or hidden, and which objects are selected."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+
+from . import mesh_arrays
+
+
+def selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Whether each face is selected, (p,) bool; Object Mode."""
+    selected = np.empty(len(mesh.polygons), bool)
+    mesh.polygons.foreach_get("select", selected)
+    return selected
+
+
+def select_faces(mesh: bpy.types.Mesh, mask: np.ndarray, mode: str = "SET") -> None:
+    """Select faces with their edges and vertices, and nothing else; Object Mode.
+
+    mask : (p,) bool. mode : "SET", "ADD" or "SUBTRACT".
+    """
+    if mode == "ADD":
+        mask = selected_faces(mesh) | mask
+    elif mode == "SUBTRACT":
+        mask = selected_faces(mesh) & ~mask
+    edges, vertices = _touched(mesh, mask)
+    _set_flags(mesh, "select", mask, edges, vertices)
+
+
+def hide_faces(mesh: bpy.types.Mesh, mask: np.ndarray) -> None:
+    """Hide faces, and the edges and vertices of no other face; Object Mode. mask : (p,) bool."""
+    edges, vertices = _touched(mesh, ~mask)
+    some = bool(mask.any())  # else loose edges and vertices are shown, too
+    _set_flags(mesh, "hide", mask, ~edges & some, ~vertices & some)
+
+
+def _touched(mesh: bpy.types.Mesh, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The edges and the vertices of some faces, (e,) and (v,) bool."""
+    vertex, face = mesh_arrays.face_corners(mesh)
+    corner = mask[face]
+    edges, vertices = np.zeros(len(mesh.edges), bool), np.zeros(len(mesh.vertices), bool)
+    edges[mesh_arrays.corner_edges(mesh)[corner]] = True
+    vertices[vertex[corner]] = True
+    return edges, vertices
+
+
+def _set_flags(mesh: bpy.types.Mesh, flag: str, faces: np.ndarray, edges: np.ndarray, vertices: np.ndarray) -> None:
+    for items, values in ((mesh.edges, edges), (mesh.vertices, vertices), (mesh.polygons, faces)):
+        items.foreach_set(flag, values)
+    mesh.update()
+
+
+def select_objects(context: bpy.types.Context, objects: list[bpy.types.Object],
+                   active: bpy.types.Object | None = None) -> None:
+    """Select these objects and no others, and make one of them the active one if that is asked for."""
+    for other in list(context.view_layer.objects.selected):
+        other.select_set(False)
+    for obj in objects:
+        obj.select_set(True)
+    if active is not None:
+        context.view_layer.objects.active = active
+
+
+@contextmanager
+def nothing_selected(layer: bpy.types.ViewLayer) -> Iterator[None]:
+    """No object is selected for a while; afterwards the selection and the active object are the user's again."""
+    active, selected = layer.objects.active, list(layer.objects.selected)
+    for obj in selected:
+        obj.select_set(False)
+    try:
+        yield
+    finally:
+        for obj in selected:
+            obj.select_set(True)
+        layer.objects.active = active

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which objects can be worked on, and the sentence why one cannot."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.app.translations import pgettext_iface as iface_
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from .errors import SceneError
+from .modes import check_mode
+
+
+def chosen_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The objects to work on: the active mesh, then other selected meshes; one per mesh.
+
+    Raises
+    ------
+    SceneError
+        The active object is none that can be decomposed.
+    """
+    active = context.view_layer.objects.active
+    check_object(active)
+    chosen = [active, *(o for o in context.view_layer.objects.selected if o.type == "MESH" and o != active)]
+    first: dict[bpy.types.Mesh, bpy.types.Object] = {}
+    for obj in chosen:
+        first.setdefault(obj.data, obj)
+    return list(first.values())
+
+
+def check_object(obj: bpy.types.Object | None) -> None:
+    """Raise SceneError unless the object is a mesh that can be read and written."""
+    if obj is None:
+        raise SceneError(rpt_("There is no active object. Select a mesh and try again."))
+    if obj.type != "MESH":
+        raise SceneError(rpt_("{name} is not a mesh but of the type {kind}. Select a mesh and try again.").format(
+            name=obj.name, kind=_kind(obj)))
+    for data in (obj, obj.data):
+        if data.override_library:
+            raise SceneError(
+                rpt_("{name} is a library override and its mesh cannot be written. Make it local (Object > "
+                     "Library Override > Make Local) and try again.").format(name=data.name)
+            )
+        if data.library or not data.is_editable:
+            source = data.library.filepath if data.library else rpt_("another file")
+            raise SceneError(
+                rpt_("{name} is linked from {source} and cannot be written. Make it local (Object > "
+                     "Relations > Make Local) and try again.").format(name=data.name, source=source)
+            )
+    check_mode(obj)
+    if obj.data.is_editmode and obj.mode != "EDIT":
+        raise SceneError(
+            rpt_("The mesh of {name} is being edited through another object. Leave Edit Mode there first.").format(
+                name=obj.name)
+        )
+
+
+def _kind(obj: bpy.types.Object) -> str:
+    """What sort of object it is, in Blender's own word."""
+    prop = obj.bl_rna.properties["type"]
+    word = prop.enum_items[obj.type].name
+    local = iface_(word, prop.translation_context)
+    # Other languages may write nouns with a capital.
+    return word.lower() if local == word else local
+
+
+def users(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:
+    """The objects of a mesh; vertex groups can be written through any of them."""
+    return [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data == mesh]

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The layout of the product: imports go downwards only, and operators live in operators/.
+
+Imports are read from the syntax trees of all files, those inside functions and for type checkers included.
+"""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+#: The folders, and what a file in each may import from besides its own folder.
+MAY_IMPORT = {
+    "core": set(),
+    "scene": {"core"},
+    "viewport": {"core", "scene"},
+    "operators": {"core", "scene", "viewport"},
+    "ui": {"core", "scene"},
+    "batch": {"core", "scene"},
+}
+#: The stages of core, in the order in which the method takes them: a stage may import itself and earlier ones.
+STAGES = ("surface", "field", "graph", "cuts", "result", "uses")
+#: Modules of core that all of core may import; they import only each other.
+COMMON = {"errors", "sentence", "parameters"}
+#: Modules of core that may import everything in it.
+DOORS = {"__init__", "pipeline"}
+
+FILES = {path.relative_to(ROOT): ast.parse(path.read_text(encoding="utf-8"))
+         for folder in MAY_IMPORT for path in sorted((ROOT / folder).rglob("*.py"))}
+
+
+def absolute(path: Path, level: int, module: str | None) -> tuple[str, ...]:
+    """Where in the product a relative import of a file leads, as folders and a module."""
+    package = path.parent.parts
+    return (*package[: len(package) - level + 1], *(module.split(".") if module else ()))
+
+
+def imported(path: Path, tree: ast.AST) -> set[tuple[str, ...]]:
+    """Modules of the product that a file imports, and of others the names, each as a tuple of its parts."""
+    found = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            found |= {tuple(alias.name.split(".")) for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            found.add(tuple(node.module.split(".")))
+        elif isinstance(node, ast.ImportFrom):
+            base = absolute(path, node.level, node.module)
+            # What is imported from a folder may be a module or a name that its __init__ has.
+            found |= {(*base, alias.name) if is_module((*base, alias.name)) else base for alias in node.names}
+    return {module for module in found if module}
+
+
+def is_module(parts: tuple[str, ...]) -> bool:
+    """Whether there is a module or a folder of the product of that name."""
+    return ROOT.joinpath(*parts).with_suffix(".py").is_file() or (ROOT.joinpath(*parts) / "__init__.py").is_file()
+
+
+def violations(allowed) -> list[str]:
+    """Imports of the product's own modules that are not allowed. allowed : callable(path, module) -> bool"""
+    return [f"{path} imports {'.'.join(module)}" for path, tree in FILES.items()
+            for module in sorted(imported(path, tree)) if module[0] in MAY_IMPORT and not allowed(path, module)]
+
+
+def test_imports_are_resolved():
+    path = Path("scene/outputs/x.py")
+    tree = ast.parse("from ...core.errors import ReebError\ndef f():\n    from .. import store\n"
+                     "    from .write import x\nimport bpy.types\nfrom numpy.linalg import norm\n"
+                     "from . import colors, update_outputs")
+    assert imported(path, tree) == {
+        ("core", "errors"), ("scene", "store"), ("scene", "outputs", "write"), ("bpy", "types"), ("numpy", "linalg"),
+        ("scene", "outputs", "colors"), ("scene", "outputs"),
+    }  # fmt: skip
+
+
+def test_there_are_files_in_every_folder_and_stage():
+    assert {path.parts[0] for path in FILES} == set(MAY_IMPORT)
+    assert {path.parts[1] for path in FILES if path.parts[0] == "core" and len(path.parts) > 2} == set(STAGES)
+
+
+def test_folders_import_downwards_only():
+    assert violations(lambda path, module: module[0] in {path.parts[0], *MAY_IMPORT[path.parts[0]]}) == []
+
+
+def test_stages_of_core_import_earlier_stages_only():
+    def allowed(path, module):
+        if path.parts[0] != "core":
+            return True
+        own, other = path.with_suffix("").parts[1], (*module[1:], "__init__")[0]
+        if own in DOORS or other in COMMON:
+            return own not in COMMON or other in COMMON
+        if own == "metrics":  # compares labels of any origin
+            return other == "surface"
+        return own in STAGES and other in STAGES[: STAGES.index(own) + 1]
+
+    assert violations(allowed) == []
+
+
+def test_core_knows_no_blender():
+    blender = {"bpy", "bmesh", "mathutils", "gpu", "gpu_extras", "bpy_extras"}
+    found = {str(path): imported(path, tree) for path, tree in FILES.items() if path.parts[0] == "core"}
+    assert [path for path, modules in found.items() if blender & {module[0] for module in modules}] == []
+
+
+def is_operator(node: ast.AST) -> bool:
+    """Whether something is a class that Blender registers as an operator."""
+    return isinstance(node, ast.ClassDef) and any(ast.unparse(base).endswith("types.Operator") for base in node.bases)
+
+
+@pytest.mark.parametrize("path", [path for path in FILES if path.name != "__init__.py"], ids=str)
+def test_operators_are_in_their_folder_and_nothing_else(path):
+    has_operators = any(is_operator(node) for node in ast.walk(FILES[path]))
+    assert has_operators == (path.parts[0] == "operators")

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Check the style (ruff) and the types (mypy) of the code; the settings are in pyproject.toml.
+
+    python3 tools/lint.py [ruff] [mypy]
+"""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import environments
+from environments import ROOT, say
+
+PACKAGES = ("core", "scene", "viewport", "operators", "ui", "batch")
+
+
+def main() -> int:
+    """Run the chosen checks; returns the exit status."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("checks", nargs="*", metavar="CHECK", help=f"{' or '.join(CHECKS)}; default: all")
+    arguments = parser.parse_args()
+    if unknown := set(arguments.checks) - set(CHECKS):
+        parser.error(f"no such check: {', '.join(sorted(unknown))}")
+    python = str(environments.prepare(environments.lint()))
+    failed = [name for name in arguments.checks or CHECKS if CHECKS[name](python)]
+    if failed:
+        say(f"{', '.join(failed)} failed")
+    return int(bool(failed))
+
+
+def ruff(python: str) -> int:
+    """Exit status of the check of the style."""
+    return subprocess.run([python, "-m", "ruff", "check", "--quiet", str(ROOT)], check=False).returncode
+
+
+def mypy(python: str) -> int:
+    """Exit status of the check of the types.
+
+    The checkout is a package with relative imports, whatever its folder is called: mypy sees it as ``reeb_parts``.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "reeb_parts").symlink_to(ROOT)
+        packages = [word for name in PACKAGES for word in ("-p", f"reeb_parts.{name}")]
+        options = ["--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(Path(python).parents[1] / "mypy")]
+        command = [python, "-m", "mypy", "--no-error-summary", *options, *packages]
+        return subprocess.run(command, cwd=folder, check=False).returncode
+
+
+CHECKS = {"ruff": ruff, "mypy": mypy}
+
+if __name__ == "__main__":
+    sys.exit(main())

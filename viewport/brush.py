@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A round brush that paints faces into a part, over the surface."""
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from ..core.surface.arrays import both_ways, components
+from ..scene import edits, mesh_arrays, part_names, store
+from ..scene.errors import SceneError
+from .pointing import Model
+
+START_SIZE = 0.04  # radius of the brush, as a share of the object's size
+
+
+class Brush:
+    """Which faces a dab of the brush covers; read once.
+
+    Attributes
+    ----------
+    number : int
+        The part that is painted.
+    chosen : (p,) bool
+        Faces painted so far.
+    """
+
+    def __init__(self, obj: bpy.types.Object, model: Model, number: int) -> None:
+        self.model, self.number = model, number
+        count = len(model.face_value)
+        pairs, _ = mesh_arrays.corner_table(obj.data).face_pairs()
+        first, second = both_ways(pairs).T
+        self.neighbors = second[np.argsort(first, kind="stable")]  # of each face, one face after the other
+        self.start = np.append(0, np.cumsum(np.bincount(first, minlength=count)))
+        self.place = np.full(count, -1)
+        self.chosen = np.zeros(count, bool)
+        self.free = ~np.isin(model.numbers, edits.locked_others(obj.data, number))
+
+    def dab(self, location: Sequence[float], radius: float) -> None:
+        """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there."""
+        _, first = self.model.tree.query(location)
+        near = np.array(self.model.tree.query_ball_point(location, radius), np.int64)
+        if first not in near:  # faces larger than the brush are painted one by one
+            near = np.append(near, first)
+        self.place[near] = np.arange(len(near))
+        degree = self.start[near + 1] - self.start[near]
+        owner = np.repeat(np.arange(len(near)), degree)
+        row = np.arange(degree.sum()) - np.repeat(np.cumsum(degree) - degree, degree)
+        beside = self.place[self.neighbors[np.repeat(self.start[near], degree) + row]]
+        _, piece = components(len(near), owner[beside >= 0], beside[beside >= 0])
+        hit = near[piece == piece[self.place[first]]]
+        self.place[near] = -1
+        self.chosen[hit[self.free[hit]]] = True
+
+    def numbers(self) -> np.ndarray:
+        """The part of each face once it is painted, (p,) int64."""
+        return np.where(self.chosen, self.number, self.model.numbers)
+
+
+def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> str:
+    """Give the painted faces to the part; what happened, in a sentence. Raises SceneError if none were painted."""
+    moved = brush.numbers() != brush.model.numbers
+    if not moved.any():
+        raise SceneError(rpt_("No faces were painted."))
+    edits.assign_faces(context, obj, brush.model.stored, brush.numbers())
+    joined = int((store.load(obj.data).face_numbers[moved] == brush.number).sum())
+    name = part_names.part_name(obj.data, brush.number)
+    if joined < moved.sum():
+        text = rpt_("{n} of {total} faces are {name} now; the others do not touch it and are parts of their own")
+        return text.format(n=joined, total=int(moved.sum()), name=name)
+    return rpt_("{n} faces are {name} now").format(n=joined, name=name)
+
+
+class ReebDab(bpy.types.PropertyGroup):
+    """A dab of the brush, in coordinates of the mesh."""
+
+    location: bpy.props.FloatVectorProperty(name="Location", size=3, subtype="XYZ")
+    radius: bpy.props.FloatProperty(name="Radius", min=0.0, subtype="DISTANCE")
+
+
+def register() -> None:
+    bpy.utils.register_class(ReebDab)
+
+
+def unregister() -> None:
+    bpy.utils.unregister_class(ReebDab)

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where a part is cut: the contours of the field through a place of the graph or of the surface."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from ..core.surface.labels import FaceGraph
+from ..scene import bridge, edits, mesh_arrays, part_list, part_names
+from ..scene.errors import SceneError
+from .pointing import Model, Target
+
+if TYPE_CHECKING:
+    from ..core.graph.contours import Contours
+
+
+class Knife:
+    """The contours of an object's field, ready to be asked for; read once."""
+
+    def __init__(self, obj: bpy.types.Object, model: Model) -> None:
+        self.model = model
+        self.table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
+        self._number, self._part = 0, self.table  # the part that was asked for last, and its corners
+
+    def contour(self, target: Target) -> tuple[Contours, int]:
+        """The contour that a target asks for: all contours of its level in its part, and which one it is.
+
+        Returns
+        -------
+        contours : Contours
+        chosen : int
+            -1 if there is none.
+        """
+        from ..core.graph.contours import contours
+
+        number = self.model.number(target)
+        if number != self._number:
+            self._number, self._part = number, self.table.within(self.model.numbers == number)
+        found = contours(self.model.stored.decomposition.field, target.level, self._part)
+        return found, found.around(target.location) if target.on_graph else found.through(target.face)
+
+    def ring(self, target: Target) -> np.ndarray:
+        """The lines of the contour, (s, 2, 3) float64 in coordinates of the mesh."""
+        found, chosen = self.contour(target)
+        return found.segments[found.label == chosen]
+
+    def sides(self, target: Target, face_graph: FaceGraph) -> np.ndarray | None:
+        """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off.
+
+        face_graph : core.surface.labels.FaceGraph
+        """
+        from ..core.graph.contours import contour_sides
+
+        found, chosen = self.contour(target)
+        if chosen < 0:
+            return None
+        area = face_graph.area
+        inside = self.model.numbers == self.model.number(target)
+        crossed = np.zeros(len(inside), bool)
+        crossed[found.face[found.label == chosen]] = True
+        side = contour_sides(face_graph, inside, self.model.face_value >= target.level, crossed)
+        if side is not None and area[side].sum() > area[inside & ~side].sum():
+            side = inside & ~side
+        return side
+
+
+def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, target: Target) -> str:
+    """Cut the part that a target lies in; what happened, in a sentence.
+
+    Raises
+    ------
+    SceneError
+        The part is locked, or nothing would be cut off.
+    """
+    number = model.number(target)
+    name = part_names.part_name(obj.data, number)
+    edits.check_unlocked(obj.data, [number])
+    tables = bridge.face_graph(obj)
+    side = Knife(obj, model).sides(target, tables[0])
+    if side is None:
+        raise SceneError(rpt_("Nothing of {name} would be cut off there. Point at another place.").format(name=name))
+    new = edits.free_number(obj.data, model.stored)
+    edits.assign_faces(context, obj, model.stored, np.where(side, new, model.numbers), tables)
+    part_list.make_active(obj.data, new)
+    return rpt_("{new} was cut from {name}").format(new=part_names.part_name(obj.data, new), name=name)
