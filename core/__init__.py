@@ -9,7 +9,7 @@ add.
 stage    from the package                     from the modules
 =======  ===================================  ====================================================================
 (all)    ``decompose``, ``Parameters``,       ``pipeline``, ``parameters``, ``errors``, ``sentence``, ``progress``
-         ``PRESETS``, ``VERSION``,
+         ``PRESETS``, ``VERSION``,            ``metrics``: how far two labelings of one mesh are from each other
          ``ReebError``, ``MeshError``,
          ``EmptyMeshError``, ``Cancelled``,
          ``ParameterError``

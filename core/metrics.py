@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far one labelling of a mesh is from another, such as a person's.
+"""Measures of how far one labeling of a mesh is from another, such as a person's.
 
 ================================  =============  ===================================================
 measure                           equal gives    reference
@@ -12,8 +12,8 @@ measure                           equal gives    reference
 ``mean_intersection_over_union``  1              for each region the best match
 ================================  =============  ===================================================
 
-Labels are names: any whole numbers will do, and renaming them changes nothing. The first labelling is the
-one that is judged, the second the one it is compared with.
+Labels may be any whole numbers; only which faces have equal labels matters. The first labeling is the one that is
+judged, the second is the one with which it is compared.
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ from .surface.mesh import TriMesh
 
 @dataclass(frozen=True, eq=False)
 class Overlap:
-    """The elements that each region of one labelling shares with each region of another.
+    """The elements that each region of one labeling shares with each region of another.
 
     Attributes
     ----------
     pair : (k, 2) int64
-        Regions of the first and of the second labelling that share elements, numbered from 0.
+        Regions of the first and of the second labeling that share elements, numbered from 0.
     n_elements : (k,) float64
-        How many elements they share.
+        Number of elements that each pair of regions shares.
     weight : (k,) float64
-        The weight of these elements; equal to ``n_elements`` where every element counts the same.
+        Weight of these elements; equal to ``n_elements`` where all elements have the weight 1.
     """
 
     pair: np.ndarray
@@ -50,19 +50,24 @@ class Overlap:
 
     @classmethod
     def of(cls, first: ArrayLike, second: ArrayLike, weight: ArrayLike | None = None) -> Overlap:
-        """Compare two labellings of the same elements.
+        """Find the overlaps of two labelings of one set of elements, faces or vertices.
 
         Parameters
         ----------
         first, second : (n,) array_like of int
+            Region of each element in the first and in the second labeling.
         weight : (n,) array_like of float, optional
-            For example the area of each face.
+            Weight of each element, such as the area of a face; 1 without.
+
+        Returns
+        -------
+        overlap : Overlap
 
         Raises
         ------
         ParameterError
-            The labels are no whole numbers, there are none, or not as many of each; a weight is
-            negative, or all are 0.
+            Labels are not whole numbers, there are none, ``first``, ``second`` and ``weight`` are not equally long, a
+            weight is negative, or all weights are 0.
         """
         first, second = _numbered(first), _numbered(second)
         _check_count(len(second), len(first), "second")
@@ -80,18 +85,26 @@ class Overlap:
 
     @property
     def rand_index_error(self) -> float:
-        """Share of the pairs of elements that one labelling joins and the other separates."""
+        """Share of the pairs of elements that one labeling joins and the other separates."""
         n_pairs = _pairs(self.n_elements.sum())
         in_first, in_second = (_pairs(total).sum() for total in self.totals(self.n_elements))
         split = in_first + in_second - 2 * _pairs(self.n_elements).sum()
         return float(split / n_pairs) if n_pairs else 0.0
 
     def totals(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Sums of (k,) values over the regions of the first and of the second labelling."""
+        """Sum values over the regions of each labeling.
+
+        values : (k,) float64, per pair of regions. Returns the sums for the regions of the first labeling, (r,), and
+        for those of the second, (s,).
+        """
         return tuple(np.bincount(region, values) for region in self.pair.T)
 
     def largest(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The largest of (k,) values, 0 or more, for each region of the first and of the second labelling."""
+        """Find the largest value of each region of each labeling.
+
+        values : (k,) float64, 0 or more, per pair of regions. Returns the largest values for the regions of the first
+        labeling, (r,), and for those of the second, (s,).
+        """
         best = tuple(np.zeros(region.max() + 1) for region in self.pair.T)
         for result, region in zip(best, self.pair.T, strict=True):
             np.maximum.at(result, region, values)
@@ -99,9 +112,9 @@ class Overlap:
 
 
 def rand_index_error(first: ArrayLike, second: ArrayLike) -> float:
-    """Share of the pairs of elements that one labelling joins and the other separates.
+    """Share of the pairs of elements that one labeling joins and the other separates.
 
-    One minus the Rand index. Every element counts the same, as in the benchmark of [Chen2009]. Symmetric.
+    One minus the Rand index. All elements have the weight 1, as in the benchmark of [Chen2009]. Symmetric.
 
     Parameters
     ----------
@@ -124,13 +137,13 @@ def hamming_distance(first: ArrayLike, second: ArrayLike, weight: ArrayLike | No
     """Share of the surface outside the best match: missing rate and false alarm rate.
 
     Their mean is the Hamming distance of [Chen2009], who weigh by the area of the faces. Exchanging the
-    labellings exchanges the two rates.
+    labelings exchanges the two rates.
 
     Parameters
     ----------
     first, second : (n,) array_like of int
     weight : (n,) array_like of float, optional
-        Without it every element counts the same.
+        Weight of each element; 1 without.
 
     Returns
     -------
@@ -138,7 +151,8 @@ def hamming_distance(first: ArrayLike, second: ArrayLike, weight: ArrayLike | No
         Rm, 0 to 1: what lies outside the region of ``first`` that shares most with each region of ``second``.
         Large where ``first`` has too many regions.
     false_alarm : float
-        Rf, the same with the two exchanged. Large where ``first`` has too few.
+        Rf, 0 to 1: what lies outside the region of ``second`` that shares most with each region of ``first``.
+        Large where ``first`` has too few regions.
 
     Raises
     ------
@@ -151,9 +165,9 @@ def hamming_distance(first: ArrayLike, second: ArrayLike, weight: ArrayLike | No
 
 
 def consistency_error(first: ArrayLike, second: ArrayLike, weight: ArrayLike | None = None) -> tuple[float, float]:
-    """Global and local consistency error: 0 where one labelling refines the other.
+    """Global and local consistency error: 0 where one labeling refines the other.
 
-    For each element, the share of its region in one labelling that is outside its region in the other. The
+    For each element, the share of its region in one labeling that is outside its region in the other. The
     global error takes the mean over the elements in each direction, and the smaller of the two means; the local
     one takes the smaller at each element. Shares are by weight, the mean is by number of elements, as in the
     program of [Chen2009]. Symmetric.
@@ -162,7 +176,7 @@ def consistency_error(first: ArrayLike, second: ArrayLike, weight: ArrayLike | N
     ----------
     first, second : (n,) array_like of int
     weight : (n,) array_like of float, optional
-        Without it every element counts the same.
+        Weight of each element; 1 without.
 
     Returns
     -------
@@ -186,7 +200,7 @@ def consistency_error(first: ArrayLike, second: ArrayLike, weight: ArrayLike | N
 
 
 def agreement(first: ArrayLike, second: ArrayLike) -> float:
-    """The paper's agreement, eqs. (10) to (12): how well each region matches one of the other labelling.
+    """The paper's agreement, eqs. (10) to (12): how well each region matches one of the other labeling.
 
     The mean over the regions A of ``first`` of the best |A and B| / max(|A|, |B|) over the regions B of ``second``.
     The paper counts vertices; the labels may be of faces as well. Not symmetric.
@@ -198,7 +212,7 @@ def agreement(first: ArrayLike, second: ArrayLike) -> float:
     Returns
     -------
     agreement : float
-        Above 0, and 1 for equal labellings.
+        Above 0, and 1 for equal labelings.
 
     Raises
     ------
@@ -214,18 +228,18 @@ def agreement(first: ArrayLike, second: ArrayLike) -> float:
 def mean_intersection_over_union(first: ArrayLike, second: ArrayLike, weight: ArrayLike | None = None) -> float:
     """Mean over the regions B of ``second`` of the best |A and B| / |A or B| over the regions A of ``first``.
 
-    Not symmetric: each region of the labelling that is compared with looks for its best match.
+    Not symmetric: each region of the labeling that is compared with looks for its best match.
 
     Parameters
     ----------
     first, second : (n,) array_like of int
     weight : (n,) array_like of float, optional
-        Without it every element counts the same. Regions without any weight do not count.
+        Weight of each element; 1 without. Regions without any weight do not count.
 
     Returns
     -------
     mean : float
-        Above 0, and 1 for equal labellings.
+        Above 0, and 1 for equal labelings.
 
     Raises
     ------
@@ -241,10 +255,10 @@ def mean_intersection_over_union(first: ArrayLike, second: ArrayLike, weight: Ar
 
 
 def cut_discrepancy(mesh: TriMesh, first: ArrayLike, second: ArrayLike) -> float:
-    """Mean distance along edges from the cuts of each labelling to those of the other, by the size of the mesh.
+    """Mean distance along edges from the cuts of each labeling to those of the other, by the size of the mesh.
 
-    Cuts are the edges between faces of different labels. The mean is over the ends of the cuts of both labellings,
-    each end once per labelling; the unit is the mean distance of the surface from its centroid. Symmetric.
+    Cuts are the edges between faces of different labels. The mean is over the ends of the cuts of both labelings,
+    each end once per labeling; the unit is the mean distance of the surface from its centroid. Symmetric.
 
     Parameters
     ----------
@@ -256,7 +270,7 @@ def cut_discrepancy(mesh: TriMesh, first: ArrayLike, second: ArrayLike) -> float
     Returns
     -------
     discrepancy : float
-        0 or more. NaN where a labelling has no cut, or no cut can be reached from any of the other's; ends from
+        0 or more. NaN where a labeling has no cut, or no cut can be reached from any of the other's; ends from
         which none can be reached do not count.
 
     Raises
@@ -266,12 +280,12 @@ def cut_discrepancy(mesh: TriMesh, first: ArrayLike, second: ArrayLike) -> float
 
     Notes
     -----
-    One search by Dijkstra's algorithm from all cuts of each labelling: O(n log n) time for n vertices.
+    One search by Dijkstra's algorithm from all cuts of each labeling: O(n log n) time for n vertices.
     """
     first, second = _numbered(first), _numbered(second)
     for label in (first, second):
         _check_count(len(label), mesh.n_faces, "labels")
-    # A stored zero would be no edge at all.
+    # SciPy takes a stored 0 for "no edge".
     length = np.maximum(mesh.edge_length, np.finfo(float).tiny)
     graph = coo_array((length, mesh.edges.vertices.T), shape=(mesh.n_vertices, mesh.n_vertices)).tocsr()
     ends = [_cut_ends(mesh, label) for label in (first, second)]
@@ -286,18 +300,18 @@ def cut_discrepancy(mesh: TriMesh, first: ArrayLike, second: ArrayLike) -> float
 
 
 def _cut_ends(mesh: TriMesh, label: np.ndarray) -> np.ndarray:
-    """Vertices of the edges between faces of different labels."""
+    """Vertices of the edges between faces of different labels, (k,), rising."""
     left, right = label[mesh.edges.pairs].T
     return np.unique(mesh.edges.vertices[mesh.edges.pair_edge[left != right]])
 
 
 def _pairs(count: np.ndarray) -> np.ndarray:
-    """How many pairs there are among some elements."""
+    """Number of pairs among ``count`` elements, of the shape of ``count``."""
     return count * (count - 1.0) / 2
 
 
 def _numbered(labels: ArrayLike) -> np.ndarray:
-    """Labels renamed to 0..k-1."""
+    """Labels renumbered to 0..k-1, (n,); ParameterError if they are not whole numbers or there are none."""
     labels = np.asarray(labels)
     if labels.ndim != 1 or not labels.size or not np.issubdtype(labels.dtype, np.integer):
         raise ParameterError(
@@ -307,7 +321,7 @@ def _numbered(labels: ArrayLike) -> np.ndarray:
 
 
 def _check_count(n: int, total: int, name: str) -> None:
-    """As many values as there are elements."""
+    """Raise ParameterError if there are not as many values as elements."""
     if n != total:
         raise ParameterError(
             Sentence("There are {n} values for {total} elements: each needs one.", n=n, total=total), name)

@@ -145,7 +145,7 @@ def contour_sides(
     side = _sides(part, above, cut, cut)
     if side is None:
         side = _sides(part, above, cut, between)
-        assert side is not None  # nothing above touches anything below any more
+        assert side is not None  # no face above the level is joined with one below it
     label = connect(part, straighten(part, side.astype(np.int64), STRAIGHTEN))
     if label.all() or not label.any():
         return None

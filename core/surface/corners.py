@@ -106,7 +106,22 @@ class CornerTable:
 def edge_labels(
     corner_edge: np.ndarray, corner_face: np.ndarray, labels: np.ndarray, n_edges: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """``CornerTable.edge_labels`` where only the edge and the face of each corner are known, two (c,) int64 arrays."""
+    """Find the smallest and the largest label of the faces at each edge, without a ``CornerTable``.
+
+    Parameters
+    ----------
+    corner_edge, corner_face : (c,) int64
+        Edge and face of each corner, as in ``CornerTable``.
+    labels : (p,) int64
+        Label of each face, 0 or more.
+    n_edges : int
+        Number of edges, e.
+
+    Returns
+    -------
+    low, high : (e,) int64
+        Equal inside a part, different on a cut; for an edge without faces the largest int64 and -1.
+    """
     low = np.full(n_edges, np.iinfo(np.int64).max)
     high = np.full(n_edges, -1, np.int64)
     np.minimum.at(low, corner_edge, labels[corner_face])

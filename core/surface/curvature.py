@@ -3,16 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from scipy.sparse import diags_array
 
 from .arrays import sums_by, symmetric_matrix
 from .mesh import TriMesh
-
-if TYPE_CHECKING:
-    from scipy.sparse import csr_array
 
 SCALES = (0.01, 0.02, 0.04)  # widths over which normals are smoothed, in units of sqrt(area)
 MAX_CURVATURE = 60.0  # bound of ``curvature_across``, in units of 1 / sqrt(area)

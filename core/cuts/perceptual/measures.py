@@ -42,7 +42,7 @@ class Columns:
     if TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            """The column of a name, or the slice of several."""
+            """Index of a column, or slice of a group of columns."""
 
 
 # Columns per face. Moments are the six products of three coordinates; the support is the distance of the face's plane
