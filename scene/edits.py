@@ -48,11 +48,11 @@ def locked_others(mesh: bpy.types.Mesh, number: int) -> list[int]:
 
 def merge(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: list[int], into: int) -> None:
     """Make one part of several; raises SceneError if they do not touch."""
-    from ..core.result.editing import pieces
+    from ..core.result.editing import components_of
 
     check_unlocked(mesh, numbers)
     mask = np.isin(stored.shown, numbers)
-    if pieces(stored.decomposition, mask).max() > 0:
+    if components_of(stored.decomposition, mask).max() > 0:
         raise SceneError(rpt_("These parts do not touch each other. Choose parts that do."))
     _show_pinned(context, mesh, stored, np.where(mask, into, stored.shown), [into])
 
@@ -250,9 +250,9 @@ def _part_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, numb
     made : set of int
         The new numbers.
     """
-    from ..core.result.editing import pieces
+    from ..core.result.editing import components_of
 
-    piece = pieces(stored.decomposition, numbers == number)
+    piece = components_of(stored.decomposition, numbers == number)
     made = set()
     for index in range(1, piece.max() + 1):
         new = free_number(mesh, stored, numbers.tolist())

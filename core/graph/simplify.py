@@ -108,8 +108,8 @@ def simplify(
     """
     if level_height is None:
         level_height = np.ones(len(sets.levels))
-    work = _WorkGraph(sets, topology, level_height)
-    work.min_area, work.min_levels, work.min_height = min_area * sets.mesh.area, min_levels, min_height
+    least = (min_area * sets.mesh.area, min_levels, min_height)
+    work = _WorkGraph(sets, topology, level_height, least)
     work.cancel_leaves()
     return work.result()
 
@@ -121,11 +121,12 @@ class _WorkGraph:
     cancelled arc is None in ``arcs``.
     """
 
-    min_area = min_height = 0.0
-    min_levels = 0
-
-    def __init__(self, sets: LevelSets, topology: ReebTopology, level_height: np.ndarray) -> None:
+    def __init__(
+        self, sets: LevelSets, topology: ReebTopology, level_height: np.ndarray, least: tuple[float, int, float]
+    ) -> None:
+        """least : area, number of levels and height below which a leaf is cancelled."""
         self.topology = topology
+        self.min_area, self.min_levels, self.min_height = least
         n, q = topology.n_nodes, len(topology.arcs)
         owner = np.where(topology.piece_node >= 0, topology.piece_node, n + topology.piece_arc)
         self.piece_owner = owner

@@ -15,7 +15,7 @@ from ..graph.reeb import ReebGraph, ReebTopology
 from ..parameters import Parameters
 from ..sentence import Sentence
 from ..surface.arrays import renumbered
-from ..surface.labels import FaceGraph, connect, fill_unlabelled, majority, straighten
+from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import Component, WorkingMesh
 from .decomposition import Decomposition
@@ -158,7 +158,7 @@ def _face_candidates(
         hierarchies.append(Hierarchy.of(len(names), [], []))
     face_label = majority(
         np.concatenate(owner), np.concatenate(label), np.concatenate(weight), given.n_polygons)
-    face_label = connect(face_graph, fill_unlabelled(face_graph, face_label))
+    face_label = connect(face_graph, fill_unlabeled(face_graph, face_label))
     face_label = connect(face_graph, straighten(face_graph, face_label, rounds))
     return settle(face_graph, face_label, Hierarchy.join(hierarchies))
 

@@ -21,7 +21,7 @@ from ..surface.labels import FaceGraph, majority
 from .decomposition import Decomposition
 
 
-def pieces(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
+def components_of(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
     """Find the connected components of some candidates.
 
     Parameters
@@ -188,7 +188,7 @@ def shrinkage(
     for index in np.argsort(time, kind="stable").tolist():
         rest = mask.copy()
         rest[inner[index]] = False
-        if rest.any() and pieces(decomposition, rest).max() == 0:
+        if rest.any() and components_of(decomposition, rest).max() == 0:
             return int(inner[index]), int(outer[index])
     return None
 

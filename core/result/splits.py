@@ -109,8 +109,8 @@ def _joins(decomposition: Decomposition, pinned: np.ndarray) -> tuple[np.ndarray
         return hierarchy.merges, np.arange(len(hierarchy.merges))
     free = (pinned[pairs] == 0).all(axis=1) & (merge < len(hierarchy.merges))
     first = np.unique(pinned, return_index=True)[1][renumbered(pinned)[1]]
-    held = np.flatnonzero(pinned)
-    pairs = np.concatenate([np.stack([first[held], held], axis=1), pairs[free]])
-    merge = np.concatenate([np.full(len(held), -1), merge[free]])
+    in_pinned = np.flatnonzero(pinned)
+    pairs = np.concatenate([np.stack([first[in_pinned], in_pinned], axis=1), pairs[free]])
+    merge = np.concatenate([np.full(len(in_pinned), -1), merge[free]])
     order = np.argsort(merge, kind="stable")
     return pairs[order], merge[order]

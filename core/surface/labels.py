@@ -99,8 +99,8 @@ def spread(label: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         -1 remains where no label arrives.
     """
     label = label.copy()
-    unlabelled = label[a] < 0  # labeled faces keep their labels
-    a, b = a[unlabelled], b[unlabelled]
+    unlabeled = label[a] < 0  # labeled faces keep their labels
+    a, b = a[unlabeled], b[unlabeled]
     while True:
         reached = (label[a] < 0) & (label[b] >= 0)
         if not reached.any():
@@ -136,7 +136,7 @@ class FaceGraph:
         return label_boundaries(label, self.pairs, self.length)
 
 
-def fill_unlabelled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
+def fill_unlabeled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
     """Give faces without a label the label of a neighbor.
 
     Parameters

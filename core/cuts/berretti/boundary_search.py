@@ -100,7 +100,7 @@ def search_boundaries(
     topology: ReebTopology,
     k_min: np.ndarray,
     piece_region: np.ndarray,
-    alpha: float,
+    concavity_weight: float,
     sigma: float,
 ) -> np.ndarray:
     """Move each cut along its arc of the Reeb graph to the level that minimizes eq. (8) of docs/method.md.
@@ -118,8 +118,8 @@ def search_boundaries(
         Smaller principal curvature at each vertex, 1 / unit of the vertices.
     piece_region : (P,) int64
         Region of each piece; the cuts are the contours between two regions.
-    alpha : float
-        Weight of concavity, 0..1; the weight of the distance from the present level is 1 - alpha.
+    concavity_weight : float
+        Weight of concavity, 0..1; the weight of the distance from the present level is 1 - concavity_weight.
     sigma : float
         Standard deviation of the Gaussian along a contour, in units of its length.
 
@@ -144,7 +144,7 @@ def search_boundaries(
                 energies[contour] = concavity(sets, k_min, contour, sigma)
         concave = np.array([energies[c] for c in run.tolist()])
         stay = np.abs(value - sets.levels[sets.contour_level[cut]])
-        best = int(((1 - alpha) * stay + alpha * concave).argmin())
+        best = int(((1 - concavity_weight) * stay + concavity_weight * concave).argmin())
         here = int(np.flatnonzero(run == cut)[0])
         passed = sets.contour_pieces[run[min(here, best): max(here, best) + 1]]
         below, above = piece_region[sets.contour_pieces[cut]]

@@ -147,12 +147,12 @@ def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, n
     """
     n = len(graph.regions.alive)
     strength = judge(graph, np.arange(len(graph.ends)))
-    merges, salience = [], []
+    merges, strengths = [], []
     while len(merges) < n - 1 and np.isfinite(strength).any():
         again, grown = set(), []
         for border in _next(graph, strength, n - len(merges)):
             merges.append(graph.ends[border].copy())
-            salience.append(strength[border])
+            strengths.append(strength[border])
             gone = graph.merge_(border)
             strength[gone] = np.inf
             region = int(merges[-1][0])
@@ -163,7 +163,7 @@ def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, n
         if again:
             changed = np.array(sorted(again))
             strength[changed] = judge(graph, changed)
-    return np.reshape(merges, (-1, 2)).astype(np.int64), np.array(salience, float)
+    return np.reshape(merges, (-1, 2)).astype(np.int64), np.array(strengths, float)
 
 
 def _next(graph: RegionAdjacencyGraph, strength: np.ndarray, n_regions: int) -> list[int]:

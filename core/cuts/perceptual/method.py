@@ -12,7 +12,7 @@ from ...graph.level_sets import LevelSets, cut_at_levels
 from ...parameters import Parameters
 from ...surface.coarsening import Pyramid
 from ...surface.curvature import MAX_CURVATURE
-from ...surface.labels import FaceGraph, connect, fill_unlabelled, majority
+from ...surface.labels import FaceGraph, connect, fill_unlabeled, majority
 from ...surface.mesh import TriMesh
 from ..hierarchy import Candidates, Hierarchy
 from ..minimum_cut import move_cuts
@@ -149,7 +149,7 @@ def _prolong_labels(mesh: TriMesh, owner: np.ndarray, copy: TriMesh, label: np.n
     rows = np.repeat(np.arange(mesh.n_faces), 3)[known.ravel()]
     label = majority(rows, corners[known], np.ones(len(rows)), mesh.n_faces)
     graph = FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
-    return connect(graph, fill_unlabelled(graph, label))
+    return connect(graph, fill_unlabeled(graph, label))
 
 
 def _restrict(field: ScalarField, owner: np.ndarray, weight: np.ndarray, n: int) -> ScalarField:

@@ -11,9 +11,9 @@ from core.graph.critical import MAXIMUM
 from core.result.editing import (
     best_split,
     boundary_distance,
+    components_of,
     growth,
     node_split,
-    pieces,
     shrinkage,
     split_candidates,
 )
@@ -49,7 +49,7 @@ def test_a_node_is_split_from_what_its_arcs_reach(result):
         side = node_split(result, everything, node)
         start = result.node_candidate[node]
         assert side[start]
-        assert pieces(result, side).max() == pieces(result, ~side).max() == 0
+        assert components_of(result, side).max() == components_of(result, ~side).max() == 0
         ours = np.flatnonzero((graph.arcs == node).any(axis=1))
         reached = result.point_candidate[np.isin(graph.point_arc, ours)]
         beyond = np.append(reached, result.node_candidate[graph.arcs[ours].ravel()])
@@ -69,11 +69,11 @@ def test_a_node_of_a_single_candidate_does_not_split(result):
 
 def test_pieces_are_numbered_by_area(result):
     everything = np.ones(result.n_candidates, bool)
-    assert (pieces(result, everything) == 0).all()
+    assert (components_of(result, everything) == 0).all()
     # The body lies between the branches: without it they are apart.
     touched = np.bincount(result.candidate_pairs.ravel(), minlength=result.n_candidates)
     without = np.arange(result.n_candidates) != touched.argmax()
-    found = pieces(result, without)
+    found = components_of(result, without)
     assert found[~without] == -1
     area = [result.candidate_area[found == i].sum() for i in range(found.max() + 1)]
     assert len(area) > 1
@@ -86,7 +86,7 @@ def test_growing_takes_a_neighbor_until_nothing_is_left(result):
     while (taken := growth(result, mask, everything)) is not None:
         assert not mask[taken]
         mask[taken] = True
-        assert pieces(result, mask).max() == 0
+        assert components_of(result, mask).max() == 0
     assert mask.all()
 
 
@@ -103,12 +103,12 @@ def test_shrinking_keeps_one_piece_and_never_everything(result):
         assert mask[given]
         assert not mask[receiver]
         mask[given] = False
-        assert pieces(result, mask).max() == 0
+        assert components_of(result, mask).max() == 0
     # What is left at the boundary holds the rest together.
     pairs = result.candidate_pairs[mask[result.candidate_pairs].sum(axis=1) == 1]
     for candidate in np.unique(pairs[mask[pairs]]):
         rest = mask & (np.arange(len(mask)) != candidate)
-        assert not rest.any() or pieces(result, rest).max() > 0
+        assert not rest.any() or components_of(result, rest).max() > 0
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ import pytest
 import shapes
 from face_graphs import boundary_length, graph_of, n_connected, patches, path
 
-from core.surface.labels import connect, fill_unlabelled, majority, straighten
+from core.surface.labels import connect, fill_unlabeled, majority, straighten
 from core.surface.mesh import TriMesh
 
 
@@ -28,11 +28,11 @@ def test_boundaries_by_hand():
 
 
 def test_fill_from_the_labelled_outwards():
-    label = fill_unlabelled(path(7), np.array([-1, -1, 3, -1, -1, -1, 5]))
+    label = fill_unlabeled(path(7), np.array([-1, -1, 3, -1, -1, -1, 5]))
     assert label[:4].tolist() == [3, 3, 3, 3]
     assert label[5:].tolist() == [5, 5]
     assert label[4] in (3, 5)
-    assert fill_unlabelled(path(3), np.full(3, -1)).tolist() == [0, 0, 0]
+    assert fill_unlabeled(path(3), np.full(3, -1)).tolist() == [0, 0, 0]
 
 
 def test_connect_keeps_the_largest_and_gives_the_rest_to_the_longest_boundary():
