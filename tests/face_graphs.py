@@ -4,7 +4,7 @@
 import numpy as np
 
 from core.surface.arrays import components
-from core.surface.labels import FaceGraph, fill_unlabelled
+from core.surface.labels import FaceGraph, fill_unlabeled
 from core.surface.mesh import TriMesh
 
 
@@ -36,4 +36,4 @@ def patches(graph, rng, count):
     """Random connected labels grown from seeds."""
     label = np.full(graph.n_faces, -1)
     label[rng.choice(graph.n_faces, count, replace=False)] = np.arange(count)
-    return fill_unlabelled(graph, label)
+    return fill_unlabeled(graph, label)
