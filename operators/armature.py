@@ -6,7 +6,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import armature
 from ..scene.store import Stored
-from .parts import PartOperator
+from .base import PartOperator
 
 
 class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):

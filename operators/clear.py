@@ -8,34 +8,27 @@ from ..scene import graph_objects, results, store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..viewport import shading
+from .base import ReportingOperator
 
 
-class REEB_PARTS_OT_clear(bpy.types.Operator):
+class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
     """Remove everything that Reeb Parts has added to the selected meshes; what was there before is back"""
 
     bl_idname = "reeb_parts.clear"
     bl_label = "Clear Parts"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def check_context(cls, context: bpy.types.Context) -> None:
         obj = context.view_layer.objects.active
         if obj is None or obj.type != "MESH" or not (store.has_result(obj.data) or graph_objects.find(obj)):
-            cls.poll_message_set(rpt_("The active object has no parts"))
-            return False
-        return True
+            raise SceneError(rpt_("The active object has no parts"))
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            objects = targets.chosen_objects(context)
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+    def run(self, context: bpy.types.Context) -> None:
+        objects = targets.chosen_objects(context)
         with object_mode(context):
             for obj in objects:
                 results.clear(obj)
         shading.restore_colors(context)
-        return {"FINISHED"}
 
 
 CLASSES = (REEB_PARTS_OT_clear,)

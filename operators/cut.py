@@ -10,7 +10,7 @@ from ..viewport import pointing
 from ..viewport.knife import Knife, cut_at
 from ..viewport.pointing import Target
 from ..viewport.view_tool import ViewTool
-from .parts import PartOperator
+from .base import PartOperator
 
 
 class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):

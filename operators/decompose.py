@@ -4,7 +4,6 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.errors import ReebError
 from ..core.parameters import Parameters
 from ..scene import bridge, defaults, jobs, redraw, targets
 from ..scene.bridge import Shape
@@ -23,16 +22,16 @@ from ..scene.settings import (
     take_over_former_names,
 )
 from ..viewport import shading
+from .base import ReportingOperator
 
 
 class REEB_PARTS_OT_decompose(
-    bpy.types.Operator, FormerArguments, ParameterProperties, OutputProperties, OverlayProperties
+    ReportingOperator, bpy.types.Operator, FormerArguments, ParameterProperties, OutputProperties, OverlayProperties
 ):
     """Cut the selected mesh into the parts a person would name, and show its Reeb graph"""
 
     bl_idname = "reeb_parts.decompose"
     bl_label = "Decompose into Parts"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -54,19 +53,14 @@ class REEB_PARTS_OT_decompose(
         for name in (*PARAMETERS, *OUTPUTS, *OVERLAY):
             if not self.properties.is_property_set(name):
                 setattr(self, name, getattr(settings, name))
-        return self._start(context)
+        return self.attempt(self._start, context)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         """From scripts and the redo panel: all at once; what a script leaves out is as in the preferences."""
         self._take_over_former_names()
         defaults.complete(self)
-        try:
-            parameters, shapes = self._read(context)
-            outcomes = compute_all(shapes, parameters, lambda stage, share, of="": None)
-        except (SceneError, ReebError) as error:
-            self.report({"ERROR"}, translated(error))
-            return {"CANCELLED"}
-        return self._write(context, outcomes)
+        parameters, shapes = self._read(context)
+        self._write(context, compute_all(shapes, parameters, lambda stage, share, of="": None))
 
     def _take_over_former_names(self) -> None:
         for note in take_over_former_names(self.properties):
@@ -86,18 +80,16 @@ class REEB_PARTS_OT_decompose(
         parameters = self.parameters()
         return parameters, [(obj.name, bridge.read_shape(obj)) for obj in targets.chosen_objects(context)]
 
-    def _write(self, context: bpy.types.Context, outcomes: list[Outcome]) -> set[str]:
+    def _write(self, context: bpy.types.Context, outcomes: list[Outcome]) -> None:
         """Write what was computed and report on it."""
         done = [outcome for outcome in outcomes if outcome.decomposition is not None]
         if not done:
-            self.report({"ERROR"}, translated(outcomes[0].problem))
-            return {"CANCELLED"}
+            raise SceneError(translated(outcomes[0].problem))
         with object_mode(context):
             for outcome in done:
                 write_result(context, bpy.data.objects[outcome.object_name], outcome, self)
         for outcome in outcomes:
             self._report(outcome, len(outcomes) > 1)
-        return {"FINISHED"}
 
     def _report(self, outcome: Outcome, several: bool) -> None:
         name = f"{outcome.object_name}: " if several else ""
@@ -113,12 +105,8 @@ class REEB_PARTS_OT_decompose(
     # In the window
 
     def _start(self, context: bpy.types.Context) -> set[str]:
-        try:
-            parameters, shapes = self._read(context)
-            self._job = jobs.Job(lambda progress: compute_all(shapes, parameters, progress))
-        except (SceneError, ReebError) as error:
-            self.report({"ERROR"}, translated(error))
-            return {"CANCELLED"}
+        parameters, shapes = self._read(context)
+        self._job = jobs.Job(lambda progress: compute_all(shapes, parameters, progress))
         jobs.current = self._job
         self._shown = ""
         self._digests = {name: shape.digest for name, shape in shapes}
@@ -141,28 +129,20 @@ class REEB_PARTS_OT_decompose(
         if self._job.cancelled:
             self.report({"INFO"}, rpt_("Cancelled; nothing was changed"))
             return {"CANCELLED"}
-        return self._finish(context)
+        return self.attempt(self._finish, context)
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Blender closes the window or opens another file."""
         self._job.cancel()
         self._stop_watching(context)
 
-    def _finish(self, context: bpy.types.Context) -> set[str]:
-        error = self._job.error
-        if isinstance(error, (SceneError, ReebError)):
-            self.report({"ERROR"}, translated(error))
-            return {"CANCELLED"}
-        if error is not None:
-            raise error
-        try:
-            check_unchanged(self._digests)
-        except SceneError as problem:
-            self.report({"ERROR"}, str(problem))
-            return {"CANCELLED"}
+    def _finish(self, context: bpy.types.Context) -> None:
+        if self._job.error is not None:
+            raise self._job.error
+        check_unchanged(self._digests)
         if self.colors:
             shading.show_colors(context)
-        return self._write(context, self._job.result)
+        self._write(context, self._job.result)
 
     def _show_progress(self, context: bpy.types.Context) -> None:
         text = rpt_("Reeb Parts: {stage} ({share:.0%})    Esc: cancel").format(
@@ -181,7 +161,7 @@ class REEB_PARTS_OT_decompose(
         redraw.sidebars()
 
 
-class REEB_PARTS_OT_cancel(bpy.types.Operator):
+class REEB_PARTS_OT_cancel(ReportingOperator, bpy.types.Operator):
     """Stop computing; the scene is as it was before"""
 
     bl_idname = "reeb_parts.cancel"
@@ -189,15 +169,12 @@ class REEB_PARTS_OT_cancel(bpy.types.Operator):
     bl_options = {"INTERNAL"}
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def check_context(cls, context: bpy.types.Context) -> None:
         if jobs.current is None:
-            cls.poll_message_set(rpt_("Nothing is being computed"))
-            return False
-        return True
+            raise SceneError(rpt_("Nothing is being computed"))
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         jobs.cancel()
-        return {"FINISHED"}
 
 
 CLASSES = (REEB_PARTS_OT_decompose, REEB_PARTS_OT_cancel)

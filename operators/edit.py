@@ -10,7 +10,7 @@ from ..scene import edits, part_list, part_names, store
 from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
 from ..scene.store import Stored
-from .parts import PartOperator
+from .base import PartOperator
 
 
 class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):

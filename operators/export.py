@@ -11,11 +11,12 @@ from ..scene.errors import SceneError
 from ..scene.export import export_parts
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
-from ..scene.part_list import has_parts, wanted_numbers
+from ..scene.part_list import wanted_numbers
 from ..scene.settings import WhichProperties
+from .base import ReportingOperator
 
 
-class REEB_PARTS_OT_export(bpy.types.Operator, WhichProperties):
+class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichProperties):
     """Write each part to a file of its own, in a folder; files of the same names are replaced"""
 
     bl_idname = "reeb_parts.export"
@@ -37,10 +38,6 @@ class REEB_PARTS_OT_export(bpy.types.Operator, WhichProperties):
         description="Close the holes where parts were joined, so that each file holds a closed body",
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_parts(cls, context)
-
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, WhichProperties, context)
         if not self.properties.is_property_set("caps"):
@@ -48,24 +45,20 @@ class REEB_PARTS_OT_export(bpy.types.Operator, WhichProperties):
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
+        if not self.directory:
+            raise SceneError(rpt_("There is no folder to write to. Choose one and try again."))
+        folder = Path(bpy.path.abspath(self.directory))
+        objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
         try:
-            if not self.directory:
-                raise SceneError(rpt_("There is no folder to write to. Choose one and try again."))
-            folder = Path(bpy.path.abspath(self.directory))
-            objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
             with object_mode(context):
                 folder.mkdir(parents=True, exist_ok=True)
                 paths = [path for obj in objects for path in
                          export_parts(obj, folder, self.format, wanted_numbers(obj.data, self.which), self.caps)]
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
         except (OSError, RuntimeError) as error:  # what Blender's exporters report arrives as RuntimeError
-            self.report({"ERROR"}, rpt_("The parts could not be written: {reason}").format(reason=str(error).strip()))
-            return {"CANCELLED"}
+            reason = str(error).strip()
+            raise SceneError(rpt_("The parts could not be written: {reason}").format(reason=reason)) from error
         self.report({"INFO"}, rpt_("{n} files in {folder}").format(n=len(paths), folder=folder))
-        return {"FINISHED"}
 
 
 CLASSES = (REEB_PARTS_OT_export,)

@@ -8,27 +8,26 @@ from mathutils import Vector
 from ..scene import edits, graph_objects, part_names
 from ..scene.errors import SceneError
 from ..scene.graph_objects import part_of, source_of_arcs
-from ..scene.part_list import choose, chosen_numbers, has_parts
+from ..scene.part_list import check_parts, choose, chosen_numbers
 from ..scene.selection import select_objects
 from ..viewport import pointing
+from .base import ReportingOperator
 
 
-class REEB_PARTS_OT_from_nodes(bpy.types.Operator):
+class REEB_PARTS_OT_from_nodes(ReportingOperator, bpy.types.Operator):
     """Choose the parts of the selected nodes in the list, and make their object active"""
 
     bl_idname = "reeb_parts.from_nodes"
     bl_label = "Parts of Selected Nodes"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def check_context(cls, context: bpy.types.Context) -> None:
         found = part_of(context.view_layer.objects.active)
         if found is None:
-            cls.poll_message_set(rpt_("Select a node of a graph"))
-            return False
-        return has_parts(cls, context, found[0])
+            raise SceneError(rpt_("Select a node of a graph"))
+        check_parts(found[0])
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         found = part_of(context.view_layer.objects.active)
         assert found is not None  # poll
         source, number = found
@@ -39,10 +38,9 @@ class REEB_PARTS_OT_from_nodes(bpy.types.Operator):
                 chosen[found[1]] = None
         choose(source.data, list(chosen))
         select_objects(context, [source], active=source)
-        return {"FINISHED"}
 
 
-class REEB_PARTS_OT_from_arc(bpy.types.Operator):
+class REEB_PARTS_OT_from_arc(ReportingOperator, bpy.types.Operator):
     """Choose the part in which an arc was clicked, and make its object active"""
 
     bl_idname = "reeb_parts.from_arc"
@@ -54,14 +52,16 @@ class REEB_PARTS_OT_from_arc(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def check_context(cls, context: bpy.types.Context) -> None:
         source = source_of_arcs(context.view_layer.objects.active)
         if source is None or context.mode != "OBJECT":
-            cls.poll_message_set(rpt_("Select the arcs of a graph"))
-            return False
-        return has_parts(cls, context, source)
+            raise SceneError(rpt_("Select the arcs of a graph"))
+        check_parts(source)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        return self.attempt(self._run_at_pointer, context, event)
+
+    def _run_at_pointer(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Blender has just selected the curve, by the last press of a button; the pointer may have gone on."""
         source = source_of_arcs(context.view_layer.objects.active)
         assert source is not None  # poll
@@ -69,89 +69,66 @@ class REEB_PARTS_OT_from_arc(bpy.types.Operator):
         place = pointing.view_region(context.area, *pressed) if context.area else None
         if place is None:  # it was selected elsewhere, in the outliner
             return {"CANCELLED"}
-        try:
-            target = pointing.Model(source).under(context, source, *place, surface=False)
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        target = pointing.Model(source).under(context, source, *place, surface=False)
         if target is None:
             return {"CANCELLED"}
         self.location = source.matrix_world @ Vector(target.location)
         return self.execute(context)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         item = context.view_layer.objects.active
         source = source_of_arcs(item)
         assert source is not None  # poll
-        try:
-            model = pointing.Model(source)
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        model = pointing.Model(source)
         choose(source.data, [model.number(model.at(source, self.location, True))])
         item.select_set(False)
         source.select_set(True)
         context.view_layer.objects.active = source
-        return {"FINISHED"}
 
 
-class REEB_PARTS_OT_to_nodes(bpy.types.Operator):
+class REEB_PARTS_OT_to_nodes(ReportingOperator, bpy.types.Operator):
     """Select the nodes of the chosen parts"""
 
     bl_idname = "reeb_parts.to_nodes"
     bl_label = "Nodes of Chosen Parts"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def check_context(cls, context: bpy.types.Context) -> None:
         obj = context.view_layer.objects.active
-        if not has_parts(cls, context):
-            return False
+        check_parts(obj)
         if obj.mode != "OBJECT":
-            cls.poll_message_set(rpt_("Go to Object Mode first"))
-            return False
+            raise SceneError(rpt_("Go to Object Mode first"))
         if graph_objects.find(obj) is None:
-            cls.poll_message_set(rpt_("The active object shows no graph"))
-            return False
-        return True
+            raise SceneError(rpt_("The active object shows no graph"))
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         obj = context.view_layer.objects.active
         graph_objects.select_nodes(obj, chosen_numbers(obj.data))
-        return {"FINISHED"}
 
 
-class REEB_PARTS_OT_split_at_node(bpy.types.Operator):
+class REEB_PARTS_OT_split_at_node(ReportingOperator, bpy.types.Operator):
     """Split the part that holds the selected node, at the best cut along the node's arcs"""
 
     bl_idname = "reeb_parts.split_at_node"
     bl_label = "Split at Graph Node"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def check_context(cls, context: bpy.types.Context) -> None:
         item = context.view_layer.objects.active
         if part_of(item) is None:
-            cls.poll_message_set(rpt_("Select a node of a graph"))
-            return False
+            raise SceneError(rpt_("Select a node of a graph"))
         if item.parent.mode != "OBJECT":
-            cls.poll_message_set(rpt_("Leave the object's mode first"))
-            return False
-        return has_parts(cls, context, item.parent)
+            raise SceneError(rpt_("Leave the object's mode first"))
+        check_parts(item.parent)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         item = context.view_layer.objects.active
         mesh = item.parent.data
-        try:
-            number, new = edits.split_at_node(context, mesh, item["node"])
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        number, new = edits.split_at_node(context, mesh, item["node"])
         # The node's part is the one to go on with.
         choose(mesh, [item["part"]])
         self.report({"INFO"}, rpt_("{new} was cut from {name}").format(
             new=part_names.part_name(mesh, new), name=part_names.part_name(mesh, number)))
-        return {"FINISHED"}
 
 
 CLASSES = (

@@ -10,7 +10,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..scene import outputs, store, targets
 from ..scene.outputs import face_sets, materials, seams
 from ..scene.store import Stored
-from .parts import PartOperator
+from .base import PartOperator
 
 
 class OutputOperator(PartOperator):

@@ -12,7 +12,7 @@ from ..viewport import pointing
 from ..viewport.brush import START_SIZE, Brush, ReebDab, paint
 from ..viewport.colored_tool import ColoredTool
 from ..viewport.pointing import Target
-from .parts import PartOperator
+from .base import PartOperator
 
 
 class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):

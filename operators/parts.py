@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Work on the parts of the list: select, isolate, mark."""
 
-from typing import TYPE_CHECKING
-
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -10,39 +8,9 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..scene import part_list, selection, store
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
-from ..scene.part_list import chosen_numbers, has_parts
+from ..scene.part_list import chosen_numbers
 from ..scene.store import Stored
-
-
-class PartOperator:
-    """For operators on the parts of the active object: poll, errors, Object Mode."""
-
-    bl_options = {"REGISTER", "UNDO"}
-
-    if TYPE_CHECKING:
-
-        def report(self, kind: set[str], message: str) -> None:
-            """Of bpy.types.Operator, which the class that inherits is, too."""
-
-    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
-        """Do what the operator is for; returns what to tell the user. Raises SceneError."""
-        raise NotImplementedError
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_parts(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        obj = context.view_layer.objects.active
-        try:
-            with object_mode(context):
-                message = self.work(context, obj, store.load(obj.data))
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        if message:
-            self.report({"INFO"}, message)
-        return {"FINISHED"}
+from .base import PartOperator, ReportingOperator
 
 
 class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
@@ -79,12 +47,11 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
 
     show_all: bpy.props.BoolProperty(name="Show all", description="Show every face again")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         seen = self.show_all or context.mode != "OBJECT"
-        result = super().execute(context)
-        if "FINISHED" in result and not seen:
+        super().run(context)
+        if not seen:
             self.report({"INFO"}, rpt_("Object Mode shows hidden faces all the same; Edit Mode and paint modes do not"))
-        return result
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         mesh = obj.data
@@ -93,12 +60,11 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
         selection.hide_faces(mesh, ~shown)
 
 
-class REEB_PARTS_OT_mark(bpy.types.Operator):
+class REEB_PARTS_OT_mark(ReportingOperator, bpy.types.Operator):
     """Mark parts in the list"""
 
     bl_idname = "reeb_parts.mark"
     bl_label = "Mark Parts"
-    bl_options = {"REGISTER", "UNDO"}
 
     action: bpy.props.EnumProperty(
         name="Action",
@@ -108,22 +74,13 @@ class REEB_PARTS_OT_mark(bpy.types.Operator):
                ("FACES", "Of selected faces", "Mark the parts that have selected faces")],
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_parts(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         mesh = context.view_layer.objects.active.data
         with_faces = set()
         if self.action == "FACES":
-            try:
-                with object_mode(context):
-                    with_faces = set(store.load(mesh).face_numbers[selection.selected_faces(mesh)].tolist())
-            except SceneError as error:
-                self.report({"ERROR"}, str(error))
-                return {"CANCELLED"}
+            with object_mode(context):
+                with_faces = set(store.load(mesh).face_numbers[selection.selected_faces(mesh)].tolist())
         part_list.mark(mesh, self.action, with_faces)
-        return {"FINISHED"}
 
 
 CLASSES = (REEB_PARTS_OT_select, REEB_PARTS_OT_isolate, REEB_PARTS_OT_mark)

@@ -11,7 +11,7 @@ from ..scene.store import Stored
 from ..viewport import pointing
 from ..viewport.pointing import Target
 from ..viewport.view_tool import ViewTool
-from .parts import PartOperator
+from .base import PartOperator
 
 
 class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):

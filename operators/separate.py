@@ -4,48 +4,38 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.errors import ReebError
 from ..scene import piece_objects, store, targets
-from ..scene.errors import SceneError, translated
+from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
-from ..scene.part_list import has_parts, wanted_numbers
+from ..scene.part_list import wanted_numbers
 from ..scene.selection import select_objects
 from ..scene.settings import SeparateProperties
 from ..viewport import shading
+from .base import ReportingOperator
 
 
-class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
+class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProperties):
     """Make separate objects of the parts, with all that the mesh carries; the original stays as it is"""
 
     bl_idname = "reeb_parts.separate"
     bl_label = "Separate Parts into Objects"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_parts(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, SeparateProperties, context)
         return self.execute(context)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
-            with object_mode(context):
-                found = [(obj, store.load(obj.data)) for obj in objects]
-                made = [(obj, *piece_objects.separate(context, obj, stored, wanted_numbers(obj.data, self.which), self))
-                        for obj, stored in found]
-        except (SceneError, ReebError) as error:
-            self.report({"ERROR"}, translated(error))
-            return {"CANCELLED"}
+    def run(self, context: bpy.types.Context) -> None:
+        objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
+        with object_mode(context):
+            found = [(obj, store.load(obj.data)) for obj in objects]
+            made = [(obj, *piece_objects.separate(context, obj, stored, wanted_numbers(obj.data, self.which), self))
+                    for obj, stored in found]
         if self.hide:
             self._hide(context, [obj for obj, *_ in made])
         self._show(context, [piece for _, pieces, *_ in made for piece in pieces], made[0][1])
         for obj, pieces, left_open, kept in made:
             self._report(obj, pieces, left_open, kept)
-        return {"FINISHED"}
 
     def _hide(self, context: bpy.types.Context, originals: list[bpy.types.Object]) -> None:
         """Hide the originals, which only Object Mode allows."""
@@ -75,35 +65,26 @@ class REEB_PARTS_OT_separate(bpy.types.Operator, SeparateProperties):
                 {"WARNING"}, rpt_("{n} edges stay open: more than two faces meet beside them").format(n=left_open))
 
 
-class REEB_PARTS_OT_show_original(bpy.types.Operator):
+class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
     """Show and select the object that this piece was separated from"""
 
     bl_idname = "reeb_parts.show_original"
     bl_label = "Show Original of Part"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
+    def check_context(cls, context: bpy.types.Context) -> None:
         piece = context.view_layer.objects.active
         if piece is None or piece_objects.original(piece) is None:
-            cls.poll_message_set(rpt_("The active object is not a part that was separated from another one"))
-            return False
+            raise SceneError(rpt_("The active object is not a part that was separated from another one"))
         if context.mode != "OBJECT":
-            cls.poll_message_set(rpt_("Go to Object Mode first"))
-            return False
-        try:
-            targets.check_object(piece_objects.original(piece))
-        except SceneError as error:
-            cls.poll_message_set(str(error))
-            return False
-        return True
+            raise SceneError(rpt_("Go to Object Mode first"))
+        targets.check_object(piece_objects.original(piece))
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         obj = piece_objects.original(context.view_layer.objects.active)
         piece_objects.show_original(context, obj)
         shading.show_colors(context)
         select_objects(context, [obj], active=obj)
-        return {"FINISHED"}
 
 
 CLASSES = (REEB_PARTS_OT_separate, REEB_PARTS_OT_show_original)

@@ -6,12 +6,11 @@ import bpy
 from ..core.parameters import PRESETS
 from ..scene import defaults
 from ..scene.settings import OUTPUTS, OVERLAY
+from .base import ReportingOperator
 
 
-class SceneOperator:
+class SceneOperator(ReportingOperator):
     """For operators on the settings of the scene."""
-
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -24,12 +23,11 @@ class REEB_PARTS_OT_use_preferences(SceneOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.use_preferences"
     bl_label = "Use Preferences in This Scene"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         settings = context.scene.reeb_parts
         defaults.use(settings, ("preset", *OUTPUTS, *OVERLAY))
         # Also what was changed after the preset was chosen.
         settings.preset = settings.preset
-        return {"FINISHED"}
 
 
 class REEB_PARTS_OT_reset_parameters(SceneOperator, bpy.types.Operator):
@@ -38,12 +36,11 @@ class REEB_PARTS_OT_reset_parameters(SceneOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.reset_parameters"
     bl_label = "Reset Parameters to Preset"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def run(self, context: bpy.types.Context) -> None:
         settings = context.scene.reeb_parts
         detail, n_parts = settings.detail, settings.n_parts
         settings.use_parameters(PRESETS[settings.preset])
         settings.detail, settings.n_parts = detail, n_parts
-        return {"FINISHED"}
 
 
 CLASSES = (REEB_PARTS_OT_use_preferences, REEB_PARTS_OT_reset_parameters)

@@ -13,7 +13,7 @@ from ..viewport.boundary import Boundary
 from ..viewport.colored_tool import ColoredTool
 from ..viewport.pointing import Target
 from ..viewport.view_tool import turns_view
-from .parts import PartOperator
+from .base import PartOperator
 
 
 class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):

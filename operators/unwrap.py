@@ -4,11 +4,9 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.errors import ReebError
 from ..scene import uv_map
-from ..scene.errors import SceneError, translated
 from ..scene.store import Stored
-from .parts import PartOperator
+from .base import PartOperator
 
 
 class REEB_PARTS_OT_unwrap(PartOperator, bpy.types.Operator):
@@ -30,10 +28,7 @@ class REEB_PARTS_OT_unwrap(PartOperator, bpy.types.Operator):
     )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
-        try:
-            name = uv_map.unwrap(context, obj, stored.face_numbers, self.open_parts, self.method)
-        except ReebError as error:
-            raise SceneError(translated(error)) from error
+        name = uv_map.unwrap(context, obj, stored.face_numbers, self.open_parts, self.method)
         return rpt_("Unwrapped into the UV map {name}").format(name=name)
 
 

@@ -11,19 +11,11 @@ from . import store, targets
 from .errors import SceneError
 
 
-def has_parts(operator: type[bpy.types.Operator], context: bpy.types.Context,
-              obj: bpy.types.Object | None = None) -> bool:
-    """Whether the parts of an object, by default the active one, can be worked on; the operator's poll says why not."""
-    obj = obj or context.view_layer.objects.active
+def check_parts(obj: bpy.types.Object | None) -> None:
+    """Raise SceneError unless the parts of an object can be worked on."""
     if obj is None or obj.type != "MESH" or not store.has_result(obj.data):
-        operator.poll_message_set(rpt_("Decompose the mesh first"))
-        return False
-    try:
-        targets.check_object(obj)
-    except SceneError as error:
-        operator.poll_message_set(str(error))
-        return False
-    return True
+        raise SceneError(rpt_("Decompose the mesh first"))
+    targets.check_object(obj)
 
 
 def active_number(mesh: bpy.types.Mesh) -> int:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import bpy
@@ -58,10 +59,11 @@ class ViewTool:
     aims = True  # at places of the model; a tool that does not is confirmed by a click
     uses_graph = True  # or only the surface
 
-    if TYPE_CHECKING:
+    if TYPE_CHECKING:  # of operators.base.ReportingOperator, which the class that inherits is, too
 
-        def report(self, kind: set[str], message: str) -> None:
-            """Of bpy.types.Operator, which the class that inherits is, too."""
+        def report(self, kind: set[str], message: str) -> None: ...
+
+        def attempt(self, work: Callable[..., set[str] | None], *arguments: object) -> set[str]: ...
 
     def hint(self) -> str:
         """What the status bar says."""
@@ -89,16 +91,15 @@ class ViewTool:
         return {"CANCELLED"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        return self.attempt(self._start, context)
+
+    def _start(self, context: bpy.types.Context) -> set[str]:
         obj = context.view_layer.objects.active
-        try:
-            if context.area is None or context.area.type != "VIEW_3D":
-                raise SceneError(rpt_("This works over a 3D viewport."))
-            if obj.mode != "OBJECT":
-                raise SceneError(rpt_("This works in Object Mode, where the parts can be seen."))
-            self._read(context, obj)
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        if context.area is None or context.area.type != "VIEW_3D":
+            raise SceneError(rpt_("This works over a 3D viewport."))
+        if obj.mode != "OBJECT":
+            raise SceneError(rpt_("This works in Object Mode, where the parts can be seen."))
+        self._read(context, obj)
         self.preview = Preview()
         context.window.cursor_modal_set(self.cursor)
         context.workspace.status_text_set(self.hint())

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What all operators have in common: they tell the user what is wrong, in a tooltip before and in a report after."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..core.errors import ReebError
+from ..scene import store
+from ..scene.errors import SceneError, translated
+from ..scene.modes import object_mode
+from ..scene.part_list import check_parts
+from ..scene.store import Stored
+
+
+class ReportingOperator:
+    """For operators that raise what the user should hear.
+
+    A class that inherits gives ``run``, and ``check_context`` unless it works on the parts of the active object.
+    """
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    if TYPE_CHECKING:  # of bpy.types.Operator, which the class that inherits is, too
+
+        def report(self, kind: set[str], message: str) -> None: ...
+
+        @classmethod
+        def poll_message_set(cls, message: str) -> None: ...
+
+    @classmethod
+    def check_context(cls, context: bpy.types.Context) -> None:
+        """Raise SceneError where the operator cannot be used: by default, where the active object has no parts."""
+        check_parts(context.view_layer.objects.active)
+
+    def run(self, context: bpy.types.Context) -> set[str] | None:
+        """Do what the operator is for; its result, None for FINISHED. Raises SceneError or ReebError."""
+        raise NotImplementedError
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        try:
+            cls.check_context(context)
+        except SceneError as error:
+            cls.poll_message_set(str(error))
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        return self.attempt(self.run, context)
+
+    def attempt(self, work: Callable[..., set[str] | None], *arguments: object) -> set[str]:
+        """What a method returns, None for FINISHED; what it raises is reported, and the operator is cancelled."""
+        try:
+            return work(*arguments) or {"FINISHED"}
+        except (SceneError, ReebError) as error:
+            self.report({"ERROR"}, translated(error))
+            return {"CANCELLED"}
+
+
+class PartOperator(ReportingOperator):
+    """For operators on the parts of the active object, in Object Mode. A class that inherits gives ``work``."""
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
+        """Do what the operator is for; returns what to tell the user. Raises SceneError or ReebError."""
+        raise NotImplementedError
+
+    def run(self, context: bpy.types.Context) -> None:
+        obj = context.view_layer.objects.active
+        with object_mode(context):
+            message = self.work(context, obj, store.load(obj.data))
+        if message:
+            self.report({"INFO"}, message)
