@@ -24,15 +24,13 @@ from . import (
 
 MODULES = (decompose, clear, settings, parts, pick, edit, slide, cut, paint, graph, separate, outputs, unwrap, export,
            armature)
-CLASSES = tuple(cls for module in MODULES for cls in module.CLASSES)
+#: Every operator that one of the modules defines.
+CLASSES = tuple(cls for module in MODULES for cls in vars(module).values()
+                if isinstance(cls, type) and issubclass(cls, bpy.types.Operator))
 
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+register, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 
 
 def unregister() -> None:
     jobs.cancel()
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister_classes()

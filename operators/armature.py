@@ -23,6 +23,3 @@ class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         rig = armature.make(context, obj, stored, self.deform)
         return rpt_("{name} has {n} bones").format(name=rig.name, n=len(rig.data.bones))
-
-
-CLASSES = (REEB_PARTS_OT_armature,)

@@ -29,6 +29,3 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
             for obj in objects:
                 results.clear(obj)
         shading.restore_colors(context)
-
-
-CLASSES = (REEB_PARTS_OT_clear,)

@@ -46,6 +46,3 @@ class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):
         self.location, self.on_graph = obj.matrix_world @ Vector(target.location), target.on_graph
         self.report({"INFO"}, cut_at(context, obj, self.model, target))
         return {"FINISHED"}
-
-
-CLASSES = (REEB_PARTS_OT_cut,)

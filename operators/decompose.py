@@ -175,6 +175,3 @@ class REEB_PARTS_OT_cancel(ReportingOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> None:
         jobs.cancel()
-
-
-CLASSES = (REEB_PARTS_OT_decompose, REEB_PARTS_OT_cancel)

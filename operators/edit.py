@@ -114,15 +114,3 @@ class REEB_PARTS_OT_release(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         which = "ALL" if self.everything else "CHOSEN"
         edits.release(context, obj.data, stored, part_list.wanted_numbers(obj.data, which))
-
-
-CLASSES = (
-    REEB_PARTS_OT_release,
-    REEB_PARTS_OT_merge,
-    REEB_PARTS_OT_merge_neighbour,
-    REEB_PARTS_OT_split,
-    REEB_PARTS_OT_grow,
-    REEB_PARTS_OT_shrink,
-    REEB_PARTS_OT_assign,
-    REEB_PARTS_OT_from_face_sets,
-)

@@ -59,6 +59,3 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
             reason = str(error).strip()
             raise SceneError(rpt_("The parts could not be written: {reason}").format(reason=reason)) from error
         self.report({"INFO"}, rpt_("{n} files in {folder}").format(n=len(paths), folder=folder))
-
-
-CLASSES = (REEB_PARTS_OT_export,)

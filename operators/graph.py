@@ -129,11 +129,3 @@ class REEB_PARTS_OT_split_at_node(ReportingOperator, bpy.types.Operator):
         choose(mesh, [item["part"]])
         self.report({"INFO"}, rpt_("{new} was cut from {name}").format(
             new=part_names.part_name(mesh, new), name=part_names.part_name(mesh, number)))
-
-
-CLASSES = (
-    REEB_PARTS_OT_from_nodes,
-    REEB_PARTS_OT_from_arc,
-    REEB_PARTS_OT_to_nodes,
-    REEB_PARTS_OT_split_at_node,
-)

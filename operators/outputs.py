@@ -61,6 +61,3 @@ class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.materials"
     bl_label = "Give Each Part a Material"
     output = (materials, n_("{n} parts have materials"), n_("The materials are yours alone again"))
-
-
-CLASSES = (REEB_PARTS_OT_seams, REEB_PARTS_OT_face_sets, REEB_PARTS_OT_materials)

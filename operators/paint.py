@@ -91,6 +91,3 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
 
     def _normal(self, face: int) -> Vector:
         return bpy.data.objects[self.model.name].data.polygons[face].normal
-
-
-CLASSES = (REEB_PARTS_OT_paint,)

@@ -81,6 +81,3 @@ class REEB_PARTS_OT_mark(ReportingOperator, bpy.types.Operator):
             with object_mode(context):
                 with_faces = set(store.load(mesh).face_numbers[selection.selected_faces(mesh)].tolist())
         part_list.mark(mesh, self.action, with_faces)
-
-
-CLASSES = (REEB_PARTS_OT_select, REEB_PARTS_OT_isolate, REEB_PARTS_OT_mark)

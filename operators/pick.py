@@ -56,6 +56,3 @@ class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):
             toggle(obj.data, number)
         else:
             choose(obj.data, [number])
-
-
-CLASSES = (REEB_PARTS_OT_pick,)

@@ -85,6 +85,3 @@ class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
         piece_objects.show_original(context, obj)
         shading.show_colors(context)
         select_objects(context, [obj], active=obj)
-
-
-CLASSES = (REEB_PARTS_OT_separate, REEB_PARTS_OT_show_original)

@@ -41,6 +41,3 @@ class REEB_PARTS_OT_reset_parameters(SceneOperator, bpy.types.Operator):
         detail, n_parts = settings.detail, settings.n_parts
         settings.use_parameters(PRESETS[settings.preset])
         settings.detail, settings.n_parts = detail, n_parts
-
-
-CLASSES = (REEB_PARTS_OT_use_preferences, REEB_PARTS_OT_reset_parameters)

@@ -68,6 +68,3 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
 
     def finish(self, context: bpy.types.Context, obj: bpy.types.Object) -> set[str]:
         return self.execute(context)
-
-
-CLASSES = (REEB_PARTS_OT_slide,)

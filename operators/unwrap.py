@@ -30,6 +30,3 @@ class REEB_PARTS_OT_unwrap(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         name = uv_map.unwrap(context, obj, stored.face_numbers, self.open_parts, self.method)
         return rpt_("Unwrapped into the UV map {name}").format(name=name)
-
-
-CLASSES = (REEB_PARTS_OT_unwrap,)
