@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
-from . import compute, defaults, mesh_arrays, schema, settings, store, watch
+from . import compute, defaults, mesh_arrays, schema, store, watch
 from .outputs import vertex_groups
 
 
 def register() -> None:
-    settings.register()
     schema.register()
     defaults.register()
     watch.register()
@@ -18,6 +17,5 @@ def unregister() -> None:
     watch.unregister()
     defaults.unregister()
     schema.unregister()
-    settings.unregister()
     for module in (mesh_arrays, vertex_groups, compute, store):
         module.forget()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is stored in the file: the result on the mesh that it belongs to, and what was made of it on the object.
+"""What is stored in the file: settings on the scene, the result on its mesh, what was made of it on the object.
 
 The names of the properties and of the pointers to them are those of files that exist: they never change.
 """
@@ -16,6 +16,7 @@ from bpy.props import (
 )
 
 from . import explode, part_list, reactions
+from .settings import ReebPartsSettings, ReebPartsUse
 
 
 class ReebPart(bpy.types.PropertyGroup):
@@ -113,18 +114,24 @@ class ReebPartsMade(bpy.types.PropertyGroup):
     )
 
 
-CLASSES = (ReebPart, ReebName, ReebPartsResult, ReebPartsMade)
+CLASSES = (ReebPartsSettings, ReebPartsUse, ReebPart, ReebName, ReebPartsResult, ReebPartsMade)
+POINTERS = (
+    (bpy.types.Scene, "reeb_parts", ReebPartsSettings),
+    (bpy.types.Scene, "reeb_parts_use", ReebPartsUse),
+    (bpy.types.Mesh, "reeb_parts", ReebPartsResult),
+    (bpy.types.Object, "reeb_parts_made", ReebPartsMade),
+)
+
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 
 
 def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.Mesh.reeb_parts = PointerProperty(type=ReebPartsResult)
-    bpy.types.Object.reeb_parts_made = PointerProperty(type=ReebPartsMade)
+    _register_classes()
+    for owner, name, cls in POINTERS:
+        setattr(owner, name, PointerProperty(type=cls))
 
 
 def unregister() -> None:
-    del bpy.types.Object.reeb_parts_made
-    del bpy.types.Mesh.reeb_parts
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    for owner, name, _ in reversed(POINTERS):
+        delattr(owner, name)
+    _unregister_classes()

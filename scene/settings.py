@@ -9,7 +9,7 @@ from dataclasses import Field, asdict, fields
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
 from ..core.uses.colors import PALETTES
@@ -264,20 +264,3 @@ class ReebPartsSettings(
 
 class ReebPartsUse(bpy.types.PropertyGroup, SeparateProperties):
     """What the buttons under Use Parts will do; on the scene."""
-
-
-CLASSES = (ReebPartsSettings, ReebPartsUse)
-
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.Scene.reeb_parts = PointerProperty(type=ReebPartsSettings)
-    bpy.types.Scene.reeb_parts_use = PointerProperty(type=ReebPartsUse)
-
-
-def unregister() -> None:
-    del bpy.types.Scene.reeb_parts_use
-    del bpy.types.Scene.reeb_parts
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)

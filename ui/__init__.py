@@ -9,20 +9,19 @@ from . import menus, panel, preferences, translations, use_panel
 
 # Sub-panels stand in the order of their registration: what is used often comes before the settings.
 _PLACE = panel.CLASSES.index(panel.REEB_PARTS_PT_parts) + 1
-CLASSES = (*menus.CLASSES, *panel.CLASSES[:_PLACE], *use_panel.CLASSES, *panel.CLASSES[_PLACE:])
+CLASSES = (preferences.ReebPartsPreferences, *menus.CLASSES, *panel.CLASSES[:_PLACE], *use_panel.CLASSES,
+           *panel.CLASSES[_PLACE:])
+
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 
 
 def register() -> None:
     translations.register()
-    preferences.register()
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register_classes()
     menus.register()
 
 
 def unregister() -> None:
     menus.unregister()
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
-    preferences.unregister()
+    _unregister_classes()
     translations.unregister()

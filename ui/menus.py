@@ -14,18 +14,20 @@ class REEB_PARTS_MT_parts(bpy.types.Menu):
         draw_part_menu(self.layout)
 
 
+def _draw_operators(layout: bpy.types.UILayout, *entries: tuple[str, str]) -> None:
+    """Operators by their ids, each with its icon."""
+    for name, icon in entries:
+        layout.operator(name, icon=icon)
+
+
 def draw_part_menu(layout: bpy.types.UILayout) -> None:
     """All that can be done with the chosen parts; also in the list's context menu."""
     layout.operator_menu_enum("reeb_parts.mark", "action", icon="CHECKBOX_HLT")
     layout.separator()
-    layout.operator("reeb_parts.merge", icon="AUTOMERGE_ON")
-    layout.operator("reeb_parts.merge_neighbour")
-    layout.operator("reeb_parts.split", icon="MOD_EDGESPLIT")
-    layout.operator("reeb_parts.cut", icon="MOD_BOOLEAN")
-    layout.operator("reeb_parts.grow", icon="ADD")
-    layout.operator("reeb_parts.shrink", icon="REMOVE")
-    layout.operator("reeb_parts.slide", icon="ARROW_LEFTRIGHT")
-    layout.operator("reeb_parts.paint", icon="BRUSH_DATA")
+    _draw_operators(
+        layout, ("reeb_parts.merge", "AUTOMERGE_ON"), ("reeb_parts.merge_neighbour", "NONE"),
+        ("reeb_parts.split", "MOD_EDGESPLIT"), ("reeb_parts.cut", "MOD_BOOLEAN"), ("reeb_parts.grow", "ADD"),
+        ("reeb_parts.shrink", "REMOVE"), ("reeb_parts.slide", "ARROW_LEFTRIGHT"), ("reeb_parts.paint", "BRUSH_DATA"))
     layout.separator()
     layout.operator("reeb_parts.assign", icon="FACESEL").new = False
     layout.operator("reeb_parts.assign", text="New Part of Selected Faces").new = True
@@ -51,28 +53,22 @@ class REEB_PARTS_MT_main(bpy.types.Menu):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
-        layout.operator("reeb_parts.decompose", icon="MOD_EXPLODE")
-        layout.operator("reeb_parts.clear", icon="TRASH")
+        _draw_operators(layout, ("reeb_parts.decompose", "MOD_EXPLODE"), ("reeb_parts.clear", "TRASH"))
         layout.separator()
-        layout.operator("reeb_parts.pick", icon="EYEDROPPER")
-        layout.operator("reeb_parts.select", icon="RESTRICT_SELECT_OFF")
+        _draw_operators(layout, ("reeb_parts.pick", "EYEDROPPER"), ("reeb_parts.select", "RESTRICT_SELECT_OFF"))
         layout.operator("reeb_parts.isolate", icon="HIDE_OFF").show_all = False
         layout.operator("reeb_parts.isolate", text="Show All Parts").show_all = True
         draw_part_menu(layout)
         layout.separator()
-        layout.operator("reeb_parts.from_nodes")
-        layout.operator("reeb_parts.split_at_node")
+        _draw_operators(layout, ("reeb_parts.from_nodes", "NONE"), ("reeb_parts.split_at_node", "NONE"))
         layout.separator()
-        layout.operator("reeb_parts.separate", icon="OUTLINER_OB_GROUP_INSTANCE")
-        layout.operator("reeb_parts.show_original")
-        for name in ("seams", "face_sets", "materials"):
-            layout.operator(f"reeb_parts.{name}")
-        layout.operator("reeb_parts.unwrap", icon="UV")
-        layout.operator("reeb_parts.export", icon="EXPORT")
-        layout.operator("reeb_parts.armature", icon="ARMATURE_DATA")
+        _draw_operators(
+            layout, ("reeb_parts.separate", "OUTLINER_OB_GROUP_INSTANCE"), ("reeb_parts.show_original", "NONE"),
+            ("reeb_parts.seams", "NONE"), ("reeb_parts.face_sets", "NONE"), ("reeb_parts.materials", "NONE"),
+            ("reeb_parts.unwrap", "UV"), ("reeb_parts.export", "EXPORT"), ("reeb_parts.armature", "ARMATURE_DATA"))
         layout.separator()
-        layout.operator("reeb_parts.reset_parameters", icon="LOOP_BACK")
-        layout.operator("reeb_parts.use_preferences", icon="PREFERENCES")
+        _draw_operators(
+            layout, ("reeb_parts.reset_parameters", "LOOP_BACK"), ("reeb_parts.use_preferences", "PREFERENCES"))
 
 
 # The menu of each mode that operators work in.

@@ -29,6 +29,12 @@ class ReebPanel:
     bl_category = "Reeb Parts"
 
 
+class SubPanel(ReebPanel):
+    """The panels below the first one."""
+
+    bl_parent_id = "REEB_PARTS_PT_main"
+
+
 def settings_column(panel: bpy.types.Panel, context: bpy.types.Context
                     ) -> tuple[bpy.types.UILayout, bpy.types.PropertyGroup]:
     """A column for properties with their names before them, and the settings of the scene."""
@@ -138,8 +144,7 @@ def _count(number: int, one: str, several: str) -> str:
     return iface_(one if number == 1 else several).format(n=number)
 
 
-class REEB_PARTS_PT_parts(ReebPanel, bpy.types.Panel):
-    bl_parent_id = "REEB_PARTS_PT_main"
+class REEB_PARTS_PT_parts(SubPanel, bpy.types.Panel):
     bl_label = "Parts"
 
     @classmethod
@@ -176,73 +181,54 @@ def _draw_tools(layout: bpy.types.UILayout) -> None:
     flow.operator("reeb_parts.paint", text="Paint", text_ctxt="Reeb Parts", icon="BRUSH_DATA")
 
 
-class REEB_PARTS_PT_field(ReebPanel, bpy.types.Panel):
-    bl_parent_id = "REEB_PARTS_PT_main"
+class SettingsPanel(SubPanel):
+    """For closed sub-panels that show settings of the scene, by name, one below the other."""
+
+    bl_options = {"DEFAULT_CLOSED"}
+    names: tuple[str, ...]
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
+        for name in self.names:
+            column.prop(settings, name)
+
+
+class REEB_PARTS_PT_field(SettingsPanel, bpy.types.Panel):
     bl_label = "Field"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
-        column.prop(settings, "base_spacing")
-        column.prop(settings, "equalize")
-        column.prop(settings, "n_slabs")
+    names = ("base_spacing", "equalize", "n_slabs")
 
 
-class REEB_PARTS_PT_graph(ReebPanel, bpy.types.Panel):
-    bl_parent_id = "REEB_PARTS_PT_main"
+class REEB_PARTS_PT_graph(SettingsPanel, bpy.types.Panel):
     bl_label = "Graph"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
-        column.prop(settings, "method")
-        column.prop(settings, "small_region")
-        column.prop(settings, "loose_part")
+    names = ("method", "small_region", "loose_part")
 
 
-class REEB_PARTS_PT_boundaries(ReebPanel, bpy.types.Panel):
-    bl_parent_id = "REEB_PARTS_PT_main"
+class REEB_PARTS_PT_boundaries(SettingsPanel, bpy.types.Panel):
     bl_label = "Boundaries"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = settings_column(self, context)
-        column.prop(settings, "follow_level_sets")
-        column.prop(settings, "band_ratio")
-        if settings.method == BERRETTI:
-            column.prop(settings, "concavity_weight")
-            column.prop(settings, "sigma")
-        column.prop(settings, "smoothing")
+        of_method = ("concavity_weight", "sigma") if settings.method == BERRETTI else ()
+        for name in ("follow_level_sets", "band_ratio", *of_method, "smoothing"):
+            column.prop(settings, name)
 
 
-class REEB_PARTS_PT_output(ReebPanel, bpy.types.Panel):
-    bl_parent_id = "REEB_PARTS_PT_main"
+class REEB_PARTS_PT_output(SettingsPanel, bpy.types.Panel):
     bl_label = "Output"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
-        for name in ("vertex_groups", "face_attribute", "colors", "palette"):
-            column.prop(settings, name)
-        for name in ("face_sets", "materials", "seams", "field"):
-            column.prop(settings, name)
+    names = ("vertex_groups", "face_attribute", "colors", "palette", "face_sets", "materials", "seams", "field")
 
 
-class REEB_PARTS_PT_overlay(ReebPanel, bpy.types.Panel):
-    bl_parent_id = "REEB_PARTS_PT_main"
+class REEB_PARTS_PT_overlay(SettingsPanel, bpy.types.Panel):
     bl_label = "Overlay"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = settings_column(self, context)
         column.prop(settings, "graph", text="Show graph")
         column = column.column()
         column.enabled = settings.graph
-        column.prop(settings, "node_size")
-        column.prop(settings, "line_thickness")
-        column.prop(settings, "in_front")
-        column = self.layout.column()
-        column.prop(settings, "highlight")
+        for name in ("node_size", "line_thickness", "in_front"):
+            column.prop(settings, name)
+        self.layout.column().prop(settings, "highlight")
 
 
 CLASSES = (

@@ -42,11 +42,3 @@ class ReebPartsPreferences(bpy.types.AddonPreferences, OutputProperties, Overlay
         for name in OVERLAY:
             column.prop(self, name)
         layout.operator("reeb_parts.use_preferences")
-
-
-def register() -> None:
-    bpy.utils.register_class(ReebPartsPreferences)
-
-
-def unregister() -> None:
-    bpy.utils.unregister_class(ReebPartsPreferences)

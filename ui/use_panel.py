@@ -8,11 +8,10 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
 from ..scene import piece_objects, store
-from .panel import ReebPanel, settings_column
+from .panel import SubPanel, settings_column
 
 
-class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
-    bl_parent_id = "REEB_PARTS_PT_main"
+class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
     bl_label = "Use Parts"
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -47,8 +46,7 @@ class REEB_PARTS_PT_use(ReebPanel, bpy.types.Panel):
         self.layout.operator("reeb_parts.armature", text="Make Armature", icon="ARMATURE_DATA")
 
 
-class REEB_PARTS_PT_piece(ReebPanel, bpy.types.Panel):
-    bl_parent_id = "REEB_PARTS_PT_main"
+class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
     bl_label = "Separated Part"
 
     @classmethod

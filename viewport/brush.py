@@ -79,9 +79,4 @@ class ReebDab(bpy.types.PropertyGroup):
     radius: bpy.props.FloatProperty(name="Radius", min=0.0, subtype="DISTANCE")
 
 
-def register() -> None:
-    bpy.utils.register_class(ReebDab)
-
-
-def unregister() -> None:
-    bpy.utils.unregister_class(ReebDab)
+register, unregister = bpy.utils.register_classes_factory((ReebDab,))

@@ -69,11 +69,12 @@ def test_switched_off_leaves_nothing_and_on_again_works(package, obj):
 
 
 def drawn_names():
-    """Every string in the code of the panels' draw functions."""
+    """Every string in the code of the panels' draw functions, and in the lists of names that these draw."""
     found = set()
     for name in dir(bpy.types):
         if name.startswith("REEB_PARTS_PT_"):
-            todo = list(getattr(bpy.types, name).draw.__code__.co_consts)
+            panel = getattr(bpy.types, name)
+            todo = [*panel.draw.__code__.co_consts, getattr(panel, "names", ())]
             while todo:
                 item = todo.pop()
                 if isinstance(item, tuple):
