@@ -21,6 +21,8 @@ import numpy as np
 from mathutils import Matrix, Vector
 from scipy.ndimage import zoom
 
+from ..scene import mesh_arrays
+
 #: Where the camera stands: in front (Blender's front is -Y), to the left and above.
 VIEW = (-0.62, -1.0, 0.48)
 BACKGROUND = (0.955, 0.957, 0.962)
@@ -202,10 +204,9 @@ def _add_floor(points: np.ndarray, extent: float, collection: bpy.types.Collecti
 
 def _points(obj: bpy.types.Object) -> np.ndarray:
     """Vertices of the object in the world, (n, 3)."""
-    points = np.empty(3 * len(obj.data.vertices), np.float32)
-    obj.data.vertices.foreach_get("co", points)
+    points = mesh_arrays.read(obj.data.vertices, "co", np.float32, 3)
     world = np.array(obj.matrix_world)
-    return points.reshape(-1, 3) @ world[:3, :3].T + world[:3, 3]
+    return points @ world[:3, :3].T + world[:3, 3]
 
 
 def _add_camera(scene: bpy.types.Scene, points: np.ndarray, view: Sequence[float], size: tuple[int, int],

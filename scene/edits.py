@@ -20,7 +20,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.result.decomposition import Decomposition
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
-from . import bridge, part_names, reactions, store
+from . import bridge, mesh_arrays, part_names, reactions, store
 from .errors import SceneError
 from .outputs import face_sets
 from .selection import selected_faces
@@ -173,8 +173,7 @@ def assign_face_sets(context: bpy.types.Context, obj: bpy.types.Object, stored: 
     sets = mesh.attributes.get(face_sets.NAME)
     if not mesh.reeb_parts.has_face_sets or sets is None:
         raise SceneError(rpt_("The parts are not face sets yet. Press Face Sets, then paint them in Sculpt Mode."))
-    painted = np.empty(len(mesh.polygons), np.int32)
-    sets.data.foreach_get("value", painted)
+    painted = mesh_arrays.read(sets.data, "value", np.int32)
     before = stored.face_numbers
     after = before.copy()
     new: list[int] = []

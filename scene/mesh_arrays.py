@@ -8,14 +8,24 @@ from __future__ import annotations
 
 import hashlib
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import DTypeLike
 
 from ..core.surface.corners import CornerTable, edge_labels
 
 _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
 _digested: list[tuple[tuple[np.ndarray, ...], str]] = []
+
+
+def read(items: Any, key: str, kind: DTypeLike, width: int = 1) -> np.ndarray:
+    """A property of all items of a collection of Blender's, (k,) or, of several values each, (k, width)."""
+    values = np.empty(width * len(items), kind)
+    if len(items):
+        items.foreach_get(key, values)
+    return values if width == 1 else values.reshape(-1, width)
 
 
 def forget() -> None:
@@ -60,8 +70,7 @@ def face_corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     result = mesh.reeb_parts
     key = (result.fingerprint, len(mesh.vertices), len(mesh.polygons), len(mesh.loops))
     if key not in _face_corners:
-        total = np.empty(len(mesh.polygons), np.int32)
-        mesh.polygons.foreach_get("loop_total", total)
+        total = read(mesh.polygons, "loop_total", np.int32)
         face = np.repeat(np.arange(len(total), dtype=np.int32), total)
         corners = _corners(mesh, ".corner_vert"), face
         if not result.fingerprint:
@@ -78,17 +87,12 @@ def corner_edges(mesh: bpy.types.Mesh) -> np.ndarray:
 
 def _corners(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
     """The vertex or the edge of each corner."""
-    corners = np.empty(len(mesh.loops), np.int32)
-    if len(corners):
-        mesh.attributes[name].data.foreach_get("value", corners)
-    return corners
+    return read(mesh.attributes[name].data if len(mesh.loops) else (), "value", np.int32)
 
 
 def edge_ends(mesh: bpy.types.Mesh) -> np.ndarray:
     """The vertices of each edge, (e, 2) int32; not in Edit Mode."""
-    ends = np.empty(2 * len(mesh.edges), np.int32)
-    mesh.edges.foreach_get("vertices", ends)
-    return ends.reshape(-1, 2)
+    return read(mesh.edges, "vertices", np.int32, 2)
 
 
 def corner_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> CornerTable:
@@ -110,20 +114,14 @@ def cut_edges(mesh: bpy.types.Mesh, numbers: np.ndarray) -> np.ndarray:
 
 def basis_points(mesh: bpy.types.Mesh) -> np.ndarray:
     """Positions without shape keys, (n, 3) float32; not in Edit Mode."""
-    points = np.empty(3 * len(mesh.vertices), np.float32)
-    if len(points):
-        mesh.attributes["position"].data.foreach_get("vector", points)
-    return points.reshape(-1, 3)
+    return read(mesh.attributes["position"].data if len(mesh.vertices) else (), "vector", np.float32, 3)
 
 
 def triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Blender's own triangulation, and the face of each triangle."""
     mesh.calc_loop_triangles()
-    vertices = np.empty(3 * len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("vertices", vertices)
-    polygon = np.empty(len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("polygon_index", polygon)
-    return vertices.reshape(-1, 3), polygon
+    items = mesh.loop_triangles
+    return read(items, "vertices", np.int32, 3), read(items, "polygon_index", np.int32)
 
 
 def shown_points(obj: bpy.types.Object) -> np.ndarray:
@@ -148,9 +146,7 @@ def shown_points(obj: bpy.types.Object) -> np.ndarray:
 
 
 def _key_points(key: bpy.types.ShapeKey) -> np.ndarray:
-    points = np.empty(3 * len(key.data), np.float32)
-    key.data.foreach_get("co", points)
-    return points.reshape(-1, 3)
+    return read(key.data, "co", np.float32, 3)
 
 
 def _weights(obj: bpy.types.Object, name: str) -> np.ndarray:

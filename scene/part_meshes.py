@@ -146,9 +146,7 @@ def _custom_normals(mesh: bpy.types.Mesh) -> np.ndarray | None:
     kept = mesh.attributes.get("custom_normal")
     if kept is not None and kept.data_type == "FLOAT_VECTOR":
         return None  # Blender 4.5 and later can keep them as they are
-    normals = np.empty(3 * len(mesh.loops), np.float32)
-    mesh.corner_normals.foreach_get("vector", normals)
-    return normals.reshape(-1, 3)
+    return mesh_arrays.read(mesh.corner_normals, "vector", np.float32, 3)
 
 
 def _set_normals(mesh: bpy.types.Mesh, normals: np.ndarray) -> None:

@@ -149,12 +149,10 @@ def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: Separa
 
 def _center(mesh: bpy.types.Mesh) -> Vector:
     """Move a mesh so that the middle of its surface is its origin; where that was."""
-    area = np.empty(len(mesh.polygons), np.float32)
-    center = np.empty(3 * len(mesh.polygons), np.float32)
-    mesh.polygons.foreach_get("area", area)
-    mesh.polygons.foreach_get("center", center)
+    area = mesh_arrays.read(mesh.polygons, "area", np.float32)
+    center = mesh_arrays.read(mesh.polygons, "center", np.float32, 3).astype(np.float64)
     weight = area if area.any() else np.ones_like(area)
-    middle = Vector(np.average(center.reshape(-1, 3).astype(np.float64), axis=0, weights=weight).tolist())
+    middle = Vector(np.average(center, axis=0, weights=weight).tolist())
     mesh.transform(Matrix.Translation(-middle), shape_keys=True)
     return middle
 

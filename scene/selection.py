@@ -14,9 +14,7 @@ from . import mesh_arrays
 
 def selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     """Whether each face is selected, (p,) bool; Object Mode."""
-    selected = np.empty(len(mesh.polygons), bool)
-    mesh.polygons.foreach_get("select", selected)
-    return selected
+    return mesh_arrays.read(mesh.polygons, "select", bool)
 
 
 def select_faces(mesh: bpy.types.Mesh, mask: np.ndarray, mode: str = "SET") -> None:

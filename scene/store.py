@@ -173,10 +173,9 @@ def _face_numbers(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
         candidates = old.decomposition.candidates
         return np.where(kept, old.shown, old.previous_number)[candidates], old.pinned[candidates]
     attribute = mesh.attributes.get(result.face_attribute)
-    faces = np.zeros(len(mesh.polygons), np.int32)
+    faces = np.zeros(len(mesh.polygons), np.int64)
     if attribute is not None and attribute.domain == "FACE" and len(attribute.data) == len(faces):
-        attribute.data.foreach_get("value", faces)
-    faces = faces.astype(np.int64)
+        faces = mesh_arrays.read(attribute.data, "value", np.int32).astype(np.int64)
     pinned = [part.number for part in result.parts if part.pinned]
     return faces, np.where(np.isin(faces, pinned), faces, 0)
 

@@ -62,9 +62,7 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, face_numbers: np.n
 def _seams(obj: bpy.types.Object, face_numbers: np.ndarray, open_parts: bool) -> np.ndarray:
     """The user's seams, the cuts between parts and, if asked for, what opens parts; (e,) bool."""
     mesh = obj.data
-    seams = np.empty(len(mesh.edges), bool)
-    mesh.edges.foreach_get("use_seam", seams)
-    seams |= mesh_arrays.cut_edges(mesh, face_numbers)
+    seams = mesh_arrays.read(mesh.edges, "use_seam", bool) | mesh_arrays.cut_edges(mesh, face_numbers)
     if open_parts:
         from ..core.uses.unfold import opening_seams  # imports SciPy
 
@@ -82,12 +80,10 @@ def _unwrapped(context: bpy.types.Context, obj: bpy.types.Object, seams: np.ndar
         context.scene.collection.objects.link(twin)
         with nothing_selected(context.view_layer):
             _unwrap_all(context, twin, method)
-        coordinates = np.empty(2 * len(copy.loops), np.float32)
-        copy.uv_layers.active.uv.foreach_get("vector", coordinates)
+        return mesh_arrays.read(copy.uv_layers.active.uv, "vector", np.float32, 2).ravel()
     finally:
         bpy.data.objects.remove(twin)
         bpy.data.meshes.remove(copy)
-    return coordinates
 
 
 def _unwrap_all(context: bpy.types.Context, twin: bpy.types.Object, method: str) -> None:

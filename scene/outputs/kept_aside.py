@@ -11,6 +11,8 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 
+from .. import mesh_arrays
+
 #: How the names of all attributes begin in which values of the user are kept aside.
 PREFIX = ".reeb_former"
 
@@ -40,8 +42,7 @@ def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:
 def keep_aside(mesh: bpy.types.Mesh, items: bpy.types.bpy_prop_collection, key: str, name: str, kind: str,
                domain: str) -> None:
     """Copy a value of each element into a hidden attribute."""
-    values = np.empty(len(items), bool if kind == "BOOLEAN" else np.int32)
-    items.foreach_get(key, values)
+    values = mesh_arrays.read(items, key, bool if kind == "BOOLEAN" else np.int32)
     remove_attribute(mesh, name)
     name = add_attribute(mesh, "", name, kind, domain)
     mesh.attributes[name].data.foreach_set("value", values)
@@ -50,7 +51,6 @@ def keep_aside(mesh: bpy.types.Mesh, items: bpy.types.bpy_prop_collection, key: 
 def bring_back(mesh: bpy.types.Mesh, items: Callable[[], bpy.types.bpy_prop_collection], key: str, name: str) -> None:
     """Copy a hidden attribute back to where it came from, and remove it."""
     attribute = mesh.attributes[name]
-    values = np.empty(len(attribute.data), bool if attribute.data_type == "BOOLEAN" else np.int32)
-    attribute.data.foreach_get("value", values)
+    values = mesh_arrays.read(attribute.data, "value", bool if attribute.data_type == "BOOLEAN" else np.int32)
     items().foreach_set(key, values)
     remove_attribute(mesh, name)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import bpy
-import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from .. import mesh_arrays
@@ -43,6 +42,5 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the seams up to date, if we have added some."""
     if not mesh.reeb_parts.has_seams:
         return
-    seams = np.empty(len(mesh.edges), bool)
-    mesh.attributes[_KEPT].data.foreach_get("value", seams)
+    seams = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", bool)
     mesh.edges.foreach_set("use_seam", seams | mesh_arrays.cut_edges(mesh, numbered.face_numbers))
