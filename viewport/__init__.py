@@ -3,16 +3,26 @@
 
 from __future__ import annotations
 
+import bpy
+
 from . import brush, follow_active, graph_overlay, highlight
 
-MODULES = (brush, follow_active, highlight, graph_overlay)
+_OVERLAYS = (highlight, graph_overlay)  # drawn in this order
+_handles: list[object] = []
 
 
 def register() -> None:
-    for module in MODULES:
-        module.register()
+    brush.register()
+    follow_active.register()
+    if not bpy.app.background:  # there is nothing to draw on
+        _handles.extend(bpy.types.SpaceView3D.draw_handler_add(overlay.draw, (), "WINDOW", "POST_VIEW")
+                        for overlay in _OVERLAYS)
 
 
 def unregister() -> None:
-    for module in reversed(MODULES):
-        module.unregister()
+    while _handles:
+        bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
+    for overlay in _OVERLAYS:
+        overlay.forget()
+    follow_active.unregister()
+    brush.unregister()

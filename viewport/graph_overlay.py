@@ -14,8 +14,8 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..scene import graph_objects, part_names, store
-from ..scene.errors import SceneError
 from .graph_lines import GraphLines
+from .lines import Lines
 
 SIZE = 6.0  # radius of a mark in pixels, of a screen without scaling
 RIM = 1.35  # of the dark rim, in radii
@@ -24,7 +24,6 @@ _DARK, _LIGHT = (0.05, 0.05, 0.05, 1.0), (0.9, 0.9, 0.9, 1.0)  # of the rim, aro
 
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722, 0.0])
 
-_handle = None
 _lines: dict[int, tuple] = {}  # of each graph, with what they were built of
 
 
@@ -41,17 +40,8 @@ SHAPES = {
 }
 
 
-def register() -> None:
-    global _handle
-    if not bpy.app.background:  # there is nothing to draw on
-        _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
-
-
-def unregister() -> None:
-    global _handle
-    if _handle is not None:
-        bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
-    _handle = None
+def forget() -> None:
+    """Free what is kept in memory."""
     _lines.clear()
 
 
@@ -86,7 +76,8 @@ def marks(places: np.ndarray, kinds: list[str], colors: np.ndarray, right: np.nd
     return tuple(np.ascontiguousarray(np.concatenate(rows), np.float32) for rows in (points, shades))
 
 
-def _draw() -> None:
+def draw() -> None:
+    """Draw all graphs in the viewport that Blender is drawing."""
     context = bpy.context
     if not context.space_data.overlay.show_overlays:
         return
@@ -120,28 +111,10 @@ def _draw_arcs(source: bpy.types.Object) -> None:
     result = source.data.reeb_parts
     key = (source.data.is_editmode, result.fingerprint, result.numbers, [part.color[:] for part in result.parts])
     if _lines.get(source.session_uid, (None,))[0] != key:
-        _lines[source.session_uid] = key, _arc_batch(source)
-    batch = _lines[source.session_uid][1]
-    if batch is None:
-        return
-    shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-    shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-    shader.uniform_float("lineWidth", WIDTH * bpy.context.preferences.system.ui_scale)
-    with gpu.matrix.push_pop():
-        gpu.matrix.multiply_matrix(source.matrix_world)
-        batch.draw(shader)
-
-
-def _arc_batch(source: bpy.types.Object) -> gpu.types.GPUBatch | None:
-    """The arcs for the card, None if there is nothing to draw."""
-    try:
-        points, colors = colored_arcs(source.data)
-    except SceneError:
-        return None
-    if not len(points):
-        return None
-    shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-    return batch_for_shader(shader, "LINES", {"pos": points, "color": colors})
+        _lines[source.session_uid] = key, Lines.of(colored_arcs, source.data)
+    lines = _lines[source.session_uid][1]
+    if lines is not None:
+        lines.draw(source.matrix_world, WIDTH * bpy.context.preferences.system.ui_scale)
 
 
 def colored_arcs(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:

@@ -9,35 +9,26 @@ from __future__ import annotations
 import bpy
 import gpu
 import numpy as np
-from gpu_extras.batch import batch_for_shader
 
 from ..scene import explode, mesh_arrays, store
-from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
+from .lines import Lines
 
 COLOR = (1.0, 1.0, 1.0, 0.9)
 WIDTH = 2.5
 
-_handle = None
 _built = None  # what the lines below were built of
 _lines = None
 
 
-def register() -> None:
-    global _handle
-    if not bpy.app.background:  # there is nothing to draw on
-        _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
+def forget() -> None:
+    """Free what is kept in memory."""
+    global _built, _lines
+    _built = _lines = None
 
 
-def unregister() -> None:
-    global _handle, _built, _lines
-    if _handle is not None:
-        bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
-    _handle = _built = _lines = None
-
-
-def outline(obj: bpy.types.Object, numbers: list[int]) -> np.ndarray:
-    """Where some parts border on others: ends of edges, (2e, 3) float32, in the object's coordinates.
+def outline(obj: bpy.types.Object, numbers: list[int]) -> tuple[np.ndarray]:
+    """Where some parts border on others: ends of edges, (2e, 3) float32, in the object's coordinates; in a tuple.
 
     Raises
     ------
@@ -48,10 +39,11 @@ def outline(obj: bpy.types.Object, numbers: list[int]) -> np.ndarray:
     stored = store.load(mesh)
     mine = np.isin(stored.face_numbers, numbers)
     edges = mesh_arrays.edge_ends(mesh)[mesh_arrays.cut_edges(mesh, mine.astype(np.int64))]
-    return mesh_arrays.shown_points(obj)[edges.ravel()]
+    return (mesh_arrays.shown_points(obj)[edges.ravel()],)
 
 
-def _draw() -> None:
+def draw() -> None:
+    """Draw the outline of the chosen parts in the viewport that Blender is drawing."""
     global _built, _lines
     context = bpy.context
     obj = context.object
@@ -65,27 +57,8 @@ def _draw() -> None:
     key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers))
     if key != _built:
         _built = key
-        _lines = _batch(obj, numbers)
-    if _lines is None:
-        return
-    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-    shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-    shader.uniform_float("lineWidth", WIDTH)
-    shader.uniform_float("color", COLOR)
-    gpu.state.blend_set("ALPHA")
-    with gpu.matrix.push_pop():
-        gpu.matrix.multiply_matrix(obj.matrix_world)
-        _lines.draw(shader)
-    gpu.state.blend_set("NONE")
-
-
-def _batch(obj: bpy.types.Object, numbers: list[int]) -> gpu.types.GPUBatch | None:
-    """Lines for the card, None if there are none."""
-    try:
-        points = outline(obj, numbers)
-    except SceneError:
-        return None
-    if not len(points):
-        return None
-    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-    return batch_for_shader(shader, "LINES", {"pos": points})
+        _lines = Lines.of(outline, obj, numbers)
+    if _lines is not None:
+        gpu.state.blend_set("ALPHA")
+        _lines.draw(obj.matrix_world, WIDTH, COLOR)
+        gpu.state.blend_set("NONE")

@@ -7,13 +7,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import bpy
-import gpu
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
-from gpu_extras.batch import batch_for_shader
 
+from ..scene import redraw
 from ..scene.errors import SceneError
 from . import pointing
+from .lines import Lines
 from .pointing import Target
 
 _CONFIRM = {"RET", "NUMPAD_ENTER"}
@@ -36,16 +36,8 @@ class Preview:
         bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
 
     def _draw(self) -> None:
-        if self.lines is None or not len(self.lines):
-            return
-        shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-        batch = batch_for_shader(shader, "LINES", {"pos": self.lines.reshape(-1, 3).astype("float32")})
-        shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-        shader.uniform_float("lineWidth", 3.0)
-        shader.uniform_float("color", self.color)
-        with gpu.matrix.push_pop():
-            gpu.matrix.multiply_matrix(self.matrix)
-            batch.draw(shader)
+        if self.lines is not None and len(self.lines):
+            Lines(self.lines.reshape(-1, 3).astype("float32")).draw(self.matrix, 3.0, self.color)
 
 
 class ViewTool:
@@ -133,7 +125,7 @@ class ViewTool:
     def _use(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> set[str]:
         if event.type in _MOVES:
             self.hover(context, target, event)
-            self._redraw(context)
+            redraw.viewports()
             return {"RUNNING_MODAL"}
         if event.type == "LEFTMOUSE" and event.value == "PRESS" and not event.alt:  # Alt turns the view
             if not self.aims:
@@ -141,7 +133,7 @@ class ViewTool:
             # Beside the model a click would deselect it.
             return (None if target is None else self.press(context, target, event)) or {"RUNNING_MODAL"}
         used = self.other(context, target, event)
-        self._redraw(context)
+        redraw.viewports()
         return {"RUNNING_MODAL"} if used else {"PASS_THROUGH"}
 
     def _target(self, context: bpy.types.Context,
@@ -167,17 +159,12 @@ class ViewTool:
         self._key = result_key(obj)
         self.begin(context, obj)
 
-    def _redraw(self, context: bpy.types.Context) -> None:
-        for area in context.window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
-
     def _end(self, context: bpy.types.Context) -> None:
         self.preview.remove()
         context.window.cursor_modal_restore()
         for workspace in bpy.data.workspaces:
             workspace.status_text_set(None)
-        self._redraw(context)
+        redraw.viewports()
 
 
 def result_key(obj: bpy.types.Object) -> tuple:

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lines that are drawn over the view."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+from mathutils import Matrix
+
+from ..scene.errors import SceneError
+
+
+class Lines:
+    """Lines, ready for the card.
+
+    Parameters
+    ----------
+    points : (2 k, 3) float32
+        Both ends of each line.
+    colors : (2 k, 4) float32, optional
+        Of the ends; without, all lines are drawn in one color.
+    """
+
+    def __init__(self, points: np.ndarray, colors: np.ndarray | None = None) -> None:
+        self.shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR" if colors is None else "POLYLINE_FLAT_COLOR")
+        content = {"pos": points} if colors is None else {"pos": points, "color": colors}
+        self.batch = batch_for_shader(self.shader, "LINES", content)
+
+    @classmethod
+    def of(cls, read: Callable[..., tuple[np.ndarray, ...]], *arguments: object) -> Lines | None:
+        """Of the arrays that a function reads; None if there are no lines, or the function raises SceneError."""
+        try:
+            arrays = read(*arguments)
+        except SceneError:
+            return None
+        return cls(*arrays) if len(arrays[0]) else None
+
+    def draw(self, matrix: Matrix, width: float, color: tuple[float, ...] | None = None) -> None:
+        """Draw what is in the coordinates that a matrix takes to the world. width : in pixels."""
+        self.shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+        self.shader.uniform_float("lineWidth", width)
+        if color is not None:
+            self.shader.uniform_float("color", color)
+        with gpu.matrix.push_pop():
+            gpu.matrix.multiply_matrix(matrix)
+            self.batch.draw(self.shader)
