@@ -22,6 +22,7 @@ from mathutils import Matrix, Vector
 from scipy.ndimage import zoom
 
 from ..scene import mesh_arrays
+from ..scene.temporary import freed, removed
 
 #: Where the camera stands: in front (Blender's front is -Y), to the left and above.
 VIEW = (-0.62, -1.0, 0.48)
@@ -139,14 +140,11 @@ def _add_graph(graph: bpy.types.Collection, extent: float, collection: bpy.types
     for source in graph.all_objects:
         if source.type == "EMPTY" and source.get("kind") in materials:
             ball = bpy.data.meshes.new("node")
-            bm = bmesh.new()
-            try:
+            with freed(bmesh.new()) as bm:
                 bmesh.ops.create_icosphere(bm, subdivisions=3, radius=0.0115 * extent)
                 for face in bm.faces:
                     face.smooth = True
                 bm.to_mesh(ball)
-            finally:
-                bm.free()
             ball.materials.append(materials[source["kind"]])
             _place(ball, "node", collection, made, Matrix.Translation(source.matrix_world.translation))
 
@@ -290,12 +288,10 @@ def _silence() -> Iterator[None]:
 def _read_png(path: str) -> np.ndarray:
     """Pixels of a PNG file, (height, width, 4), bottom row first."""
     image = bpy.data.images.load(path)
-    try:
+    with removed(bpy.data.images, image):
         pixels = np.empty(4 * image.size[0] * image.size[1], np.float32)
         image.pixels.foreach_get(pixels)
         return pixels.reshape(image.size[1], image.size[0], 4)
-    finally:
-        bpy.data.images.remove(image)
 
 
 def _over(layers: list[np.ndarray]) -> np.ndarray:
@@ -312,10 +308,8 @@ def _write_png(pixels: np.ndarray, path: str | Path) -> None:
     """Write (height, width, 4) pixels, bottom row first, as a PNG file."""
     height, width, _ = pixels.shape
     image = bpy.data.images.new("Reeb Parts picture", width, height)
-    try:
+    with removed(bpy.data.images, image):
         image.pixels.foreach_set(pixels.ravel())
         image.filepath_raw = str(path)
         image.file_format = "PNG"
         image.save()
-    finally:
-        bpy.data.images.remove(image)

@@ -17,6 +17,7 @@ from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
 from . import mesh_arrays, targets
 from .mesh_arrays import shown_points
+from .temporary import freed, removed
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,15 +52,10 @@ def read_shape(obj: bpy.types.Object) -> Shape:
     if obj.mode == "EDIT":
         # A copy as a mesh of its own can be read in bulk; the edit mesh itself cannot.
         copy = bpy.data.meshes.new("Reeb Parts")
-        try:
-            edit = bmesh.from_edit_mesh(mesh).copy()
-            try:
+        with removed(bpy.data.meshes, copy):
+            with freed(bmesh.from_edit_mesh(mesh).copy()) as edit:
                 edit.to_mesh(copy)
-            finally:
-                edit.free()
             points, (triangles, polygon) = mesh_arrays.basis_points(copy), mesh_arrays.triangles(copy)
-        finally:
-            bpy.data.meshes.remove(copy)
     else:
         points, (triangles, polygon) = shown_points(obj), mesh_arrays.triangles(mesh)
     stretch = world_stretch(obj)

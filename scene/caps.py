@@ -11,6 +11,8 @@ import numpy as np
 from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
 from mathutils.geometry import tessellate_polygon
 
+from .temporary import freed
+
 #: Face attribute: 1 on a cap.
 CAP = "reeb_cap"
 
@@ -44,8 +46,7 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, jo
     closed, left : int
         Holes that were filled; edges that were not, because there is no telling which faces go on there.
     """
-    bm = bmesh.new()
-    try:
+    with freed(bmesh.new()) as bm:
         bm.from_mesh(mesh, face_normals=False, vertex_normals=False)
         bm.edges.ensure_lookup_table()
         edges = [edge for i in np.flatnonzero(opened).tolist() if (edge := bm.edges[i]).is_boundary]
@@ -61,8 +62,6 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, jo
         for face in made:
             face[layer] = 1
         bm.to_mesh(mesh)
-    finally:
-        bm.free()
     return len(holes), left
 
 

@@ -16,6 +16,7 @@ from . import part_names, store
 from .errors import SceneError
 from .part_meshes import part_meshes
 from .selection import nothing_selected
+from .temporary import removed
 
 EXPORTERS = {
     "obj": lambda path: bpy.ops.wm.obj_export(filepath=path, export_selected_objects=True),
@@ -58,19 +59,15 @@ def export_parts(obj: bpy.types.Object, folder: Path, kind: str, numbers: Iterab
         raise SceneError(
             rpt_("Two parts have the same name; give them different ones to write them as files."))
     meshes, _ = part_meshes(obj.data, face_numbers, numbers, close)
-    try:
-        with nothing_selected(bpy.context.view_layer):
-            return [_export(obj, meshes[number], folder / f"{name}.{kind}", kind)
-                    for number, name in zip(numbers, names, strict=True)]
-    finally:
-        for mesh in meshes.values():
-            bpy.data.meshes.remove(mesh)
+    with removed(bpy.data.meshes, *meshes.values()), nothing_selected(bpy.context.view_layer):
+        return [_export(obj, meshes[number], folder / f"{name}.{kind}", kind)
+                for number, name in zip(numbers, names, strict=True)]
 
 
 def _export(obj: bpy.types.Object, mesh: bpy.types.Mesh, path: Path, kind: str) -> Path:
     """Write a mesh in the place of an object as a file, whole or not at all."""
     piece = bpy.data.objects.new(path.stem, mesh)
-    try:
+    with removed(bpy.data.objects, piece):
         bpy.context.scene.collection.objects.link(piece)
         piece.matrix_world = obj.matrix_world
         piece.select_set(True)
@@ -79,8 +76,6 @@ def _export(obj: bpy.types.Object, mesh: bpy.types.Mesh, path: Path, kind: str) 
             EXPORTERS[kind](str(Path(made) / path.name))
             for file in Path(made).iterdir():  # an .obj comes with an .mtl
                 os.replace(file, path.parent / file.name)
-    finally:
-        bpy.data.objects.remove(piece)
     return path
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from . import caps, mesh_arrays, outputs, store
 from .outputs import kept_aside
+from .temporary import freed, removed
 
 
 def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
@@ -22,15 +23,12 @@ def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
     copy = mesh.copy()
     result = copy.reeb_parts
     twin = bpy.data.objects.new(copy.name, copy)
-    try:
-        with store.quiet():
-            result.has_materials = False
-            for part in result.parts:
-                part.material = None
-            outputs.remove_outputs(twin)
-            copy.property_unset("reeb_parts")
-    finally:
-        bpy.data.objects.remove(twin)
+    with removed(bpy.data.objects, twin), store.quiet():
+        result.has_materials = False
+        for part in result.parts:
+            part.material = None
+        outputs.remove_outputs(twin)
+        copy.property_unset("reeb_parts")
     for key in [key for key in copy.keys() if key.startswith("reeb_parts")]:  # noqa: SIM118
         del copy[key]
     for name in [a.name for a in copy.attributes if a.name.startswith(kept_aside.PREFIX)]:
@@ -113,8 +111,7 @@ def _with_faces(mesh: bpy.types.Mesh, mask: np.ndarray, loose: bool) -> bpy.type
     mask : (p,) bool. loose : whether there are edges and vertices of no face, which are left out.
     """
     copy = mesh.copy()
-    bm = bmesh.new()
-    try:
+    with freed(bmesh.new()) as bm:
         bm.from_mesh(copy, face_normals=False, vertex_normals=False)
         bm.faces.ensure_lookup_table()
         bmesh.ops.delete(bm, geom=[bm.faces[i] for i in np.flatnonzero(~mask).tolist()], context="FACES")
@@ -122,8 +119,6 @@ def _with_faces(mesh: bpy.types.Mesh, mask: np.ndarray, loose: bool) -> bpy.type
             bmesh.ops.delete(bm, geom=[edge for edge in bm.edges if edge.is_wire], context="EDGES")
             bmesh.ops.delete(bm, geom=[v for v in bm.verts if not v.link_faces], context="VERTS")
         bm.to_mesh(copy)
-    finally:
-        bm.free()
     return copy
 
 

@@ -10,6 +10,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from . import mesh_arrays, part_meshes, store
 from .errors import SceneError
 from .selection import nothing_selected
+from .temporary import removed
 
 UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
@@ -75,15 +76,12 @@ def _unwrapped(context: bpy.types.Context, obj: bpy.types.Object, seams: np.ndar
     """The UV coordinates of each corner, flat float32; unwrapped on a copy, so that no selection is touched."""
     copy = part_meshes.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
-    try:
+    with removed(bpy.data.meshes, copy), removed(bpy.data.objects, twin):
         _prepare(twin, mesh_arrays.shown_points(obj) @ store.stretch_of(obj.data).T, seams)
         context.scene.collection.objects.link(twin)
         with nothing_selected(context.view_layer):
             _unwrap_all(context, twin, method)
         return mesh_arrays.read(copy.uv_layers.active.uv, "vector", np.float32, 2).ravel()
-    finally:
-        bpy.data.objects.remove(twin)
-        bpy.data.meshes.remove(copy)
 
 
 def _unwrap_all(context: bpy.types.Context, twin: bpy.types.Object, method: str) -> None:
