@@ -150,10 +150,7 @@ def run(options: argparse.Namespace) -> dict:
 
 def find_objects(options: argparse.Namespace) -> list:
     """Open what is asked for; the objects to decompose."""
-    if options.model is None:
-        meshes = []
-    else:
-        meshes = _open(options.model)
+    meshes = [] if options.model is None else _open(options.model)
     if options.object:
         missing = [name for name in options.object if name not in bpy.data.objects]
         if missing:

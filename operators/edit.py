@@ -26,7 +26,7 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
         active = part_list.active_number(obj.data)
         into = active if active in numbers else numbers[0]
         edits.merge(context, obj.data, stored, numbers, into)
-        part_list.unmark_all(obj.data)
+        part_list.mark(obj.data, "NONE")
         return rpt_("{n} parts are {name} now").format(n=len(numbers), name=part_names.part_name(obj.data, into))
 
 

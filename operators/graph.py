@@ -31,12 +31,9 @@ class REEB_PARTS_OT_from_nodes(ReportingOperator, bpy.types.Operator):
         found = part_of(context.view_layer.objects.active)
         assert found is not None  # poll
         source, number = found
-        chosen = {number: None}
-        for item in context.view_layer.objects.selected:
-            found = part_of(item)
-            if found and found[0] == source:
-                chosen[found[1]] = None
-        choose(source.data, list(chosen))
+        parts = [part_of(item) for item in context.view_layer.objects.selected]
+        others = [part[1] for part in parts if part and part[0] == source]
+        choose(source.data, list(dict.fromkeys([number, *others])))
         select_objects(context, [source], active=source)
 
 

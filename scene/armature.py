@@ -14,6 +14,7 @@ from ..core.result.numbering import NumberedParts
 from . import bridge, mesh_arrays, outputs, part_names, piece_objects, store, targets
 from .selection import nothing_selected
 from .store import Stored
+from .temporary import remove_object
 
 if TYPE_CHECKING:
     from ..core.uses.bones import Bones
@@ -99,10 +100,7 @@ def _remove_earlier(collection: bpy.types.Collection) -> None:
         if rig.get(ROLE) != "armature":
             continue
         if not rig.children and _looks(rig) == rig.get(MADE):
-            data = rig.data
-            bpy.data.objects.remove(rig)
-            if data.users == 0:
-                bpy.data.armatures.remove(data)
+            remove_object(rig, bpy.data.armatures)
         else:
             del rig[ROLE], rig[MADE]
 

@@ -97,11 +97,18 @@ def split_at_node(context: bpy.types.Context, mesh: bpy.types.Mesh, node: int) -
     number = int(stored.shown[stored.decomposition.node_candidate[node]])
     check_unlocked(mesh, [number])
     mask = stored.shown == number
-    side = node_split(stored.decomposition, mask, node)
-    area = stored.decomposition.candidate_area
-    if side is not None and area[side].sum() > area[mask & ~side].sum():
-        side = mask & ~side
+    side = smaller_side(node_split(stored.decomposition, mask, node), mask, stored.decomposition.candidate_area)
     return number, _split_off(context, mesh, stored, number, side)
+
+
+def smaller_side(side: np.ndarray | None, inside: np.ndarray, area: np.ndarray) -> np.ndarray | None:
+    """The smaller of the two sides that a part is cut into, or None if it is not cut.
+
+    side, inside : (k,) bool, one side and the whole part. area : (k,) float64, of each face or candidate.
+    """
+    if side is not None and area[side].sum() > area[inside & ~side].sum():
+        return inside & ~side
+    return side
 
 
 def _split_off(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int,

@@ -22,10 +22,8 @@ OURS = "reeb_parts_explode"  # on the node group
 
 def find(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
     """Our modifier on an object, or None."""
-    for modifier in obj.modifiers:
-        if modifier.type == "NODES" and modifier.node_group and OURS in modifier.node_group:
-            return modifier
-    return None
+    return next((modifier for modifier in obj.modifiers
+                 if modifier.type == "NODES" and modifier.node_group and OURS in modifier.node_group), None)
 
 
 def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -54,7 +52,7 @@ def _remove_modifier(obj: bpy.types.Object) -> None:
 
 def _ensure(obj: bpy.types.Object) -> None:
     """Put the modifier last, for the parts as they are now."""
-    if obj.type != "MESH" or not store.has_result(obj.data):
+    if not store.has_parts(obj):
         return
     name = _face_attribute(obj)
     modifier = find(obj)

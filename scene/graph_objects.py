@@ -7,7 +7,7 @@ carries them along. They are recognised by custom properties, never by name.
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Iterator
 from typing import Any
 
 import bpy
@@ -17,6 +17,7 @@ from ..core.graph.reeb import ReebGraph
 from ..core.result.numbering import NumberedParts
 from . import bridge, part_names, store
 from .outputs.colors import linear
+from .temporary import remove_object
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 ROLE = "reeb_parts_role"  # on our objects: "node" or "arcs"
@@ -26,17 +27,18 @@ _DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
 
 def find(obj: bpy.types.Object) -> bpy.types.Collection | None:
     """The graph's collection of an object, or None."""
-    for collection in bpy.data.collections:
-        if collection.get(SOURCE) == obj:
-            return collection
-    return None
+    return next((collection for collection in bpy.data.collections if collection.get(SOURCE) == obj), None)
 
 
 def arcs(obj: bpy.types.Object) -> bpy.types.Object | None:
     """The curve with the arcs of an object's graph, or None."""
+    return next(_items(obj, "arcs"), None)
+
+
+def _items(obj: bpy.types.Object, role: str) -> Iterator[bpy.types.Object]:
+    """The objects of an object's graph that have a role, "node" or "arcs"; none if there is no graph."""
     collection = find(obj)
-    items = collection.objects if collection else ()
-    return next((item for item in items if item.get(ROLE) == "arcs"), None)
+    return (item for item in (collection.objects if collection else ()) if item.get(ROLE) == role)
 
 
 def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> bool:
@@ -114,15 +116,11 @@ def _curve(graph: ReebGraph, points: np.ndarray, radii: np.ndarray, nodes: np.nd
 
 def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     """Tell the nodes which part they are in now."""
-    collection = find(obj)
-    if collection is None:
-        return
     numbers = numbered.numbers[numbered.parts.node_part].tolist()
     colors = part_names.number_colors(obj.data)
-    for item in collection.objects:
-        if item.get(ROLE) == "node":
-            item["part"] = numbers[item["node"]]
-            item.color = (*linear(colors[item["part"], :3].tolist()), 1.0)
+    for node in _items(obj, "node"):
+        node["part"] = numbers[node["node"]]
+        node.color = (*linear(colors[node["part"], :3].tolist()), 1.0)
 
 
 def restyle(obj: bpy.types.Object | None, style: Any) -> None:
@@ -148,10 +146,7 @@ def remove(obj: bpy.types.Object) -> None:
             continue
         for item in list(collection.objects):
             if ROLE in item:
-                data = item.data
-                bpy.data.objects.remove(item)
-                if data is not None and data.users == 0:
-                    bpy.data.curves.remove(data)
+                remove_object(item, bpy.data.curves)
         if len(collection.all_objects) or len(collection.children):
             del collection[SOURCE]  # the user put something in it: it is the user's now
         else:
@@ -160,24 +155,19 @@ def remove(obj: bpy.types.Object) -> None:
 
 def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | None:
     """The decomposed object and the part's number that an object of a graph stands for, or None."""
-    if item is None or item.get(ROLE) != "node" or item.parent is None:
+    if item is None or item.get(ROLE) != "node" or not store.has_parts(item.parent):
         return None
-    source = item.parent
-    if source.type != "MESH" or not store.has_result(source.data):
-        return None
-    return source, item["part"]
+    return item.parent, item["part"]
 
 
 def source_of_arcs(item: bpy.types.Object | None) -> bpy.types.Object | None:
     """The decomposed object that a curve of arcs stands for, or None."""
-    if item is None or item.get(ROLE) != "arcs" or item.parent is None or item.parent.type != "MESH":
+    if item is None or item.get(ROLE) != "arcs" or not store.has_parts(item.parent):
         return None
-    return item.parent if store.has_result(item.parent.data) else None
+    return item.parent
 
 
 def select_nodes(obj: bpy.types.Object, numbers: Container[int]) -> None:
     """Select the nodes of some parts, and no other node."""
-    collection = find(obj)
-    for item in collection.objects if collection else ():
-        if item.get(ROLE) == "node":
-            item.select_set(item["part"] in numbers)
+    for node in _items(obj, "node"):
+        node.select_set(node["part"] in numbers)

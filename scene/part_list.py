@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
+
 import bmesh
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -13,7 +15,7 @@ from .errors import SceneError
 
 def check_parts(obj: bpy.types.Object | None) -> None:
     """Raise SceneError unless the parts of an object can be worked on."""
-    if obj is None or obj.type != "MESH" or not store.has_result(obj.data):
+    if not store.has_parts(obj):
         raise SceneError(rpt_("Decompose the mesh first"))
     targets.check_object(obj)
 
@@ -68,7 +70,7 @@ def toggle(mesh: bpy.types.Mesh, number: int) -> None:
                 result.active = index
 
 
-def mark(mesh: bpy.types.Mesh, action: str, with_faces: set[int]) -> None:
+def mark(mesh: bpy.types.Mesh, action: str, with_faces: Container[int] = ()) -> None:
     """Change the marks of all parts.
 
     Parameters
@@ -76,7 +78,7 @@ def mark(mesh: bpy.types.Mesh, action: str, with_faces: set[int]) -> None:
     mesh : bpy.types.Mesh
     action : str
         "ALL", "NONE", "INVERT", "SMALL" (parts smaller than the active one) or "FACES".
-    with_faces : set of int
+    with_faces : container of int
         Numbers of the parts that "FACES" marks.
     """
     result = mesh.reeb_parts
@@ -88,20 +90,12 @@ def mark(mesh: bpy.types.Mesh, action: str, with_faces: set[int]) -> None:
         }[action]
 
 
-def unmark_all(mesh: bpy.types.Mesh) -> None:
-    """Take every mark away."""
-    with store.quiet():
-        for part in mesh.reeb_parts.parts:
-            part.selected = False
-
-
 def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The user has clicked a part in the list: only it is chosen, and in Edit Mode its faces are selected."""
     mesh = result.id_data
     if store.is_quiet() or result.active >= len(result.parts):
         return
-    for part in result.parts:
-        part.selected = False
+    mark(mesh, "NONE")
     if mesh.is_editmode:
         _select_in_edit_mode(mesh, active_number(mesh))
 

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 
 from . import caps, mesh_arrays, outputs, store
-from .outputs import kept_aside
+from .outputs import kept_aside, materials
 from .temporary import freed, removed
 
 
@@ -74,7 +74,8 @@ def part_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable
             left_open += caps.close_cuts(piece, cut[np.unique(edge[corner])], meeting[mine], here)[1]
         if normals is not None:
             _set_normals(piece, normals[corner])
-        _drop_materials(piece, [p.material for p in mesh.reeb_parts.parts if p.number != number])
+        others = [part for part in mesh.reeb_parts.parts if part.number != number]
+        materials.drop_slots(piece, [part.material for part in others if part.material is not None])
         made[number] = piece
     bpy.data.meshes.remove(plain)
     return made, left_open
@@ -149,11 +150,3 @@ def _set_normals(mesh: bpy.types.Mesh, normals: np.ndarray) -> None:
     every = np.zeros((len(mesh.loops), 3), np.float32)
     every[: len(normals)] = normals
     mesh.normals_split_custom_set(every)
-
-
-def _drop_materials(mesh: bpy.types.Mesh, others: Iterable[bpy.types.Material | None]) -> None:
-    """Remove the slots of other parts' materials."""
-    others = [material for material in others if material is not None]
-    for index in reversed(range(len(mesh.materials))):
-        if mesh.materials[index] in others:
-            mesh.materials.pop(index=index)

@@ -16,6 +16,7 @@ from .outputs.colors import linear
 from .part_meshes import part_meshes
 from .settings import SeparateProperties
 from .store import Stored
+from .temporary import remove_object
 
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: name of the object that the pieces come from
 NUMBER = "reeb_parts_number"  # on a piece: of its part
@@ -104,10 +105,7 @@ def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
         if piece[NUMBER] not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
             continue
         if piece.mode == "OBJECT" and not piece.children and _looks(piece) == piece[MADE]:
-            mesh = piece.data
-            bpy.data.objects.remove(piece)
-            if mesh.users == 0:
-                bpy.data.meshes.remove(mesh)
+            remove_object(piece, bpy.data.meshes)
             continue
         del piece[NUMBER], piece[MADE]
         kept += 1

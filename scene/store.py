@@ -93,6 +93,11 @@ def has_result(mesh: bpy.types.Mesh) -> bool:
     return mesh.is_property_set("reeb_parts") and bool(mesh.reeb_parts.data)
 
 
+def has_parts(obj: bpy.types.Object | None) -> bool:
+    """Whether an object is a mesh that a decomposition is stored with; None is not."""
+    return obj is not None and obj.type == "MESH" and has_result(obj.data)
+
+
 def is_edited(mesh: bpy.types.Mesh) -> bool:
     """Whether the mesh was edited since: only the quick checks, for the panel."""
     result = mesh.reeb_parts

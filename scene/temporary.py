@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Data of Blender's that is there for a while only, and gone whatever happens meanwhile."""
+"""Remove what was made: data that is there for a while only, whatever happens meanwhile, and whole objects."""
 
 from __future__ import annotations
 
@@ -27,3 +27,11 @@ def freed(bm: bmesh.types.BMesh) -> Iterator[bmesh.types.BMesh]:
         yield bm
     finally:
         bm.free()
+
+
+def remove_object(obj: bpy.types.Object, collection: bpy.types.bpy_prop_collection) -> None:
+    """Remove an object, and its data from the collection of ``bpy.data`` that they are in unless others use them."""
+    data = obj.data
+    bpy.data.objects.remove(obj)
+    if data is not None and data.users == 0:
+        collection.remove(data)

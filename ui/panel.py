@@ -15,10 +15,7 @@ from ..scene import graph_objects, jobs, notes, part_names, store
 
 def _result(context: bpy.types.Context) -> bpy.types.PropertyGroup | None:
     """The stored result of the active mesh, or None."""
-    obj = context.object
-    if obj is None or obj.type != "MESH" or not store.has_result(obj.data):
-        return None
-    return obj.data.reeb_parts
+    return context.object.data.reeb_parts if store.has_parts(context.object) else None
 
 
 class ReebPanel:
@@ -38,9 +35,14 @@ class SubPanel(ReebPanel):
 def settings_column(panel: bpy.types.Panel, context: bpy.types.Context
                     ) -> tuple[bpy.types.UILayout, bpy.types.PropertyGroup]:
     """A column for properties with their names before them, and the settings of the scene."""
-    panel.layout.use_property_split = True
-    panel.layout.use_property_decorate = False
-    return panel.layout.column(), context.scene.reeb_parts
+    return _names_before(panel.layout).column(), context.scene.reeb_parts
+
+
+def _names_before(layout: bpy.types.UILayout) -> bpy.types.UILayout:
+    """The same layout, in which the names of properties stand before them."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    return layout
 
 
 class REEB_PARTS_UL_parts(bpy.types.UIList):
@@ -89,9 +91,7 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
             layout.operator("reeb_parts.from_nodes")
             layout.operator("reeb_parts.split_at_node", icon="MOD_EDGESPLIT")
         elif result is None:
-            layout.use_property_split = True
-            layout.use_property_decorate = False
-            column = layout.column(align=True)
+            column = _names_before(layout).column(align=True)
             column.prop(settings, "detail", slider=True)
             column.prop(settings, "n_parts")
         else:
@@ -120,10 +120,8 @@ def _draw_result(layout: bpy.types.UILayout, mesh: bpy.types.Mesh, result: bpy.t
     for note in notes.spoken(result):
         for index, line in enumerate(textwrap.wrap(note, width)):
             column.label(text=line, icon="BLANK1" if index else "INFO")
-    column = layout.column(align=True)
+    column = _names_before(layout.column(align=True))
     column.enabled = not edited
-    column.use_property_split = True
-    column.use_property_decorate = False
     column.prop(result, "detail", slider=True)
     column.prop(result, "n_parts", text="Parts")
     layout.operator("reeb_parts.clear", icon="TRASH")

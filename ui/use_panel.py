@@ -17,8 +17,7 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        obj = context.object
-        return obj is not None and obj.type == "MESH" and store.has_result(obj.data)
+        return store.has_parts(context.object)
 
     def draw(self, context: bpy.types.Context) -> None:
         column, _ = settings_column(self, context)

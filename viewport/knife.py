@@ -58,14 +58,11 @@ class Knife:
         found, chosen = self.contour(target)
         if chosen < 0:
             return None
-        area = face_graph.area
         inside = self.model.numbers == self.model.number(target)
         crossed = np.zeros(len(inside), bool)
         crossed[found.face[found.label == chosen]] = True
         side = contour_sides(face_graph, inside, self.model.face_value >= target.level, crossed)
-        if side is not None and area[side].sum() > area[inside & ~side].sum():
-            side = inside & ~side
-        return side
+        return edits.smaller_side(side, inside, face_graph.area)
 
 
 def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, target: Target) -> str:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
+
 import bpy
 import numpy as np
 
@@ -41,9 +43,7 @@ def remove_one(mesh: bpy.types.Mesh, material: bpy.types.Material | None) -> Non
     """Remove the material that was made for a part, with its slot; None is none."""
     if material is None:
         return
-    for index in reversed(range(len(mesh.materials))):
-        if mesh.materials[index] == material:
-            mesh.materials.pop(index=index)
+    drop_slots(mesh, [material])
     if not len(mesh.materials):
         mesh.materials.clear()  # popping the last one leaves an empty slot on the objects
     for part in mesh.reeb_parts.parts:
@@ -51,6 +51,13 @@ def remove_one(mesh: bpy.types.Mesh, material: bpy.types.Material | None) -> Non
             part.material = None
     if material.users == 0:
         bpy.data.materials.remove(material)
+
+
+def drop_slots(mesh: bpy.types.Mesh, gone: Container[bpy.types.Material]) -> None:
+    """Remove the slots of some materials."""
+    for index in reversed(range(len(mesh.materials))):
+        if mesh.materials[index] in gone:
+            mesh.materials.pop(index=index)
 
 
 def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
