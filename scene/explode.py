@@ -55,9 +55,7 @@ def _ensure(obj: bpy.types.Object) -> None:
     if not store.has_parts(obj):
         return
     name = _face_attribute(obj)
-    modifier = find(obj)
-    if modifier is None:
-        modifier = obj.modifiers.new(NAME, "NODES")
+    modifier = find(obj) or obj.modifiers.new(NAME, "NODES")
     group = modifier.node_group
     if group is None or group[OURS] != obj.name:
         # A copy of the object comes with the group of the original, which listens to the original.
