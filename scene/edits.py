@@ -183,13 +183,10 @@ def assign_face_sets(context: bpy.types.Context, obj: bpy.types.Object, stored: 
     painted = mesh_arrays.read(sets.data, "value", np.int32)
     before = stored.face_numbers
     after = before.copy()
-    new: list[int] = []
+    taken: list[int] = []
     for value in np.unique(painted).tolist():
-        number = value
-        if value not in before:
-            number = free_number(mesh, stored, new)
-            new.append(number)
-        after[painted == value] = number
+        taken.append(value if value in before else free_number(mesh, stored, taken))
+        after[painted == value] = taken[-1]
     changed = after != before
     check_unlocked(mesh, {*after[changed].tolist(), *before[changed].tolist()})
     assign_faces(context, obj, stored, after)

@@ -47,9 +47,9 @@ def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
         part_names.keep_name(mesh, part.number, part.name)
 
 
-def show_graph(obj: bpy.types.Object, shown: bool, context: bpy.types.Context) -> None:
-    """Hide the graph of an object, or show it; it is drawn if there is none yet."""
-    if store.is_quiet() or not store.has_result(obj.data):
+def show_graph(obj: bpy.types.Object | None, shown: bool, context: bpy.types.Context) -> None:
+    """Hide the graph of an object that has parts, or show it; it is drawn if there is none yet."""
+    if obj is None or store.is_quiet() or not store.has_parts(obj):
         return
     if graph_objects.set_hidden(context, obj, not shown) or not shown:
         return
@@ -62,10 +62,11 @@ def show_graph(obj: bpy.types.Object, shown: bool, context: bpy.types.Context) -
     _with_result(obj.data, context, draw)
 
 
-def use_palette(mesh: bpy.types.Mesh, palette: str, context: bpy.types.Context) -> None:
-    """Colour the parts of a mesh from another palette."""
-    if store.is_quiet() or not store.has_result(mesh) or mesh.reeb_parts.palette == palette:
+def use_palette(obj: bpy.types.Object | None, palette: str, context: bpy.types.Context) -> None:
+    """Colour the parts of an object, if it has any, from another palette."""
+    if obj is None or store.is_quiet() or not store.has_parts(obj) or obj.data.reeb_parts.palette == palette:
         return
+    mesh = obj.data
 
     def recolor_all(stored: Stored) -> None:
         mesh.reeb_parts.palette = palette

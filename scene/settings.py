@@ -205,13 +205,11 @@ def _use_preset(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> No
 
 
 def _repaint(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    if context.object is not None and context.object.type == "MESH":
-        reactions.use_palette(context.object.data, self.palette, context)
+    reactions.use_palette(context.object, self.palette, context)
 
 
 def _show_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    if context.object is not None and context.object.type == "MESH":
-        reactions.show_graph(context.object, self.graph, context)
+    reactions.show_graph(context.object, self.graph, context)
 
 
 def _set_by_former_name(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
