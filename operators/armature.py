@@ -5,8 +5,8 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import armature
+from ..scene.reporting import PartOperator
 from ..scene.store import Stored
-from .base import PartOperator
 
 
 class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):

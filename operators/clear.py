@@ -7,8 +7,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..scene import graph_objects, results, store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
+from ..scene.reporting import ReportingOperator
 from ..viewport import shading
-from .base import ReportingOperator
 
 
 class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):

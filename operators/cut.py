@@ -5,12 +5,12 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
+from ..scene.reporting import PartOperator
 from ..scene.store import Stored
 from ..viewport import pointing
 from ..viewport.knife import Knife, cut_at
 from ..viewport.pointing import Target
 from ..viewport.view_tool import ViewTool
-from .base import PartOperator
 
 
 class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):

@@ -10,6 +10,7 @@ from ..scene.bridge import Shape
 from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
+from ..scene.reporting import ReportingOperator
 from ..scene.results import check_unchanged, write_result
 from ..scene.settings import (
     OUTPUTS,
@@ -22,7 +23,6 @@ from ..scene.settings import (
     take_over_former_names,
 )
 from ..viewport import shading
-from .base import ReportingOperator
 
 
 class REEB_PARTS_OT_decompose(

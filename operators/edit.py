@@ -9,8 +9,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..scene import edits, part_list, part_names, store
 from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
+from ..scene.reporting import PartOperator
 from ..scene.store import Stored
-from .base import PartOperator
 
 
 class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):

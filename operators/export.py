@@ -12,8 +12,8 @@ from ..scene.export import export_parts
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import wanted_numbers
+from ..scene.reporting import ReportingOperator
 from ..scene.settings import WhichProperties
-from .base import ReportingOperator
 
 
 class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichProperties):

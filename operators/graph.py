@@ -9,9 +9,9 @@ from ..scene import edits, graph_objects, part_names
 from ..scene.errors import SceneError
 from ..scene.graph_objects import part_of, source_of_arcs
 from ..scene.part_list import check_parts, choose, chosen_numbers
+from ..scene.reporting import ReportingOperator
 from ..scene.selection import select_objects
 from ..viewport import pointing
-from .base import ReportingOperator
 
 
 class REEB_PARTS_OT_from_nodes(ReportingOperator, bpy.types.Operator):

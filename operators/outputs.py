@@ -9,8 +9,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import outputs, store, targets
 from ..scene.outputs import face_sets, materials, seams
+from ..scene.reporting import PartOperator
 from ..scene.store import Stored
-from .base import PartOperator
 
 
 class OutputOperator(PartOperator):

@@ -7,12 +7,12 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
 from ..scene.part_list import active_number
+from ..scene.reporting import PartOperator
 from ..scene.store import Stored
 from ..viewport import pointing
 from ..viewport.brush import START_SIZE, Brush, ReebDab, paint
 from ..viewport.colored_tool import ColoredTool
 from ..viewport.pointing import Target
-from .base import PartOperator
 
 
 class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):

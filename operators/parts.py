@@ -9,8 +9,8 @@ from ..scene import part_list, selection, store
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.part_list import chosen_numbers
+from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.store import Stored
-from .base import PartOperator, ReportingOperator
 
 
 class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):

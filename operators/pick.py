@@ -7,11 +7,11 @@ from mathutils import Vector
 
 from ..scene import part_names, redraw
 from ..scene.part_list import choose, toggle
+from ..scene.reporting import PartOperator
 from ..scene.store import Stored
 from ..viewport import pointing
 from ..viewport.pointing import Target
 from ..viewport.view_tool import ViewTool
-from .base import PartOperator
 
 
 class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):

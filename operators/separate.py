@@ -9,10 +9,10 @@ from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import wanted_numbers
+from ..scene.reporting import ReportingOperator
 from ..scene.selection import select_objects
 from ..scene.settings import SeparateProperties
 from ..viewport import shading
-from .base import ReportingOperator
 
 
 class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProperties):

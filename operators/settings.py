@@ -5,8 +5,8 @@ import bpy
 
 from ..core.parameters import PRESETS
 from ..scene import defaults
+from ..scene.reporting import ReportingOperator
 from ..scene.settings import OUTPUTS, OVERLAY
-from .base import ReportingOperator
 
 
 class SceneOperator(ReportingOperator):

@@ -8,12 +8,12 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..scene import edits
 from ..scene.errors import SceneError
 from ..scene.part_list import active_number
+from ..scene.reporting import PartOperator
 from ..scene.store import Stored
 from ..viewport.boundary import Boundary
 from ..viewport.colored_tool import ColoredTool
 from ..viewport.pointing import Target
 from ..viewport.view_tool import turns_view
-from .base import PartOperator
 
 
 class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):

@@ -3,15 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
-
 import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import redraw
 from ..scene.errors import SceneError
+from ..scene.reporting import ReportingOperator
 from . import pointing
 from .lines import Lines
 from .pointing import Target
@@ -40,7 +38,7 @@ class Preview:
             Lines(self.lines.reshape(-1, 3).astype("float32")).draw(self.matrix, 3.0, self.color)
 
 
-class ViewTool:
+class ViewTool(ReportingOperator):
     """For operators that look at what is under the pointer; the active object is the model.
 
     A class that inherits gives ``hint()`` and any of ``hover``, ``press``, ``other`` and ``confirm``. Events
@@ -50,12 +48,6 @@ class ViewTool:
     cursor = "EYEDROPPER"
     aims = True  # at places of the model; a tool that does not is confirmed by a click
     uses_graph = True  # or only the surface
-
-    if TYPE_CHECKING:  # of operators.base.ReportingOperator, which the class that inherits is, too
-
-        def report(self, kind: set[str], message: str) -> None: ...
-
-        def attempt(self, work: Callable[..., set[str] | None], *arguments: object) -> set[str]: ...
 
     def hint(self) -> str:
         """What the status bar says."""

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.errors import ReebError
-from ..scene import store
-from ..scene.errors import SceneError, translated
-from ..scene.modes import object_mode
-from ..scene.part_list import check_parts
-from ..scene.store import Stored
+from . import store
+from .errors import SceneError, translated
+from .modes import object_mode
+from .part_list import check_parts
+from .store import Stored
 
 
 class ReportingOperator:
