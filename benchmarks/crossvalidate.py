@@ -25,7 +25,7 @@ import numpy as np
 from people import Subject
 from train import N_MODELS, add_variants, by_category, fit_many, folds_of, learn, read_subjects
 
-from core.cuts.perceptual.boosted_trees import BoostedTrees
+from core.cuts.boosted_trees import BoostedTrees
 from core.metrics import rand_index_error
 from core.pipeline import decompose
 

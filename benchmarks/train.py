@@ -26,7 +26,7 @@ import lightgbm
 import numpy as np
 from people import Run, Subject, category_of, merge_and_record, mesh_numbers, prepare, varied
 
-from core.cuts.perceptual.boosted_trees import BoostedTrees
+from core.cuts.boosted_trees import BoostedTrees
 from core.cuts.perceptual.features import FEATURES
 
 N_TREES = 250

@@ -14,6 +14,8 @@ from .sentence import Sentence
 
 PERCEPTUAL, BERRETTI = "perceptual", "berretti"
 METHODS = (PERCEPTUAL, BERRETTI)
+TOGETHER, SEPARATE = "together", "separate"
+PIECES = (TOGETHER, SEPARATE)
 
 
 #: Names of parameters in version 0.1.0, and the names of today. The alpha of version 0.1.0 was the weight of concavity
@@ -92,6 +94,10 @@ class Parameters:
     method: str = field(default=PERCEPTUAL, metadata={
         "choices": METHODS, "label": "Method",
         "description": "How cuts are chosen: as people would, or by the paper's rules"})
+    pieces: str = field(default=TOGETHER, metadata={
+        "choices": PIECES, "label": "Pieces",
+        "description": "Whether pieces that touch without being joined form parts together, like a sleeve and an arm, "
+                       "or each piece is decomposed on its own"})
     detail: float = _number(
         0.5, 0.0, 1.0, "Detail",
         "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate")

@@ -4,23 +4,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .cuts.boosted_trees import BoostedTrees
+from .cuts.hierarchy import Candidates
+from .cuts.joining.method import fine_parts, join_parts
 from .cuts.methods import find_candidates
-from .cuts.perceptual.boosted_trees import BoostedTrees
 from .field.agd import protrusion_field
 from .graph.level_sets import cut_at_levels, uniform_levels
 from .graph.reeb import reeb_graph, reeb_topology
 from .graph.simplify import without_ripples
-from .parameters import Parameters
+from .parameters import TOGETHER, Parameters
 from .progress import Progress, Stopwatch
 from .result.assemble import ComponentResult, assemble
 from .result.decomposition import Decomposition
 from .surface.coarsening import Pyramid
 from .surface.polygons import PolygonMesh
-from .surface.preparation import Component, WorkingMesh, components_worth_cutting, repair
+from .surface.preparation import Component, bodies, repair
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -37,6 +40,7 @@ def decompose(
     polygon: ArrayLike | None = None,
     progress: Progress | None = None,
     model: BoostedTrees | None = None,
+    join_model: BoostedTrees | None = None,
 ) -> Decomposition:
     """Cut a mesh into parts.
 
@@ -56,6 +60,8 @@ def decompose(
         raises ends the run; it raises ``Cancelled`` to cancel.
     model : BoostedTrees, optional
         Model that judges cuts in the method "perceptual". Without it, the model that ships with the package.
+    join_model : BoostedTrees, optional
+        Model that judges which parts of different pieces belong together. Without it, the one that ships.
 
     Returns
     -------
@@ -82,34 +88,77 @@ def decompose(
     with watch.stage("mesh", MESH_SHARE):
         given = PolygonMesh.of(vertices, faces, polygon)
         working = repair(given)
-        chosen = components_worth_cutting(working, parameters.loose_part)
+        chosen = bodies(working, parameters.pieces == TOGETHER, parameters.loose_part)
     results = []
-    for done, label in enumerate(chosen):
+    for done, component in enumerate(chosen):
         width = (PARTS_SHARE - MESH_SHARE) / len(chosen)
         begin = MESH_SHARE + done * width
         watch.share = begin
-        results.append(_decompose_component(working, label, parameters, model, watch, begin, width))
+        found = decompose_component(component, parameters, watch, begin, width, model)
+        results.append(join_pieces(found, join_model))
     with watch.stage("parts", 1.0):
         result = assemble(given, working, results, parameters, watch.seconds)
     watch.progress("done", 1.0)
     return result
 
 
-def _decompose_component(
-    working: WorkingMesh, label: int, parameters: Parameters, model: BoostedTrees | None,
-    watch: Stopwatch, begin: float, width: float,
+def decompose_component(
+    component: Component, parameters: Parameters, watch: Stopwatch, begin: float = 0.0, width: float = 1.0,
+    model: BoostedTrees | None = None,
 ) -> ComponentResult:
-    """Result of all stages on one component, which take a share ``width`` of the run's time from share ``begin`` on."""
-    with watch.stage("mesh", begin + 0.05 * width):
-        component = Component.of(working, label)
-        pyramid = Pyramid(component.mesh)
+    """All stages on one body, up to the candidates of its pieces, each piece with a hierarchy of its own.
+
+    Parameters
+    ----------
+    component : Component
+    parameters : Parameters
+    watch : Stopwatch
+    begin, width : float
+        Shares of the time of the run at which the stages begin, and that they take.
+    model : BoostedTrees, optional
+        See ``decompose``.
+
+    Returns
+    -------
+    result : ComponentResult
+        Without contacts.
+
+    Raises
+    ------
+    DisconnectedMeshError
+        The pieces of the component do not hang together by its bridges.
+    """
+    pyramid = Pyramid(component.mesh, component.bridges.vertices)
     with watch.stage("distances", begin + 0.4 * width) as progress:
         field = protrusion_field(pyramid, parameters.base_spacing, parameters.equalize, progress)
     with watch.stage("reeb graph", begin + 0.5 * width):
         levels = uniform_levels(parameters.n_slabs) if field.values.any() else np.empty(0)
-        sets = cut_at_levels(component.mesh, field.values, levels)
+        sets = cut_at_levels(component.mesh, field.values, levels, component.bridges.faces)
         topology = without_ripples(sets, reeb_topology(sets), field)
         graph = reeb_graph(sets, topology)
     with watch.stage("cuts", begin + width) as progress:
         candidates = find_candidates(sets, field, topology, pyramid, parameters, model, progress)
     return ComponentResult(component, field, sets, topology, graph, candidates)
+
+
+def join_pieces(found: ComponentResult, model: BoostedTrees | None = None) -> ComponentResult:
+    """Extend the hierarchies of the pieces of a body to one over all its candidates.
+
+    Parameters
+    ----------
+    found : ComponentResult
+        As ``decompose_component`` made it.
+    model : BoostedTrees, optional
+        What judges pairs of parts; the one that ships with the package without.
+
+    Returns
+    -------
+    result : ComponentResult
+        With contacts.
+    """
+    if found.component.mesh.face_components[0] == 1:
+        return found
+    hierarchy = found.candidates.hierarchy
+    parts = fine_parts(found.component.mesh, found.face_candidate, hierarchy, found.field.normalized)
+    hierarchy, contacts = join_parts(parts, hierarchy, model)
+    return replace(found, candidates=Candidates(found.candidates.element_candidate, hierarchy), contacts=contacts)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..surface.arrays import components, frozen
+from ..surface.arrays import components, distinct_pairs, frozen
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -237,3 +237,27 @@ class Candidates:
 
     element_candidate: np.ndarray
     hierarchy: Hierarchy
+
+    def within(self, piece: np.ndarray) -> Candidates:
+        """Split candidates that lie in several pieces, and merge within pieces only, in the same order.
+
+        piece : (E,) int64, of each element. Returns Candidates.
+        """
+        cells, element = distinct_pairs(self.element_candidate, piece)
+        # Of each set, one of the new candidates in each piece that it has elements in.
+        inside: list[dict[int, int]] = [{} for _ in range(self.hierarchy.n_candidates)]
+        for new, (old, place) in enumerate(cells.tolist()):
+            inside[old][place] = new
+        root = list(range(len(inside)))
+        merges, salience = [], []
+        for (a, b), strength in zip(self.hierarchy.merges.tolist(), self.hierarchy.salience.tolist(), strict=True):
+            while root[a] != a:
+                a = root[a]
+            while root[b] != b:
+                b = root[b]
+            root[b] = a
+            for place, new in inside[b].items():
+                if inside[a].setdefault(place, new) != new:
+                    merges.append((inside[a][place], new))
+                    salience.append(strength)
+        return Candidates(element, Hierarchy.of(len(cells), merges, salience))

@@ -11,8 +11,8 @@ from ..graph.reeb import ReebTopology
 from ..parameters import PERCEPTUAL, Parameters
 from ..surface.coarsening import Pyramid
 from .berretti.method import berretti_candidates
+from .boosted_trees import BoostedTrees
 from .hierarchy import Candidates
-from .perceptual.boosted_trees import BoostedTrees
 from .perceptual.method import perceptual_candidates
 
 
@@ -54,4 +54,6 @@ def find_candidates(
     """
     if parameters.method == PERCEPTUAL:
         return perceptual_candidates(sets, field, pyramid, parameters, model, progress)
-    return berretti_candidates(sets, topology, parameters)
+    candidates = berretti_candidates(sets, topology, parameters)
+    n_pieces, piece = sets.mesh.face_components
+    return candidates if n_pieces == 1 else candidates.within(piece[sets.element_face])

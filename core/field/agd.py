@@ -217,7 +217,7 @@ def coarse_agd(
     """
     steps = pyramid.until(lambda mesh: mesh.n_vertices <= FIELD_VERTICES)
     meshes = [pyramid.mesh, *(step.mesh for step in steps)]
-    coarsest, area, links = meshes[-1], pyramid.mesh.vertex_area, None
+    coarsest, area, links = meshes[-1], pyramid.mesh.vertex_area, pyramid.bridges
     if steps:
         area, links = steps[-1].area, steps[-1].links
     base = spread_base_vertices(coarsest, GeodesicSolver(coarsest, links), area, radius, progress)

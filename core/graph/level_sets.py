@@ -193,7 +193,9 @@ def uniform_levels(n_slabs: int) -> np.ndarray:
     return np.arange(1, n_slabs) / n_slabs
 
 
-def cut_at_levels(mesh: TriMesh, values: np.ndarray, levels: np.ndarray) -> LevelSets:
+def cut_at_levels(
+    mesh: TriMesh, values: np.ndarray, levels: np.ndarray, bridges: np.ndarray | None = None
+) -> LevelSets:
     """Cut a surface at levels of a field that is linear on every triangle.
 
     Parameters
@@ -223,12 +225,16 @@ def cut_at_levels(mesh: TriMesh, values: np.ndarray, levels: np.ndarray) -> Leve
     low, high = ends.min(axis=1), ends.max(axis=1)
 
     first = np.cumsum(highest - lowest + 1) - (highest - lowest + 1) - lowest
+    bridges = np.empty((0, 2), np.int64) if bridges is None else bridges
+    bridge_low, bridge_high = lowest[bridges].max(axis=1), highest[bridges].min(axis=1)
+    pairs = np.concatenate([pairs, bridges])
+    low, high = np.append(low, bridge_low), np.append(high, np.maximum(bridge_high, bridge_low - 1))
     pair, at = _expand(low, high - low + 1)
     n_pieces, element_piece = components(
         len(element_face), first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
 
     first_segment = np.cumsum(highest - lowest) - (highest - lowest) - lowest
-    pair, at = _expand(low, high - low)
+    pair, at = _expand(low, np.maximum(high - low, 0))
     n_contours, segment_contour = components(
         len(segment_face), first_segment[pairs[pair, 0]] + at, first_segment[pairs[pair, 1]] + at)
 

@@ -5,16 +5,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from dataclasses import field as dataclass_field
+from functools import cached_property
 
 import numpy as np
 
 from ..cuts.hierarchy import Candidates, Dendrogram, Hierarchy
+from ..cuts.joining.method import LAST
 from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebGraph, ReebTopology
-from ..parameters import Parameters
+from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
-from ..surface.arrays import renumbered
+from ..surface.arrays import components, last_of_each, renumbered, sums_by
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import Component, WorkingMesh
@@ -43,6 +46,8 @@ class ComponentResult:
         The Reeb graph with values, positions and center lines.
     candidates : Candidates
         Candidates and the order in which they merge.
+    contacts : (k, 2) int64
+        Faces of the component's mesh that touch, or nearly so, though they share no edge.
     """
 
     component: Component
@@ -51,6 +56,14 @@ class ComponentResult:
     topology: ReebTopology
     graph: ReebGraph
     candidates: Candidates
+    contacts: np.ndarray = dataclass_field(default_factory=lambda: np.empty((0, 2), np.int64))
+
+    @cached_property
+    def face_candidate(self) -> np.ndarray:
+        """(m,) int64, the candidate that has most of each face of the component's mesh."""
+        mesh = self.component.mesh
+        area = self.sets.element_area + LEAST_WEIGHT * mesh.area
+        return majority(self.sets.element_face, self.candidates.element_candidate, area, mesh.n_faces)
 
 
 def assemble(
@@ -79,8 +92,10 @@ def assemble(
     decomposition : Decomposition
     """
     face_graph = _face_graph(given, working)
-    label, hierarchy = _face_candidates(given, working, results, face_graph, parameters.smoothing)
-    values, notes = _vertex_field(given, working, results)
+    contacts = _contacts(given, working, results)
+    label, hierarchy = _face_candidates(given, working, results, face_graph, contacts, parameters.smoothing)
+    face_graph = face_graph.with_contacts(contacts)
+    values, notes = _vertex_field(given, working, results, parameters)
     pairs, length = face_graph.boundaries(label)
     corners = given.triangles.faces.ravel()
     weight = np.repeat(given.triangles.face_area + LEAST_WEIGHT * given.triangles.area, 3)
@@ -91,7 +106,7 @@ def assemble(
         candidate_area=np.bincount(label, face_graph.area), candidate_pairs=pairs,
         candidate_pair_length=length, hierarchy=hierarchy, field=values,
         graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
-        point_candidate=points, parameters=parameters, notes=working.notes + notes,
+        point_candidate=points, contacts=contacts, parameters=parameters, notes=working.notes + notes,
         seconds=seconds)
 
 
@@ -134,7 +149,8 @@ def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
 
 
 def _face_candidates(
-    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], face_graph: FaceGraph, rounds: int
+    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], face_graph: FaceGraph,
+    contacts: np.ndarray, rounds: int,
 ) -> tuple[np.ndarray, Hierarchy]:
     """Candidate of each of the caller's faces, (p,) int64, and the hierarchy over them; every candidate is connected.
 
@@ -160,7 +176,42 @@ def _face_candidates(
         np.concatenate(owner), np.concatenate(label), np.concatenate(weight), given.n_polygons)
     face_label = connect(face_graph, fill_unlabeled(face_graph, face_label))
     face_label = connect(face_graph, straighten(face_graph, face_label, rounds))
-    return settle(face_graph, face_label, Hierarchy.join(hierarchies))
+    hierarchy = _join_bodies(Hierarchy.join(hierarchies))
+    return settle(face_graph.with_contacts(contacts), face_label, hierarchy)
+
+
+def _join_bodies(hierarchy: Hierarchy) -> Hierarchy:
+    """Let what never merges merge last, one after the other: detail 0 is one part."""
+    left = hierarchy.parts(0)
+    first = np.unique(left, return_index=True)[1]
+    merges = np.stack([np.full(len(first) - 1, first[0]), first[1:]], axis=1)
+    salience = np.concatenate([hierarchy.salience, np.full(len(merges), LAST)])
+    return Hierarchy.of(hierarchy.n_candidates, np.concatenate([hierarchy.merges, merges]), salience)
+
+
+def _contacts(given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]) -> np.ndarray:
+    """(k, 2) int64, faces of the caller that touch without an edge; bodies hang on the nearest that is larger."""
+    inside = [r.component.polygon[r.contacts] for r in results]
+    mesh = working.mesh
+    count, piece = mesh.face_components
+    pairs = np.concatenate([np.empty((0, 2), np.int64), *inside])
+    at = np.full(given.n_polygons, -1)
+    at[working.polygon] = piece
+    joined, body = components(count, *at[pairs].T)
+    if joined == 1:
+        return pairs
+    area = np.bincount(body[piece], mesh.face_area, joined)
+    center = sums_by(body[piece], mesh.face_area[:, None] * mesh.face_centroids, joined) / area[:, None]
+    order = np.argsort(-area, kind="stable")
+    links = []
+    for place, mine in enumerate(order[1:].tolist(), start=1):
+        larger = order[:place]
+        other = larger[np.linalg.norm(center[larger] - center[mine], axis=1).argmin()]
+        links.append((mine, int(other)))
+    # A face of each body: the nearest to its middle.
+    offset = np.linalg.norm(mesh.face_centroids - center[body[piece]], axis=1)
+    face = last_of_each(body[piece], -offset, count=joined)
+    return np.concatenate([pairs, working.polygon[face[np.array(links)]]])
 
 
 def settle(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -> tuple[np.ndarray, Hierarchy]:
@@ -193,32 +244,47 @@ def settle(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -> tuple[n
 
 
 def _vertex_field(
-    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]
-) -> tuple[np.ndarray, tuple[str, ...]]:
-    """Normalized field at the caller's vertices, (n,) float64, and notes about components."""
+    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], parameters: Parameters
+) -> tuple[np.ndarray, tuple[Sentence, ...]]:
+    """Normalized field at the caller's vertices, (n,) float64, and notes about pieces and bodies."""
     values = np.full(given.triangles.n_vertices, np.nan)
     used = np.unique(given.triangles.faces)
     values[used] = 0.0  # in components that were not decomposed
     for r in results:
         kept = r.component.vertex_source >= 0
         values[r.component.vertex_source[kept]] = r.field.normalized[kept]
-    n_loose = working.mesh.face_components[0]
+    n_pieces, piece = working.mesh.face_components
     n_flat = sum(not r.field.values.any() for r in results)
-    return values, tuple(_component_notes(n_loose, n_loose - len(results), n_flat))
+    n_cut = sum(len(np.unique(piece[r.component.faces])) for r in results)
+    notes = _body_notes if parameters.pieces == TOGETHER else _piece_notes
+    if n_pieces == 1:
+        return values, (Sentence("Nothing protrudes: the mesh is one part."),) if n_flat else ()
+    return values, tuple(notes(n_cut, n_pieces - n_cut, len(results), n_flat))
 
 
-def _component_notes(n_loose: int, n_small: int, n_flat: int) -> Iterator[Sentence]:
-    """Sentences about components: how many there are, how many are too small and how many too even to be cut."""
-    if n_loose > 1 and n_small:
+def _body_notes(n_cut: int, n_small: int, n_bodies: int, n_flat: int) -> Iterator[Sentence]:
+    """Sentences about pieces decomposed together: how many bodies they form, how many form none."""
+    if n_bodies == 1 and n_cut > 1:
+        yield Sentence("{n} pieces that touch form one body.", n=n_cut)
+    elif n_bodies > 1:
+        yield Sentence("{n} pieces form {bodies} bodies; what touches is decomposed together.",
+                       n=n_cut, bodies=n_bodies)
+    if n_small:
+        yield Sentence("{n} small pieces are one part each.", n=n_small)
+    if n_flat:
+        yield Sentence("{n} of the bodies are so even that nothing protrudes.", n=n_flat)
+
+
+def _piece_notes(n_cut: int, n_small: int, n_bodies: int, n_flat: int) -> Iterator[Sentence]:
+    """Sentences about pieces decomposed one by one: how many there are, how many are too small or too even."""
+    if n_small:
         yield Sentence("{n} loose parts are decomposed each on its own; {small} small ones are one part "
-                       "each.", n=n_loose, small=n_small)
-    elif n_loose > 1:
-        yield Sentence("{n} loose parts are decomposed each on its own.", n=n_loose)
-    if n_flat and n_loose > 1:
+                       "each.", n=n_cut + n_small, small=n_small)
+    else:
+        yield Sentence("{n} loose parts are decomposed each on its own.", n=n_bodies)
+    if n_flat:
         yield Sentence("{n} of the loose parts are so even that nothing protrudes: one part each.",
                        n=n_flat)
-    elif n_flat:
-        yield Sentence("Nothing protrudes: the mesh is one part.")
 
 
 def _graph_candidates(results: list[ComponentResult], label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -13,7 +13,7 @@ import numpy as np
 from ..cuts.hierarchy import Hierarchy
 from ..errors import ReebError
 from ..graph.reeb import ReebGraph
-from ..parameters import Parameters, present_names
+from ..parameters import SEPARATE, Parameters, present_names
 from ..sentence import Sentence
 from ..surface.arrays import distinct_pairs, renumbered, sums_by
 from ..surface.labels import majority
@@ -142,6 +142,8 @@ class Decomposition:
         Candidate in which each node of the graph lies.
     point_candidate : (r,) int64
         Candidate in which each center point of the graph lies.
+    contacts : (t, 2) int64
+        Faces that touch, or nearly so, though they share no edge.
     parameters : Parameters
         The parameters of the run.
     notes : tuple of str
@@ -162,6 +164,7 @@ class Decomposition:
     graph: ReebGraph
     node_candidate: np.ndarray
     point_candidate: np.ndarray
+    contacts: np.ndarray
     parameters: Parameters
     notes: tuple[str, ...]
     seconds: dict[str, float]
@@ -284,6 +287,7 @@ class Decomposition:
         """
         with np.load(io.BytesIO(data), allow_pickle=False) as stored:
             arrays = {name: stored[name] for name in stored.files}
+        arrays.setdefault("contacts", np.empty((0, 2), np.int64))  # version 0.1.0 knew none
         head = json.loads(arrays.pop("head").tobytes())
         if head["format"] != _FORMAT:
             raise ReebError(
@@ -293,10 +297,15 @@ class Decomposition:
         hierarchy = Hierarchy.of(len(arrays["candidate_area"]), arrays["hierarchy.merges"],
                                  arrays["hierarchy.salience"])
         return cls(hierarchy=hierarchy, graph=ReebGraph(**graph),
-                   parameters=Parameters(**present_names(head["parameters"])[0]), notes=tuple(head["notes"]),
+                   parameters=_stored_parameters(head["parameters"]), notes=tuple(head["notes"]),
                    seconds=head["seconds"], version=head["version"],
                    **{name: arrays[name] for name in _ARRAYS})
 
 
 _ARRAYS = ("candidates", "vertex_candidates", "candidate_area", "candidate_pairs",
-           "candidate_pair_length", "field", "node_candidate", "point_candidate")
+           "candidate_pair_length", "field", "node_candidate", "point_candidate", "contacts")
+
+
+def _stored_parameters(values: dict) -> Parameters:
+    """Parameters of a stored result; version 0.1.0 had other names for some, and each piece on its own."""
+    return Parameters(**{"pieces": SEPARATE} | present_names(values)[0])

@@ -272,7 +272,7 @@ def split_candidates(
     half[cut] = decomposition.n_candidates + np.arange(len(cut))
     candidates = np.where(faces, half[old], old)
     count = decomposition.n_candidates + len(cut)
-    pairs, length = graph.boundaries(candidates)
+    pairs, length = graph.with_contacts(decomposition.contacts).boundaries(candidates)
     area = np.bincount(candidates, graph.area, count)
     area *= decomposition.candidate_area.sum() / area.sum()
     hierarchy = decomposition.hierarchy

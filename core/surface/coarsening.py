@@ -99,9 +99,15 @@ class Pyramid:
         One connected component.
     """
 
-    def __init__(self, mesh: TriMesh) -> None:
+    def __init__(self, mesh: TriMesh, bridges: np.ndarray | None = None) -> None:
         self.mesh = mesh
+        self.bridges = bridges
         self._steps: list[Coarsening] = []
+
+    def _first_links(self) -> np.ndarray | None:
+        if self.bridges is None or not len(self.bridges):
+            return None
+        return np.concatenate([self.mesh.edges.vertices, self.bridges])
 
     def until(self, coarse_enough: Callable[[TriMesh], bool]) -> list[Coarsening]:
         """Coarsen until a copy is coarse enough.
@@ -122,7 +128,8 @@ class Pyramid:
         while not coarse_enough(mesh):
             if len(chosen) == len(self._steps):
                 last = self._steps[-1] if self._steps else None
-                self._steps.append(coarsen(mesh, last.area, last.links) if last else coarsen(mesh, mesh.vertex_area))
+                self._steps.append(coarsen(mesh, last.area, last.links) if last else
+                                   coarsen(mesh, mesh.vertex_area, self._first_links()))
             chosen.append(self._steps[len(chosen)])
             mesh = chosen[-1].mesh
         return chosen

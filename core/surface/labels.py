@@ -128,6 +128,11 @@ class FaceGraph:
     length: np.ndarray
     area: np.ndarray
 
+    def with_contacts(self, contacts: np.ndarray) -> FaceGraph:
+        """The graph with pairs of faces that touch along no length, (k, 2) int64."""
+        length = np.concatenate([self.length, np.zeros(len(contacts))])
+        return FaceGraph(self.n_faces, np.concatenate([self.pairs, contacts]), length, self.area)
+
     def boundaries(self, label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Find which labels touch, and along what length.
 

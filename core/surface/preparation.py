@@ -14,6 +14,7 @@ import numpy as np
 
 from ..sentence import Sentence
 from .arrays import components, distinct_pairs, frozen
+from .contact import Bridges, bridges
 from .mesh import TriMesh
 from .polygons import MIN_FACES, PolygonMesh
 
@@ -65,6 +66,8 @@ class Component:
         The caller's face in which each triangle lies.
     vertex_source : (n,) int64
         The caller's vertex at each vertex; -1 for a vertex that splitting added.
+    bridges : Bridges
+        Between its pieces.
     """
 
     faces: np.ndarray
@@ -72,47 +75,83 @@ class Component:
     polygon: np.ndarray
     vertex_source: np.ndarray
 
+    bridges: Bridges
+
     @classmethod
-    def of(cls, working: WorkingMesh, label: int) -> Component:
-        """Cut a component out of the working mesh and split its long edges.
+    def of(cls, working: WorkingMesh, faces: np.ndarray, connected: bool = True) -> Component:
+        """Cut some pieces out of the working mesh, split their long edges and link the pieces.
 
         Parameters
         ----------
         working : WorkingMesh
-        label : int
-            Label of the component in ``working.mesh.face_components``.
+        faces : (k,) int64
+            All faces of these pieces, rising.
+        connected : bool
+            Whether all pieces are to hang together; see ``bridges``.
 
         Returns
         -------
         component : Component
         """
-        mask = working.mesh.face_components[1] == label
-        mesh, index = (working.mesh, slice(None)) if mask.all() else working.mesh.submesh(mask)
+        whole = len(faces) == working.mesh.n_faces
+        mesh, index = (working.mesh, slice(None)) if whole else working.mesh.submesh(faces)
         source = working.vertex_source[index]
         fine, parent = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area))
         added = np.full(fine.n_vertices - len(source), -1)
-        faces = np.flatnonzero(mask)
-        return cls(faces, fine, working.polygon[faces][parent], np.concatenate([source, added]))
+        return cls(faces, fine, working.polygon[faces][parent], np.concatenate([source, added]),
+                   bridges(fine, connected))
 
 
-def components_worth_cutting(working: WorkingMesh, loose_part: float) -> list[int]:
+def bodies(working: WorkingMesh, together: bool, loose_part: float) -> list[Component]:
+    """Cut the working mesh into what is decomposed as one: bodies of pieces that touch, or single pieces.
+
+    Parameters
+    ----------
+    working : WorkingMesh
+    together : bool
+        Whether pieces that touch, or nearly so, are one body; otherwise each is decomposed on its own.
+    loose_part : float
+        Share of the whole area below which a piece or a body on its own is not decomposed.
+
+    Returns
+    -------
+    components : list of Component
+        What is in none of them is too small to have parts.
+    """
+    count, piece = working.mesh.face_components
+    if not together or count == 1:
+        chosen = worth_cutting(working, piece, loose_part)
+        return [Component.of(working, np.flatnonzero(piece == label)) for label in chosen]
+    every = Component.of(working, np.arange(working.mesh.n_faces), connected=False)
+    at = np.empty(int(working.polygon.max()) + 1, np.int64)
+    at[working.polygon] = piece
+    n_bodies, body = components(count, *at[every.polygon[every.bridges.faces]].T)
+    if n_bodies == 1:
+        return [every]
+    return [Component.of(working, np.flatnonzero(body[piece] == label))
+            for label in worth_cutting(working, body[piece], loose_part)]
+
+
+def worth_cutting(working: WorkingMesh, label: np.ndarray, loose_part: float) -> list[int]:
     """List the components that are decomposed: those large enough, and of enough faces, to have parts.
 
     Parameters
     ----------
     working : WorkingMesh
+        m faces.
+    label : (m,) int64
+        Component, a piece or a body, of each face, 0 or more, all in use.
     loose_part : float
         Least share of the whole area, 0..1, that such a component has.
 
     Returns
     -------
     labels : list of int
-        Labels of ``working.mesh.face_components``, rising.
+        Rising.
     """
-    count, component = working.mesh.face_components
-    area = np.bincount(component, working.mesh.face_area, count)
-    pairs, _ = distinct_pairs(component, working.polygon)
-    n_polygons = np.bincount(pairs[:, 0], minlength=count)
+    area = np.bincount(label, working.mesh.face_area)
+    pairs, _ = distinct_pairs(label, working.polygon)
+    n_polygons = np.bincount(pairs[:, 0], minlength=len(area))
     # A component a million times shorter than the largest one is a rounding error of coordinates.
     large = (area >= max(loose_part * area.sum(), 1e-12 * area.max())) & (n_polygons >= MIN_FACES)
     return np.flatnonzero(large).tolist()

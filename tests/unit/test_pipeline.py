@@ -39,11 +39,15 @@ def assert_sound(result, n_faces, n_vertices, pairs):
     """What holds for every result, at every number of parts."""
     assert result.candidates.shape == (n_faces,)
     assert result.field.shape == (n_vertices,)
-    n_loose = components(n_faces, *pairs.T)[0]
-    assert result.hierarchy.n_loose == n_loose == result.parts(0.0).count
+    assert result.hierarchy.n_loose == result.parts(0.0).count == 1
+    n_pieces, piece = components(n_faces, *pairs.T)
     finest = result.n_candidates
+    assert result.contacts.shape[1] == 2
+    assert (n_pieces > 1) <= (len(result.contacts) > 0)
+    assert len(np.unique(piece * finest + result.candidates)) == finest  # a candidate lies in one piece
+    pairs = np.concatenate([pairs, result.contacts])  # faces touch along edges, and where pieces do
     former = None
-    for n in sorted({n_loose, n_loose + 1, (n_loose + finest) // 2, finest} - {finest + 1}):
+    for n in sorted({1, 2, min(n_pieces, finest), min(n_pieces + 1, finest), (1 + finest) // 2, finest} - {finest + 1}):
         parts = result.parts(n_parts=n)
         assert parts.count == n
         assert np.unique(parts.labels).tolist() == list(range(n))
@@ -61,11 +65,11 @@ def assert_sound(result, n_faces, n_vertices, pairs):
         assert {tuple(t) for t in touching.tolist()} == {tuple(c) for c in parts.cuts.tolist()}
         # The weakest cut is the next to be merged; every cut is as salient as the merge that removes it.
         assert np.isin(parts.cut_salience, result.hierarchy.salience).all()
-        if n > n_loose:
+        if n > 1:
             assert parts.cut_salience.min() == result.hierarchy.salience[finest - n]
         for of_graph in (parts.node_part, parts.arc_part, parts.point_part):
             assert np.isin(of_graph, np.arange(n)).all()
-    assert n_loose <= result.parts(0.5).count <= result.parts(1.0).count == finest
+    assert 1 <= result.parts(0.5).count <= result.parts(1.0).count == finest
 
 
 def sound_triangles(shape, parameters, **options):
@@ -316,27 +320,103 @@ def test_border(preset):
     assert noted(result, "border edges")
 
 
-def test_two_components_are_decomposed_each_on_its_own(preset):
-    # In the same place: loose parts may pass through each other.
+def separate(preset, **changes):
+    """The preset, for pieces one by one."""
+    return replace(preset, pieces="separate", **changes)
+
+
+def of_pieces(result):
+    """Parts at the lowest detail at which pieces that are decomposed one by one have not merged yet."""
+    return result.parts(0.002)
+
+
+def test_two_pieces_are_decomposed_each_on_its_own(preset):
+    # In the same place: pieces may pass through each other.
     tree, bell = model("tree"), model("dumbbell")
-    result = sound_triangles(shapes.together(tree, bell), preset)
+    result = sound_triangles(shapes.together(tree, bell), separate(preset))
     assert result.graph.n_components == 2
-    assert noted(result, "2 loose parts")
-    assert result.parts(n_parts=1).count == 2
+    assert noted(result, "2 loose parts are decomposed each on its own.")
+    assert same_up_to_names(of_pieces(result).labels, np.repeat([0, 1], [len(tree.faces), len(bell.faces)]))
+    np.testing.assert_array_equal(of_pieces(result).labels, result.parts(n_parts=2).labels)
     np.testing.assert_array_equal(result.field, np.concatenate(
         [known(name, preset).field for name in ("tree", "dumbbell")]))
-    for name, part in (("tree", result.candidates[: len(tree.faces)]),
-                       ("dumbbell", result.candidates[len(tree.faces):])):
-        assert same_up_to_names(known(name, preset).candidates, part)
+    n_tree = known("tree", preset).n_candidates
+    assert result.n_candidates == n_tree + known("dumbbell", preset).n_candidates
+    for name, part in (("tree", slice(0, len(tree.faces))), ("dumbbell", slice(len(tree.faces), None))):
+        assert same_up_to_names(known(name, preset).candidates, result.candidates[part])
+        for detail in (0.3, 0.5, 0.8):
+            assert same_up_to_names(known(name, preset).parts(detail).labels, result.parts(detail).labels[part])
+
+
+def test_two_pieces_that_pass_through_each_other_are_one_body(preset):
+    shape = shapes.together(model("tree"), model("dumbbell"))
+    result = sound_triangles(shape, preset)
+    assert result.graph.n_components == 1
+    assert noted(result, "2 pieces that touch form one body.")
+    assert 0 <= result.field.min() < 0.02
+    assert 0.98 < result.field.max() <= 1
+    np.testing.assert_array_equal(
+        sorted({len(result.parts(n_parts=n).area) for n in range(1, result.n_candidates + 1)}),
+        np.arange(1, result.n_candidates + 1))
+
+
+def test_pieces_far_from_each_other_are_bodies_that_merge_last(preset):
+    tree, bell = model("tree"), model("dumbbell")
+    result = sound_triangles(shapes.together(tree, shapes.moved(bell, (9, 0, 0))), preset)
+    assert result.graph.n_components == 2
+    assert noted(result, "2 pieces form 2 bodies; what touches is decomposed together.")
+    np.testing.assert_array_equal(result.field[: len(tree.vertices)], known("tree", preset).field)
+    np.testing.assert_allclose(result.field[len(tree.vertices):], known("dumbbell", preset).field, atol=1e-9)
+    assert result.hierarchy.salience[-1] >= 0.999
+    for detail in (0.002, 0.3, 0.5, 0.8):
+        labels = result.parts(detail).labels
+        assert same_up_to_names(known("tree", preset).parts(detail).labels, labels[: len(tree.faces)])
+        assert same_up_to_names(known("dumbbell", preset).parts(detail).labels, labels[len(tree.faces):])
+
+
+BODIES = {
+    # A tree with a ball on a branch and a jar some way off; a table as furniture is drawn.
+    "tree": lambda: shapes.together(
+        model("tree"), shapes.moved(shapes.icosphere(2, 0.4), (2.5, 0.2, 0.1)),
+        shapes.moved(model("genus 2"), (0, 0, 6))),
+    "table": lambda: shapes.together(
+        shapes.box((4, 2, 0.2)), *(shapes.moved(shapes.box((0.2, 0.3, 2 + 0.1 * k)), (x, y, -2.001 - 0.1 * k))
+                                   for k, (x, y) in enumerate([(0, 0), (3.7, 0.1), (3.6, 1.6), (0.1, 1.5)]))),
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_pieces_scaled_moved_and_permuted(name, preset):
+    shape = BODIES[name]()
+    one = sound_triangles(shape, preset)
+    areas = TriMesh(*shape).face_area
+    two = decompose(2.0**10 * shape.vertices, shape.faces, preset)
+    np.testing.assert_array_equal(one.parts().labels, two.parts().labels)
+    np.testing.assert_array_equal(one.contacts, two.contacts)
+    rng = np.random.default_rng(0)
+    moved = decompose(0.3 * (shape.vertices @ shapes.rotation(rng).T + rng.normal(size=3)), shape.faces, preset)
+    assert rand_index(one.parts().labels, moved.parts().labels, areas) > 0.95
+    other, _, face = shapes.shuffled(shape, rng)
+    shuffled = decompose(*other, preset)
+    assert rand_index(one.parts().labels[face], shuffled.parts().labels, areas[face]) > 0.99
+
+
+def test_a_table_of_loose_boxes_is_one_body_of_a_top_and_four_legs():
+    result = sound_triangles(BODIES["table"](), Parameters())
+    assert result.graph.n_components == 1
+    assert noted(result, "5 pieces that touch form one body.")
+    assert same_up_to_names(result.parts(n_parts=5).labels, np.repeat(np.arange(5), 12))
 
 
 def test_small_loose_parts_are_one_part_each(preset):
     shape = shapes.together(shapes.tube_tree(), *(shapes.moved(shapes.icosphere(1, 0.05), (3, k, 0)) for k in range(3)))
-    result = sound_triangles(shape, preset)
-    labels = result.parts(1.0).labels[len(shapes.tube_tree().faces):].reshape(3, 80)
-    assert (labels == labels[:, :1]).all()
-    assert noted(result, "3 small ones")
-    assert (result.field[-126:] == 0).all()
+    for parameters, note in ((preset, "3 small pieces are one part each."), (separate(preset), "3 small ones")):
+        result = sound_triangles(shape, parameters)
+        labels = result.parts(1.0).labels[len(shapes.tube_tree().faces):].reshape(3, 80)
+        assert (labels == labels[:, :1]).all()
+        assert noted(result, note)
+        assert (result.field[-126:] == 0).all()
+    assert of_pieces(result).count == 4
 
 
 def test_non_manifold_fin(preset):
@@ -345,8 +425,11 @@ def test_non_manifold_fin(preset):
 
 
 def test_bowtie(preset):
-    result = sound_triangles(shapes.bowtie(shapes.tube_tree()), preset)
-    assert result.graph.n_components == 2
+    shape = shapes.bowtie(shapes.tube_tree())
+    assert sound_triangles(shape, separate(preset)).graph.n_components == 2
+    result = sound_triangles(shape, preset)  # the two fans are one body
+    assert result.graph.n_components == 1
+    assert result.graph.n_loops == 0
 
 
 def test_vertices_of_no_face(preset):
@@ -387,27 +470,32 @@ def test_duplicated_faces(preset):
 
 
 def test_bag_of_two_thousand_triangles(preset):
-    result = sound_triangles(shapes.crumbs(2000), preset)
-    assert result.parts(0.0).count == 2000
+    shape = shapes.crumbs(2000)
+    result = sound_triangles(shape, separate(preset))
+    assert of_pieces(result).count == 2000
     assert result.graph.n_nodes == 0
+    result = sound_triangles(shape, preset)
+    assert result.n_candidates >= 2000
 
 
 def test_loose_parts_of_few_faces_are_one_part_each(preset):
     # However large: a bag of thirty triangles is no thirty decompositions.
-    result = sound_triangles(shapes.crumbs(30), preset)
-    assert result.parts(1.0).count == 30
-    assert noted(result, "30 small ones")
-    mixed = shapes.together(model("dumbbell"), shapes.moved(shapes.Shape(10 * shapes.box().vertices,
-                                                                         shapes.box().faces[:3]), (9, 0, 0)))
-    assert len(set(sound_triangles(mixed, preset).candidates[-3:].tolist())) == 2
+    for parameters, note in ((preset, "30 small pieces"), (separate(preset), "30 small ones")):
+        result = sound_triangles(shapes.crumbs(30), parameters)
+        assert result.parts(1.0).count == 30
+        assert noted(result, note)
+        mixed = shapes.together(model("dumbbell"), shapes.moved(shapes.Shape(10 * shapes.box().vertices,
+                                                                             shapes.box().faces[:3]), (9, 0, 0)))
+        assert len(set(sound_triangles(mixed, parameters).candidates[-3:].tolist())) == 2
 
 
 def test_everything_is_a_small_loose_part(preset):
     # Four equal boxes, and loose parts count from 90 % of the area on.
     shape = shapes.together(*(shapes.moved(shapes.box(), (3 * k, 0, 0)) for k in range(4)))
-    result = decompose(*shape, parameters=Parameters(method=preset.method, loose_part=0.9))
-    assert result.parts(1.0).count == 4
-    assert result.parts().labels.reshape(4, 12).tolist() == [[k] * 12 for k in range(4)]
+    for pieces in ("together", "separate"):
+        result = sound_triangles(shape, Parameters(method=preset.method, loose_part=0.9, pieces=pieces))
+        assert result.parts(1.0).count == 4
+        assert result.parts().labels.reshape(4, 12).tolist() == [[k] * 12 for k in range(4)]
 
 
 def test_one_huge_triangle_and_needles(preset):

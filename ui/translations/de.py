@@ -109,6 +109,13 @@ TEXTS = {
     "Method": "Methode",
     "How cuts are chosen: as people would, or by the paper's rules":
         "Wie Schnitte gewählt werden: so, wie Menschen schneiden würden, oder nach den Regeln des Artikels",
+    "Pieces": "Stücke",
+    "Whether pieces that touch without being joined form parts together, like a sleeve and an arm, or each piece is "
+    "decomposed on its own":
+        "Ob Stücke, die sich berühren, ohne verbunden zu sein, gemeinsam Teile bilden, wie Ärmel und Arm, oder jedes "
+        "Stück für sich zerlegt wird",
+    "Together": "Gemeinsam",
+    "Separate": "Getrennt",
     "Detail": "Detail",
     "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate":
         "Wie bereitwillig die Oberfläche zerschnitten wird: 0 ergibt so wenige Teile wie möglich, 1 alle, die "
@@ -402,6 +409,12 @@ TEXTS = {
         "Zusammenfallende Randpunkte: {n}; sie gelten als verbunden.",
     "{n} triangles face inwards or against their neighbours.":
         "Dreiecke, die nach innen oder gegen ihre Nachbarn zeigen: {n}.",
+    "{n} pieces that touch form one body.": "{n} Stücke, die sich berühren, bilden einen Körper.",
+    "{n} pieces form {bodies} bodies; what touches is decomposed together.":
+        "{n} Stücke bilden {bodies} Körper; was sich berührt, wird gemeinsam zerlegt.",
+    "{n} small pieces are one part each.": "Kleine Stücke, die je ein einziges Teil sind: {n}.",
+    "{n} of the bodies are so even that nothing protrudes.":
+        "Körper, die so gleichmäßig sind, dass nichts vorsteht: {n}.",
     "{n} loose parts are decomposed each on its own.": "{n} lose Teile werden jedes für sich zerlegt.",
     "{n} loose parts are decomposed each on its own; {small} small ones are one part each.":
         "{n} lose Teile werden jedes für sich zerlegt; davon sind klein und je ein einziges Teil: {small}.",

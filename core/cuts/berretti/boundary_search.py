@@ -43,14 +43,17 @@ def contour_curve(sets: LevelSets, contour: int) -> tuple[np.ndarray, np.ndarray
     edge, local = renumbered(sets.segment_edges[segments])
     degree = np.bincount(local.ravel())
     n = len(edge)
+    # Where bridges join pieces, a contour has a curve on each: the longest stands for it.
+    _, curve = components(n, *local.T)
+    main = curve == np.bincount(curve).argmax()
     graph = coo_array((np.ones(len(local), np.int8), tuple(local.T)), shape=(n, n)).tocsr()
     # Depth-first search follows the curve: a closed one from anywhere, an open one from an end, which has degree 1.
-    start = int(degree.argmin())
+    start = int(np.where(main, degree, degree.max() + 1).argmin())
     order = depth_first_order(graph, start, directed=False, return_predecessors=False)
     edge = edge[order]
-    share = sets.crossing(edge, np.full(n, sets.contour_level[contour]))[:, None]
+    share = sets.crossing(edge, np.full(len(edge), sets.contour_level[contour]))[:, None]
     low, high = (sets.mesh.vertices[sets.mesh.edges.vertices[edge, k]] for k in (0, 1))
-    return edge, low + share * (high - low), bool(degree.min() >= 2)
+    return edge, low + share * (high - low), bool(degree[main].min() >= 2)
 
 
 def concavity(sets: LevelSets, k_min: np.ndarray, contour: int, sigma: float) -> float:

@@ -215,7 +215,7 @@ def fuse_equal_adjacency(
 def fuse_small(
     sets: LevelSets, count: int, region: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Fuse the smallest region into the neighbor along its longest boundary, until one region is left.
+    """Fuse the smallest region into the neighbor along its longest boundary, until no two regions touch.
 
     Parameters
     ----------
@@ -228,16 +228,21 @@ def fuse_small(
 
     Returns
     -------
-    merges : (count - 1, 2) int64
-        The region that stays and the region fused into it, in order.
-    ratio : (count - 1,) float64
+    merges : (s, 2) int64
+        The region that stays and the region fused into it, in order; count - 1 unless level sets tear the component
+        apart, as they do where a long bridge between two pieces spans whole slabs.
+    ratio : (s,) float64
         Area of the fused region over that of the region that was then the largest.
     """
     graph = FusionGraph(sets, count, region)
-    merges, ratio = [], []
+    merges, ratio, alone = [], [], 0.0
     while len(graph.alive) > 1:
         smallest = min(graph.alive, key=lambda r: (graph.area[r], r))
-        largest = max(graph.area[r] for r in graph.alive)
+        if not graph.neighbors[smallest]:
+            graph.alive.discard(smallest)
+            alone = max(alone, graph.area[smallest])
+            continue
+        largest = max(alone, *(graph.area[r] for r in graph.alive))
         neighbor = graph.longest_boundary(smallest)
         merges.append((neighbor, smallest))
         ratio.append(graph.area[smallest] / largest)

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
+from pathlib import Path
 
 import numpy as np
 
@@ -14,9 +16,10 @@ from ...surface.coarsening import Pyramid
 from ...surface.curvature import MAX_CURVATURE
 from ...surface.labels import FaceGraph, connect, fill_unlabeled, majority
 from ...surface.mesh import TriMesh
+from ..boosted_trees import BoostedTrees
 from ..hierarchy import Candidates, Hierarchy
 from ..minimum_cut import move_cuts
-from .boosted_trees import BoostedTrees, cut_model
+from .features import FEATURES
 from .measures import BORDER, surface_measures
 from .merging import Judge, RegionAdjacencyGraph, merge_all_
 from .patches import concave_patches, level_set_patches
@@ -128,16 +131,16 @@ def _coarse_copy(pyramid: Pyramid) -> tuple[np.ndarray, TriMesh]:
     """
     owner, copy = np.arange(pyramid.mesh.n_vertices), pyramid.mesh
     for step in pyramid.until(lambda mesh: mesh.n_faces <= MAX_FACES):
-        if not _is_whole(step.mesh, copy.area):
+        if not _is_whole(step.mesh, copy.area, pyramid.mesh.face_components[0]):
             break
         owner, copy = step.owner[owner], step.mesh
     return owner, copy
 
 
-def _is_whole(copy: TriMesh, area: float) -> bool:
-    """Whether a coarse copy is one connected surface of nearly the area of the mesh from which it was made."""
+def _is_whole(copy: TriMesh, area: float, n_pieces: int) -> bool:
+    """Whether a coarse copy has the pieces of the mesh from which it was made, and nearly its area."""
     whole = copy.n_faces > 0 and len(np.unique(copy.faces)) == copy.n_vertices
-    return whole and copy.face_components[0] == 1 and copy.area > 0.9 * area
+    return whole and copy.face_components[0] == n_pieces and copy.area > 0.9 * area
 
 
 def _prolong_labels(mesh: TriMesh, owner: np.ndarray, copy: TriMesh, label: np.ndarray) -> np.ndarray:
@@ -174,3 +177,9 @@ def salience_of(share: np.ndarray) -> np.ndarray:
     share : (k,) float64, 0..1. Returns (k,) float64, 0..1.
     """
     return np.interp(share, [0.0, DECISION, 1.0], [0.0, 0.5, 1.0])
+
+
+@cache
+def cut_model() -> BoostedTrees:
+    """The trees that judge cuts; benchmarks/train.py made them."""
+    return BoostedTrees.read(Path(__file__).parent / "cut_model.npz", FEATURES)

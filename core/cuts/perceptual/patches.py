@@ -52,6 +52,11 @@ def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
     """
     distances = _crease_graph(mesh)
     seeds = _first_seeds(mesh, max(count // 3, 1))
+    # A piece without a seed gets one: the first of its largest faces.
+    n_pieces, piece = mesh.face_components
+    without = np.setdiff1d(np.arange(n_pieces), piece[seeds])
+    seeds = np.concatenate([seeds, last_of_each(
+        piece, mesh.face_area, -np.arange(mesh.n_faces), count=n_pieces)[without]])
     added = np.diff(np.linspace(len(seeds), max(count, len(seeds)), ROUNDS + 1).astype(int))
     for more in [*added, 0]:
         distance, _, cell = dijkstra(

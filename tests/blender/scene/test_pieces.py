@@ -468,7 +468,7 @@ def spot():
     activate(bpy.context.selected_objects[0])
 
 
-@pytest.mark.parametrize("parts", [{}, {"n_parts": 25}])
+@pytest.mark.parametrize("parts", [{}, {"n_parts": 25}, {"pieces": "separate"}])
 @pytest.mark.parametrize("model", ["Spot", "Suzanne", "jug"])
 def test_models_in_closed_pieces_lose_nothing(model, parts, make):
     """As benchmarks/separate.py, which also does models that are not here."""
@@ -478,7 +478,7 @@ def test_models_in_closed_pieces_lose_nothing(model, parts, make):
     bpy.ops.reeb_parts.decompose(**parts)
     bpy.ops.reeb_parts.separate(caps=True, **KEEP)
     found = carried.compare(obj, pieces(obj.name))
-    assert found.caps > 100
+    assert found.caps > (100 if parts else 50)  # the eyes of Suzanne and their sockets are parts together
     assert (found.lost, found.new_borders, found.new_branches) == (0, 0, 0)
     assert abs(found.area) < 1e-5
     # Blender keeps directions as two angles, and takes a small one for none.

@@ -202,17 +202,19 @@ def test_painting_leaves_locked_parts_alone(obj, result):
     assert snapshot() == before
 
 
-def test_a_brush_does_not_reach_through_a_thin_body(make):
+@pytest.mark.parametrize("pieces", ["together", "separate"])
+def test_a_brush_does_not_reach_through_a_thin_body(pieces, make):
     # Two plates back to back, so near that the brush is much larger than the gap.
     plate = shapes.flat_grid(20, 20)
     obj = make(shapes.together(plate, shapes.moved(plate, (0, 0, 0.01))))
-    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.decompose(pieces=pieces, n_parts=4)
     mesh = obj.data
     center = centers(obj)
     before = numbers(mesh)
     upper = center[:, 2] > 0.005
-    mesh.reeb_parts.active = [part.number for part in mesh.reeb_parts.parts].index(int(before[upper][0]))
     lower_face = np.flatnonzero(~upper)[0]
+    others = [k for k, part in enumerate(mesh.reeb_parts.parts) if part.number != before[lower_face]]
+    mesh.reeb_parts.active = others[0]
     bpy.ops.reeb_parts.paint(stroke=dabs(center[lower_face], size=0.3))
     moved = numbers(mesh) != before
     assert moved.any()

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from core.cuts.hierarchy import Dendrogram, Hierarchy
+from core.cuts.hierarchy import Candidates, Dendrogram, Hierarchy
 
 
 def random_hierarchy(rng, n=30, loose=1):
@@ -121,3 +121,16 @@ def test_dendrogram_by_hand():
     assert tree.rows.tolist() == [0, 1, 3]
     never = np.iinfo(np.int64).max
     assert tree.row_of(np.array([0, 3, 0, 4]), np.array([2, 1, 3, 0])).tolist() == [0, 1, 3, never]
+
+
+def test_candidates_in_several_pieces_are_split_and_merge_within_pieces():
+    # Elements of pieces 0 0 0 1 1 1; candidates 0, 1 and 2 in each but 2 not in the second, 3 only there.
+    given = Candidates(np.array([0, 1, 2, 1, 0, 3]), Hierarchy.of(4, [(0, 1), (2, 3), (1, 3)], [0.1, 0.2, 0.6]))
+    split = given.within(np.array([0, 0, 0, 1, 1, 1]))
+    hierarchy = split.hierarchy
+    assert hierarchy.n_candidates == 6
+    assert len(np.unique(split.element_candidate)) == 6
+    assert hierarchy.salience.tolist() == [0.1, 0.1, 0.6, 0.6]
+    assert hierarchy.parts(4)[split.element_candidate].tolist() in ([0, 0, 1, 2, 2, 3], [0, 0, 2, 1, 1, 3])
+    assert len(np.unique(hierarchy.parts(1)[split.element_candidate[:3]])) == 1
+    assert hierarchy.n_loose == 2

@@ -26,8 +26,8 @@ def row():
         candidate_area=np.array([1.0, 2.0, 6.0, 1.0]), candidate_pairs=np.array([(0, 1), (1, 2), (2, 3)]),
         candidate_pair_length=np.array([0.5, 1.5, 2.5]),
         hierarchy=Hierarchy.of(4, [(2, 3), (0, 1), (1, 2)], [0.2, 0.4, 0.9]), field=np.zeros(5), graph=graph,
-        node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64), parameters=Parameters(),
-        notes=("odd",), seconds={"mesh": 0.1})
+        node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64),
+        contacts=np.array([(0, 3)]), parameters=Parameters(), notes=("odd",), seconds={"mesh": 0.1})
 
 
 @pytest.fixture(scope="module")
@@ -132,6 +132,20 @@ def test_stored_and_read_back(make, tree):
         assert_equal(again, Decomposition.from_bytes(again.to_bytes()))
 
 
+def test_contacts_are_stored_and_what_was_stored_without_them_opens():
+    result = decompose(*shapes.two_spheres())
+    assert result.contacts.shape == (1, 2)
+    data = result.to_bytes()
+    np.testing.assert_array_equal(Decomposition.from_bytes(data).contacts, result.contacts)
+    with np.load(io.BytesIO(data)) as stored:
+        arrays = {name: stored[name] for name in stored.files if name != "contacts"}
+    stream = io.BytesIO()
+    np.savez_compressed(stream, **arrays)
+    former = Decomposition.from_bytes(stream.getvalue())
+    assert former.contacts.shape == (0, 2)
+    np.testing.assert_array_equal(former.parts().labels, result.parts().labels)
+
+
 def test_what_another_version_stored_is_refused():
     data = row().to_bytes()
     with np.load(io.BytesIO(data)) as stored:
@@ -162,4 +176,4 @@ def test_a_result_stored_by_the_first_version_has_its_parameters():
     np.savez_compressed(stream, **arrays)
     parameters = Decomposition.from_bytes(stream.getvalue()).parameters
     assert parameters == Parameters(
-        **then, n_slabs=80, concavity_weight=0.25, band_ratio=0.25, equalize=False)
+        **then, pieces="separate", n_slabs=80, concavity_weight=0.25, band_ratio=0.25, equalize=False)

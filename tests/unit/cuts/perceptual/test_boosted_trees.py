@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from core import ReebError
-from core.cuts.perceptual.boosted_trees import ROWS, BoostedTrees, cut_model
+from core.cuts.boosted_trees import ROWS, BoostedTrees
 from core.cuts.perceptual.features import FEATURES
+from core.cuts.perceptual.method import cut_model
 
 
 def two_trees() -> BoostedTrees:

@@ -4,16 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from itertools import zip_longest
 from pathlib import Path
 
 import numpy as np
 
-from ...errors import ReebError
-from ...sentence import Sentence
-from ...surface.arrays import frozen
-from .features import FEATURES
+from ..errors import ReebError
+from ..sentence import Sentence
+from ..surface.arrays import frozen
 
 ROWS = 64  # number of rows evaluated at once; their intermediate arrays fit into the processor's cache
 
@@ -115,12 +113,3 @@ class BoostedTrees:
             place = np.frexp(lowest.astype(np.float32))[1] - 1
             total[start:start + ROWS] = self.leaf.ravel()[first + place].sum(axis=1)
         return 1.0 / (1.0 + np.exp(-total))
-
-
-@cache
-def cut_model() -> BoostedTrees:
-    """Read the model that judges cuts, which benchmarks/train.py trained; it is read once and kept.
-
-    Returns a BoostedTrees over the columns FEATURES. Raises ReebError if the file was trained on other features.
-    """
-    return BoostedTrees.read(Path(__file__).parent / "cut_model.npz", FEATURES)

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One order of merging over the candidates of all pieces of a body.
+
+Within a piece the finest candidates merge as the method of cutting says. Above FINE, parts of one piece and of
+several are treated alike: a model of people's parts judges each pair of parts that are near each other, and average
+linkage on its log-odds makes one order of all.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from ...surface.arrays import renumbered
+from ...surface.contact import TOUCH
+from ...surface.mesh import TriMesh
+from ..boosted_trees import BoostedTrees
+from ..hierarchy import Hierarchy
+from .linkage import average_linkage
+from .pairs import FEATURES, PartPairs, part_pairs
+
+# Cuts within a piece of less salience than this are not asked about.
+FINE = 0.2
+# Share of people who put two parts together at which they are together at detail 0.5.
+DECISION = 0.5
+# Between candidates that nothing brought near each other.
+LAST = 0.999
+SURE = 1e-4, 1 - 1e-4  # bounds of a judgement, whose log-odds are to be finite
+
+
+@dataclass(frozen=True, eq=False)
+class FineParts:
+    """The parts of the pieces of a body at the level FINE, and what pairs of them look like.
+
+    Attributes
+    ----------
+    part : (m,) int64
+        Part of each face of the body's mesh, 0..c-1.
+    candidate : (c,) int64
+        A candidate in each part.
+    pairs : PartPairs
+    """
+
+    part: np.ndarray
+    candidate: np.ndarray
+    pairs: PartPairs
+
+
+def fine_parts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, agd: np.ndarray) -> FineParts:
+    """Merge the candidates of each piece up to FINE, and measure the pairs of parts that come near each other.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        Of a body, m faces and n vertices.
+    label : (m,) int64
+        Candidate of each face.
+    hierarchy : Hierarchy
+        Over the candidates; merges within pieces only.
+    agd : (n,) float64
+        Normalized, 0..1.
+
+    Returns
+    -------
+    parts : FineParts
+    """
+    present, part = renumbered(hierarchy.parts(hierarchy.n_parts(1.0 - FINE))[label])
+    candidate = np.zeros(len(present), np.int64)
+    candidate[part] = label
+    a, b = np.meshgrid(candidate, candidate, indexing="ij")
+    salience = np.append(hierarchy.salience, 1.0)[hierarchy.merge_of(a.ravel(), b.ravel())]
+    pairs = part_pairs(mesh, part, salience.reshape(len(present), -1), agd)
+    return FineParts(part, candidate, pairs)
+
+
+def join_parts(
+    parts: FineParts, hierarchy: Hierarchy, model: BoostedTrees | None = None
+) -> tuple[Hierarchy, np.ndarray]:
+    """Extend the hierarchies of several pieces to one over all of them.
+
+    Parameters
+    ----------
+    parts : FineParts
+    hierarchy : Hierarchy
+        Over the candidates; merges within pieces only.
+    model : BoostedTrees, optional
+        What judges pairs; the one that ships with the package without.
+
+    Returns
+    -------
+    hierarchy : Hierarchy
+        Below FINE as it was. Salience 0.5 is DECISION.
+    contacts : (k, 2) int64
+        Faces of different parts that touch, or nearly so: wherever pieces touch, and where parts merge.
+    """
+    pairs = parts.pairs
+    together = np.clip((model or join_model()).predict(pairs.features), *SURE)
+    weight = np.sqrt(pairs.area[pairs.parts].min(axis=1)) + 1e-9
+    merges, score, rows = average_linkage(
+        len(parts.candidate), pairs.parts, np.log(together / (1 - together)), weight)
+    strength = np.interp(1 / (1 + np.exp(-score)), [0.0, DECISION, 1.0], [1.0, 0.5, FINE])
+    touching = (pairs.gap <= TOUCH) & ~pairs.same_piece
+    contacts = pairs.faces[np.union1d(rows, np.flatnonzero(touching))]
+    kept = hierarchy.salience < FINE
+    extended = Hierarchy.of(
+        hierarchy.n_candidates, np.concatenate([hierarchy.merges[kept], parts.candidate[merges]]),
+        np.concatenate([hierarchy.salience[kept], np.minimum(strength, LAST)]))
+    return extended, contacts
+
+
+@cache
+def join_model() -> BoostedTrees:
+    """The trees that judge pairs of parts; benchmarks/train_joining.py made them."""
+    return BoostedTrees.read(Path(__file__).parent / "join_model.npz", FEATURES)

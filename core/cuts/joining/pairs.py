@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pairs of parts that are near each other, and what they look like together.
+
+Everything is relative to the whole: lengths to its diameter, areas to its area.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...surface.arrays import distinct_pairs, last_of_each, sums_by
+from ...surface.contact import NEAR, SurfacePoints, diameter, near_pairs
+from ...surface.mesh import TriMesh
+
+RADII = (0.004, 0.012, NEAR)  # within which surfaces are counted as touching, in units of the diameter
+ALIKE = 0.1  # how much the logarithms of area and extents of parts that repeat each other may differ
+
+#: Of one part; of a pair first the smaller.
+PART = ("log_area", "extent_1", "extent_2", "extent_3", "repeats", "agd", "agd_deviation", "touched", "log_piece_area",
+        "parts_of_piece", "flatness")
+#: Of a pair.
+PAIR = ("same_piece", "salience", "distance", "gap", "near_small_1", "near_small_2", "near_small_3", "near_large_1",
+        "near_large_2", "near_large_3", "elsewhere_small", "elsewhere_large", "inside_small", "inside_large",
+        "normals", "agd_change", "log_ratio", "alike", "contact_spread", "contact_extent", "height")
+WHOLE = ("log_pieces", "log_parts", "largest")
+FEATURES = (*PAIR, *(f"small_{n}" for n in PART), *(f"large_{n}" for n in PART), *WHOLE)
+
+
+@dataclass(frozen=True, eq=False)
+class PartPairs:
+    """Pairs of parts that come near each other.
+
+    Attributes
+    ----------
+    parts : (e, 2) int64
+        The smaller index first.
+    features : (e, len(FEATURES)) float64
+    same_piece : (e,) bool
+        Whether both lie in one piece.
+    gap : (e,) float64
+        Least distance of two points, in units of the diameter.
+    faces : (e, 2) int64
+        Faces of the mesh at these two points.
+    area : (c,) float64
+        Of each part, share of the whole.
+    """
+
+    parts: np.ndarray
+    features: np.ndarray
+    same_piece: np.ndarray
+    gap: np.ndarray
+    faces: np.ndarray
+    area: np.ndarray
+
+
+def part_pairs(mesh: TriMesh, label: np.ndarray, salience: np.ndarray, agd: np.ndarray) -> PartPairs:
+    """Measure the pairs of parts that come nearer to each other than NEAR.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces, n vertices; several pieces.
+    label : (m,) int64
+        Part of each face, 0..c-1; a part lies in one piece.
+    salience : (c, c) float64
+        Of the cut between two parts of one piece; 1 between pieces.
+    agd : (n,) float64
+        Normalized, 0..1.
+    """
+    points = SurfacePoints.of(mesh, label)
+    size = diameter(points.position, points.area)
+    points = replace(points, position=points.position / size, area=points.area / points.area.sum() + 1e-12)
+    mine, count = label[points.face], int(label.max()) + 1
+    area = np.bincount(mine, points.area, count)
+    near = _Nearness.of(points, mine)
+    level = agd[points.vertex]
+    shape = _part_shapes(mesh, label, points, mine, area, level, near.touching())
+    swap = area[near.parts[:, 0]] > area[near.parts[:, 1]]
+    small, large = np.where(swap[:, None], near.parts[:, ::-1], near.parts).T
+    part_piece = np.zeros(count, np.int64)
+    part_piece[label] = mesh.face_components[1]
+    same = part_piece[small] == part_piece[large]
+    nearest, gap = near.nearest()
+    extent = shape["extents"]
+    columns = {
+        "same_piece": same, "salience": np.where(same, salience[small, large], 1.0),
+        "distance": np.linalg.norm(shape["center"][small] - shape["center"][large], axis=1),
+        "gap": gap,
+        **_share_columns(near, area, swap, shape["touched"][small], shape["touched"][large]),
+        "inside_small": _inside(shape, small, large), "inside_large": _inside(shape, large, small),
+        "agd_change": np.abs(shape["agd"][small] - shape["agd"][large]),
+        "log_ratio": np.log(area[large] / area[small]),
+        "alike": np.abs(np.log(extent[small] + 0.003) - np.log(extent[large] + 0.003)).max(axis=1),
+        **_contact_columns(near, mesh.face_normals[points.face], level, gap, area[small]),
+        "log_pieces": np.full(len(small), np.log(mesh.face_components[0])),
+        "log_parts": np.full(len(small), np.log(count)), "largest": np.full(len(small), area.max()),
+        **{f"small_{n}": shape[n][small] for n in PART}, **{f"large_{n}": shape[n][large] for n in PART},
+    }
+    features = np.stack([columns[n] for n in FEATURES], axis=1).astype(float)
+    return PartPairs(near.parts, features, same, gap, points.face[nearest], area)
+
+
+@dataclass(frozen=True, eq=False)
+class _Nearness:
+    """Where parts come near each other.
+
+    Attributes
+    ----------
+    points : SurfacePoints
+        In units of the diameter.
+    parts : (e, 2) int64
+        Pairs of parts, the smaller index first.
+    ends : (k, 2) int64
+        A point of one part, and the nearest point of the other.
+    row : (k,) int64
+        Their pair of parts.
+    first : (k,) bool
+        Whether the point lies in the first part of the pair.
+    distance : (k,) float64
+    """
+
+    points: SurfacePoints
+    parts: np.ndarray
+    ends: np.ndarray
+    row: np.ndarray
+    first: np.ndarray
+    distance: np.ndarray
+
+    @classmethod
+    def of(cls, points: SurfacePoints, label: np.ndarray) -> _Nearness:
+        """label : (s,) int64, part of each point."""
+        ends, distance = near_pairs(points, label, NEAR)
+        parts, row = distinct_pairs(*np.sort(label[ends], axis=1).T)
+        return cls(points, parts, ends, row, label[ends[:, 0]] == parts[row, 0], distance)
+
+    def touching(self) -> np.ndarray:
+        """(s,) bool, which points are near another part."""
+        near = np.zeros(len(self.points.face), bool)
+        near[self.ends[self.distance <= RADII[1], 0]] = True
+        return near
+
+    def nearest(self) -> tuple[np.ndarray, np.ndarray]:
+        """The two nearest points of each pair of parts, (e, 2) int64, and their distance, (e,) float64."""
+        k = last_of_each(self.row, -self.distance, -np.arange(len(self.row)), count=len(self.parts))
+        return self.ends[k], self.distance[k]
+
+    def share(self, area: np.ndarray) -> np.ndarray:
+        """(e, 2, len(RADII)) float64, share of each of the two parts within the radii of the other."""
+        share = np.zeros((len(self.parts), 2, len(RADII)))
+        for k, radius in enumerate(RADII):
+            for side, mine in enumerate((self.first, ~self.first)):
+                rows = mine & (self.distance <= radius)
+                share[:, side, k] = np.bincount(
+                    self.row[rows], self.points.area[self.ends[rows, 0]], len(self.parts)) / area[self.parts[:, side]]
+        return np.minimum(share, 1.0)
+
+
+def _share_columns(
+    near: _Nearness, area: np.ndarray, swap: np.ndarray, touched_small: np.ndarray, touched_large: np.ndarray
+) -> dict[str, np.ndarray]:
+    """How much of a part is near the other, and how much touches anything but the other.
+
+    area : (c,) of each part. swap, touched_small, touched_large : (e,), whether the second part of a pair is the
+    smaller, and how much of either touches anything.
+    """
+    share = near.share(area)
+    small, large = np.where(swap[:, None, None], share[:, ::-1], share).transpose(1, 2, 0)
+    return {**{f"near_small_{k + 1}": small[k] for k in range(len(RADII))},
+            **{f"near_large_{k + 1}": large[k] for k in range(len(RADII))},
+            "elsewhere_small": touched_small - small[1], "elsewhere_large": touched_large - large[1]}
+
+
+def _contact_columns(
+    near: _Nearness, normal: np.ndarray, level: np.ndarray, gap: np.ndarray, area_small: np.ndarray
+) -> dict[str, np.ndarray]:
+    """What the place is like where two parts touch, or come nearest.
+
+    normal, level : (s, 3) and (s,), of each point. gap, area_small : (e,), of each pair.
+    """
+    row, count, position = near.row, len(near.parts), near.points.position
+    point, other = near.ends.T
+    contact = near.distance <= np.maximum(RADII[1], gap[row] + 1e-3)
+    weight = near.points.area[point] * contact + 1e-300
+    total = np.bincount(row, weight, count)
+    middle = sums_by(row, weight[:, None] * position[point], count) / total[:, None]
+    spread = np.sqrt(np.maximum(np.bincount(
+        row, weight * ((position[point] - middle[row]) ** 2).sum(axis=1), count) / total, 0))
+    return {"normals": np.bincount(row, weight * (normal[point] * normal[other]).sum(axis=1), count) / total,
+            "contact_spread": spread, "contact_extent": spread / np.sqrt(area_small),
+            "height": np.bincount(row, weight * level[point], count) / total}
+
+
+def _part_shapes(
+    mesh: TriMesh, label: np.ndarray, points: SurfacePoints, mine: np.ndarray, area: np.ndarray, level: np.ndarray,
+    touching: np.ndarray,
+) -> dict[str, np.ndarray]:
+    """The columns PART of every part, and its center, principal axes and extents along them.
+
+    mine, level, touching : (s,), of each point, its part, its AGD, and whether it is near another part. area : (c,)
+    of each part.
+    """
+    count, position, weight = len(area), points.position, points.area
+    center = sums_by(mine, weight[:, None] * position, count) / area[:, None]
+    offset = position - center[mine]
+    moments = sums_by(mine, weight[:, None] * (offset[:, :, None] * offset[:, None, :]).reshape(-1, 9), count)
+    values, axes = np.linalg.eigh(moments.reshape(-1, 3, 3) / area[:, None, None])
+    extents = np.sqrt(np.maximum(values[:, ::-1], 0))
+    mean = np.bincount(mine, weight * level, count) / area
+    deviation = np.sqrt(np.maximum(np.bincount(mine, weight * level**2, count) / area - mean**2, 0))
+    logs = np.column_stack([0.5 * np.log(area), np.log(extents + 0.003)])
+    alike = (np.abs(logs[:, None] - logs[None]).max(axis=2) < ALIKE).sum(axis=1) - 1.0
+    piece = mesh.face_components[1]
+    part_piece = np.zeros(count, np.int64)
+    part_piece[label] = piece
+    piece_area = np.bincount(part_piece, area)
+    touched = np.bincount(mine, weight * touching, count) / area
+    return {
+        "center": center, "axes": axes[:, :, ::-1], "extents": extents, "log_area": np.log(area),
+        "extent_1": extents[:, 0] / np.sqrt(area), "extent_2": extents[:, 1] / np.maximum(extents[:, 0], 1e-6),
+        "extent_3": extents[:, 2] / np.maximum(extents[:, 0], 1e-6), "repeats": alike, "agd": mean,
+        "agd_deviation": deviation, "touched": touched, "log_piece_area": np.log(piece_area[part_piece]),
+        "parts_of_piece": np.bincount(part_piece)[part_piece].astype(float),
+        "flatness": extents[:, 2] / np.sqrt(area),
+    }
+
+
+def _inside(shape: dict[str, np.ndarray], one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """How far out the middle of a part lies in the spread of another, in its standard deviations, at most 5."""
+    offset = shape["center"][one] - shape["center"][other]
+    along = np.abs(np.einsum("ni,nij->nj", offset, shape["axes"][other]))
+    return np.minimum((along / (shape["extents"][other] + 0.01)).max(axis=1), 5.0)

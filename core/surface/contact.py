@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the pieces of a surface touch each other, or nearly so, though they share no edge.
+
+A piece here is a connected component of the faces: a sleeve, an eye, a wheel. Contact is measured between points
+spread over the surface, the vertices and the centroids of the faces.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from .arrays import components, distinct_pairs, last_of_each
+from .mesh import TriMesh
+
+# In units of the diameter of a surface: how near two pieces must come to touch, how near to belong to one body, and
+# how much farther from each other than the nearest two points of two pieces other points may be to be linked.
+TOUCH, NEAR, SLACK = 0.01, 0.03, 0.005
+MAX_POINTS = 8_000  # of a denser surface so many are taken
+MAX_PAIRS = 2_000_000  # of points near each other that are looked at one by one
+FAR_POINTS = 1_500  # to look farther than NEAR, where all pairs of points are compared in the end
+
+
+@dataclass(frozen=True, eq=False)
+class SurfacePoints:
+    """Points of a surface that stand for it.
+
+    Attributes
+    ----------
+    position : (s, 3) float64
+    face, vertex : (s,) int64
+        A face that each point lies on, and the nearest corner of that face.
+    area : (s,) float64
+        That each point stands for; they sum to the area of the surface.
+    """
+
+    position: np.ndarray
+    face: np.ndarray
+    vertex: np.ndarray
+    area: np.ndarray
+
+    @classmethod
+    def of(cls, mesh: TriMesh, group: np.ndarray, count: int = MAX_POINTS) -> SurfacePoints:
+        """Vertices and face centroids of a mesh, of which each vertex is of a face; all, or ``count`` and some more.
+
+        group : (m,) int64. Of each face, 0 or more; the middle of the largest face of each group is always taken.
+        """
+        face_at = np.empty(mesh.n_vertices, np.int64)
+        face_at[mesh.faces[::-1]] = np.arange(mesh.n_faces)[::-1, None]
+        offset = np.linalg.norm(mesh.corners - mesh.face_centroids[:, None], axis=2)
+        nearest = mesh.faces[np.arange(mesh.n_faces), offset.argmin(axis=1)]
+        points = cls(
+            np.concatenate([mesh.vertices, mesh.face_centroids]),
+            np.concatenate([face_at, np.arange(mesh.n_faces)]),
+            np.concatenate([np.arange(mesh.n_vertices), nearest]),
+            np.concatenate([mesh.vertex_area, mesh.face_area]) / 2)
+        largest = mesh.n_vertices + last_of_each(
+            group, mesh.face_area, -np.arange(mesh.n_faces), count=int(group.max()) + 1)
+        return points.some(count, largest[largest >= mesh.n_vertices])
+
+    def some(self, count: int, always: np.ndarray) -> SurfacePoints:
+        """About so many of the points, evenly spread over their order, and some that are always taken."""
+        if len(self.face) <= count:
+            return self
+        chosen = np.union1d(np.linspace(0, len(self.face) - 1, count).astype(np.int64), always)
+        area = self.area[chosen]
+        return SurfacePoints(self.position[chosen], self.face[chosen], self.vertex[chosen],
+                             area * self.area.sum() / area.sum())
+
+
+def diameter(position: np.ndarray, area: np.ndarray) -> float:
+    """Length of a rod that is spread as far about its middle as some points of a surface, (s, 3) and (s,)."""
+    middle = area @ position / area.sum()
+    return float(np.sqrt(12.0 * (area @ ((position - middle) ** 2).sum(axis=1)) / area.sum()))
+
+
+def near_pairs(points: SurfacePoints, label: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+    """For every point and every other label nearby, the nearest point of that label.
+
+    Parameters
+    ----------
+    points : SurfacePoints
+    label : (s,) int64
+        0 or more.
+    radius : float
+        How far to look.
+
+    Returns
+    -------
+    pairs : (k, 2) int64
+        A point, and the nearest one of another label.
+    distance : (k,) float64
+    """
+    tree = cKDTree(points.position)
+    if tree.count_neighbors(tree, radius) > MAX_PAIRS:
+        found = _nearest_of_each_label(points.position, label, radius)
+    else:
+        found = tree.query_pairs(radius, output_type="ndarray")
+        found = found[label[found[:, 0]] != label[found[:, 1]]]
+        found = np.concatenate([found, found[:, ::-1]]).astype(np.int64)
+    distance = np.linalg.norm(points.position[found[:, 0]] - points.position[found[:, 1]], axis=1)
+    cells, cell = distinct_pairs(found[:, 0], label[found[:, 1]])
+    nearest = last_of_each(cell, -distance, -found[:, 1], count=len(cells))
+    return found[nearest], distance[nearest]
+
+
+def _nearest_of_each_label(position: np.ndarray, label: np.ndarray, radius: float) -> np.ndarray:
+    """Pairs (k, 2) int64 of a point and the nearest one of another label, one label after the other.
+
+    Slower than looking at all pairs of points, but not when thousands of points lie within the radius of each.
+    """
+    found = [np.empty((0, 2), np.int64)]
+    order = np.argsort(label, kind="stable")
+    for mine in np.split(order, np.flatnonzero(np.diff(label[order])) + 1):
+        low, high = position[mine].min(axis=0) - radius, position[mine].max(axis=0) + radius
+        others = np.flatnonzero(((position >= low) & (position <= high)).all(axis=1) & (label != label[mine[0]]))
+        # Up to and with the radius.
+        distance, nearest = cKDTree(position[mine]).query(
+            position[others], distance_upper_bound=np.nextafter(radius, np.inf))
+        within = np.isfinite(distance)
+        found.append(np.stack([others[within], mine[nearest[within]]], axis=1))
+    return np.concatenate(found)
+
+
+@dataclass(frozen=True, eq=False)
+class Bridges:
+    """Links between the pieces of a surface.
+
+    Attributes
+    ----------
+    vertices : (l, 2) int64
+        Vertices of different pieces that a straight line joins.
+    faces : (l, 2) int64
+        A face at each of them.
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray
+
+    @classmethod
+    def none(cls) -> Bridges:
+        """No links."""
+        return cls(np.empty((0, 2), np.int64), np.empty((0, 2), np.int64))
+
+
+def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
+    """Link the pieces of a surface where they come nearest to each other.
+
+    Pieces that touch are linked; a piece that touches none is linked to those that are near.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        Every vertex has a face.
+    connected : bool
+        Whether to look farther and farther until all pieces hang together.
+
+    Returns
+    -------
+    bridges : Bridges
+        Not more than NEAR diameters long without ``connected``.
+    """
+    count, piece = mesh.face_components
+    if count == 1:
+        return Bridges.none()
+    points = SurfacePoints.of(mesh, piece)
+    size = diameter(points.position, points.area)
+    label = piece[points.face]
+    near = NEAR * size
+    found = _links(points, label, near, size)
+    while connected and components(count, *label[found].T)[0] > 1:
+        near *= 2
+        points = SurfacePoints.of(mesh, piece, FAR_POINTS)
+        label = piece[points.face]
+        found = _links(points, label, near, size)
+    return Bridges(points.vertex[found], points.face[found])
+
+
+def _links(points: SurfacePoints, piece: np.ndarray, near: float, size: float) -> np.ndarray:
+    """Pairs of points to be linked, (l, 2) int64; of pieces nearer than ``near``, a length.
+
+    piece : (s,) int64, of each point. size : the diameter.
+    """
+    count = int(piece.max()) + 1
+    pairs, distance = near_pairs(points, piece, near)
+    cells, cell = distinct_pairs(*np.sort(piece[pairs], axis=1).T)
+    least = np.full(len(cells), np.inf)
+    np.minimum.at(least, cell, distance)
+    touching = least <= TOUCH * size
+    _, body = components(count, *cells[touching].T)
+    joins = touching | (body[cells[:, 0]] != body[cells[:, 1]])
+    chosen = pairs[joins[cell] & (distance <= least[cell] + SLACK * size)]
+    vertices, link = distinct_pairs(*np.sort(points.vertex[chosen], axis=1).T)
+    return chosen[last_of_each(link, -np.arange(len(link)), count=len(vertices))]

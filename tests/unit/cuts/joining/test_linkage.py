@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Average linkage by hand, and against means over all pairs of two groups."""
+
+import numpy as np
+import pytest
+
+from core.cuts.joining.linkage import average_linkage
+from core.surface.arrays import components
+
+
+def test_four_members_by_hand():
+    pairs = np.array([(0, 1), (1, 2), (0, 2), (2, 3)])
+    merges, scores, rows = average_linkage(4, pairs, np.array([3.0, 2.0, -1.0, 1.0]), np.array([1.0, 1.0, 3.0, 2.0]))
+    # 0 and 1 first; then 2 and 3, because {0, 1} and 2 score (2 - 3) / 4.
+    assert [set(m) for m in merges.tolist()] == [{0, 1}, {2, 3}, {0, 2}]
+    assert scores.tolist() == [3.0, 1.0, -0.25]
+    assert rows.tolist() == [0, 3, 1]  # of the last two groups 1 and 2 are the best pair
+
+
+def test_what_was_not_compared_stays_apart():
+    merges, scores, rows = average_linkage(4, np.array([(0, 3)]), np.array([-9.0]), np.ones(1))
+    assert merges.tolist() == [[0, 3]]
+    assert (scores.tolist(), rows.tolist()) == ([-9.0], [0])
+    nothing = average_linkage(3, np.empty((0, 2), int), np.empty(0), np.empty(0))
+    assert [x.shape for x in nothing] == [(0, 2), (0,), (0,)]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_every_merge_joins_two_groups_with_the_mean_of_their_pairs(seed):
+    rng = np.random.default_rng(seed)
+    pairs = np.stack(np.triu_indices(25, 1), axis=1)
+    pairs = pairs[rng.random(len(pairs)) < 0.2]
+    score, weight = rng.normal(size=len(pairs)), 0.1 + rng.random(len(pairs))
+    merges, scores, rows = average_linkage(25, pairs, score, weight)
+    group = np.arange(25)
+    for (a, b), found, row in zip(merges.tolist(), scores, rows, strict=True):
+        a, b = group[[a, b]]
+        assert a != b
+        means = {}
+        for x, y in {tuple(sorted(p)) for p in group[pairs].tolist() if p[0] != p[1]}:
+            between = (np.sort(group[pairs], axis=1) == (x, y)).all(axis=1)
+            means[x, y] = np.average(score[between], weights=weight[between])
+            if {x, y} == {a, b}:
+                assert score[row] == score[between].max()
+                assert between[row]
+        assert found == pytest.approx(means[min(a, b), max(a, b)])
+        assert found == pytest.approx(max(means.values()))
+        group[group == b] = a
+    assert len(np.unique(group)) == components(25, *pairs.T)[0]

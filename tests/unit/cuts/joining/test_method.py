@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts over several pieces: of shells that touch, of bodies far apart, of a mesh that was taken apart."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import Parameters, TriMesh, decompose
+from core.metrics import rand_index_error
+from core.surface.arrays import components
+
+
+def shells(shape, label):
+    """Each group of faces with vertices of its own, a little apart: nothing is joined again."""
+    center = shape.vertices[shape.faces].mean(axis=1)
+    found = []
+    for k in range(label.max() + 1):
+        used, faces = np.unique(shape.faces[label == k], return_inverse=True)
+        middle = center[label == k].mean(axis=0)
+        found.append(shapes.Shape(middle + 0.999 * (shape.vertices[used] - middle), faces.reshape(-1, 3)))
+    return shapes.together(*found)
+
+
+def pieces_of(name):
+    """A shape, its faces in the order of its pieces, and these as shells."""
+    shape = {"dumbbell": shapes.dumbbell, "tree": shapes.tube_tree}[name]()
+    center = shape.vertices[shape.faces].mean(axis=1)
+    if name == "dumbbell":
+        label = (center[:, 2] > 0).astype(int)
+    else:
+        label = decompose(*shape).parts(n_parts=5).labels
+    order = np.argsort(label, kind="stable")
+    shape = shapes.Shape(shape.vertices, shape.faces[order])
+    return shape, label[order], shells(shape, label[order])
+
+
+@pytest.mark.parametrize("name", ["dumbbell", "tree"])
+@pytest.mark.parametrize("preset", ["Perceptual", "Berretti 2009"])
+def test_a_mesh_taken_apart_and_pushed_together(name, preset):
+    shape, label, apart = pieces_of(name)
+    result = decompose(*apart, Parameters.preset(preset))
+    assert result.graph.n_components == 1
+    assert result.parts(0.0).count == 1
+    edges = TriMesh(*apart).edges.pairs
+    links = np.concatenate([edges, result.contacts])
+    for n in range(1, min(result.n_candidates, 40) + 1):
+        labels = result.parts(n_parts=n).labels
+        assert np.unique(labels).tolist() == list(range(n))
+        same = links[labels[links[:, 0]] == labels[links[:, 1]]]
+        assert components(len(labels), *same.T)[0] == n
+    if preset == "Perceptual":
+        whole = decompose(*shape)
+        count = label.max() + 1
+        error = rand_index_error(whole.parts(n_parts=count).labels, result.parts(n_parts=count).labels)
+        assert error < 0.1
+
+
+def test_two_far_spheres():
+    result = decompose(*shapes.two_spheres(3))
+    assert result.parts(0.0).count == 1
+    assert [result.parts(n_parts=n).count for n in range(1, result.n_candidates + 1)] == list(
+        range(1, result.n_candidates + 1))
+    assert result.parts(0.002).count == result.parts().count == 2
+    assert result.contacts.shape == (1, 2)
+    assert (result.contacts[0] < 1280).sum() == 1  # a face of each

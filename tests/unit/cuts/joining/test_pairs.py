@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What pairs of parts look like: finite on any mesh, and the same wherever and however the mesh lies."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import TriMesh
+from core.cuts.joining.pairs import FEATURES, part_pairs
+
+
+def measured(shape, label=None):
+    mesh = TriMesh(*shape)
+    label = mesh.face_components[1] if label is None else label
+    count = label.max() + 1
+    agd = np.linalg.norm(mesh.vertices - mesh.vertices.mean(axis=0), axis=1)
+    return part_pairs(mesh, label, np.ones((count, count)), agd / max(agd.max(), 1e-300))
+
+
+def furniture():
+    """Three stones of different sizes that touch, the last cut into two parts."""
+    stone = shapes.icosphere(3)
+    parts = [shapes.Shape(stone.vertices * size + at, stone.faces) for size, at in (
+        ((2, 1, 0.6), (0, 0, 0)), ((0.3, 0.45, 1), (-1, 0.1, -1.45)), ((0.5, 0.7, 0.9), (0.8, 0.1, 1.4)))]
+    shape = shapes.together(*parts)
+    label = np.repeat([0, 1, 2], [len(s.faces) for s in parts])
+    label[(label == 2) & (shape.vertices[shape.faces].mean(axis=1)[:, 2] > 1.7)] = 3
+    return shape, label
+
+
+@pytest.mark.parametrize("make", [
+    shapes.two_spheres, lambda: shapes.crumbs(60), lambda: shapes.together(shapes.box((1, 1, 1e-9)), shapes.box()),
+    lambda: shapes.together(shapes.tetrahedron(), shapes.tetrahedron()), lambda: furniture()[0],
+    lambda: shapes.together(shapes.icosphere(2), shapes.moved(shapes.icosphere(1, 1e-6), (1, 0, 0)))])
+def test_finite_on_awkward_meshes(make):
+    found = measured(make())
+    assert found.features.shape == (len(found.parts), len(FEATURES))
+    assert np.isfinite(found.features).all()
+    assert (found.parts[:, 0] < found.parts[:, 1]).all()
+    assert found.area.sum() == pytest.approx(1)
+
+
+def test_who_is_near_whom():
+    found = measured(*furniture())
+    assert found.parts.tolist() == [[0, 1], [0, 2], [2, 3]]
+    assert found.same_piece.tolist() == [False, False, True]
+    assert (found.gap >= 0).all()
+
+
+def test_scale_and_place_change_nothing():
+    shape, label = furniture()
+    one = measured(shape, label)
+    for vertices, tolerance in ((2.0**-10 * shape.vertices, 1e-9), (1e-3 * (shape.vertices + (5, -3, 2)), 1e-3)):
+        two = measured((vertices, shape.faces), label)
+        np.testing.assert_array_equal(one.parts, two.parts)
+        np.testing.assert_allclose(one.features, two.features, atol=tolerance)
+
+
+def test_pose_and_order_of_faces_change_little():
+    shape, label = furniture()
+    rng = np.random.default_rng(0)
+    one = measured(shape, label)
+    turned = measured((shape.vertices @ shapes.rotation(rng).T, shape.faces), label)
+    face = rng.permutation(len(label))
+    shuffled = measured((shape.vertices, shape.faces[face]), label[face])
+    for other in (turned, shuffled):
+        np.testing.assert_array_equal(one.parts, other.parts)
+        np.testing.assert_allclose(one.features, other.features, rtol=0.05, atol=0.1)

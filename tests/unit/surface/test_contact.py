@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where pieces come near each other, against distances between points by hand."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import TriMesh
+from core.surface import contact
+from core.surface.contact import MAX_POINTS, SurfacePoints, bridges, diameter, near_pairs
+
+
+def points_at(position):
+    count = len(position)
+    return SurfacePoints(np.array(position, float), np.arange(count), np.arange(count), np.ones(count))
+
+
+def two_boxes(gap):
+    """Two unit boxes beside each other along x, a gap apart in units of the diameter of both."""
+    def pair(apart):
+        return TriMesh(*shapes.together(*(shapes.moved(shapes.subdivide(shapes.subdivide(shapes.box())), (x, 0, 0))
+                                          for x in (0, 1 + apart))))
+
+    mesh = pair(gap)
+    points = SurfacePoints.of(mesh, mesh.face_components[1])
+    return pair(gap * diameter(points.position, points.area))
+
+
+def test_boxes_are_linked_where_they_come_near_or_where_all_are_to_hang_together():
+    for gap, connected, linked in ((0.01, False, True), (0.1, False, False), (0.1, True, True)):
+        mesh = two_boxes(gap)
+        found = bridges(mesh, connected)
+        assert found.vertices.shape == found.faces.shape
+        assert (len(found.faces) > 0) == linked
+        piece = mesh.face_components[1]
+        assert (piece[found.faces[:, 0]] != piece[found.faces[:, 1]]).all()
+        for end in (0, 1):  # each vertex is a corner of its face
+            assert (mesh.faces[found.faces[:, end]] == found.vertices[:, end, None]).any(axis=1).all()
+        np.testing.assert_allclose(mesh.vertices[found.vertices][..., 0].min(axis=1), 1)  # on the sides that face
+
+
+def test_one_piece_needs_no_bridge():
+    assert bridges(TriMesh(*shapes.tube_tree(2, step=0.2)), connected=True).vertices.shape == (0, 2)
+
+
+@pytest.mark.parametrize("make", [shapes.box, lambda: shapes.icosphere(5), shapes.two_spheres])
+def test_areas_of_points_sum_to_the_area(make):
+    mesh = TriMesh(*make())
+    points = SurfacePoints.of(mesh, mesh.face_components[1])
+    assert points.area.sum() == pytest.approx(mesh.area)
+    assert len(points.face) <= min(MAX_POINTS + 2, mesh.n_vertices + mesh.n_faces)
+    assert (mesh.faces[points.face] == points.vertex[:, None]).any(axis=1).all()
+
+
+def test_diameter_of_a_rod_is_its_length():
+    along = np.linspace(0, 5, 1001)[:, None] * (0.6, 0.8, 0)
+    assert diameter(along, np.ones(1001)) == pytest.approx(5, rel=2e-3)
+    assert diameter(3 * along + 7, np.full(1001, 2.0)) == pytest.approx(15, rel=2e-3)
+
+
+@pytest.mark.parametrize("most", [0, 10**9])
+def test_near_pairs_by_hand(most, monkeypatch):
+    monkeypatch.setattr(contact, "MAX_PAIRS", most)  # compared label by label, and all at once
+    points = points_at([(0, 0, 0), (1, 0, 0), (2.5, 0, 0), (1, 3, 0), (9, 9, 9)])
+    pairs, distance = near_pairs(points, np.array([0, 0, 1, 2, 3]), 3.0)
+    found = dict(zip(map(tuple, pairs.tolist()), distance.tolist(), strict=True))
+    assert found == {(0, 2): 2.5, (1, 2): 1.5, (1, 3): 3.0, (2, 1): 1.5, (3, 1): 3.0}
+
+
+def test_both_ways_of_finding_near_pairs_agree(monkeypatch):
+    rng = np.random.default_rng(0)
+    points, label = points_at(rng.random((300, 3))), rng.integers(0, 6, 300)
+    one = near_pairs(points, label, 0.3)
+    monkeypatch.setattr(contact, "MAX_PAIRS", 0)
+    two = near_pairs(points, label, 0.3)
+    np.testing.assert_array_equal(one[0], two[0])
+    np.testing.assert_allclose(one[1], two[1])
