@@ -15,6 +15,7 @@ import numpy as np
 
 from ..surface.arrays import components, sums_by
 from ..surface.mesh import TriMesh
+from .runs import joined_runs
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,6 +207,8 @@ def cut_at_levels(
         The field at each vertex.
     levels : (K,) float64
         Values of the field at which the surface is cut, strictly rising.
+    bridges : (l, 2) int64, optional
+        Faces of different loose parts across which level sets run on.
 
     Returns
     -------
@@ -225,16 +228,12 @@ def cut_at_levels(
     low, high = ends.min(axis=1), ends.max(axis=1)
 
     first = np.cumsum(highest - lowest + 1) - (highest - lowest + 1) - lowest
-    bridges = np.empty((0, 2), np.int64) if bridges is None else bridges
-    bridge_low, bridge_high = lowest[bridges].max(axis=1), highest[bridges].min(axis=1)
-    pairs = np.concatenate([pairs, bridges])
-    low, high = np.append(low, bridge_low), np.append(high, np.maximum(bridge_high, bridge_low - 1))
     pair, at = _expand(low, high - low + 1)
     n_pieces, element_piece = components(
         len(element_face), first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
 
     first_segment = np.cumsum(highest - lowest) - (highest - lowest) - lowest
-    pair, at = _expand(low, np.maximum(high - low, 0))
+    pair, at = _expand(low, high - low)
     n_contours, segment_contour = components(
         len(segment_face), first_segment[pairs[pair, 0]] + at, first_segment[pairs[pair, 1]] + at)
 
@@ -242,6 +241,19 @@ def cut_at_levels(
     contour_pieces = np.empty((n_contours, 2), np.int64)
     contour_pieces[segment_contour, 0] = element_piece[lower]
     contour_pieces[segment_contour, 1] = element_piece[lower + 1]
+    if bridges is not None and len(bridges):
+        low, high = lowest[bridges].max(axis=1), highest[bridges].min(axis=1)
+        pair, at = _expand(low, np.maximum(high - low + 1, 0))
+        loose_part = np.empty(n_pieces, np.int64)
+        loose_part[element_piece] = mesh.face_components[1][element_face]
+        linked = element_piece[first[bridges[pair]] + at[:, None]]
+        swap = loose_part[linked[:, 0]] > loose_part[linked[:, 1]]
+        pieces, contours = joined_runs(np.where(swap[:, None], linked[:, ::-1], linked), contour_pieces, loose_part)
+        n_pieces, piece = components(n_pieces, *pieces.T)
+        n_contours, contour = components(n_contours, *contours.T)
+        element_piece, segment_contour = piece[element_piece], contour[segment_contour]
+        contour_pieces[contour] = piece[contour_pieces]
+        contour_pieces = contour_pieces[:n_contours]
     piece_slab = np.empty(n_pieces, np.int64)
     piece_slab[element_piece] = element_slab
     contour_level = np.empty(n_contours, np.int64)

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Level sets across bridges: one run of slabs joins two loose parts, and no loop comes of it."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.graph.runs import joined_runs
+from core.surface.arrays import components
+from core.surface.mesh import TriMesh
+
+# Two chains of five pieces, 0..4 and 5..9, one piece in every slab; contour i lies between pieces i and i + 1.
+CHAINS = np.array([(0, 1), (1, 2), (2, 3), (3, 4), (5, 6), (6, 7), (7, 8), (8, 9)])
+CHAIN = np.repeat([0, 1], 5)
+
+
+def across(*slabs):
+    return np.array([(slab, slab + 5) for slab in slabs])
+
+
+def test_a_run_of_slabs_is_joined_with_the_contours_between():
+    pieces, contours = joined_runs(across(1, 2, 3), CHAINS, CHAIN)
+    assert pieces.tolist() == [[1, 6], [2, 7], [3, 8]]
+    assert contours.tolist() == [[1, 5], [2, 6]]
+
+
+def test_of_two_runs_the_one_with_more_bridges_joins():
+    pieces, contours = joined_runs(across(0, 2, 3, 3), CHAINS, CHAIN)
+    assert (pieces.tolist(), contours.tolist()) == ([[2, 7], [3, 8]], [[2, 6]])
+    pieces, contours = joined_runs(across(0, 0, 0, 0, 2, 3, 3), CHAINS, CHAIN)
+    assert (pieces.tolist(), contours.tolist()) == ([[0, 5]], [])
+
+
+def test_of_three_loose_parts_in_a_ring_two_pairs_join_those_with_most_bridges():
+    bridges = np.array([(0, 1), (0, 1), (1, 2), (0, 2), (0, 2), (0, 2)])
+    pieces, contours = joined_runs(bridges, np.empty((0, 2), np.int64), np.arange(3))
+    assert (pieces.tolist(), contours.tolist()) == ([[0, 1], [0, 2]], [])
+
+
+def test_a_branch_joins_a_branch():
+    # Both loose parts fork from slab 0 to slab 1: 0 to 1 and 2, 3 to 4 and 5.
+    forks = np.array([(0, 1), (0, 2), (3, 4), (3, 5)])
+    pieces, contours = joined_runs(np.array([(0, 3), (1, 4), (2, 5)]), forks, np.array([0, 0, 0, 1, 1, 1]))
+    assert pieces.tolist() == [[0, 3], [1, 4], [2, 5]]
+    assert contours.tolist() == [[0, 2], [1, 3]]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_bridges_anywhere_make_no_loops(seed):
+    rng = np.random.default_rng(seed)
+    surfaces = [shapes.icosphere(2), shapes.torus(24, 8), shapes.tube_tree(3, 0.3), shapes.flat_grid(8, 8)]
+    mesh = TriMesh(*shapes.together(*(surfaces[k] for k in rng.integers(0, 4, 5))))
+    values = mesh.vertices @ rng.normal(size=3)
+    values = (values - values.min()) / np.ptp(values)
+    count, part = mesh.face_components
+    assert count == 5
+    bridges = rng.integers(0, mesh.n_faces, (60, 2))
+    bridges = bridges[part[bridges[:, 0]] != part[bridges[:, 1]]]
+    levels = uniform_levels(20)
+    apart, sets = cut_at_levels(mesh, values, levels), cut_at_levels(mesh, values, levels, bridges)
+    # Faces of a bridge that share no slab join nothing.
+    slab = apart.vertex_slab[mesh.faces[bridges]]
+    shared = slab.min(axis=2).max(axis=1) <= slab.max(axis=2).min(axis=1)
+    n_bodies = components(5, *part[bridges[shared]].T)[0]
+    assert components(sets.n_pieces, *sets.contour_pieces.T)[0] == n_bodies < 5
+    assert sets.n_loops <= apart.n_loops
+    # Pieces stay in one slab, contours at one level, and contours lie between the slabs beside their level.
+    assert (sets.piece_slab[sets.element_piece] == sets.element_slab).all()
+    assert (sets.contour_level[sets.segment_contour] == sets.segment_level).all()
+    assert (sets.piece_slab[sets.contour_pieces] == sets.contour_level[:, None] + [0, 1]).all()
+
+
+def test_bridged_trees_are_a_tree_and_a_bridged_torus_keeps_its_loop():
+    for surface, n_loops in ((shapes.icosphere(3), 0), (shapes.torus(), 1)):
+        mesh = TriMesh(*shapes.together(surface, shapes.moved(shapes.icosphere(3), (0.2, 0.1, 2.0))))
+        values = (mesh.vertices[:, 0] - mesh.vertices[:, 0].min()) / np.ptp(mesh.vertices[:, 0])
+        part = mesh.face_components[1]
+        order = np.argsort(mesh.face_centroids[:, 0], kind="stable")
+        one, other = (order[part[order] == k] for k in (0, 1))
+        middle = slice(len(other) // 3, len(other) // 2)
+        nearest = np.abs(mesh.face_centroids[one, 0][:, None] - mesh.face_centroids[other[middle], 0]).argmin(axis=0)
+        bridges = np.stack([one[nearest], other[middle]], axis=1)
+        sets = cut_at_levels(mesh, values, uniform_levels(16), bridges)
+        assert components(sets.n_pieces, *sets.contour_pieces.T)[0] == 1
+        assert sets.n_loops == n_loops
