@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..surface.arrays import components, sums_by
+from ..surface.arrays import components, expanded, sums_by
 from ..surface.mesh import TriMesh
 from .runs import joined_runs
 
@@ -221,19 +221,19 @@ def cut_at_levels(
     slab = np.searchsorted(levels, values, side="right")
     corner_slab = slab[mesh.faces]
     lowest, highest = corner_slab.min(axis=1), corner_slab.max(axis=1)
-    element_face, element_slab = _expand(lowest, highest - lowest + 1)
-    segment_face, segment_level = _expand(lowest, highest - lowest)
+    element_face, element_slab = expanded(lowest, highest - lowest + 1)
+    segment_face, segment_level = expanded(lowest, highest - lowest)
     pairs = mesh.edges.pairs
     ends = slab[mesh.edges.vertices[mesh.edges.pair_edge]]
     low, high = ends.min(axis=1), ends.max(axis=1)
 
     first = np.cumsum(highest - lowest + 1) - (highest - lowest + 1) - lowest
-    pair, at = _expand(low, high - low + 1)
+    pair, at = expanded(low, high - low + 1)
     n_pieces, element_piece = components(
         len(element_face), first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
 
     first_segment = np.cumsum(highest - lowest) - (highest - lowest) - lowest
-    pair, at = _expand(low, high - low)
+    pair, at = expanded(low, high - low)
     n_contours, segment_contour = components(
         len(segment_face), first_segment[pairs[pair, 0]] + at, first_segment[pairs[pair, 1]] + at)
 
@@ -243,7 +243,7 @@ def cut_at_levels(
     contour_pieces[segment_contour, 1] = element_piece[lower + 1]
     if bridges is not None and len(bridges):
         low, high = lowest[bridges].max(axis=1), highest[bridges].min(axis=1)
-        pair, at = _expand(low, np.maximum(high - low + 1, 0))
+        pair, at = expanded(low, np.maximum(high - low + 1, 0))
         loose_part = np.empty(n_pieces, np.int64)
         loose_part[element_piece] = mesh.face_components[1][element_face]
         linked = element_piece[first[bridges[pair]] + at[:, None]]
@@ -261,13 +261,6 @@ def cut_at_levels(
     return LevelSets(mesh, values, levels, slab, element_face, element_slab, element_piece,
                      piece_slab, segment_face, segment_level, segment_contour, contour_level,
                      contour_pieces)
-
-
-def _expand(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rows i, i, ... and first[i], first[i] + 1, ..., count[i] of them for each i; two (sum of count,) arrays."""
-    row = np.repeat(np.arange(len(first)), count)
-    step = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
-    return row, first[row] + step
 
 
 def _share_below(corner_values: np.ndarray, level: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import components, distinct_pairs, last_of_each
+from ..surface.arrays import components, distinct_pairs, expanded, last_of_each
 
 
 def joined_runs(
@@ -69,8 +69,7 @@ def _side_by_side(pairs: np.ndarray, contour_pieces: np.ndarray) -> tuple[np.nda
     lower = contour_pieces[order, 0]
     first, end = np.searchsorted(lower, pairs), np.searchsorted(lower, pairs, side="right")
     count = end - first
-    below = np.repeat(np.arange(len(pairs)), count.prod(axis=1))
-    step = np.arange(len(below)) - np.searchsorted(below, below)
+    below, step = expanded(np.zeros(len(pairs), np.int64), count.prod(axis=1))
     contours = order[first[below] + np.stack([step // count[below, 1], step % count[below, 1]], axis=1)]
     upper = contour_pieces[contours, 1]
     # ``pairs`` is in order, and every pair in it once: a pair above is looked up by its place among both.

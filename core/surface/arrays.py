@@ -123,6 +123,24 @@ def symmetric_matrix(pairs: np.ndarray, values: np.ndarray, n: int) -> csr_array
     return coo_array((np.concatenate([values, values]), (a, b)), shape=(n, n)).tocsr()
 
 
+def expanded(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """List the numbers of many ranges, one range after the other.
+
+    Parameters
+    ----------
+    first, count : (n,) int64
+        Range i is first[i], first[i] + 1, ...: count[i] numbers, 0 or more.
+
+    Returns
+    -------
+    row, number : (count.sum(),) int64
+        Range of each number, and the numbers.
+    """
+    row = np.repeat(np.arange(len(first)), count)
+    step = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
+    return row, first[row] + step
+
+
 def renumbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Number the distinct values of an array from 0.
 

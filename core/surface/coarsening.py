@@ -96,7 +96,9 @@ class Pyramid:
     Parameters
     ----------
     mesh : TriMesh
-        One connected component.
+        Of one component.
+    bridges : (l, 2) int64, optional
+        Vertices of different pieces between which distances run, too.
     """
 
     def __init__(self, mesh: TriMesh, bridges: np.ndarray | None = None) -> None:
@@ -105,6 +107,7 @@ class Pyramid:
         self._steps: list[Coarsening] = []
 
     def _first_links(self) -> np.ndarray | None:
+        """Pairs of vertices between which distances run in the mesh, (e, 2) int64; None where these are its edges."""
         if self.bridges is None or not len(self.bridges):
             return None
         return np.concatenate([self.mesh.edges.vertices, self.bridges])

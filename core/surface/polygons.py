@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import EmptyMeshError, MeshError
 from ..sentence import Sentence
-from .arrays import frozen
+from .arrays import expanded, frozen
 from .mesh import TriMesh
 
 if TYPE_CHECKING:
@@ -120,8 +120,6 @@ def _fan(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray, np.nda
         raise MeshError(
             Sentence("{n} faces have fewer than three corners.", n=len(bad)), faces=bad)
     start = np.cumsum(sizes) - sizes
-    polygon = np.repeat(np.arange(len(sizes)), sizes - 2)
-    step = np.arange(len(polygon)) - np.repeat(np.cumsum(sizes - 2) - (sizes - 2), sizes - 2)
-    first = start[polygon]
-    corners = np.stack([first, first + step + 1, first + step + 2], axis=1)
+    polygon, corner = expanded(start, sizes - 2)
+    corners = np.stack([start[polygon], corner + 1, corner + 2], axis=1)
     return flat[corners], polygon, len(sizes)

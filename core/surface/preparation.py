@@ -74,7 +74,6 @@ class Component:
     mesh: TriMesh
     polygon: np.ndarray
     vertex_source: np.ndarray
-
     bridges: Bridges
 
     @classmethod

@@ -113,5 +113,8 @@ def join_parts(
 
 @cache
 def join_model() -> BoostedTrees:
-    """The trees that judge pairs of parts; benchmarks/train_joining.py made them."""
+    """Read the model that judges pairs of parts, which benchmarks/train_joining.py trained; it is read once and kept.
+
+    Returns a BoostedTrees over the columns FEATURES. Raises ReebError if the file was trained on other features.
+    """
     return BoostedTrees.read(Path(__file__).parent / "join_model.npz", FEATURES)

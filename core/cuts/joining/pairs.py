@@ -79,9 +79,7 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: np.ndarray, agd: np.n
     shape = _part_shapes(mesh, label, points, mine, area, level, near.touching())
     swap = area[near.parts[:, 0]] > area[near.parts[:, 1]]
     small, large = np.where(swap[:, None], near.parts[:, ::-1], near.parts).T
-    part_piece = np.zeros(count, np.int64)
-    part_piece[label] = mesh.face_components[1]
-    same = part_piece[small] == part_piece[large]
+    same = shape["piece"][small] == shape["piece"][large]
     nearest, gap = near.nearest()
     extent = shape["extents"]
     columns = {
@@ -196,7 +194,7 @@ def _part_shapes(
     mesh: TriMesh, label: np.ndarray, points: SurfacePoints, mine: np.ndarray, area: np.ndarray, level: np.ndarray,
     touching: np.ndarray,
 ) -> dict[str, np.ndarray]:
-    """The columns PART of every part, and its center, principal axes and extents along them.
+    """The columns PART of every part, and its piece, center, principal axes and extents along them.
 
     mine, level, touching : (s,), of each point, its part, its AGD, and whether it is near another part. area : (c,)
     of each part.
@@ -211,13 +209,12 @@ def _part_shapes(
     deviation = np.sqrt(np.maximum(np.bincount(mine, weight * level**2, count) / area - mean**2, 0))
     logs = np.column_stack([0.5 * np.log(area), np.log(extents + 0.003)])
     alike = (np.abs(logs[:, None] - logs[None]).max(axis=2) < ALIKE).sum(axis=1) - 1.0
-    piece = mesh.face_components[1]
     part_piece = np.zeros(count, np.int64)
-    part_piece[label] = piece
+    part_piece[label] = mesh.face_components[1]
     piece_area = np.bincount(part_piece, area)
     touched = np.bincount(mine, weight * touching, count) / area
     return {
-        "center": center, "axes": axes[:, :, ::-1], "extents": extents, "log_area": np.log(area),
+        "piece": part_piece, "center": center, "axes": axes[:, :, ::-1], "extents": extents, "log_area": np.log(area),
         "extent_1": extents[:, 0] / np.sqrt(area), "extent_2": extents[:, 1] / np.maximum(extents[:, 0], 1e-6),
         "extent_3": extents[:, 2] / np.maximum(extents[:, 0], 1e-6), "repeats": alike, "agd": mean,
         "agd_deviation": deviation, "touched": touched, "log_piece_area": np.log(piece_area[part_piece]),

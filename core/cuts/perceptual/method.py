@@ -181,5 +181,8 @@ def salience_of(share: np.ndarray) -> np.ndarray:
 
 @cache
 def cut_model() -> BoostedTrees:
-    """The trees that judge cuts; benchmarks/train.py made them."""
+    """Read the model that judges cuts, which benchmarks/train.py trained; it is read once and kept.
+
+    Returns a BoostedTrees over the columns FEATURES. Raises ReebError if the file was trained on other features.
+    """
     return BoostedTrees.read(Path(__file__).parent / "cut_model.npz", FEATURES)
