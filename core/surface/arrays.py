@@ -141,6 +141,30 @@ def expanded(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarr
     return row, first[row] + step
 
 
+def spread_evenly(area: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:
+    """Choose faces at equal steps of area.
+
+    Parameters
+    ----------
+    area : (m,) float64
+        Of each face.
+    order : (m,) float64
+        By which the faces are sorted; values that do not depend on the order of the faces, such as the AGD, make the
+        choice independent of it.
+    count : int
+        Number of steps.
+
+    Returns
+    -------
+    faces : (count,) int64 or fewer
+        In their order; a face as large as several steps once.
+    """
+    along = np.argsort(order, kind="stable")
+    total = np.cumsum(area[along])
+    steps = (np.arange(count) + 0.5) / count * total[-1]
+    return along[np.unique(np.searchsorted(total, steps).clip(max=len(area) - 1))]
+
+
 def renumbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Number the distinct values of an array from 0.
 

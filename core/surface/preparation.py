@@ -209,15 +209,27 @@ def split_long_edges(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndar
         long = mesh.edge_length > (1 + ROUNDING) * max_length
         if not long.any():
             break
-        mesh, step = _split_edges(mesh, long)
+        mesh, step = split_edges(mesh, long)
         parent = parent[step]
     return mesh, parent
 
 
-def _split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]:
-    """Split the marked edges, (e,) bool, at their middle, and each of their faces into two to four triangles.
+def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]:
+    """Split the marked edges at their middle, and each of their faces into two to four triangles.
 
-    Returns the mesh and the face given in which each face lies, (m',) int64.
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces, e edges.
+    marked : (e,) bool
+        Edges to split.
+
+    Returns
+    -------
+    mesh : TriMesh
+        m' faces. The vertices given come first, in order, then the middles of the marked edges, in order.
+    parent : (m',) int64
+        Face given in which each face lies.
     """
     ends = mesh.edges.vertices[marked]
     middle = np.full(len(marked), -1)
@@ -298,7 +310,7 @@ def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
     Returns the mesh and a note of how many faces were turned.
     """
     pairs, edge = mesh.edges.pairs, mesh.edges.pair_edge
-    same_way = _edge_direction(mesh, pairs[:, 0], edge) == _edge_direction(mesh, pairs[:, 1], edge)
+    same_way = edge_direction(mesh, pairs[:, 0], edge) == edge_direction(mesh, pairs[:, 1], edge)
     flip = np.zeros(mesh.n_faces, bool)
     if same_way.any():
         # The double cover has each face twice: face f as given and face f + m flipped. A component of the surface
@@ -326,8 +338,12 @@ def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
     return TriMesh(mesh.vertices, faces), (note,)
 
 
-def _edge_direction(mesh: TriMesh, face: np.ndarray, edge: np.ndarray) -> np.ndarray:
-    """Whether each face runs along its edge from the vertex of smaller index to that of larger, (k,) bool."""
+def edge_direction(mesh: TriMesh, face: np.ndarray, edge: np.ndarray) -> np.ndarray:
+    """Tell which way faces run along an edge that they have.
+
+    face, edge : (k,) int64. Returns whether each face runs from the vertex of smaller index to that of larger, (k,)
+    bool.
+    """
     corner = (mesh.edges.face_edges[face] == edge[:, None]).argmax(axis=1)
     return mesh.faces[face, corner] == mesh.edges.vertices[edge, 0]
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from ...surface.coarsening import Pyramid
 from ...surface.curvature import MAX_CURVATURE
 from ...surface.labels import FaceGraph, connect, fill_unlabeled, majority
 from ...surface.mesh import TriMesh
+from ...surface.sheets import Inflated, inflated, sheet_faces
 from ..boosted_trees import BoostedTrees
 from ..hierarchy import Candidates, Hierarchy
 from ..minimum_cut import move_cuts
@@ -67,8 +69,7 @@ def perceptual_candidates(
     progress = progress or (lambda share: None)
     judge = judge_by(model or cut_model())
     if parameters.follow_level_sets:
-        label = level_set_patches(sets)
-        hierarchy, _ = _merge(sets, field, label, judge)
+        label, hierarchy = _cut_at_levels(sets, field, judge)
     elif sets.mesh.n_faces > MAX_FACES:
         label, hierarchy = _on_coarse_copy(sets, field, pyramid, parameters.band_ratio, judge, progress)
     else:
@@ -89,10 +90,53 @@ def _merge(sets: LevelSets, field: ScalarField, label: np.ndarray, judge: Judge)
     return Hierarchy.of(label.max() + 1, merges, salience_of(share)), curvature
 
 
+def _cut_at_levels(sets: LevelSets, field: ScalarField, judge: Judge) -> tuple[np.ndarray, Hierarchy]:
+    """Candidate of each face, (m,) int64, with cuts on level sets, and the hierarchy over the candidates."""
+    label = level_set_patches(sets)
+    solid = _inflate(sets, field)
+    if solid is None:
+        return label, _merge(sets, field, label, judge)[0]
+    return label, _merge(solid.sets, solid.field, label[solid.shape.face_source], judge)[0]
+
+
 def _cut_in_creases(
     sets: LevelSets, field: ScalarField, band_ratio: float, judge: Judge, progress: Callable[[float], None]
 ) -> tuple[np.ndarray, Hierarchy]:
-    """Candidate of each face, (m,) int64, with cuts moved into creases, and the hierarchy over the candidates."""
+    """Candidate of each face, (m,) int64, with cuts moved into creases, and the hierarchy over the candidates.
+
+    Sheets, which have no creases, are cut as if they were inflated.
+    """
+    solid = _inflate(sets, field)
+    if solid is None:
+        return _cut_solid(sets, field, band_ratio, judge, progress)
+    label, hierarchy = _cut_solid(solid.sets, solid.field, band_ratio, judge, progress)
+    return solid.shape.on_front(label, sets.mesh.n_faces), hierarchy
+
+
+@dataclass(frozen=True, eq=False)
+class _Solid:
+    """A component whose sheets are inflated, with its field and level sets."""
+
+    shape: Inflated
+    sets: LevelSets
+    field: ScalarField
+
+
+def _inflate(sets: LevelSets, field: ScalarField) -> _Solid | None:
+    """Inflate the sheets of a component; None if it has none."""
+    sheet = sheet_faces(sets.mesh, field.agd[sets.mesh.faces].mean(axis=1))
+    if not sheet.any():
+        return None
+    shape = inflated(sets.mesh, sheet)
+    values, normalized, agd = (of_vertex[shape.vertex_source].mean(axis=1)
+                               for of_vertex in (field.values, field.normalized, field.agd))
+    return _Solid(shape, cut_at_levels(shape.mesh, values, sets.levels), ScalarField(values, normalized, agd))
+
+
+def _cut_solid(
+    sets: LevelSets, field: ScalarField, band_ratio: float, judge: Judge, progress: Callable[[float], None]
+) -> tuple[np.ndarray, Hierarchy]:
+    """What ``_cut_in_creases`` returns, of a component without sheets."""
     label = concave_patches(sets.mesh)
     progress(0.2)
     hierarchy, curvature = _merge(sets, field, label, judge)

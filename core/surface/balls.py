@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Medial balls: the largest that touch a surface, or the outline of a sheet, from one side [Ma2012]."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+STEPS = 12  # upper bound of the number of times that a ball shrinks
+# Cosine of the smallest angle between the two points that a ball touches, seen from its center. A ball stops shrinking
+# before the angle falls below this one: it would only fit into the roughness of the surface.
+SEPARATION = np.cos(np.deg2rad(50.0))
+
+
+def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest: float) -> np.ndarray:
+    """Measure the largest balls that touch some points and hold no other: a large ball shrinks until none lies in it.
+
+    Parameters
+    ----------
+    tree : cKDTree
+        Of the points that no ball may hold.
+    point : (k, 3) float64
+        Where each ball touches.
+    direction : (k, 3) float64
+        Unit vector from there to its center.
+    largest : float
+        Radius at which balls begin to shrink, in the unit of the points.
+
+    Returns
+    -------
+    radius : (k,) float64
+        At most ``largest``.
+    """
+    radius = np.full(len(point), largest)
+    active = np.arange(len(point))
+    for _ in range(STEPS):
+        p, d = point[active], direction[active]
+        center = p + radius[active, None] * d
+        distance, nearest = tree.query(center)
+        offset = tree.data[nearest] - p
+        height = (offset * d).sum(axis=1)
+        smaller = (offset**2).sum(axis=1) / np.maximum(2 * height, 1e-12)
+        shrinks = (distance < radius[active] * (1 - 1e-3)) & (height > 1e-9)
+        shrinks &= (smaller < radius[active]) & (_cosine(p, offset, smaller[:, None] * d) < SEPARATION)
+        active = active[shrinks]
+        if not len(active):
+            break
+        radius[active] = smaller[shrinks]
+    return radius
+
+
+def _cosine(point: np.ndarray, offset: np.ndarray, to_center: np.ndarray) -> np.ndarray:
+    """Cosine of the angle, (k,), between two points that a ball touches, seen from its center.
+
+    offset, to_center : (k, 3), from the first point to the second and to the center.
+    """
+    a, b = -to_center, offset - to_center
+    length = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+    return (a * b).sum(axis=1) / np.maximum(length, 1e-300)

@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sheets: pieces of a surface under which there is no solid, such as silhouettes, leaves and cloth.
+
+What is measured of a solid, its thickness and the creases where limbs begin, does not exist on a sheet; its outline has
+both. So a sheet is *inflated*: it is doubled, front and back stay joined at the border, and within they part as far as
+the largest balls reach that the outline holds. Width becomes thickness, and where one ball ends and the next begins,
+between the notches of the outline, lies a crease.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array, diags_array
+from scipy.sparse.linalg import splu, spsolve
+from scipy.spatial import cKDTree
+
+from .arrays import spread_evenly, sums_by, symmetric_matrix
+from .balls import ball_radius
+from .labels import majority
+from .mesh import TriMesh
+from .preparation import edge_direction, split_edges
+
+# A sheet has at least this square of the length of its border, as a share of its area; a disc has 4 pi, a hemisphere
+# 2 pi. What has less is a solid with a hole.
+LEAST_BORDER = np.pi
+# How far the mean winding number on a sheet may be from a whole number: half a cylinder has 0.25, a hemisphere 0.29, and
+# a closed surface 0.5.
+MOST_WINDING = 0.15
+N_PROBES, N_SURFACE = 100, 2_000  # upper bounds of the numbers of faces at which, and of which, windings are measured
+LEAST_AREA = 0.05  # share of the area of a surface of several pieces below which a piece stays as it is
+HEIGHT = 0.25  # of the inflated surface over that of the balls
+PER_EDGE = 3  # number of balls that touch each edge of the outline
+LARGEST = 0.6  # radius at which these begin to shrink, in units of the square root of the area; a disc has 0.56
+# Bounds of the height of the balls over that of a membrane: they pass over roughness, and over sheets that lie on
+# each other, where straight distances mislead.
+LOWEST, HIGHEST = 0.5, 1.5
+WRINKLES = 0.15  # width over which a sheet is smoothed, in units of the square root of its area
+CHUNK = 4_000_000  # number of distances that are computed at once
+
+
+@dataclass(frozen=True, eq=False)
+class Inflated:
+    """A surface whose sheets are inflated.
+
+    Attributes
+    ----------
+    mesh : TriMesh
+        m' faces, n' vertices; a sheet has no border any more.
+    face_source : (m',) int64
+        Face of the surface given in which each face lies, or, on the back of a sheet, behind which.
+    n_front : int
+        Faces from this one on are backs of sheets.
+    vertex_source : (n', 2) int64
+        Vertices of the surface given in whose middle each vertex lay; mostly the same one twice.
+    """
+
+    mesh: TriMesh
+    face_source: np.ndarray
+    n_front: int
+    vertex_source: np.ndarray
+
+    def on_front(self, label: np.ndarray, count: int) -> np.ndarray:
+        """Label of each face of the surface given: that of most of its front.
+
+        label : (m',) int64, of each face. count : int, number of faces of the surface given. Returns (count,) int64.
+        """
+        front = slice(0, self.n_front)
+        return majority(self.face_source[front], label[front], self.mesh.face_area[front], count)
+
+
+def sheet_faces(mesh: TriMesh, order: np.ndarray) -> np.ndarray:
+    """Find the faces of sheets.
+
+    A piece is a sheet if it has a border long enough, if its faces are turned one way, and if the mean winding number
+    [Jacobson2013] of the whole surface at its faces is nearly whole: on a closed surface, where it is 0 on one side and
+    1 on the other, it is 1/2.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces.
+    order : (m,) float64
+        Value of each face by which the faces are sorted to choose some of them evenly over the area.
+
+    Returns
+    -------
+    sheet : (m,) bool
+    """
+    count, piece = mesh.face_components
+    on_border = mesh.edges.n_faces[mesh.edges.face_edges] == 1
+    length = np.bincount(piece, (on_border * mesh.edge_length[mesh.edges.face_edges]).sum(axis=1), count)
+    area = np.bincount(piece, mesh.face_area, count)
+    open_ = (length**2 >= LEAST_BORDER * area) & (area >= LEAST_AREA * mesh.area)
+    open_ &= np.bincount(piece, ~on_border.all(axis=1), count) > 0
+    open_ &= _turned_one_way(mesh)
+    if not open_.any():
+        return np.zeros(mesh.n_faces, bool)
+    among = np.flatnonzero(open_[piece])
+    probe = among[spread_evenly(mesh.face_area[among], order[among], N_PROBES)]
+    surface = spread_evenly(mesh.face_area, order, N_SURFACE)
+    total = np.bincount(piece[probe], _winding(mesh, probe, surface), count)
+    mean = total / np.maximum(np.bincount(piece[probe], minlength=count), 1)
+    return (open_ & (np.abs(mean - np.rint(mean)) <= MOST_WINDING))[piece]
+
+
+def _turned_one_way(mesh: TriMesh) -> np.ndarray:
+    """Whether neighbors agree on which side is out, by piece, (k,) bool; not so on a Moebius strip."""
+    count, piece = mesh.face_components
+    (a, b), edge = mesh.edges.pairs.T, mesh.edges.pair_edge
+    against = edge_direction(mesh, a, edge) == edge_direction(mesh, b, edge)
+    return np.bincount(piece[a], against, count) <= 0.01 * np.bincount(piece[a], minlength=count)
+
+
+def _winding(mesh: TriMesh, probe: np.ndarray, surface: np.ndarray) -> np.ndarray:
+    """Winding number of the surface at the middles of some faces, (k,), the mean of its two sides there.
+
+    surface : (s,) int64, faces that stand for all. After [Oosterom1983], the solid angle of each over 4 pi.
+    """
+    place = (mesh.vertices - mesh.vertices.mean(axis=0)) / np.sqrt(mesh.area)
+    p, corners = place[mesh.faces[probe]].mean(axis=1), place[mesh.faces[surface]].transpose(1, 0, 2)
+    square = (p**2).sum(axis=1)[:, None]
+
+    def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        """Products (a - p) (b - p), (k, s), of corners a and b of the surface as seen from the probes."""
+        return square - p @ (a + b).T + (a * b).sum(axis=1)
+
+    a, b, c = corners
+    normal = np.cross(b - a, c - a)
+    volume = (normal * a).sum(axis=1) - p @ normal.T
+    la, lb, lc = (np.sqrt(np.maximum(dot(x, x), 0.0)) for x in (a, b, c))
+    angle = 2 * np.arctan2(volume, la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
+    angle[probe[:, None] == surface] = 0.0
+    share = mesh.area / mesh.face_area[surface].sum()
+    return np.clip(share * angle, -2 * np.pi, 2 * np.pi).sum(axis=1) / (4 * np.pi)
+
+
+def inflated(mesh: TriMesh, sheet: np.ndarray) -> Inflated:
+    """Inflate the sheets of a surface.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces, n vertices.
+    sheet : (m,) bool
+        Faces of sheets, whole pieces of the surface.
+
+    Returns
+    -------
+    solid : Inflated
+
+    Notes
+    -----
+    One sparse linear system over the vertices within the sheets.
+    """
+    held = _border(mesh)
+    # An edge across a narrow limb from border to border is split, so that there is something to inflate.
+    across = held[mesh.edges.vertices].all(axis=1) & (mesh.edges.n_faces > 1)
+    across &= np.isin(np.arange(len(across)), mesh.edges.face_edges[sheet])
+    source = np.repeat(np.arange(mesh.n_vertices), 2).reshape(-1, 2)
+    source = np.concatenate([source, mesh.edges.vertices[across]])
+    fine, face_source = split_edges(mesh, across)
+    thin = sheet[face_source]
+    within = np.zeros(fine.n_vertices, bool)
+    within[fine.faces[thin]] = True
+    within &= ~_border(fine)
+    stiffness, area = _stiffness(fine, thin)
+    base, normal = _without_wrinkles(fine, thin, stiffness, area)
+    membrane = np.sqrt(_membrane(stiffness, area, within))
+    height = np.clip(_ball_height(fine, thin, within), LOWEST * membrane, HIGHEST * membrane)
+    lift = HEIGHT * height[:, None] * normal
+    back = np.arange(fine.n_vertices)
+    back[within] = fine.n_vertices + np.arange(within.sum())
+    vertices = np.concatenate([base + lift, (base - lift)[within]])
+    faces = np.concatenate([fine.faces, back[fine.faces[thin][:, ::-1]]])
+    return Inflated(TriMesh(vertices, faces), np.concatenate([face_source, face_source[thin]]), fine.n_faces,
+                    np.concatenate([source, source[within]]))
+
+
+def _border(mesh: TriMesh) -> np.ndarray:
+    """Which vertices lie on a border, (n,) bool."""
+    border = np.zeros(mesh.n_vertices, bool)
+    border[mesh.edges.vertices[mesh.edges.n_faces == 1]] = True
+    return border
+
+
+def _stiffness(mesh: TriMesh, thin: np.ndarray) -> tuple[csr_array, np.ndarray]:
+    """Minus the Laplacian of the faces ``thin``, (n, n), by cotangents [Pinkall1993], and the area at each vertex."""
+    corners, faces = mesh.corners[thin], mesh.faces[thin]
+    side = np.roll(corners, -1, axis=1) - corners  # from each corner to the next
+    back = -np.roll(side, 1, axis=1)
+    twice_area = np.maximum(2 * mesh.face_area[thin], 1e-12 * mesh.area / mesh.n_faces)
+    cotangent = (side * back).sum(axis=2) / twice_area[:, None]  # at each corner
+    opposite = np.stack([np.roll(faces, -1, axis=1), np.roll(faces, -2, axis=1)], axis=2)
+    weights = symmetric_matrix(opposite.reshape(-1, 2), 0.5 * cotangent.ravel(), mesh.n_vertices)
+    area = np.bincount(faces.ravel(), np.repeat(mesh.face_area[thin] / 3, 3), mesh.n_vertices)
+    return diags_array(weights.sum(axis=1)).tocsr() - weights, area
+
+
+def _membrane(stiffness: csr_array, area: np.ndarray, within: np.ndarray) -> np.ndarray:
+    """Solution u, (n,), of Laplace(u) = -2 that is 0 at all vertices but those ``within``, (n,) bool.
+
+    Across a strip 2 w wide it is w^2 - x^2 at x from the middle, the square of the height of a circle [Joshi2008]. In
+    squared units of the vertices.
+    """
+    inside = np.flatnonzero(within)
+    height = np.zeros(len(within))
+    height[inside] = spsolve(stiffness[inside][:, inside].tocsc(), 2 * area[inside])
+    return np.maximum(np.nan_to_num(height), 0.0)
+
+
+def _without_wrinkles(
+    mesh: TriMesh, thin: np.ndarray, stiffness: csr_array, area: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Places and normals of the vertices, (n, 3) each, after the sheets are smoothed over WRINKLES, as heat flows.
+
+    Vertices move along the smooth normals only: a flat sheet stays as it is, with its border.
+    """
+    count, piece = mesh.face_components
+    width = np.zeros(mesh.n_vertices)
+    width[mesh.faces] = WRINKLES * np.sqrt(np.bincount(piece, mesh.face_area, count))[piece][:, None]
+    of_sheet = np.unique(mesh.faces[thin])
+    mass = area[of_sheet] + 1e-12 * mesh.area
+    system = diags_array(mass) + diags_array(width[of_sheet] ** 2) @ stiffness[of_sheet][:, of_sheet]
+    normal = sums_by(mesh.faces[thin].ravel(), np.repeat(mesh.area_normals[thin], 3, axis=0), mesh.n_vertices)
+    start = np.hstack([mass[:, None] * mesh.vertices[of_sheet], normal[of_sheet]])
+    smooth = splu(system.tocsc()).solve(start)
+    smooth_normal = np.zeros((mesh.n_vertices, 3))
+    smooth_normal[of_sheet] = smooth[:, 3:] / np.maximum(np.linalg.norm(smooth[:, 3:], axis=1, keepdims=True), 1e-300)
+    place, n = mesh.vertices.copy(), smooth_normal[of_sheet]
+    place[of_sheet] += ((smooth[:, :3] - place[of_sheet]) * n).sum(axis=1, keepdims=True) * n
+    return place, smooth_normal
+
+
+def _ball_height(mesh: TriMesh, thin: np.ndarray, within: np.ndarray) -> np.ndarray:
+    """Height at each vertex, (n,), up to which the largest balls reach that the outline of the sheets holds.
+
+    thin, within : (m,) and (n,) bool, faces of the sheets and vertices within them; the height is 0 elsewhere.
+    """
+    unit = np.sqrt(mesh.area)
+    place = (mesh.vertices - mesh.vertices.mean(axis=0)) / unit
+    point, inwards, ends = _outline(mesh, thin, place)
+    radius = ball_radius(cKDTree(np.concatenate([point, ends])), point, inwards, LARGEST)
+    center = point + radius[:, None] * inwards
+    # r^2 - |x - c|^2 = r^2 - |c|^2 + 2 x c - |x|^2, of which the largest needs one product of matrices.
+    rest, height = radius**2 - (center**2).sum(axis=1), np.zeros(mesh.n_vertices)
+    for some in np.array_split(np.flatnonzero(within), 1 + len(center) * mesh.n_vertices // CHUNK):
+        x = place[some]
+        height[some] = (2 * x @ center.T + rest).max(axis=1) - (x**2).sum(axis=1)
+    return unit * np.sqrt(np.maximum(height, 0.0))
+
+
+def _outline(mesh: TriMesh, thin: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points on the border of sheets, (k, 3), the directions into the sheets there, (k, 3), and ends of border edges.
+
+    place : (n, 3), of each vertex, in the unit of the result.
+    """
+    face, corner = np.nonzero((mesh.edges.n_faces[mesh.edges.face_edges] == 1) & thin[:, None])
+    start, end = place[mesh.faces[face, corner]], place[mesh.faces[face, (corner + 1) % 3]]
+    inwards = np.cross(mesh.face_normals[face], end - start)
+    inwards /= np.maximum(np.linalg.norm(inwards, axis=1, keepdims=True), 1e-300)
+    along = (np.arange(PER_EDGE) + 0.5)[:, None, None] / PER_EDGE
+    return (start + along * (end - start)).reshape(-1, 3), np.tile(inwards, (PER_EDGE, 1)), start
