@@ -25,10 +25,11 @@ from .preparation import edge_direction, split_edges
 # A sheet has at least this square of the length of its border, as a share of its area; a disc has 4 pi, a hemisphere
 # 2 pi. What has less is a solid with a hole.
 LEAST_BORDER = np.pi
-# How far the mean winding number on a sheet may be from a whole number: half a cylinder has 0.25, a hemisphere 0.29, and
-# a closed surface 0.5.
+# How far the mean winding number on a sheet may be from a whole number: half a tube has 0.20, a hemisphere 0.32, and a
+# closed surface 0.5.
 MOST_WINDING = 0.15
 N_PROBES, N_SURFACE = 100, 2_000  # upper bounds of the numbers of faces at which, and of which, windings are measured
+MOST_AGAINST = 1e-3  # share of neighbors that may disagree on it; coarse copies are not perfect
 LEAST_AREA = 0.05  # share of the area of a surface of several pieces below which a piece stays as it is
 HEIGHT = 0.25  # of the inflated surface over that of the balls
 PER_EDGE = 3  # number of balls that touch each edge of the outline
@@ -88,8 +89,10 @@ def sheet_faces(mesh: TriMesh, order: np.ndarray) -> np.ndarray:
     -------
     sheet : (m,) bool
     """
+    on_border = _border_edges(mesh)[mesh.edges.face_edges]
+    if not on_border.any():
+        return np.zeros(mesh.n_faces, bool)
     count, piece = mesh.face_components
-    on_border = mesh.edges.n_faces[mesh.edges.face_edges] == 1
     length = np.bincount(piece, (on_border * mesh.edge_length[mesh.edges.face_edges]).sum(axis=1), count)
     area = np.bincount(piece, mesh.face_area, count)
     open_ = (length**2 >= LEAST_BORDER * area) & (area >= LEAST_AREA * mesh.area)
@@ -110,7 +113,8 @@ def _turned_one_way(mesh: TriMesh) -> np.ndarray:
     count, piece = mesh.face_components
     (a, b), edge = mesh.edges.pairs.T, mesh.edges.pair_edge
     against = edge_direction(mesh, a, edge) == edge_direction(mesh, b, edge)
-    return np.bincount(piece[a], against, count) <= 0.01 * np.bincount(piece[a], minlength=count)
+    weight = np.minimum(mesh.face_area[a], mesh.face_area[b])
+    return np.bincount(piece[a], weight * against, count) <= MOST_AGAINST * np.bincount(piece[a], weight, count)
 
 
 def _winding(mesh: TriMesh, probe: np.ndarray, surface: np.ndarray) -> np.ndarray:
@@ -156,19 +160,20 @@ def inflated(mesh: TriMesh, sheet: np.ndarray) -> Inflated:
     """
     held = _border(mesh)
     # An edge across a narrow limb from border to border is split, so that there is something to inflate.
-    across = held[mesh.edges.vertices].all(axis=1) & (mesh.edges.n_faces > 1)
+    across = held[mesh.edges.vertices].all(axis=1) & ~_border_edges(mesh)
     across &= np.isin(np.arange(len(across)), mesh.edges.face_edges[sheet])
     source = np.repeat(np.arange(mesh.n_vertices), 2).reshape(-1, 2)
     source = np.concatenate([source, mesh.edges.vertices[across]])
     fine, face_source = split_edges(mesh, across)
     thin = sheet[face_source]
+    even = thin & _with_area(fine)
     within = np.zeros(fine.n_vertices, bool)
-    within[fine.faces[thin]] = True
+    within[fine.faces[even]] = True
     within &= ~_border(fine)
-    stiffness, area = _stiffness(fine, thin)
-    base, normal = _without_wrinkles(fine, thin, stiffness, area)
+    stiffness, area = _stiffness(fine, even)
+    base, normal = _without_wrinkles(fine, even, stiffness, area)
     membrane = np.sqrt(_membrane(stiffness, area, within))
-    height = np.clip(_ball_height(fine, thin, within), LOWEST * membrane, HIGHEST * membrane)
+    height = np.clip(_ball_height(fine, even, within), LOWEST * membrane, HIGHEST * membrane)
     lift = HEIGHT * height[:, None] * normal
     back = np.arange(fine.n_vertices)
     back[within] = fine.n_vertices + np.arange(within.sum())
@@ -178,10 +183,22 @@ def inflated(mesh: TriMesh, sheet: np.ndarray) -> Inflated:
                     np.concatenate([source, source[within]]))
 
 
+def _with_area(mesh: TriMesh) -> np.ndarray:
+    """Which faces have an area, (m,) bool."""
+    return mesh.face_area > 1e-9 * mesh.area / mesh.n_faces
+
+
+def _border_edges(mesh: TriMesh) -> np.ndarray:
+    """Which edges have one face with an area, (e,) bool."""
+    if not (mesh.edges.n_faces != 2).any():
+        return np.zeros(len(mesh.edges.vertices), bool)
+    return np.bincount(mesh.edges.face_edges[_with_area(mesh)].ravel(), minlength=len(mesh.edges.vertices)) == 1
+
+
 def _border(mesh: TriMesh) -> np.ndarray:
     """Which vertices lie on a border, (n,) bool."""
     border = np.zeros(mesh.n_vertices, bool)
-    border[mesh.edges.vertices[mesh.edges.n_faces == 1]] = True
+    border[mesh.edges.vertices[_border_edges(mesh)]] = True
     return border
 
 
@@ -190,8 +207,7 @@ def _stiffness(mesh: TriMesh, thin: np.ndarray) -> tuple[csr_array, np.ndarray]:
     corners, faces = mesh.corners[thin], mesh.faces[thin]
     side = np.roll(corners, -1, axis=1) - corners  # from each corner to the next
     back = -np.roll(side, 1, axis=1)
-    twice_area = np.maximum(2 * mesh.face_area[thin], 1e-12 * mesh.area / mesh.n_faces)
-    cotangent = (side * back).sum(axis=2) / twice_area[:, None]  # at each corner
+    cotangent = (side * back).sum(axis=2) / (2 * mesh.face_area[thin])[:, None]  # at each corner
     opposite = np.stack([np.roll(faces, -1, axis=1), np.roll(faces, -2, axis=1)], axis=2)
     weights = symmetric_matrix(opposite.reshape(-1, 2), 0.5 * cotangent.ravel(), mesh.n_vertices)
     area = np.bincount(faces.ravel(), np.repeat(mesh.face_area[thin] / 3, 3), mesh.n_vertices)
@@ -256,7 +272,7 @@ def _outline(mesh: TriMesh, thin: np.ndarray, place: np.ndarray) -> tuple[np.nda
 
     place : (n, 3), of each vertex, in the unit of the result.
     """
-    face, corner = np.nonzero((mesh.edges.n_faces[mesh.edges.face_edges] == 1) & thin[:, None])
+    face, corner = np.nonzero(_border_edges(mesh)[mesh.edges.face_edges] & thin[:, None])
     start, end = place[mesh.faces[face, corner]], place[mesh.faces[face, (corner + 1) % 3]]
     inwards = np.cross(mesh.face_normals[face], end - start)
     inwards /= np.maximum(np.linalg.norm(inwards, axis=1, keepdims=True), 1e-300)
