@@ -135,6 +135,10 @@ class Parameters:
         "label": "Follow level sets",
         "description": "Keep cuts on level sets of the distance, as the paper does; off, they "
                        "follow creases"})
+    symmetry: bool = field(default=True, metadata={
+        "label": "Symmetry",
+        "description": "Where the model is its own mirror image, or most of it is, make its parts so, too. Changes by "
+                       "hand are made on both sides"})
     loose_part: float = _number(
         0.01, 0.0, 1.0, "Small loose part",
         "Loose parts with less than this share of the whole area are one part each")
@@ -204,5 +208,5 @@ Parameters.RANGES = {f.name: f.metadata["range"] for f in fields(Parameters)
 PERCEPTUAL_PRESET, BERRETTI_2009 = "Perceptual", "Berretti 2009"
 PRESETS = {
     PERCEPTUAL_PRESET: Parameters(),
-    BERRETTI_2009: Parameters(method=BERRETTI, follow_level_sets=True),
+    BERRETTI_2009: Parameters(method=BERRETTI, follow_level_sets=True, symmetry=False),
 }

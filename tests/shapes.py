@@ -398,3 +398,30 @@ def rotation(rng: np.random.Generator) -> np.ndarray:
     q, r = np.linalg.qr(rng.normal(size=(3, 3)))
     q *= np.sign(np.diag(r))
     return q * np.linalg.det(q)
+
+
+def mirrored_figure(step: float = 0.13) -> Shape:
+    """A trunk with a head, two arms and two legs: its own mirror image, face by face, in the plane x = 0."""
+    limbs = [((0, 0, 0.2), (0, 0, 1.2), 0.34), ((0, 0, 1.2), (0, 0, 1.9), 0.3), ((0, 0, 1.0), (1.3, 0.1, 1.0), 0.2),
+             ((0.2, 0, 0.2), (0.55, 0, -1.5), 0.24)]
+
+    def distance(points):
+        right = np.abs(points * (1, 0, 0)) + points * (0, 1, 1)
+        solid = _capsule(right, *limbs[0])
+        for limb in limbs[1:]:
+            solid = _blend(solid, _capsule(right, *limb), 0.12)
+        return solid
+
+    # One layer of cells has its middles in the plane, and there, by symmetry, its vertices.
+    vertices, faces = level_surface(distance, (-12.5 * step, -0.6, -1.9), (12.5 * step, 0.6, 2.4), step)
+    half = faces[(vertices[faces][:, :, 0] > -1e-3 * step).all(axis=1)]
+    return _with_mirror_image(np.where(np.abs(vertices) < 1e-3 * step, 0.0, vertices), half)
+
+
+def _with_mirror_image(vertices: np.ndarray, faces: np.ndarray) -> Shape:
+    """A half and its image in the plane x = 0, joined there."""
+    image = np.where(vertices[:, 0] == 0.0, np.arange(len(vertices)), np.arange(len(vertices)) + len(vertices))
+    both = np.concatenate([vertices, vertices * (-1, 1, 1)])
+    every = np.concatenate([faces, image[faces][:, ::-1]])
+    used, index = np.unique(every, return_inverse=True)
+    return Shape(both[used], index.reshape(-1, 3))

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..cuts.hierarchy import Candidates, Dendrogram, Hierarchy
 from ..cuts.joining.method import LAST
+from ..cuts.symmetric import symmetric_candidates
 from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebGraph, ReebTopology
@@ -20,7 +21,8 @@ from ..sentence import Sentence
 from ..surface.arrays import components, last_of_each, renumbered, sums_by
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.polygons import PolygonMesh
-from ..surface.preparation import Component, WorkingMesh
+from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
+from ..surface.symmetry import face_twins, mirror_plane
 from .decomposition import Decomposition
 
 # Added to the areas and lengths by which faces vote for labels: as a share of the area of the mesh, and in units of the
@@ -66,6 +68,48 @@ class ComponentResult:
         return majority(self.sets.element_face, self.candidates.element_candidate, area, mesh.n_faces)
 
 
+@dataclass(frozen=True, eq=False)
+class Mirror:
+    """The plane of symmetry of the caller's mesh, and what it does to its p faces; all arrays empty without one.
+
+    Attributes
+    ----------
+    plane : (4,) float64
+        Normal, and distance from the origin.
+    twin : (p,) int64
+        Mirror image of each face; -1 for none.
+    height : (p,) float64
+        Signed distance of each face from the plane; 0 for a face that is its own image.
+    """
+
+    plane: np.ndarray
+    twin: np.ndarray
+    height: np.ndarray
+
+    @classmethod
+    def none(cls) -> Mirror:
+        """No plane."""
+        return cls(np.empty(0), np.empty(0, np.int64), np.empty(0))
+
+    @classmethod
+    def of(cls, given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]) -> Mirror:
+        """Find the plane of symmetry of the whole mesh; ``none`` if there is none."""
+        if len(results) == 1 and len(results[0].component.faces) == working.mesh.n_faces:
+            mesh, polygon = results[0].component.mesh, results[0].component.polygon
+        else:
+            mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
+            polygon = working.polygon[parent]
+        plane = mirror_plane(mesh)
+        if plane is None:
+            return cls.none()
+        twin = face_twins(mesh, polygon, given.n_polygons, plane)
+        area = np.bincount(polygon, mesh.face_area, given.n_polygons)
+        height = np.bincount(polygon, mesh.face_area * plane.heights(mesh.face_centroids), given.n_polygons)
+        height = np.divide(height, area, out=np.zeros_like(height), where=area > 0)
+        height[twin == np.arange(len(twin))] = 0.0
+        return cls(np.append(plane.normal, plane.offset), twin, height)
+
+
 def assemble(
     given: PolygonMesh,
     working: WorkingMesh,
@@ -93,7 +137,11 @@ def assemble(
     """
     face_graph = _face_graph(given, working)
     contacts = _contacts(given, working, results)
-    label, hierarchy = _face_candidates(given, working, results, face_graph, contacts, parameters.smoothing)
+    label, hierarchy = _face_candidates(given, working, results, face_graph, parameters.smoothing)
+    mirror = Mirror.of(given, working, results) if parameters.symmetry else Mirror.none()
+    if len(mirror.plane):
+        label, hierarchy = symmetric_candidates(face_graph, contacts, label, hierarchy, mirror.twin, mirror.height)
+    label, hierarchy = settle(face_graph.with_contacts(contacts), label, hierarchy)
     face_graph = face_graph.with_contacts(contacts)
     values, notes = _vertex_field(given, working, results, parameters)
     pairs, length = face_graph.boundaries(label)
@@ -106,7 +154,8 @@ def assemble(
         candidate_area=np.bincount(label, face_graph.area), candidate_pairs=pairs,
         candidate_pair_length=length, hierarchy=hierarchy, field=values,
         graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
-        point_candidate=points, contacts=contacts, parameters=parameters, notes=working.notes + notes,
+        point_candidate=points, contacts=contacts, mirror=mirror.plane, face_twin=mirror.twin,
+        face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters, notes=working.notes + notes,
         seconds=seconds)
 
 
@@ -150,7 +199,7 @@ def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
 
 def _face_candidates(
     given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], face_graph: FaceGraph,
-    contacts: np.ndarray, rounds: int,
+    rounds: int,
 ) -> tuple[np.ndarray, Hierarchy]:
     """Candidate of each of the caller's faces, (p,) int64, and the hierarchy over them; every candidate is connected.
 
@@ -176,8 +225,7 @@ def _face_candidates(
         np.concatenate(owner), np.concatenate(label), np.concatenate(weight), given.n_polygons)
     face_label = connect(face_graph, fill_unlabeled(face_graph, face_label))
     face_label = connect(face_graph, straighten(face_graph, face_label, rounds))
-    hierarchy = _join_bodies(Hierarchy.join(hierarchies))
-    return settle(face_graph.with_contacts(contacts), face_label, hierarchy)
+    return face_label, _join_bodies(Hierarchy.join(hierarchies))
 
 
 def _join_bodies(hierarchy: Hierarchy) -> Hierarchy:

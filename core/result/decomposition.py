@@ -72,6 +72,24 @@ class Parts:
         return tuple(f"Part {i + 1:02d}" for i in range(self.count))
 
     @cached_property
+    def twin(self) -> np.ndarray:
+        """(count,) int64, part that is the mirror image of each part, itself where it is its own; -1 for none."""
+        d = self.decomposition
+        image = np.where(d.candidate_twin >= 0, self.candidate_part[d.candidate_twin], -1)
+        weight = d.candidate_area + 1e-12 * d.candidate_area.sum()
+        twin = majority(self.candidate_part, image + 1, weight, self.count) - 1
+        return np.where(twin[np.maximum(twin, 0)] == np.arange(self.count), twin, -1)
+
+    @cached_property
+    def side(self) -> np.ndarray:
+        """(count,) int64, of a part that has a twin: 1 on the side of the plane's normal, -1 on the other; else 0."""
+        if not len(self.decomposition.face_side):
+            return np.zeros(self.count, np.int64)
+        side = np.sign(np.bincount(self.labels, self.decomposition.face_side, self.count)).astype(np.int64)
+        apart = (self.twin >= 0) & (self.twin != np.arange(self.count))
+        return np.where(apart & (side[self.twin] == -side), side, 0)
+
+    @cached_property
     def _boundaries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Pairs of parts that touch, and length and salience of the cut between them."""
         d = self.decomposition
@@ -144,6 +162,12 @@ class Decomposition:
         Candidate in which each center point of the graph lies.
     contacts : (t, 2) int64
         Faces that touch, or nearly so, though they share no edge.
+    mirror : (4,) float64 or (0,)
+        Normal of the plane of symmetry and its distance from the origin along it; empty if none was found.
+    face_twin : (p,) int64 or (0,)
+        Mirror image of each face, -1 for none; empty without a plane.
+    face_side : (p,) int8 or (0,)
+        1 for a face on the side to which the normal of the plane points, -1 on the other, 0 across the plane.
     parameters : Parameters
         The parameters of the run.
     notes : tuple of str
@@ -165,6 +189,9 @@ class Decomposition:
     node_candidate: np.ndarray
     point_candidate: np.ndarray
     contacts: np.ndarray
+    mirror: np.ndarray
+    face_twin: np.ndarray
+    face_side: np.ndarray
     parameters: Parameters
     notes: tuple[str, ...]
     seconds: dict[str, float]
@@ -190,6 +217,14 @@ class Decomposition:
         """(c,) float64, mean index of each candidate's faces."""
         index = np.arange(self.n_faces)
         return np.bincount(self.candidates, index) / np.bincount(self.candidates)
+
+    @cached_property
+    def candidate_twin(self) -> np.ndarray:
+        """(c,) int64, mirror image of each candidate; -1 for none."""
+        if not len(self.face_twin):
+            return np.full(self.n_candidates, -1)
+        image = np.where(self.face_twin >= 0, self.candidates[self.face_twin], -1)
+        return majority(self.candidates, image + 1, np.ones(self.n_faces), self.n_candidates) - 1
 
     @cached_property
     def pair_merge(self) -> np.ndarray:
@@ -287,7 +322,8 @@ class Decomposition:
         """
         with np.load(io.BytesIO(data), allow_pickle=False) as stored:
             arrays = {name: stored[name] for name in stored.files}
-        arrays.setdefault("contacts", np.empty((0, 2), np.int64))  # version 0.1.0 knew none
+        for name, array in _UNKNOWN_TO_0_1_0.items():
+            arrays.setdefault(name, array)
         head = json.loads(arrays.pop("head").tobytes())
         if head["format"] != _FORMAT:
             raise ReebError(
@@ -303,9 +339,13 @@ class Decomposition:
 
 
 _ARRAYS = ("candidates", "vertex_candidates", "candidate_area", "candidate_pairs",
-           "candidate_pair_length", "field", "node_candidate", "point_candidate", "contacts")
+           "candidate_pair_length", "field", "node_candidate", "point_candidate", "contacts", "mirror",
+           "face_twin", "face_side")
+_UNKNOWN_TO_0_1_0 = {"contacts": np.empty((0, 2), np.int64), "mirror": np.empty(0), "face_twin": np.empty(0, np.int64),
+                     "face_side": np.empty(0, np.int8)}
 
 
 def _stored_parameters(values: dict) -> Parameters:
-    """Parameters of a stored result; version 0.1.0 had other names for some, and each piece on its own."""
-    return Parameters(**{"pieces": SEPARATE} | present_names(values)[0])
+    """Parameters of a stored result; version 0.1.0 had other names for some, and neither bodies
+    nor symmetry."""
+    return Parameters(**{"pieces": SEPARATE, "symmetry": False} | present_names(values)[0])

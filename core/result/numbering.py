@@ -95,8 +95,11 @@ class NumberedParts:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Default name of each part: Part 01 and so on, by number."""
-        return tuple(default_name(number) for number in self.numbers.tolist())
+        """Default name of each part: Part 01 and so on, by number; twins have one number and end in .L and .R."""
+        twin, side = self.parts.twin, self.parts.side
+        first = np.where(side != 0, np.minimum(self.numbers, self.numbers[twin]), self.numbers)
+        return tuple(default_name(number) + {1: ".L", -1: ".R"}.get(where, "")
+                     for number, where in zip(first.tolist(), side.tolist(), strict=True))
 
 
 def default_name(number: int) -> str:

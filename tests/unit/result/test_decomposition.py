@@ -27,7 +27,8 @@ def row():
         candidate_pair_length=np.array([0.5, 1.5, 2.5]),
         hierarchy=Hierarchy.of(4, [(2, 3), (0, 1), (1, 2)], [0.2, 0.4, 0.9]), field=np.zeros(5), graph=graph,
         node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64),
-        contacts=np.array([(0, 3)]), parameters=Parameters(), notes=("odd",), seconds={"mesh": 0.1})
+        contacts=np.array([(0, 3)]), mirror=np.empty(0), face_twin=np.empty(0, np.int64),
+        face_side=np.empty(0, np.int8), parameters=Parameters(), notes=("odd",), seconds={"mesh": 0.1})
 
 
 @pytest.fixture(scope="module")
@@ -176,4 +177,4 @@ def test_a_result_stored_by_the_first_version_has_its_parameters():
     np.savez_compressed(stream, **arrays)
     parameters = Decomposition.from_bytes(stream.getvalue()).parameters
     assert parameters == Parameters(
-        **then, pieces="separate", n_slabs=80, concavity_weight=0.25, band_ratio=0.25, equalize=False)
+        **then, pieces="separate", symmetry=False, n_slabs=80, concavity_weight=0.25, band_ratio=0.25, equalize=False)

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Changes by hand made on both sides of a plane of symmetry."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from .numbering import NumberedParts
+
+
+def twin_numbers(numbered: NumberedParts) -> dict[int, int]:
+    """Number of the mirror image of each part that has one; a part may be its own.
+
+    numbered : NumberedParts. Returns dict of int -> int.
+    """
+    twin = numbered.parts.twin
+    has = np.flatnonzero(twin >= 0)
+    return dict(zip(numbered.numbers[has].tolist(), numbered.numbers[twin[has]].tolist(), strict=True))
+
+
+def on_both_sides(
+    before: np.ndarray, after: np.ndarray, twin: np.ndarray, twin_number: dict[int, int], new: Callable[[], int]
+) -> np.ndarray:
+    """Make the mirror image of a change as well.
+
+    Parameters
+    ----------
+    before, after : (n,) int64
+        Number of the part of each face or candidate before and after the change.
+    twin : (n,) int64
+        Mirror image of each; -1 for none.
+    twin_number : dict of int -> int
+        Mirror image of each part there was; see ``twin_numbers``.
+    new : callable
+        Returns a number that no part has, another one each time.
+
+    Returns
+    -------
+    after : (n,) int64
+        As given where the image of a change meets the change itself, or parts that are no images of each other, or
+        where a part would have nothing left.
+    """
+    result = after.copy()
+    moved = after != before
+    of_new: dict[int, int] = {}
+    for number in np.unique(after[moved & (twin >= 0)]).tolist():
+        mine = np.flatnonzero(moved & (twin >= 0) & (after == number))
+        image = twin[mine]
+        known = number in twin_number
+        target = twin_number.get(number, 0)
+        if not known and not (before == number).any():
+            # A new part that reaches over the plane, or a half of which the other half is left, is its own image.
+            itself = moved[image] & (after[image] == number)
+            target = number if itself.mean() > 0.5 else of_new.setdefault(number, new())
+        if not target:
+            continue
+        mirrored = np.array([twin_number.get(giver, -1) for giver in before[mine].tolist()])
+        right = ~moved[image] & (mirrored == before[image])
+        result[image[right]] = target
+    gone = np.setdiff1d(after, result)
+    image_stays = np.isin([twin_number.get(number, number) for number in gone.tolist()], after)
+    return after.copy() if image_stays.any() else result

@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The plane in which a surface, or most of it, is its own mirror image, and the mirror twin of each face.
+
+Planes are tried across the principal axes and the axes of the coordinates, and each is improved as in the iterative
+closest point method: points are mirrored, the nearest points of the surface found, and the plane laid anew halfway
+between both [Podolak2006], [Besl1992].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from .contact import diameter
+from .labels import majority
+from .mesh import TriMesh
+
+# In units of the diameter: how far a mirrored point may lie beside the surface where a plane is judged, and where twins
+# are found, on a model bent to one side a little; and how much a turned normal counts where the nearest face is
+# searched, so that the two sides of a wall are told apart.
+MATCH, BENT, TURNED = 0.012, 0.03, 0.02
+LEAST = 0.8  # share of the area that must be matched for a plane to be one of symmetry
+# Upper bounds of the points that stand for the surface, and that are mirrored: to choose among planes, and to find the
+# place of one.
+COARSE, FINE = (2_000, 200), (12_000, 1_000)
+LIKELY = 0.5  # share of the area that the best plane must match already when few points are looked at
+# Number of faces from which on their centers alone are compared: faces are then much smaller than walls are thick.
+DENSE = 100_000
+STEPS, KEPT = 30, 0.8  # how often a plane is improved, and by which share of the probes, the best ones
+# A face is the exact twin of another if their centers, mirrored, are nearer than this, in units of its area's root.
+EXACT = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class MirrorPlane:
+    """A plane of symmetry: the points x of normal @ x == offset.
+
+    Attributes
+    ----------
+    normal : (3,) float64
+        Of length 1; its component of largest size is positive.
+    offset : float
+    share : float
+        Of the area whose mirror image lies on the surface, 0..1.
+    """
+
+    normal: np.ndarray
+    offset: float
+    share: float = 0.0
+
+    def heights(self, points: np.ndarray) -> np.ndarray:
+        """Signed distance of points, (k, 3), from the plane, (k,) float64."""
+        return points @ self.normal - self.offset
+
+    def mirrored(self, points: np.ndarray) -> np.ndarray:
+        """Mirror images of points, (k, 3)."""
+        return points - 2.0 * self.heights(points)[:, None] * self.normal
+
+    def turned(self, directions: np.ndarray) -> np.ndarray:
+        """Mirror images of directions, (k, 3)."""
+        return directions - 2.0 * (directions @ self.normal)[:, None] * self.normal
+
+
+@dataclass(frozen=True, eq=False)
+class _Elements:
+    """Small faces of a surface, in units of its diameter and from its middle.
+
+    Attributes
+    ----------
+    position, normal : (k, 3) float64
+    area : (k,) float64
+        Share of the area.
+    """
+
+    position: np.ndarray
+    normal: np.ndarray
+    area: np.ndarray
+
+    @classmethod
+    def of(cls, mesh: TriMesh) -> tuple[_Elements, np.ndarray, float]:
+        """The faces of a mesh; and the middle and the diameter of the surface."""
+        area = mesh.face_area / mesh.area
+        middle = area @ mesh.face_centroids
+        size = diameter(mesh.face_centroids, mesh.face_area)
+        return cls((mesh.face_centroids - middle) / size, mesh.face_normals, area), middle, size
+
+    def some(self, count: int) -> _Elements:
+        """So many elements or fewer, at equal steps of area from the middle outwards; they count equally."""
+        order = np.argsort((self.position**2).sum(axis=1), kind="stable")
+        total = np.cumsum(self.area[order])
+        steps = (np.arange(count) + 0.5) / count * total[-1]
+        chosen = order[np.unique(np.searchsorted(total, steps).clip(max=len(order) - 1))]
+        return _Elements(self.position[chosen], self.normal[chosen], np.full(len(chosen), 1.0 / len(chosen)))
+
+    @property
+    def place(self) -> np.ndarray:
+        """(k, 6) or (k, 3), what is compared when the nearest element is searched."""
+        if len(self.position) > DENSE:
+            return self.position
+        return np.hstack([self.position, TURNED * self.normal])
+
+    @cached_property
+    def tree(self) -> cKDTree:
+        """Of the places."""
+        return cKDTree(self.place, balanced_tree=False, compact_nodes=False)
+
+    def nearest(self, image: _Elements) -> tuple[np.ndarray, np.ndarray]:
+        """Distance of the nearest element of each of some others, (k,) float64, and this element, (k,) int64."""
+        place = image.place if len(self.position) <= DENSE else image.position
+        return self.tree.query(place, workers=-1)
+
+    def mirrored(self, plane: MirrorPlane) -> _Elements:
+        """The mirror images."""
+        return _Elements(plane.mirrored(self.position), plane.turned(self.normal), self.area)
+
+
+def mirror_plane(mesh: TriMesh) -> MirrorPlane | None:
+    """Find the plane in which most of a surface is its own mirror image.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        Of small faces: their centers stand for the surface. Several pieces are mirrored as one.
+
+    Returns
+    -------
+    plane : MirrorPlane or None
+        The one that matches most, if it matches LEAST of the area; none for a surface without an area.
+    """
+    if not mesh.area > 0:
+        return None
+    elements, middle, size = _Elements.of(mesh)
+    few, probes = elements.some(COARSE[0]), elements.some(COARSE[1])
+    best = max((_improved(MirrorPlane(normal, 0.0), few, probes) for normal in _directions(elements)),
+               key=lambda plane: plane.share)
+    if best.share < LIKELY:
+        return None
+    many, probes = elements.some(FINE[0]), elements.some(FINE[1])
+    best = _improved(best, many, probes)
+    if best.share < LEAST:
+        return None
+    if len(many.area) < mesh.n_faces:
+        best = _improved(best, elements, probes)
+    return MirrorPlane(best.normal, float(size * best.offset + middle @ best.normal), best.share)
+
+
+def _directions(elements: _Elements) -> np.ndarray:
+    """Unit normals of the planes to try, (k, 3): the principal axes and the axes of the coordinates."""
+    moments = (elements.area[:, None] * elements.position).T @ elements.position
+    tried = list(np.linalg.eigh(moments)[1].T)
+    for axis in np.eye(3):
+        if max(abs(axis @ known) for known in tried) < np.cos(np.deg2rad(3.0)):
+            tried.append(axis)
+    return np.array(tried)
+
+
+def _improved(plane: MirrorPlane, surface: _Elements, probes: _Elements) -> MirrorPlane:
+    """The plane of symmetry near a given one, and its share."""
+    for _ in range(STEPS):
+        image = probes.mirrored(plane)
+        distance, nearest = surface.nearest(image)
+        used = distance <= np.quantile(distance, KEPT)
+        before, after = probes.position[used], surface.position[nearest[used]]
+        better = _halfway(before, after, plane)
+        moved = np.abs(better.normal - plane.normal).max() + abs(better.offset - plane.offset)
+        plane = better
+        if moved < 1e-7:
+            break
+    image = probes.mirrored(plane)
+    return MirrorPlane(plane.normal, plane.offset, float(probes.area @ _matched(image, surface, MATCH)[1]))
+
+
+def _halfway(before: np.ndarray, after: np.ndarray, plane: MirrorPlane) -> MirrorPlane:
+    """The plane that mirrors points best onto others, (k, 3): across their differences, through their middles."""
+    apart, middle = before - after, (before + after) / 2
+    center = middle.mean(axis=0)
+    across, along = apart.T @ apart, (middle - center).T @ (middle - center)
+    scale = np.trace(across) or 1.0, np.trace(along) or 1.0
+    normal = np.linalg.eigh(across / scale[0] - along / scale[1])[1][:, -1]
+    return _oriented(normal, normal @ center)
+
+
+def _oriented(normal: np.ndarray, offset: float) -> MirrorPlane:
+    """A plane whose normal's component of largest size is positive."""
+    size = np.abs(normal)
+    largest = int(np.argmax(size > (1 - 1e-6) * size.max()))
+    sign = -1.0 if normal[largest] < 0 else 1.0
+    return MirrorPlane(sign * normal, float(sign * offset))
+
+
+def _matched(image: _Elements, surface: _Elements, most: float) -> tuple[np.ndarray, np.ndarray]:
+    """The nearest element of each image, and whether the image lies on the surface there, (k,) each."""
+    _, nearest = surface.nearest(image)
+    offset = image.position - surface.position[nearest]
+    beside = np.abs((offset * surface.normal[nearest]).sum(axis=1))
+    spacing = 2.0 / np.sqrt(len(surface.area))  # elements of a surface whose diameter and area are about 1
+    aligned = (image.normal * surface.normal[nearest]).sum(axis=1) > 0.5
+    within = np.linalg.norm(offset, axis=1) <= most + spacing
+    return nearest, (beside <= most) & within & aligned
+
+
+def face_twins(mesh: TriMesh, polygon: np.ndarray, n_polygons: int, plane: MirrorPlane) -> np.ndarray:
+    """Find the mirror twin of each polygon.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m small faces.
+    polygon : (m,) int64
+        In which each of them lies.
+    n_polygons : int
+    plane : MirrorPlane
+
+    Returns
+    -------
+    twin : (n_polygons,) int64
+        The polygon that is its mirror image, or on which most of its mirror image lies; -1 where there is none.
+    """
+    elements, middle, size = _Elements.of(mesh)
+    local = MirrorPlane(plane.normal, float((plane.offset - middle @ plane.normal) / size))
+    nearest, matched = _matched(elements.mirrored(local), elements, BENT)
+    if n_polygons == mesh.n_faces > DENSE:
+        return np.where(matched, nearest, -1)
+    chosen = majority(polygon, np.where(matched, polygon[nearest] + 1, 0), mesh.face_area + 1e-12 * mesh.area,
+                      n_polygons) - 1
+    return _exact_twins(elements, polygon, n_polygons, local, np.maximum(chosen, -1))
+
+
+def _exact_twins(
+    elements: _Elements, polygon: np.ndarray, n_polygons: int, plane: MirrorPlane, chosen: np.ndarray
+) -> np.ndarray:
+    """The twins, (n_polygons,), with those polygons that are exact mirror images in their place."""
+    area = np.bincount(polygon, elements.area, n_polygons)
+    present = np.flatnonzero(area > 0)
+    position, normal = (
+        np.stack([np.bincount(polygon, elements.area * column, n_polygons) for column in columns.T], axis=1)[present]
+        / area[present, None] for columns in (elements.position, elements.normal))
+    whole = _Elements(position, normal, area[present])
+    image = whole.mirrored(plane)
+    # Normals count as much as a polygon is wide: the two sides of a thin wall have the same center.
+    _, nearest = whole.nearest(image)
+    apart = np.linalg.norm(image.position - position[nearest], axis=1)
+    same = apart <= EXACT * np.sqrt(whole.area)
+    same &= (image.normal * normal[nearest]).sum(axis=1) > 0.99 * (normal**2).sum(axis=1)
+    same &= np.abs(whole.area - whole.area[nearest]) <= EXACT * whole.area
+    twin = chosen.copy()
+    twin[present[same]] = present[nearest[same]]
+    return twin

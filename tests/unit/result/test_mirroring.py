@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Changes on both sides of a plane, on rows of faces by hand: 1 1 2 3 3 2' ... with part 3 in the middle."""
+
+from itertools import count
+
+import numpy as np
+import pytest
+
+from core.result.mirroring import on_both_sides
+
+BEFORE = [1, 1, 1, 3, 3, 3, 3, 2, 2, 2]
+TWIN = list(range(9, -1, -1))
+NUMBERS = {1: 2, 2: 1, 3: 3}
+
+
+@pytest.mark.parametrize(("after", "expected"), [
+    # A part grows, its image too.
+    ([1, 1, 1, 1, 3, 3, 3, 2, 2, 2], [1, 1, 1, 1, 3, 3, 2, 2, 2, 2]),
+    # A part merges into the middle.
+    ([3, 3, 3, 3, 3, 3, 3, 2, 2, 2], [3, 3, 3, 3, 3, 3, 3, 3, 3, 3]),
+    # A part is split: a new part on either side.
+    ([4, 1, 1, 3, 3, 3, 3, 2, 2, 2], [4, 1, 1, 3, 3, 3, 3, 2, 2, 5]),
+    # A new part across the plane is one.
+    ([1, 1, 1, 3, 4, 4, 3, 2, 2, 2], [1, 1, 1, 3, 4, 4, 3, 2, 2, 2]),
+    # The middle is cut in its middle: both halves are there already.
+    ([1, 1, 1, 4, 4, 3, 3, 2, 2, 2], [1, 1, 1, 4, 4, 3, 3, 2, 2, 2]),
+    # What was changed on both sides stays.
+    ([1, 1, 1, 1, 3, 3, 4, 2, 2, 2], [1, 1, 1, 1, 3, 3, 4, 2, 2, 2]),
+])
+def test_changes(after, expected):
+    new = count(5)
+    result = on_both_sides(np.array(BEFORE), np.array(after), np.array(TWIN), NUMBERS, lambda: next(new))
+    assert result.tolist() == expected
+
+
+def test_what_has_no_image_changes_alone():
+    new = count(5)
+    twin = np.array([-1, *TWIN[1:-1], -1])
+    after = np.array([4, *BEFORE[1:]])
+    assert on_both_sides(np.array(BEFORE), after, twin, NUMBERS, lambda: next(new)).tolist() == after.tolist()
+    after = np.array([*BEFORE[:3], 1, *BEFORE[4:]])
+    assert on_both_sides(
+        np.array(BEFORE), after, np.array(TWIN), {3: 3}, lambda: next(new)).tolist() == after.tolist()
