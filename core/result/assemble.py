@@ -24,6 +24,7 @@ from ..surface.polygons import PolygonMesh
 from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
 from ..surface.symmetry import face_twins, mirror_plane
 from .decomposition import Decomposition
+from .votes import WIDTH, FaceVotes
 
 # Added to the areas and lengths by which faces vote for labels: as a share of the area of the mesh, and in units of the
 # vertices. Faces without an area vote with this weight, after all others.
@@ -205,8 +206,24 @@ def _face_candidates(
 
     rounds : int, of straightening the boundaries between candidates.
     """
+    votes, hierarchy = _votes(given, working, results)
+    refined = _refined(given, working, results)
+    width = WIDTH * np.sqrt(face_graph.area.sum())
+
+    def loss(face: np.ndarray, own: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """What it costs a large face to leave the part that has most of it; small faces may do so for nothing."""
+        return np.where(refined[face], votes.loss(face, own, other) / width, 0.0)
+
+    label = connect(face_graph, fill_unlabeled(face_graph, votes.winners()))
+    label = connect(face_graph, straighten(face_graph, label, rounds, loss))
+    return settle(face_graph.with_contacts(contacts), label, hierarchy)
+
+
+def _votes(
+    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]
+) -> tuple[FaceVotes, Hierarchy]:
+    """What candidates have of each of the caller's faces, and the hierarchy over the candidates."""
     owner, label, weight, hierarchies, first = [], [], [], [], 0
-    rest = np.ones(working.mesh.n_faces, bool)
     for r in results:
         sets = r.sets
         owner.append(r.component.polygon[sets.element_face])
@@ -214,18 +231,32 @@ def _face_candidates(
         weight.append(sets.element_area + LEAST_WEIGHT * sets.mesh.area)
         hierarchies.append(r.candidates.hierarchy)
         first += r.candidates.hierarchy.n_candidates
-        rest[r.component.faces] = False
+    rest = _not_decomposed(working, results)
     if rest.any():  # components that were not decomposed are one candidate each
         names, numbers = renumbered(working.mesh.face_components[1][rest])
         owner.append(working.polygon[rest])
         label.append(first + numbers)
         weight.append(working.mesh.face_area[rest] + LEAST_WEIGHT * working.mesh.area)
         hierarchies.append(Hierarchy.of(len(names), [], []))
-    face_label = majority(
-        np.concatenate(owner), np.concatenate(label), np.concatenate(weight), given.n_polygons)
-    face_label = connect(face_graph, fill_unlabeled(face_graph, face_label))
-    face_label = connect(face_graph, straighten(face_graph, face_label, rounds))
-    return face_label, _join_bodies(Hierarchy.join(hierarchies))
+    hierarchy = _join_bodies(Hierarchy.join(hierarchies))
+    votes = FaceVotes(*map(np.concatenate, (owner, label, weight)), given.n_polygons, hierarchy)
+    return votes, hierarchy
+
+
+def _not_decomposed(working: WorkingMesh, results: list[ComponentResult]) -> np.ndarray:
+    """Mask of the faces of the working copy that are in no component that was decomposed, bool."""
+    rest = np.ones(working.mesh.n_faces, bool)
+    for r in results:
+        rest[r.component.faces] = False
+    return rest
+
+
+def _refined(given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]) -> np.ndarray:
+    """Mask of the caller's faces that have more triangles in the components than in the caller's mesh, (p,) bool."""
+    triangles = [r.component.polygon for r in results]
+    count = np.bincount(np.concatenate([*triangles, working.polygon[_not_decomposed(working, results)]]),
+                        minlength=given.n_polygons)
+    return count > np.bincount(given.polygon, minlength=given.n_polygons)
 
 
 def _join_bodies(hierarchy: Hierarchy) -> Hierarchy:

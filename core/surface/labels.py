@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from .arrays import both_ways, components, distinct_pairs, last_of_each, sums_by
+
+#: What it costs faces to change label: called with faces, their labels and the new labels.
+Loss = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 
 
 def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners: int) -> np.ndarray:
@@ -208,7 +212,7 @@ def _goal_of_strays(graph: FaceGraph, part: np.ndarray, area: np.ndarray, stray:
     return goal
 
 
-def straighten(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
+def straighten(graph: FaceGraph, label: np.ndarray, rounds: int, loss: Loss | None = None) -> np.ndarray:
     """Take saw teeth off boundaries: faces change to the label that shortens the boundaries most.
 
     Two faces that touch never change in one round, so that every round shortens the boundaries.
@@ -220,6 +224,9 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
         0 or more.
     rounds : int
         Upper bound of the number of rounds; 0 changes nothing.
+    loss : callable, optional
+        Called with some faces, their labels and the labels that they would change to, (k,) int64 each; returns what
+        this costs, (k,) float64, in the unit of ``graph.length``. A face changes if the boundaries shorten by more.
 
     Returns
     -------
@@ -237,6 +244,9 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
         toward = other == best[owner]
         gain = np.bincount(owner[toward], weight[toward], graph.n_faces) - inside
         gain[best < 0] = 0.0
+        if loss is not None:
+            willing = np.flatnonzero(gain > 0)
+            gain[willing] -= loss(willing, label[willing], best[willing])
         # A gain below 1e-9 of the longest edge is a rounding error.
         gain[gain <= 1e-9 * length.max(initial=0.0)] = 0.0
         # Of two neighbors that both gain, the one that gains more changes; of equal ones that of the higher index.
