@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How much of the parts is left when a mesh is changed: noise, smoothing, decimation, poses.
 
-    python3 benchmarks/robustness.py [MESHES ...] [--preset NAME]
+    python3 benchmarks/robustness.py [MESHES ...] [--preset NAME] [--only WORD]
 
 Each mesh (default: the bundled Spot) is decomposed as it is and changed; the parts of the changed mesh
 are brought back by the nearest face and compared with the parts of the mesh as it is. Prints, per change,
@@ -65,6 +65,15 @@ def decimated(share: float):
         points, faces = fast_simplification.simplify(
             mesh.vertices.astype(np.float32), mesh.faces.astype(np.int32), 1.0 - share)
         return TriMesh(points, faces)
+
+    return change
+
+
+def with_faces(count: int):
+    """Quadric edge collapse down to so many faces; a mesh that has no more stays as it is."""
+
+    def change(mesh: TriMesh) -> TriMesh:
+        return decimated(count / mesh.n_faces)(mesh) if mesh.n_faces > count else mesh
 
     return change
 
@@ -135,6 +144,9 @@ CHANGES = {
     "10 steps of smoothing": smoothed,
     "decimated to half": decimated(0.5),
     "decimated to 10 %": decimated(0.1),
+    "decimated to 2,000 faces": with_faces(2000),
+    "decimated to 800 faces": with_faces(800),
+    "decimated to 300 faces": with_faces(300),
     "subdivided": subdivided,
     "quads instead of triangles": as_quads,
     "bent by 45 degrees": bent(45.0),
@@ -163,13 +175,15 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("meshes", nargs="*", type=Path, default=[SPOT], metavar="MESHES")
     parser.add_argument("--preset", choices=list(PRESETS), default=next(iter(PRESETS)), metavar="NAME")
+    parser.add_argument("--only", default="", metavar="WORD", help="changes with this word in their name")
     arguments = parser.parse_args()
     parameters = Parameters.preset(arguments.preset)
-    rows = {name: [] for name in CHANGES}
+    changes = {name: change for name, change in CHANGES.items() if arguments.only in name}
+    rows = {name: [] for name in changes}
     for path in tqdm(arguments.meshes, unit="mesh", disable=None):
         mesh = TriMesh(*load_mesh(path))
         labels = decompose(mesh.vertices, mesh.faces, parameters).parts().labels
-        for name, change in CHANGES.items():
+        for name, change in changes.items():
             rows[name].append(compare(mesh, labels, change, parameters))
     print(f"| {arguments.preset}, {len(arguments.meshes)} meshes | Rand index | agreement (12) | parts |")
     print("| --- | --- | --- | --- |")

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import zip_longest
 from pathlib import Path
 
@@ -100,16 +101,26 @@ class BoostedTrees:
         rules out the leaves on its left, and the row's leaf is the first that no node has ruled out.
         """
         rows = rows.astype(np.float32)  # the thresholds were trained on values of 32 bits
-        feature, threshold = self.feature.ravel(), self.threshold.ravel()
-        mask, every = self.mask.ravel(), np.uint16(0xFFFF)
+        feature, threshold, mask = self._by_node
+        every = np.uint16(0xFFFF)
         n_trees, n_leaves = self.leaf.shape
         first = np.arange(n_trees) * n_leaves
         total = np.empty(len(rows))
         for start in range(0, len(rows), ROWS):
-            some = rows[start:start + ROWS]
-            left = np.where(some[:, feature] <= threshold, every, mask)
-            left = np.bitwise_and.reduce(left.reshape(len(some), n_trees, -1), axis=2)
+            columns = np.ascontiguousarray(rows[start:start + ROWS].T)
+            left = np.where(columns[feature] <= threshold, every, mask)
+            left = np.bitwise_and.reduce(left.reshape(n_leaves - 1, n_trees, -1), axis=0)
             lowest = left & (~left + np.uint16(1))
-            place = np.frexp(lowest.astype(np.float32))[1] - 1
-            total[start:start + ROWS] = self.leaf.ravel()[first + place].sum(axis=1)
+            place = np.frexp(lowest.astype(np.float32))[1].T - 1
+            # One row at a time, in the order of the trees: the sum does not depend on the other rows.
+            total[start:start + ROWS] = np.ascontiguousarray(self.leaf.ravel()[first + place]).sum(axis=1)
         return 1.0 / (1.0 + np.exp(-total))
+
+    @cached_property
+    def _by_node(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Feature, (t * i,), and threshold and mask, (t * i, 1), of all inner nodes: the first of every tree first.
+
+        NumPy is several times faster when rows lie side by side in memory and nodes do not.
+        """
+        return (self.feature.T.ravel(), np.ascontiguousarray(self.threshold.T).reshape(-1, 1),
+                np.ascontiguousarray(self.mask.T).reshape(-1, 1))

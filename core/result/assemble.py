@@ -16,7 +16,7 @@ from ..cuts.symmetric import symmetric_candidates
 from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebGraph, ReebTopology
-from ..parameters import TOGETHER, Parameters
+from ..parameters import PERCEPTUAL, TOGETHER, Parameters
 from ..sentence import Sentence
 from ..surface.arrays import components, last_of_each, renumbered, sums_by
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
@@ -138,7 +138,7 @@ def assemble(
     """
     face_graph = _face_graph(given, working)
     contacts = _contacts(given, working, results)
-    label, hierarchy = _face_candidates(given, working, results, face_graph, parameters.smoothing)
+    label, hierarchy = _face_candidates(given, working, results, face_graph, parameters)
     mirror = Mirror.of(given, working, results) if parameters.symmetry else Mirror.none()
     if len(mirror.plane):
         label, hierarchy = symmetric_candidates(face_graph, contacts, label, hierarchy, mirror.twin, mirror.height)
@@ -200,23 +200,20 @@ def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
 
 def _face_candidates(
     given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], face_graph: FaceGraph,
-    rounds: int,
+    parameters: Parameters,
 ) -> tuple[np.ndarray, Hierarchy]:
-    """Candidate of each of the caller's faces, (p,) int64, and the hierarchy over them; every candidate is connected.
-
-    rounds : int, of straightening the boundaries between candidates.
-    """
+    """Candidate of each of the caller's faces, (p,) int64, all of them connected, and the hierarchy over them."""
     votes, hierarchy = _votes(given, working, results)
-    refined = _refined(given, working, results)
-    width = WIDTH * np.sqrt(face_graph.area.sum())
+    width = _refined_width(given, results)
 
     def loss(face: np.ndarray, own: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """What it costs a large face to leave the part that has most of it; small faces may do so for nothing."""
-        return np.where(refined[face], votes.loss(face, own, other) / width, 0.0)
+        """What it costs a refined face to leave the part that has most of it; other faces may do so for nothing."""
+        return votes.loss(face, own, other) / width[face]
 
     label = connect(face_graph, fill_unlabeled(face_graph, votes.winners()))
-    label = connect(face_graph, straighten(face_graph, label, rounds, loss))
-    return settle(face_graph.with_contacts(contacts), label, hierarchy)
+    # Patches may be smaller than refined faces; the candidates of the other method are not.
+    held = loss if parameters.method == PERCEPTUAL else None
+    return connect(face_graph, straighten(face_graph, label, parameters.smoothing, held)), hierarchy
 
 
 def _votes(
@@ -224,6 +221,7 @@ def _votes(
 ) -> tuple[FaceVotes, Hierarchy]:
     """What candidates have of each of the caller's faces, and the hierarchy over the candidates."""
     owner, label, weight, hierarchies, first = [], [], [], [], 0
+    rest = np.ones(working.mesh.n_faces, bool)
     for r in results:
         sets = r.sets
         owner.append(r.component.polygon[sets.element_face])
@@ -231,7 +229,7 @@ def _votes(
         weight.append(sets.element_area + LEAST_WEIGHT * sets.mesh.area)
         hierarchies.append(r.candidates.hierarchy)
         first += r.candidates.hierarchy.n_candidates
-    rest = _not_decomposed(working, results)
+        rest[r.component.faces] = False
     if rest.any():  # components that were not decomposed are one candidate each
         names, numbers = renumbered(working.mesh.face_components[1][rest])
         owner.append(working.polygon[rest])
@@ -243,20 +241,14 @@ def _votes(
     return votes, hierarchy
 
 
-def _not_decomposed(working: WorkingMesh, results: list[ComponentResult]) -> np.ndarray:
-    """Mask of the faces of the working copy that are in no component that was decomposed, bool."""
-    rest = np.ones(working.mesh.n_faces, bool)
+def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.ndarray:
+    """WIDTH in the unit of the vertices at each of the caller's faces, (p,) float64; infinite at faces not refined."""
+    width = np.full(given.n_polygons, np.inf)
+    before = np.bincount(given.polygon, minlength=given.n_polygons)
     for r in results:
-        rest[r.component.faces] = False
-    return rest
-
-
-def _refined(given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]) -> np.ndarray:
-    """Mask of the caller's faces that have more triangles in the components than in the caller's mesh, (p,) bool."""
-    triangles = [r.component.polygon for r in results]
-    count = np.bincount(np.concatenate([*triangles, working.polygon[_not_decomposed(working, results)]]),
-                        minlength=given.n_polygons)
-    return count > np.bincount(given.polygon, minlength=given.n_polygons)
+        triangles = np.bincount(r.component.polygon, minlength=given.n_polygons)
+        width[triangles > before] = WIDTH * np.sqrt(r.component.mesh.area)
+    return width
 
 
 def _join_bodies(hierarchy: Hierarchy) -> Hierarchy:

@@ -14,7 +14,7 @@ from ..cuts.hierarchy import Dendrogram, Hierarchy
 from ..surface.arrays import distinct_pairs, sums_by
 
 # A refined face leaves the part that has most of it only if this shortens the boundary by more than the area lost,
-# divided by this width, in units of the square root of the area of the surface.
+# divided by this width, in units of the square root of the area of the component.
 WIDTH = 0.01
 
 

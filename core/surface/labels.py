@@ -246,6 +246,7 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int, loss: Loss | No
         gain[best < 0] = 0.0
         if loss is not None:
             willing = np.flatnonzero(gain > 0)
+            gain = gain.astype(float)  # NumPy counts in whole numbers where no face is at a boundary
             gain[willing] -= loss(willing, label[willing], best[willing])
         # A gain below 1e-9 of the longest edge is a rounding error.
         gain[gain <= 1e-9 * length.max(initial=0.0)] = 0.0

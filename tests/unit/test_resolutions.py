@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The same shape at two resolutions gets the same parts, within what the faces of the coarser mesh allow."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapes
+from scipy.spatial import cKDTree
+
+from core import Parameters, decompose
+from core.metrics import rand_index_error
+from core.surface.coarsening import coarsen
+from core.surface.mesh import TriMesh
+
+SPOT = Path(__file__).parents[2] / "models" / "spot.obj"
+
+
+def spot():
+    """The bundled model."""
+    rows = [line.split() for line in SPOT.read_text().splitlines()]
+    vertices = [[float(x) for x in row[1:4]] for row in rows if row and row[0] == "v"]
+    faces = [[int(x.split("/")[0]) - 1 for x in row[1:4]] for row in rows if row and row[0] == "f"]
+    return np.array(vertices), np.array(faces)
+
+
+def coarsened(shape, times):
+    """A copy of about a quarter of the faces, so many times."""
+    mesh = TriMesh(*shape)
+    for _ in range(times):
+        mesh = coarsen(mesh, mesh.vertex_area).mesh
+    return mesh.vertices, mesh.faces
+
+
+def difference(fine, coarse, parameters):
+    """Rand index error between the parts of two meshes of one shape over the faces of the finer; numbers of parts."""
+    ours, theirs = decompose(*fine, parameters).parts(), decompose(*coarse, parameters).parts()
+    near = cKDTree(TriMesh(*coarse).face_centroids).query(TriMesh(*fine).face_centroids)[1]
+    return rand_index_error(ours.labels, theirs.labels[near]), ours.count, theirs.count
+
+
+@pytest.mark.parametrize(("times", "n_faces", "limit"), [(1, 1358, 0.085), (2, 314, 0.09)])
+def test_the_bundled_model_decimated(times, n_faces, limit):
+    coarse = coarsened(spot(), times)
+    assert len(coarse[1]) == n_faces
+    error, ours, theirs = difference(spot(), coarse, Parameters())
+    assert error < limit
+    assert abs(ours - theirs) <= 2
+
+
+def test_a_dumbbell_of_four_thousand_faces_and_of_four_hundred():
+    error, ours, theirs = difference(shapes.dumbbell(), shapes.dumbbell(20, 10), Parameters())
+    assert error < 0.05
+    assert ours == theirs == 3
+
+
+def test_a_tree_of_ten_thousand_faces_and_of_nine_hundred():
+    error, ours, theirs = difference(shapes.tube_tree(4, 0.06), shapes.tube_tree(4, 0.2), Parameters())
+    assert error < 0.026
+    assert abs(ours - theirs) <= 1
