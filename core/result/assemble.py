@@ -237,8 +237,8 @@ def _votes(
         weight.append(working.mesh.face_area[rest] + LEAST_WEIGHT * working.mesh.area)
         hierarchies.append(Hierarchy.of(len(names), [], []))
     hierarchy = _join_bodies(Hierarchy.join(hierarchies))
-    votes = FaceVotes(*map(np.concatenate, (owner, label, weight)), given.n_polygons, hierarchy)
-    return votes, hierarchy
+    return FaceVotes(np.concatenate(owner), np.concatenate(label), np.concatenate(weight), given.n_polygons,
+                     hierarchy), hierarchy
 
 
 def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.ndarray:
