@@ -4,8 +4,12 @@
     blender -b scene.blend --command reeb_parts --object NAME --save OUT.blend --json OUT.json
     blender --command reeb_parts model.glb --parts FOLDER
 
-One JSON object goes to standard output, progress and Blender's own messages to standard error. The exit
-status is 0 only if every object was decomposed and every file written. Files appear whole or not at all.
+One JSON object goes to standard output, progress and Blender's own messages to standard error. Files appear when all
+of them are complete, or not at all, and none is written over that is read. An object that cannot be decomposed is named
+in the JSON, and costs only itself.
+
+The exit status is 0 only if every object was decomposed and every file written, and 130 after Ctrl+C; an OUT.json of
+an earlier run does not outlast one that failed.
 """
 
 from __future__ import annotations
@@ -15,19 +19,20 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import fields, replace
+from contextlib import contextmanager, redirect_stdout, suppress
 from pathlib import Path
 from typing import TextIO
 
 import bpy
 
 from ..core.errors import ReebError
-from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
-from ..scene import bridge, export, graph_objects, results, targets
-from ..scene.compute import Outcome, compute_all
+from ..core.parameters import Parameters
+from ..scene import bridge, complete, export, graph_objects, results, targets
+from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
-from ..scene.settings import OutputProperties, OverlayProperties
+from ..scene.whole_files import WholeFiles, reason, scene_files, together
+from .interrupt import Interrupted, Interrupts
+from .options import MODELS, chosen_parameters, parser
 
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
@@ -44,119 +49,87 @@ FAILED = 1
 def main(arguments: list[str]) -> int:
     """The command; returns the exit status."""
     try:
-        options = parser().parse_args(arguments)
+        options = parser(__doc__).parse_args(arguments)
     except SystemExit as end:  # argparse has said why, or has shown the help
         return int(end.code or 0)
-    with _standard_output() as answer:
+    interrupts = Interrupts()
+    with _standard_output() as answer, interrupts.heard():
         try:
-            result = run(options)
-        except (SceneError, ReebError, OSError, RuntimeError) as error:
-            # What Blender's own operators report arrives as RuntimeError.
-            _say(str(error).removeprefix("Error: ").strip())
+            result = run(options, interrupts)
+        except Interrupted as end:
+            _say("Interrupted; nothing was written.")
+            return end.status
+        except (SceneError, ReebError) as error:
+            _say(str(error))
             return FAILED
-        answer.write(json.dumps(result, indent=2, allow_nan=False) + "\n")
-    return 0
+        try:
+            answer.write(json.dumps(result, indent=2, allow_nan=False) + "\n")
+            answer.flush()
+        except OSError as error:
+            _say(f"Standard output could not be written: {reason(error)}")
+            return FAILED
+    return FAILED if result["problems"] else 0
 
 
-def parser() -> argparse.ArgumentParser:
-    """All options; parameters and switches are made from their definitions."""
-    made = argparse.ArgumentParser(
-        prog="blender --command reeb_parts", description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    made.add_argument("model", nargs="?", type=Path,
-                      help=f"a scene (.blend) or a model ({', '.join(IMPORTERS)}); without it, the scene "
-                      "that Blender has open")
-    made.add_argument("--object", action="append", default=[], metavar="NAME",
-                      help="object to decompose, can be given several times; the active object of a scene "
-                      "and every mesh of a model file without")
-    files = made.add_argument_group("files to write")
-    files.add_argument("--save", type=Path, metavar="OUT.blend", help="the scene with the parts in it")
-    files.add_argument("--json", type=Path, metavar="OUT.json", help="the JSON that also goes to standard output")
-    files.add_argument("--labels", action="store_true", help="also list the part of every face in the JSON")
-    files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
-    files.add_argument("--parts-format", choices=("obj", "ply", "stl", "glb"), default="obj",
-                       help="format of those files (default: %(default)s)")
-    files.add_argument("--picture", type=Path, metavar="OUT.png", help="a picture of the parts with the graph")
-    files.add_argument("--picture-turn", type=float, default=0.0, metavar="DEGREES",
-                       help="turn its camera, which looks at the front, around the objects")
-    files.add_argument("--picture-size", type=_size, default=(960, 540), metavar="WxH",
-                       help="its width and height in pixels (default: 960x540)")
-    _add_parameters(made.add_argument_group("parameters"))
-    outputs = made.add_argument_group("what is written to the objects")
-    for name, prop in (OutputProperties.__annotations__ | OverlayProperties.__annotations__).items():
-        words = {"default": prop.keywords.get("default"), "help": prop.keywords["description"].replace("%", "%%")}
-        if isinstance(words["default"], bool):
-            words["action"] = argparse.BooleanOptionalAction
-        elif "items" in prop.keywords:
-            words["choices"] = [item[0] for item in prop.keywords["items"]]
-            words["default"] = words["choices"][0]
-        else:
-            words |= {"type": float, "metavar": "N"}
-        outputs.add_argument(f"--{_dashed(name)}", **words)
-    return made
-
-
-def _add_parameters(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--preset", choices=list(PRESETS), help="start from the parameters of a preset")
-    for field in fields(Parameters):
-        meta = field.metadata
-        words = {"dest": field.name, "default": None, "help": meta["description"].replace("%", "%%")}
-        name = f"--{_dashed(field.name)}"
-        if "choices" in meta:
-            group.add_argument(name, choices=meta["choices"], **words)
-        elif "range" in meta:
-            low, high = meta["range"]
-            words["help"] += f" ({low} to {high}; default {field.default})"
-            group.add_argument(name, type=int if field.type == "int" else float, metavar="N", **words)
-        else:
-            group.add_argument(name, action=argparse.BooleanOptionalAction, **words)
-    for old in RENAMED:  # scripts of version 0.1.0
-        kind = {"action": argparse.BooleanOptionalAction} if old == "equalise" else {"type": float}
-        group.add_argument(f"--{old}", help=argparse.SUPPRESS, **kind)
-
-
-def _size(text: str) -> tuple[int, int]:
-    """Width and height out of "960x540"; argparse turns the error into a sentence."""
-    width, height = (int(number) for number in text.split("x"))
-    if not (16 <= width <= 8192 and 16 <= height <= 8192):
-        raise ValueError
-    return width, height
-
-
-def _dashed(name: str) -> str:
-    return name.replace("_", "-")
-
-
-def run(options: argparse.Namespace) -> dict:
+def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
     """Do all that the options ask for; returns the JSON."""
-    load_core()
-    from ..scene.object_report import object_report  # imports SciPy
+    with together() as files:
+        _claim(options, files)
+        parameters, notes = chosen_parameters(options)
+        for note in notes:
+            _say(note)
+        with interrupts.allowed():
+            load_core()
+            objects, problems = find_objects(options)
+        files.protect(scene_files())
+        reports, done = [], []
+        with interrupts.allowed():
+            for obj in objects:
+                try:
+                    reports.append(decompose_object(obj, parameters, options))
+                    done.append(obj)
+                except (SceneError, ReebError, MemoryError) as error:
+                    problems.append(_problem(getattr(obj, "name", ""), error))
+        if not done:
+            raise SceneError("Nothing was decomposed.")
+        with interrupts.allowed():
+            return write_files(options, files, done, reports, problems)
 
-    names = (*RENAMED, *(field.name for field in fields(Parameters)))
-    values, notes = present_names(
-        {name: value for name in names if (value := getattr(options, name)) is not None})
-    for note in notes:
-        _say(note)
-    parameters = replace(PRESETS[options.preset] if options.preset else Parameters(), **values)
-    objects = find_objects(options)
-    reports = []
-    for obj in objects:
-        outcome = decompose_object(obj, parameters)
-        results.write_result(bpy.context, obj, outcome, options)
-        reports.append(object_report(obj, options.labels))
-    return write_files(options, objects, reports)
+
+def _claim(options: argparse.Namespace, files: WholeFiles) -> None:
+    """Say which files will be written; raises SceneError where one cannot be."""
+    # The standard streams may lead to files, too.
+    files.protect([1, 2])
+    if options.model is not None:
+        # What belongs to a model: the materials of an .obj, the numbers of a .gltf.
+        files.protect([options.model, options.model.with_suffix(".mtl"), options.model.with_suffix(".bin")])
+    if options.json is not None:
+        files.claim(options.json)
+        # Who reads an old one would take it for the answer of this run.
+        files.withdraw_on_failure(options.json)
+    for path in (options.save, options.picture):
+        if path is not None:
+            files.claim(path)
+    if options.parts is not None:
+        files.claim_folder(options.parts)
 
 
-def find_objects(options: argparse.Namespace) -> list:
-    """Open what is asked for; the objects to decompose."""
+def _problem(name: str, error: Exception) -> dict:
+    """What the JSON says of an object that could not be decomposed; said at once, too."""
+    words = str(error) or "There is not enough memory."
+    _say(words if name in words else f"{name}: {words}")
+    return {"name": name, "problem": words}
+
+
+def find_objects(options: argparse.Namespace) -> tuple[list, list[dict]]:
+    """Open what is asked for; the objects to decompose, and problems with those that are not there."""
     meshes = [] if options.model is None else _open(options.model)
-    if options.object:
-        missing = [name for name in options.object if name not in bpy.data.objects]
-        if missing:
-            raise SceneError(f"There is no object {', '.join(missing)} in the scene.")
-        return [bpy.data.objects[name] for name in dict.fromkeys(options.object)]
-    return meshes or [bpy.context.view_layer.objects.active]
+    if not options.object:
+        return meshes or [bpy.context.view_layer.objects.active], []
+    names = list(dict.fromkeys(options.object))
+    missing = [_problem(name, SceneError(f"There is no object {name} in the scene."))
+               for name in names if name not in bpy.data.objects]
+    return [bpy.data.objects[name] for name in names if name in bpy.data.objects], missing
 
 
 def _open(path: Path) -> list:
@@ -164,22 +137,28 @@ def _open(path: Path) -> list:
     if not path.is_file():
         raise SceneError(f"There is no file {path}.")
     kind = path.suffix.lower()
-    if kind == ".blend":
-        bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False)
-        return []
-    if kind not in IMPORTERS:
-        raise SceneError(f"{path} is none of .blend, {', '.join(IMPORTERS)}.")
-    bpy.ops.wm.read_homefile(use_empty=True)
-    IMPORTERS[kind](str(path.resolve()))
+    if kind != ".blend" and kind not in MODELS:
+        raise SceneError(f"{path} is none of .blend, {', '.join(MODELS)}.")
+    try:
+        if kind == ".blend":
+            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False)
+            return []
+        bpy.ops.wm.read_homefile(use_empty=True)
+        IMPORTERS[kind](str(path.resolve()))
+    except RuntimeError as error:  # what Blender's own operators report
+        raise SceneError(f"{path} could not be read: {reason(error)}") from error
     meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
     if not meshes:
         raise SceneError(f"There is no mesh in {path}.")
     return meshes
 
 
-def decompose_object(obj: bpy.types.Object, parameters: Parameters) -> Outcome:
-    """Read and compute one object; raises what the user should hear."""
+def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, options: argparse.Namespace) -> dict:
+    """Read, compute and write one object; its entry in the JSON. Raises what the user should hear."""
+    from ..scene.object_report import object_report  # imports SciPy
+
     targets.check_object(obj)
+    assert obj is not None
     shape = bridge.read_shape(obj)
     last = [-1]
 
@@ -191,50 +170,38 @@ def decompose_object(obj: bpy.types.Object, parameters: Parameters) -> Outcome:
     (outcome,) = compute_all([(obj.name, shape)], parameters, progress)
     if outcome.decomposition is None:
         raise SceneError(f"{obj.name}: {outcome.problem}")
-    return outcome
+    results.write_result(bpy.context, obj, outcome, options)
+    return object_report(obj, options.labels)
 
 
-def write_files(options: argparse.Namespace, objects: list[bpy.types.Object], reports: list[dict]) -> dict:
+def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bpy.types.Object], reports: list[dict],
+                problems: list[dict]) -> dict:
     """Write what is asked for; returns the JSON with what was written."""
     from ..core.uses.report import document
 
     written: dict[str, str | list[str]] = {}
     if options.parts:
-        options.parts.mkdir(parents=True, exist_ok=True)
-        written["parts"] = [str(path) for obj in objects
-                            for path in export.export_parts(obj, options.parts, options.parts_format)]
+        paths = export.export_parts(files, [(obj, None) for obj in objects], options.parts, options.parts_format)
+        written["parts"] = [str(path) for path in paths]
     if options.save:
-        with _whole(options.save) as path:
+        with files.writing(options.save, complete.blend) as path:
             bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)
         written["save"] = str(options.save)
     if options.picture:
         from .picture import render_parts, view_from
 
-        with _whole(options.picture) as path:
+        with files.writing(options.picture, complete.png) as path:
             shown = [(obj, graph_objects.find(obj)) for obj in objects]
             render_parts(shown, path, view=view_from(options.picture_turn), size=options.picture_size)
         written["picture"] = str(options.picture)
     if options.json:
         written["json"] = str(options.json)
-    result = document(reports, blender=bpy.app.version_string, files=written)
+    result = document(reports, blender=bpy.app.version_string, files=written, problems=problems)
     if options.json:
-        with _whole(options.json) as path:
-            path.write_text(json.dumps(result, indent=2, allow_nan=False) + "\n")
+        text = json.dumps(result, indent=2, allow_nan=False) + "\n"
+        with files.writing(options.json, complete.text(text)) as path:
+            path.write_bytes(text.encode())
     return result
-
-
-@contextmanager
-def _whole(path: Path) -> Iterator[Path]:
-    """A name to write to beside the path; the file is moved to the path when it is complete."""
-    path = path.resolve()
-    path.parent.mkdir(parents=True, exist_ok=True)
-    # In the same folder: a scene's paths to its pictures are relative to where it is saved.
-    part = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
-    try:
-        yield part
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -245,9 +212,14 @@ def _standard_output() -> Iterator[TextIO]:
     """
     sys.stdout.flush()
     answer = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    # Before anything is written that could be aimed at it.
     os.dup2(2, 1)
-    with answer:
-        yield answer
+    try:
+        with redirect_stdout(sys.stderr):
+            yield answer
+    finally:
+        with suppress(OSError):  # the command has said so
+            answer.close()
 
 
 def _say(text: str) -> None:

@@ -21,7 +21,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 from scipy.ndimage import zoom
 
-from ..scene import mesh_arrays
+from ..scene import complete, mesh_arrays
 from ..scene.temporary import freed, removed
 
 #: Where the camera stands: in front (Blender's front is -Y), to the left and above.
@@ -71,6 +71,11 @@ def render_parts(objects: list[tuple[bpy.types.Object, bpy.types.Collection | No
         Light paths per pixel, before denoising.
     view : (3,) float
         Direction from the objects to the camera, in the world.
+
+    Raises
+    ------
+    RuntimeError
+        There is no room for the pictures that it is put together from.
     """
     bpy.context.view_layer.update()  # objects made just now do not know where they are
     scene = bpy.data.scenes.new("Reeb Parts picture")
@@ -261,6 +266,8 @@ def _render(scene: bpy.types.Scene, parts: dict[str, bpy.types.Collection], laye
     scene.render.filepath = str(folder / f"{layer.seen}.png")
     with _silence():
         bpy.ops.render.render(write_still=True, scene=scene.name)
+    if not complete.png(Path(scene.render.filepath)):
+        raise RuntimeError(f"a layer of it does not fit into {folder.parent}, the folder for temporary files.")
     pixels = _read_png(scene.render.filepath)
     if layer.coarseness > 1:
         scale = (scene.render.resolution_y / len(pixels), scene.render.resolution_x / pixels.shape[1], 1)

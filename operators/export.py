@@ -14,6 +14,7 @@ from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import wanted_numbers
 from ..scene.reporting import ReportingOperator
 from ..scene.settings import WhichProperties
+from ..scene.whole_files import together
 
 
 class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichProperties):
@@ -50,12 +51,7 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
             raise SceneError(rpt_("There is no folder to write to. Choose one and try again."))
         folder = Path(bpy.path.abspath(self.directory))
         objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
-        try:
-            with object_mode(context):
-                folder.mkdir(parents=True, exist_ok=True)
-                paths = [path for obj in objects for path in
-                         export_parts(obj, folder, self.format, wanted_numbers(obj.data, self.which), self.caps)]
-        except (OSError, RuntimeError) as error:  # what Blender's exporters report arrives as RuntimeError
-            reason = str(error).strip()
-            raise SceneError(rpt_("The parts could not be written: {reason}").format(reason=reason)) from error
+        with object_mode(context), together() as files:
+            paths = export_parts(files, [(obj, wanted_numbers(obj.data, self.which)) for obj in objects], folder,
+                                 self.format, self.caps)
         self.report({"INFO"}, rpt_("{n} files in {folder}").format(n=len(paths), folder=folder))

@@ -3,20 +3,20 @@
 
 from __future__ import annotations
 
-import os
 import re
-import tempfile
+import unicodedata
 from collections.abc import Iterable
 from pathlib import Path
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import part_names, store
+from . import complete, part_names, store
 from .errors import SceneError
 from .part_meshes import part_meshes
 from .selection import nothing_selected
 from .temporary import removed
+from .whole_files import WholeFiles
 
 EXPORTERS = {
     "obj": lambda path: bpy.ops.wm.obj_export(filepath=path, export_selected_objects=True),
@@ -26,20 +26,20 @@ EXPORTERS = {
 }
 
 
-def export_parts(obj: bpy.types.Object, folder: Path, kind: str, numbers: Iterable[int] | None = None,
-                 close: bool = False) -> list[Path]:
-    """Write each part of an object as a file of its own; the scene stays as it is.
+def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, Iterable[int] | None]], folder: Path,
+                 kind: str, close: bool = False) -> list[Path]:
+    """Write each part of some objects as a file of its own; the scene stays as it is.
 
     Parameters
     ----------
-    obj : bpy.types.Object
-        In Object Mode, with parts.
+    files : WholeFiles
+        Puts the files in their places when all is written.
+    objects : iterable of (bpy.types.Object, iterable of int or None)
+        In Object Mode, with parts; which parts, None for all.
     folder : Path
-        Exists.
+        Made if it is not there.
     kind : str
         Of EXPORTERS.
-    numbers : iterable of int, optional
-        Only these parts.
     close : bool
         Close the holes that the cuts leave.
 
@@ -50,35 +50,50 @@ def export_parts(obj: bpy.types.Object, folder: Path, kind: str, numbers: Iterab
     Raises
     ------
     SceneError
-        The parts are out of date, or two parts would get the same file name.
+        The parts are out of date, two parts of an object have the same name, or a file cannot be written.
     """
-    face_numbers = store.load(obj.data).face_numbers
-    numbers = sorted(set(face_numbers.tolist()) if numbers is None else numbers)
-    names = [_file_name(f"{obj.name} {part_names.part_name(obj.data, number)}") for number in numbers]
-    if len({name.lower() for name in names}) < len(names):
-        raise SceneError(
-            rpt_("Two parts have the same name; give them different ones to write them as files."))
-    meshes, _ = part_meshes(obj.data, face_numbers, numbers, close)
-    with removed(bpy.data.meshes, *meshes.values()), nothing_selected(bpy.context.view_layer):
-        return [_export(obj, meshes[number], folder / f"{name}.{kind}", kind)
-                for number, name in zip(numbers, names, strict=True)]
+    files.folder(folder)
+    names = FileNames()
+    paths = []
+    for obj, wanted in objects:
+        face_numbers = store.load(obj.data).face_numbers
+        numbers = sorted(set(face_numbers.tolist()) if wanted is None else wanted)
+        called = [part_names.part_name(obj.data, number) for number in numbers]
+        if len(set(called)) < len(called):
+            raise SceneError(
+                rpt_("Two parts have the same name; give them different ones to write them as files."))
+        meshes, _ = part_meshes(obj.data, face_numbers, numbers, close)
+        with removed(bpy.data.meshes, *meshes.values()), nothing_selected(bpy.context.view_layer):
+            for number, name in zip(numbers, called, strict=True):
+                path = folder / f"{names.free(f'{obj.name} {name}')}.{kind}"
+                with files.writing(path, complete.model(meshes[number], kind), alone=True) as place:
+                    _export(obj, meshes[number], place, kind)
+                paths.append(path)
+    return paths
 
 
-def _export(obj: bpy.types.Object, mesh: bpy.types.Mesh, path: Path, kind: str) -> Path:
-    """Write a mesh in the place of an object as a file, whole or not at all."""
+def _export(obj: bpy.types.Object, mesh: bpy.types.Mesh, path: Path, kind: str) -> None:
+    """Write a mesh in the place of an object as a file."""
     piece = bpy.data.objects.new(path.stem, mesh)
     with removed(bpy.data.objects, piece):
         bpy.context.scene.collection.objects.link(piece)
         piece.matrix_world = obj.matrix_world
         piece.select_set(True)
         bpy.context.view_layer.objects.active = piece
-        with tempfile.TemporaryDirectory(dir=path.parent, prefix=".reeb_parts_") as made:
-            EXPORTERS[kind](str(Path(made) / path.name))
-            for file in Path(made).iterdir():  # an .obj comes with an .mtl
-                os.replace(file, path.parent / file.name)
-    return path
+        EXPORTERS[kind](str(path))
 
 
-def _file_name(text: str) -> str:
-    """The text without what a file system might not like."""
-    return re.sub(r"[^\w .()+-]", "_", text).strip(" .") or "part"
+class FileNames:
+    """Names of files that differ from each other on every file system."""
+
+    def __init__(self) -> None:
+        self._taken: set[str] = set()
+
+    def free(self, text: str) -> str:
+        """The text without what a file system might not like, and with a number if that is taken already."""
+        # Blender cuts its own names at 255 bytes, and a file has a suffix, too.
+        plain = re.sub(r"[^\w .()+-]", "_", text).encode()[:200].decode(errors="ignore").strip(" .") or "part"
+        name = next(name for name in (plain, *(f"{plain} ({n})" for n in range(2, len(self._taken) + 3)))
+                    if unicodedata.normalize("NFKC", name).casefold() not in self._taken)
+        self._taken.add(unicodedata.normalize("NFKC", name).casefold())
+        return name

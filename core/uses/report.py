@@ -31,7 +31,8 @@ def document(reports: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
     reports : list of dict
         One result of ``report`` per object.
     **more
-        ``blender`` : str, the version of Blender; ``files`` : dict, the files that were written.
+        ``blender`` : str, the version of Blender; ``files`` : dict, the files that were written; ``problems`` : list
+        of dict, the name of each object that could not be decomposed, and why.
 
     Returns
     -------
@@ -43,7 +44,7 @@ def document(reports: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
     if "blender" in more:
         versions["blender"] = more["blender"]
     return {"schema_version": SCHEMA_VERSION, "versions": versions, "objects": reports,
-            "files": more.get("files", {})}
+            "problems": more.get("problems", []), "files": more.get("files", {})}
 
 
 def report(

@@ -572,7 +572,15 @@ TEXTS = {
         "Es ist kein Ordner angegeben. Bitte einen wählen und erneut versuchen.",
     "Two parts have the same name; give them different ones to write them as files.":
         "Zwei Teile haben denselben Namen; als Dateien brauchen sie verschiedene.",
-    "The parts could not be written: {reason}": "Die Teile konnten nicht geschrieben werden: {reason}",
+    "{path} could not be written: {reason}": "{path} konnte nicht geschrieben werden: {reason}",
+    "{path} could not be written whole. Is the disk full?":
+        "{path} konnte nicht vollständig geschrieben werden. Ist der Datenträger voll?",
+    "{path} is no file but a folder or a device. Choose another name.":
+        "{path} ist keine Datei, sondern ein Ordner oder ein Gerät. Bitte einen anderen Namen wählen.",
+    "{path} is read, and would be written over. Choose another name.":
+        "{path} wird gelesen und würde überschrieben. Bitte einen anderen Namen wählen.",
+    "{path} would be written over {other}. Give each file a name of its own.":
+        "{path} würde {other} überschreiben. Jede Datei braucht einen eigenen Namen.",
     "{n} files in {folder}": "{n} Dateien in {folder}",
     "{name} has {n} bones": "{name} hat {n} Knochen",
 }

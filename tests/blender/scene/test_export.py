@@ -86,3 +86,53 @@ def test_parts_of_one_name_are_refused_and_nothing_written(obj, tmp_path):
     with pytest.raises(RuntimeError, match="same name"):
         bpy.ops.reeb_parts.export(directory=str(tmp_path))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_objects_whose_names_differ_by_what_files_cannot_have(make, tree, tmp_path):
+    vertices, faces = tree
+    objects = [make((vertices * size, faces), name)
+               for size, name in ((1, "a/b"), (2, "a:b"), (3, "A_B"), (4, "a_b Part 01"))]
+    for obj in objects:
+        obj.select_set(True)
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    objects[3].data.reeb_parts.parts[0].name = "x"
+    objects[0].data.reeb_parts.parts[0].name = "Part 01 x"
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format="stl")
+    files = sorted(tmp_path.iterdir())
+    assert len({file.name.casefold() for file in files}) == 8
+    assert [file.name for file in files if "x" in file.name] == ["a_b Part 01 x (2).stl", "a_b Part 01 x.stl"]
+    # No two are of the same size in the world, and none is lost.
+    areas = []
+    for file in files:
+        bpy.ops.wm.read_homefile(use_empty=True)
+        IMPORT["stl"](str(file))
+        areas.append(area(bpy.context.selected_objects[0]))
+    total = sum(area_of(vertices * size, faces) for size in (1, 2, 3, 4))
+    assert sum(areas) == pytest.approx(total, rel=1e-3)
+
+
+def area_of(vertices, faces):
+    """Area of triangles."""
+    a, b, c = vertices[faces].transpose(1, 0, 2)
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+
+
+def test_names_longer_than_files_may_have(make, tree, tmp_path):
+    obj = make(tree, "ä" * 31)
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    for part, letter in zip(obj.data.reeb_parts.parts, "ab", strict=True):
+        part.name = "ö" * 30 + letter
+    obj.name = "ä" * 120
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format="stl")
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_part_that_would_replace_the_open_scene_is_refused(obj, tmp_path):
+    bpy.ops.reeb_parts.decompose()
+    scene = tmp_path / "Tree Part 01.obj"
+    bpy.ops.wm.save_as_mainfile(filepath=str(scene), check_existing=False)
+    before = scene.read_bytes()
+    with pytest.raises(RuntimeError, match="is read"):
+        bpy.ops.reeb_parts.export(directory=str(tmp_path))
+    assert [file.name for file in tmp_path.iterdir()] == [scene.name]
+    assert scene.read_bytes() == before

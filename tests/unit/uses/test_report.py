@@ -28,7 +28,8 @@ def validator():
 
 
 def test_document_is_valid(result, validator):
-    made = document([report(result, name="tree", labels=True)], blender="5.2.0", files={"json": "a.json"})
+    made = document([report(result, name="tree", labels=True)], blender="5.2.0", files={"json": "a.json"},
+                    problems=[{"name": "Cube", "problem": "It has no faces."}])
     validator.validate(json.loads(json.dumps(made, allow_nan=False)))
 
 

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of the command; parameters and switches are made from their definitions."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable
+from dataclasses import fields, replace
+from pathlib import Path
+
+from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
+from ..core.sentence import Sentence
+from ..scene.settings import OutputProperties, OverlayProperties
+
+#: Models that can be read besides scenes, see command.IMPORTERS.
+MODELS = (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
+
+
+def parser(description: str | None) -> argparse.ArgumentParser:
+    """All options. description : what the help begins with."""
+    made = argparse.ArgumentParser(
+        prog="blender --command reeb_parts", description=description,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    made.add_argument("model", nargs="?", type=Path,
+                      help=f"a scene (.blend) or a model ({', '.join(MODELS)}); without it, the scene "
+                      "that Blender has open")
+    made.add_argument("--object", action="append", default=[], metavar="NAME",
+                      help="object to decompose, can be given several times; the active object of a scene "
+                      "and every mesh of a model file without")
+    files = made.add_argument_group("files to write")
+    files.add_argument("--save", type=Path, metavar="OUT.blend", help="the scene with the parts in it")
+    files.add_argument("--json", type=Path, metavar="OUT.json", help="the JSON that also goes to standard output")
+    files.add_argument("--labels", action="store_true", help="also list the part of every face in the JSON")
+    files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
+    files.add_argument("--parts-format", choices=("obj", "ply", "stl", "glb"), default="obj",
+                       help="format of those files (default: %(default)s)")
+    files.add_argument("--picture", type=Path, metavar="OUT.png", help="a picture of the parts with the graph")
+    files.add_argument("--picture-turn", type=_number(-36000.0, 36000.0), default=0.0, metavar="DEGREES",
+                       help="turn its camera, which looks at the front, around the objects")
+    files.add_argument("--picture-size", type=_size, default=(960, 540), metavar="WxH",
+                       help="its width and height in pixels (default: 960x540)")
+    _add_parameters(made.add_argument_group("parameters"))
+    outputs = made.add_argument_group("what is written to the objects")
+    for name, prop in (OutputProperties.__annotations__ | OverlayProperties.__annotations__).items():
+        words = {"default": prop.keywords.get("default"), "help": prop.keywords["description"].replace("%", "%%")}
+        if isinstance(words["default"], bool):
+            words["action"] = argparse.BooleanOptionalAction
+        elif "items" in prop.keywords:
+            words["choices"] = [item[0] for item in prop.keywords["items"]]
+            words["default"] = words["choices"][0]
+        else:
+            words |= {"type": _number(prop.keywords["min"], prop.keywords["max"]), "metavar": "N"}
+        outputs.add_argument(f"--{_dashed(name)}", **words)
+    return made
+
+
+def _add_parameters(group: argparse._ArgumentGroup) -> None:
+    group.add_argument("--preset", choices=list(PRESETS), help="start from the parameters of a preset")
+    for field in fields(Parameters):
+        meta = field.metadata
+        words = {"dest": field.name, "default": None, "help": meta["description"].replace("%", "%%")}
+        name = f"--{_dashed(field.name)}"
+        if "choices" in meta:
+            group.add_argument(name, choices=meta["choices"], **words)
+        elif "range" in meta:
+            low, high = meta["range"]
+            words["help"] += f" ({low} to {high}; default {field.default})"
+            group.add_argument(name, type=int if field.type == "int" else float, metavar="N", **words)
+        else:
+            group.add_argument(name, action=argparse.BooleanOptionalAction, **words)
+    for old in RENAMED:  # scripts of version 0.1.0
+        kind = {"action": argparse.BooleanOptionalAction} if old == "equalise" else {"type": float}
+        group.add_argument(f"--{old}", help=argparse.SUPPRESS, **kind)
+
+
+def _number(low: float, high: float) -> Callable[[str], float]:
+    """What reads a number from low to high; argparse turns the error into a sentence."""
+
+    def number(text: str) -> float:
+        value = float(text)
+        if not (math.isfinite(value) and low <= value <= high):
+            raise argparse.ArgumentTypeError(f"must be a number from {low} to {high}, not {text}")
+        return value
+
+    return number
+
+
+def _size(text: str) -> tuple[int, int]:
+    """Width and height out of "960x540"; argparse turns the error into a sentence."""
+    width, height = (int(number) for number in text.split("x"))
+    if not (16 <= width <= 8192 and 16 <= height <= 8192):
+        raise ValueError
+    return width, height
+
+
+def _dashed(name: str) -> str:
+    return name.replace("_", "-")
+
+
+def chosen_parameters(options: argparse.Namespace) -> tuple[Parameters, tuple[Sentence, ...]]:
+    """The parameters that the options ask for, and a note for each former name; raises ParameterError."""
+    names = (*RENAMED, *(field.name for field in fields(Parameters)))
+    values, notes = present_names(
+        {name: value for name in names if (value := getattr(options, name)) is not None})
+    return replace(PRESETS[options.preset] if options.preset else Parameters(), **values), notes

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command when something goes wrong: what it leaves, what it says, how it ends."""
+
+import os
+import signal
+from pathlib import Path
+
+import bpy
+import process
+import pytest
+
+
+@pytest.fixture
+def two(tree, tmp_path):
+    """A model of the tree and of a triangle, which has no parts."""
+    path = process.write_obj(tmp_path / "two.obj", tree)
+    with path.open("a") as file:
+        file.write("o Triangle\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n")
+    return path
+
+
+def test_standard_output_is_one_json_object(run, model, tmp_path):
+    ended = run(model, "--json", tmp_path / "out.json", "--parts", tmp_path / "parts", "--save", tmp_path / "x.blend")
+    assert ended.status == 0
+    assert ended.out == (tmp_path / "out.json").read_text()
+    assert ended.answer["problems"] == []
+    names = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
+    parts = {str(Path(name).relative_to(tmp_path)) for name in ended.answer["files"]["parts"]}
+    assert names == {"own.obj", "out.json", "x.blend", *parts, *(part.replace(".obj", ".mtl") for part in parts)}
+
+
+def test_an_object_that_cannot_be_cut_costs_only_itself(run, two, tmp_path):
+    ended = run(two, "--json", tmp_path / "out.json", "--save", tmp_path / "out.blend")
+    assert ended.status == 1
+    assert [report["name"] for report in ended.answer["objects"]] == ["Tree"]
+    (problem,) = ended.answer["problems"]
+    assert problem["name"] == "Triangle"
+    assert problem["problem"] in ended.err
+    assert (tmp_path / "out.json").read_text() == ended.out
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert len(bpy.data.objects["Tree"].data.reeb_parts.parts) == len(ended.answer["objects"][0]["parts"])
+
+
+def test_an_object_that_is_not_there_costs_only_itself(run, two, tmp_path):
+    ended = run(two, "--object", "Tree", "--object", "Nobody")
+    assert ended.status == 1
+    assert [report["name"] for report in ended.answer["objects"]] == ["Tree"]
+    assert [problem["name"] for problem in ended.answer["problems"]] == ["Nobody"]
+
+
+@pytest.mark.parametrize("arguments", [
+    ["missing.obj"], ["own.txt"], ["broken.blend"], ["broken.glb"], ["own.obj", "--detail", "7"],
+    ["own.obj", "--object", "Nobody"], ["two.obj", "--object", "Triangle"], ["own.obj", "--save", "own.obj"],
+    ["own.obj", "--parts", "own.obj"], ["own.obj", "--save", "broken.glb/x.blend"],
+])
+def test_an_old_answer_does_not_outlast_a_failed_run(run, model, two, tmp_path, arguments):
+    for name in ("own.txt", "broken.blend", "broken.glb"):
+        (tmp_path / name).write_text("BLENDER or what")
+    before = process.content(tmp_path)
+    (tmp_path / "out.json").write_text("an answer of yesterday")
+    words = [str(tmp_path / word) if "." in word else word for word in arguments]
+    ended = run(*words, "--json", tmp_path / "out.json")
+    assert (ended.status, ended.out) == (1, "")
+    assert process.content(tmp_path) == before
+    said = [line for line in ended.err.splitlines() if line.startswith("reeb_parts: ")]
+    assert said
+    assert not any("Traceback" in line or ".reeb_parts" in line for line in said)
+    if arguments[0] != "own.obj":
+        assert any(arguments[0] in line or "Triangle" in line for line in said)
+
+
+@pytest.mark.parametrize("option", ["--node-size", "--line-thickness", "--picture-turn"])
+@pytest.mark.parametrize("value", ["nan", "inf", "-inf", "1e9", "-1e9", "x"])
+def test_numbers_out_of_range_are_refused(run, model, option, value):
+    ended = run(model, f"{option}={value}")
+    assert (ended.status, ended.out) == (2, "")
+    assert option in ended.err
+
+
+@pytest.mark.parametrize(("moment", "number"), [
+    ("mesh 0%", signal.SIGINT), ("cuts", signal.SIGTERM), ("STL Export", signal.SIGINT)])
+def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, moment, number):
+    before = process.content(tmp_path)
+    (tmp_path / "out.json").write_text("an answer of yesterday")
+    (tmp_path / "parts").mkdir()
+    arguments = (model, "--json", tmp_path / "out.json", "--save", tmp_path / "out.blend",
+                 "--parts", tmp_path / "parts", "--parts-format", "stl", "--picture", tmp_path / "out.png")
+    with process.start(*arguments) as running:
+        for line in running.stderr:
+            if moment in line:
+                os.kill(running.pid, number)
+                break
+        out, err = running.communicate(timeout=120)
+    assert running.returncode == 128 + number
+    assert out == ""
+    assert "Interrupted; nothing was written." in err
+    assert process.content(tmp_path) == before
+    assert list((tmp_path / "parts").iterdir()) == []
