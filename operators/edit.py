@@ -6,7 +6,7 @@ from collections.abc import Callable
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import edits, part_list, part_names, store
+from ..scene import edits, part_list, part_names
 from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator
@@ -25,7 +25,7 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
             raise SceneError(rpt_("Mark the parts to merge in the list, two or more."))
         active = part_list.active_number(obj.data)
         into = active if active in numbers else numbers[0]
-        edits.merge(context, obj.data, stored, numbers, into)
+        edits.write(context, obj.data, stored, edits.merged(obj.data, stored, numbers, into))
         part_list.mark(obj.data, "NONE")
         return rpt_("{n} parts are {name} now").format(n=len(numbers), name=part_names.part_name(obj.data, into))
 
@@ -33,16 +33,18 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
 class ChosenPartsOperator(PartOperator):
     """For operators that do something with each of the chosen parts: ``edit`` of scene.edits.
 
-    If one of the parts is locked, nothing is done.
+    If it is not possible with one of them, nothing is done.
     """
 
-    edit: Callable[[bpy.types.Context, bpy.types.Mesh, Stored, int], None]
+    edit: Callable[[bpy.types.Mesh, Stored, int], Stored]
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         numbers = chosen_numbers(obj.data)
         edits.check_unlocked(obj.data, numbers)
+        after = stored
         for number in numbers:
-            self.edit(context, obj.data, store.load(obj.data), number)
+            after = self.edit(obj.data, after, number)
+        edits.write(context, obj.data, stored, after)
 
 
 class REEB_PARTS_OT_merge_neighbour(ChosenPartsOperator, bpy.types.Operator):
@@ -50,7 +52,7 @@ class REEB_PARTS_OT_merge_neighbour(ChosenPartsOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.merge_neighbour"
     bl_label = "Merge into Neighbour"
-    edit = staticmethod(edits.merge_into_neighbor)
+    edit = staticmethod(edits.merged_into_neighbor)
 
 
 class REEB_PARTS_OT_split(ChosenPartsOperator, bpy.types.Operator):
@@ -58,7 +60,7 @@ class REEB_PARTS_OT_split(ChosenPartsOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.split"
     bl_label = "Split Parts"
-    edit = staticmethod(edits.split)
+    edit = staticmethod(edits.halved)
 
 
 class REEB_PARTS_OT_grow(ChosenPartsOperator, bpy.types.Operator):
@@ -66,7 +68,7 @@ class REEB_PARTS_OT_grow(ChosenPartsOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.grow"
     bl_label = "Grow Parts"
-    edit = staticmethod(edits.grow)
+    edit = staticmethod(edits.grown)
 
 
 class REEB_PARTS_OT_shrink(ChosenPartsOperator, bpy.types.Operator):
@@ -74,7 +76,7 @@ class REEB_PARTS_OT_shrink(ChosenPartsOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.shrink"
     bl_label = "Shrink Parts"
-    edit = staticmethod(edits.shrink)
+    edit = staticmethod(edits.shrunk)
 
 
 class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):

@@ -4,8 +4,9 @@
 Every part that is changed by hand is pinned: it stays as it is while the detail changes around it, and through
 another run, until it is released. A part that the user has locked is pinned, too, and cannot be changed at all.
 
-The functions want Object Mode and raise SceneError where a change is not possible. They import what needs SciPy
-from core when they are called, so that the panel comes up without it.
+The functions want Object Mode and raise SceneError where a change is not possible; nothing is written then. Those that
+return a Stored write nothing at all, so that several of them are written together or not at all. They import what needs
+SciPy from core when they are called, so that the panel comes up without it.
 """
 
 from __future__ import annotations
@@ -46,19 +47,19 @@ def locked_others(mesh: bpy.types.Mesh, number: int) -> list[int]:
     return [part.number for part in mesh.reeb_parts.parts if part.locked and part.number != number]
 
 
-def merge(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: list[int], into: int) -> None:
-    """Make one part of several; raises SceneError if they do not touch."""
+def merged(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int], into: int) -> Stored:
+    """The result with one part of several; raises SceneError if they do not touch."""
     from ..core.result.editing import components_of
 
     check_unlocked(mesh, numbers)
     mask = np.isin(stored.shown, numbers)
     if components_of(stored.decomposition, mask).max() > 0:
         raise SceneError(rpt_("These parts do not touch each other. Choose parts that do."))
-    _show_pinned(context, mesh, stored, np.where(mask, into, stored.shown), [into])
+    return _pinned(mesh, stored, np.where(mask, into, stored.shown), [into])
 
 
-def merge_into_neighbor(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
-    """Merge a part into the neighbor beyond its least salient cut; of equals, beyond the longest."""
+def merged_into_neighbor(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
+    """The result with a part merged into the neighbor beyond its least salient cut; of equals, beyond the longest."""
     numbered = stored.shown_parts()
     cuts = numbered.numbers[numbered.parts.cuts]
     own = (cuts == number).any(axis=1)
@@ -67,15 +68,15 @@ def merge_into_neighbor(context: bpy.types.Context, mesh: bpy.types.Mesh, stored
     order = np.lexsort((-numbered.parts.cut_length[own], numbered.parts.cut_salience[own]))
     first, second = cuts[own][order[0]].tolist()
     neighbor = first if second == number else second
-    merge(context, mesh, stored, [number, neighbor], neighbor)
+    return merged(mesh, stored, [number, neighbor], neighbor)
 
 
-def split(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
-    """Split a part in two at the most salient cut inside it."""
+def halved(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
+    """The result with a part split in two at the most salient cut inside it."""
     from ..core.result.editing import best_split
 
     side = best_split(stored.decomposition, stored.shown == number)
-    _split_off(context, mesh, stored, number, side)
+    return _split_off(mesh, stored, number, side)[0]
 
 
 def split_at_node(context: bpy.types.Context, mesh: bpy.types.Mesh, node: int) -> tuple[int, int]:
@@ -98,7 +99,9 @@ def split_at_node(context: bpy.types.Context, mesh: bpy.types.Mesh, node: int) -
     check_unlocked(mesh, [number])
     mask = stored.shown == number
     side = smaller_side(node_split(stored.decomposition, mask, node), mask, stored.decomposition.candidate_area)
-    return number, _split_off(context, mesh, stored, number, side)
+    after, new = _split_off(mesh, stored, number, side)
+    write(context, mesh, stored, after)
+    return number, new
 
 
 def smaller_side(side: np.ndarray | None, inside: np.ndarray, area: np.ndarray) -> np.ndarray | None:
@@ -111,39 +114,40 @@ def smaller_side(side: np.ndarray | None, inside: np.ndarray, area: np.ndarray) 
     return side
 
 
-def _split_off(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int,
-               side: np.ndarray | None) -> int:
-    """Make a new part of some candidates of a part, (c,) bool; its number. Raises SceneError if there are none."""
+def _split_off(mesh: bpy.types.Mesh, stored: Stored, number: int, side: np.ndarray | None) -> tuple[Stored, int]:
+    """The result with a new part of some candidates of a part, (c,) bool, and its number.
+
+    Raises SceneError if there are none.
+    """
     if side is None:
         raise SceneError(
             rpt_("No cut was found inside {name}. Select faces in Edit Mode and assign them to another "
                  "part instead.").format(name=part_names.part_name(mesh, number))
         )
     new = free_number(mesh, stored)
-    _show_pinned(context, mesh, stored, np.where(side, new, stored.shown), [number, new])
-    return new
+    return _pinned(mesh, stored, np.where(side, new, stored.shown), [number, new]), new
 
 
-def grow(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
-    """Give a part the next candidate beyond its weakest boundary, unless that candidate is of a locked part."""
+def grown(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
+    """The result with the next candidate beyond a part's weakest boundary in it, unless that is of a locked part."""
     from ..core.result.editing import growth
 
     taken = growth(stored.decomposition, stored.shown == number, _not_locked(mesh, stored, number))
     if taken is None:
         raise SceneError(rpt_("Nothing is left around {name} that is not locked.").format(
             name=part_names.part_name(mesh, number)))
-    _move(context, mesh, stored, taken, number)
+    return _moved(mesh, stored, taken, number)
 
 
-def shrink(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, number: int) -> None:
-    """Give a candidate of a part to the part beside it, unless that part is locked."""
+def shrunk(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
+    """The result with a candidate of a part in the part beside it, unless that part is locked."""
     from ..core.result.editing import shrinkage
 
     step = shrinkage(stored.decomposition, stored.shown == number, _not_locked(mesh, stored, number))
     if step is None:
         raise SceneError(rpt_("{name} cannot give away anything more.").format(name=part_names.part_name(mesh, number)))
     given, receiver = step
-    _move(context, mesh, stored, given, int(stored.shown[receiver]))
+    return _moved(mesh, stored, given, int(stored.shown[receiver]))
 
 
 def _not_locked(mesh: bpy.types.Mesh, stored: Stored, number: int) -> np.ndarray:
@@ -151,13 +155,13 @@ def _not_locked(mesh: bpy.types.Mesh, stored: Stored, number: int) -> np.ndarray
     return ~np.isin(stored.shown, locked_others(mesh, number))
 
 
-def _move(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int) -> None:
-    """Give a candidate to a part; what the candidate leaves behind stays in one piece, or becomes several parts."""
+def _moved(mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int) -> Stored:
+    """The result with a candidate in a part; what it leaves behind stays in one piece, or becomes several parts."""
     giver = int(stored.shown[candidate])
     numbers = stored.shown.copy()
     numbers[candidate] = number
     changed = {giver, number} | _part_pieces(mesh, stored, numbers, giver)
-    _show_pinned(context, mesh, stored, numbers, changed)
+    return _pinned(mesh, stored, numbers, changed)
 
 
 def assign_selected(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, number: int) -> int:
@@ -225,7 +229,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     for number in sorted(concerned):
         if (numbers == number).any():
             concerned |= _part_pieces(obj.data, stored, numbers, number)
-    _show_pinned(context, obj.data, stored, numbers, concerned)
+    write(context, obj.data, stored, _pinned(obj.data, stored, numbers, concerned))
 
 
 def _finer(stored: Stored, decomposition: Decomposition) -> Stored:
@@ -275,23 +279,30 @@ def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, nu
     reactions.show(result, context)
 
 
-def _show_pinned(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, candidate_numbers: np.ndarray,
-                 changed: Iterable[int]) -> None:
-    """Show parts that were changed by hand, and pin those that are part of the change.
+def _pinned(mesh: bpy.types.Mesh, stored: Stored, candidate_numbers: np.ndarray, changed: Iterable[int]) -> Stored:
+    """The result with parts that were changed by hand, those that are part of the change pinned.
 
     Parameters
     ----------
-    context : bpy.types.Context
     mesh : bpy.types.Mesh
     stored : Stored
     candidate_numbers : (c,) int64
         The part of each candidate from now on.
     changed : iterable of int
         Numbers of the parts to pin.
+
+    Returns
+    -------
+    stored : Stored
     """
     result = mesh.reeb_parts
     to_pin = np.isin(candidate_numbers, list(changed)) | (stored.pinned > 0)
     stored = replace(stored, pinned=np.where(to_pin, candidate_numbers, 0))
     # Around the pinned parts everything is as the hierarchy has it.
     count = len(np.unique(candidate_numbers)) if result.by_number else 0
-    reactions.refresh(context, mesh, stored, stored.parts(result.detail, count))
+    return stored.showing(stored.parts(result.detail, count))
+
+
+def write(context: bpy.types.Context, mesh: bpy.types.Mesh, before: Stored, after: Stored) -> None:
+    """Keep and show another result of the same decomposition. before : what is shown until now."""
+    reactions.refresh(context, mesh, replace(after, shown=before.shown), after.shown_parts())

@@ -342,3 +342,40 @@ def neighbours_in_object_mode(obj):
     found = neighbours(obj.data, 1)[0]
     bpy.ops.object.mode_set(mode=mode)
     return found
+
+
+@pytest.mark.parametrize("operator", ["split", "shrink", "grow", "merge_neighbour"])
+def test_what_is_not_possible_with_one_of_several_parts_is_done_to_none(obj, result, operator):
+    # Nine parts of ten candidates: only the first can be split or give something away.
+    result.n_parts = 9
+    good, bad = result.parts[0].number, result.parts[-1].number
+    if operator in ("grow", "merge_neighbour"):  # impossible where all around is locked
+        bad = next(p.number for p in reversed(result.parts) if good not in neighbours(obj.data, p.number))
+        for number in neighbours(obj.data, bad):
+            part(result, number).locked = True
+        assert any(not part(result, number).locked for number in neighbours(obj.data, good))
+    assert good < bad
+    choose(result, good, bad)
+    before = snapshot()
+    with pytest.raises(RuntimeError):
+        getattr(bpy.ops.reeb_parts, operator)()
+    assert snapshot() == before
+    choose(result, good)
+    assert getattr(bpy.ops.reeb_parts, operator)() == {"FINISHED"}
+    assert snapshot() != before
+
+
+@pytest.mark.parametrize("operator", ["split", "grow", "shrink", "merge_neighbour"])
+def test_several_parts_at_once_are_as_one_after_the_other(make, tree, operator):
+    shown = []
+    for together in (True, False):
+        obj = make(tree, "One")
+        bpy.ops.reeb_parts.decompose(method="berretti", n_parts=4)
+        mesh = obj.data
+        chosen = [part.number for part in mesh.reeb_parts.parts][:2]
+        for marked in ([chosen] if together else [[number] for number in chosen]):
+            choose(mesh.reeb_parts, *marked)
+            getattr(bpy.ops.reeb_parts, operator)()
+        check(obj)
+        shown.append(numbers(mesh))
+    assert (shown[0] == shown[1]).all()
