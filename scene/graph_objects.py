@@ -115,10 +115,14 @@ def _curve(graph: ReebGraph, points: np.ndarray, radii: np.ndarray, nodes: np.nd
 
 
 def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
-    """Tell the nodes which part they are in now."""
+    """Tell the nodes which part they are in now; a graph of another result, as of a mesh that was replaced, goes."""
     numbers = numbered.numbers[numbered.parts.node_part].tolist()
     colors = part_names.number_colors(obj.data)
-    for node in _items(obj, "node"):
+    nodes = list(_items(obj, "node"))
+    if not all(0 <= node.get("node", -1) < len(numbers) for node in nodes):
+        remove(obj)
+        return
+    for node in nodes:
         node["part"] = numbers[node["node"]]
         node.color = (*linear(colors[node["part"], :3].tolist()), 1.0)
 

@@ -55,11 +55,13 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
         result.detail, result.by_number = parameters.detail, parameters.n_parts > 0
         outputs.write_outputs(obj, numbered, decomposition.field, settings)
     store.mark_pins(mesh, stored)
-    if settings.graph:
-        graph_objects.draw_graph(context, obj, decomposition.graph, outcome.shape.stretch, settings)
-        graph_objects.update_parts(obj, numbered)
-    else:
-        graph_objects.remove(obj)
+    # Other objects of the mesh show its parts, and a graph of theirs is that of the result before.
+    for user in targets.users(mesh):
+        if settings.graph and (user == obj or graph_objects.find(user)):
+            graph_objects.draw_graph(context, user, decomposition.graph, outcome.shape.stretch, settings)
+            graph_objects.update_parts(user, numbered)
+        else:
+            graph_objects.remove(user)
 
 
 def clear(obj: bpy.types.Object) -> None:
@@ -67,7 +69,7 @@ def clear(obj: bpy.types.Object) -> None:
     for user in targets.users(obj.data):
         explode.forget(user)
         armature.remove_modifier(user)
+        graph_objects.remove(user)
     uv_map.remove(obj.data)
     outputs.remove_outputs(obj)
-    graph_objects.remove(obj)
     obj.data.property_unset("reeb_parts")

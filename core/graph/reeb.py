@@ -217,13 +217,26 @@ def reeb_graph(sets: LevelSets, topology: ReebTopology) -> ReebGraph:
     position[has_tip] = sets.mesh.vertices[tip[has_tip]]
 
     contour, arc_points = topology.arc_contours(sets)
+    level = sets.levels[sets.contour_level[contour]]
+    value = _between_arcs(value, topology.arcs, level[arc_points[:-1]], level[arc_points[1:] - 1])
     return ReebGraph(
         node_kind=kind, node_value=value, node_position=position, arcs=topology.arcs,
         arc_points=arc_points,
         point_position=sets.contour_center[contour], point_radius=sets.contour_radius[contour],
         point_length=sets.contour_length[contour],
-        point_value=sets.levels[sets.contour_level[contour]],
+        point_value=level,
         n_components=components(topology.n_nodes, *topology.arcs.T)[0])
+
+
+def _between_arcs(value: np.ndarray, arcs: np.ndarray, first: np.ndarray, last: np.ndarray) -> np.ndarray:
+    """Values of nodes, (k,), above the last level of every arc below the node and below the first of every arc above.
+
+    A node that has taken in a cancelled leaf has critical vertices out there, too. first, last : (q,) float64.
+    """
+    lowest, highest = np.full(len(value), -np.inf), np.full(len(value), np.inf)
+    np.maximum.at(lowest, arcs[:, 1], last)
+    np.minimum.at(highest, arcs[:, 0], first)
+    return np.clip(value, lowest, highest)
 
 
 def _tip_vertices(sets: LevelSets, topology: ReebTopology, kind: np.ndarray) -> np.ndarray:

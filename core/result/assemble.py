@@ -24,6 +24,7 @@ from ..surface.polygons import PolygonMesh
 from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
 from ..surface.symmetry import face_twins, mirror_plane
 from .decomposition import Decomposition
+from .fans import boundaries
 from .votes import WIDTH, FaceVotes
 
 # Added to the areas and lengths by which faces vote for labels: as a share of the area of the mesh, and in units of the
@@ -145,7 +146,8 @@ def assemble(
     label, hierarchy = settle(face_graph.with_contacts(contacts), label, hierarchy)
     face_graph = face_graph.with_contacts(contacts)
     values, notes = _vertex_field(given, working, results, parameters)
-    pairs, length = face_graph.boundaries(label)
+    sides = np.repeat(working.polygon, 3), working.mesh.edges.face_edges.ravel()
+    pairs, length = boundaries(face_graph, label, *sides, working.mesh.edge_length)
     corners = given.triangles.faces.ravel()
     weight = np.repeat(given.triangles.face_area + LEAST_WEIGHT * given.triangles.area, 3)
     vertex = majority(corners, np.repeat(label[given.polygon], 3), weight, given.triangles.n_vertices)

@@ -19,6 +19,7 @@ from ..surface.arrays import components, symmetric_matrix
 from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, majority
 from .decomposition import Decomposition
+from .fans import boundaries
 
 
 def components_of(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
@@ -272,7 +273,8 @@ def split_candidates(
     half[cut] = decomposition.n_candidates + np.arange(len(cut))
     candidates = np.where(faces, half[old], old)
     count = decomposition.n_candidates + len(cut)
-    pairs, length = graph.with_contacts(decomposition.contacts).boundaries(candidates)
+    pairs, length = boundaries(graph.with_contacts(decomposition.contacts), candidates, table.corner_face,
+                               table.corner_edge, table.edge_length(np.arange(len(table.edges))))
     area = np.bincount(candidates, graph.area, count)
     area *= decomposition.candidate_area.sum() / area.sum()
     hierarchy = decomposition.hierarchy

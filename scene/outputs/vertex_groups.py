@@ -117,9 +117,13 @@ def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | N
         return
     parts = {part.number: part for part in obj.data.reeb_parts.parts}
     fresh = [number for number, part in parts.items() if part.group not in obj.vertex_groups]
-    if before is None or np.isin(before, fresh).any():
-        before = np.zeros_like(numbered.candidate_numbers)
-    come, gone = grains(obj.data, numbered.candidates).changes(before, numbered.candidate_numbers)
+    after = numbered.candidate_numbers
+    made = grains(obj.data, numbered.candidates)
+    come, gone = made.changes(np.zeros_like(after) if before is None else before, after)
+    if before is not None and np.isin(before, fresh).any():
+        # The user has deleted a group: all of it comes back, and the others change as ever.
+        whole, _ = made.changes(np.zeros_like(after), after)
+        come |= {number: whole[number] for number in fresh}
     active = obj.vertex_groups.active_index
     for number in sorted(parts):
         part = parts[number]

@@ -3,6 +3,7 @@
 
 import bpy
 import pytest
+from snapshot import activate
 
 
 @pytest.fixture
@@ -75,3 +76,44 @@ def test_pieces_and_nodes_have_the_colours_of_the_list_in_the_view(obj, settings
     for name, color in colors.items():
         linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color]
         assert bpy.data.objects[name].color[:3] == pytest.approx(linear, abs=1e-5)
+
+
+def graph_nodes(obj):
+    """For each node of an object's graph, what it is of the result and which part it is in."""
+    collection = next((c for c in bpy.data.collections if c.get("reeb_parts_source") == obj), None)
+    items = collection.objects if collection else ()
+    return sorted((item["node"], item["part"]) for item in items if item.get("reeb_parts_role") == "node")
+
+
+def twin_of(obj):
+    """Another object of the same mesh, active and alone selected."""
+    twin = bpy.data.objects.new("Twin", obj.data)
+    bpy.context.scene.collection.objects.link(twin)
+    activate(twin)
+    return twin
+
+
+@pytest.mark.parametrize("graph", [True, False])
+def test_objects_that_share_a_mesh_never_show_the_graph_of_an_earlier_result(obj, settings, graph):
+    assert len(graph_nodes(obj)) > 2
+    twin = twin_of(obj)
+    bpy.ops.reeb_parts.decompose(method="berretti", n_slabs=8, small_region=0.5, graph=graph)
+    assert graph_nodes(obj) == graph_nodes(twin)
+    assert bool(graph_nodes(twin)) == graph
+    for detail in (0.0, 1.0, 0.3):
+        obj.data.reeb_parts.detail = detail
+        assert graph_nodes(obj) == graph_nodes(twin)
+        assert {part for _, part in graph_nodes(twin)} <= {part.number for part in obj.data.reeb_parts.parts}
+    bpy.ops.reeb_parts.clear()
+    assert graph_nodes(obj) == graph_nodes(twin) == []
+
+
+def test_an_object_that_is_given_another_mesh_loses_its_graph(obj, settings, make, tree):
+    other = make((tree[0] * [1, 1, 3], tree[1]), "Other")
+    bpy.ops.reeb_parts.decompose(method="berretti", n_slabs=8, small_region=0.5)
+    other_graph = graph_nodes(other)
+    assert len(other_graph) < len(graph_nodes(obj))
+    obj.data = other.data
+    other.data.reeb_parts.detail = 1.0
+    assert graph_nodes(obj) == []
+    assert [node for node, _ in graph_nodes(other)] == [node for node, _ in other_graph]

@@ -91,3 +91,24 @@ def test_from_every_mode(owned, name, mode):
 def test_undo(owned, name):
     bpy.ops.reeb_parts.decompose()
     check_undo(lambda: run(name))
+
+
+def members(obj, group):
+    """Vertices of a vertex group with their weights."""
+    index = obj.vertex_groups[group].index
+    return {v.index: g.weight for v in obj.data.vertices for g in v.groups if g.group == index}
+
+
+@pytest.mark.parametrize("deleted", [[0], [1, 2], [-1]])
+def test_a_group_deleted_by_hand_comes_back_and_leaves_no_vertex_in_another(obj, deleted):
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    result = obj.data.reeb_parts
+    for index in deleted:
+        obj.vertex_groups.remove(obj.vertex_groups[result.parts[index].group])
+    for count in (5, 2, 4):
+        result.n_parts = count
+        assert len(obj.vertex_groups) == len(result.parts) == count
+        numbers = [item.value for item in obj.data.attributes["reeb_part"].data]
+        for part in result.parts:
+            faces = [f for f in obj.data.polygons if numbers[f.index] == part.number]
+            assert members(obj, part.group) == {v: 1.0 for f in faces for v in f.vertices}

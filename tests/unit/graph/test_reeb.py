@@ -8,6 +8,8 @@ import shapes
 from core.graph.critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import ReebGraph, reeb_graph, reeb_topology
+from core.parameters import Parameters
+from core.pipeline import decompose
 from core.surface.arrays import components
 from core.surface.mesh import TriMesh
 
@@ -204,3 +206,19 @@ def test_a_flat_field_is_one_node():
     assert topology.n_nodes == graph.n_nodes == 1
     assert graph.n_arcs == graph.n_loops == 0
     assert graph.arc_points.tolist() == [0]
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3])
+def test_arcs_run_upwards(seed):
+    """Noise makes leaves that are cancelled; their saddles once gave nodes a value beyond those of their neighbors."""
+    rng = np.random.default_rng(seed)
+    vertices, faces = shapes.genus_two() if seed % 2 else shapes.tube_tree()
+    noisy = vertices + rng.normal(0, 0.01 * np.ptp(vertices), vertices.shape)
+    for n_slabs in (8, 20, 100):
+        graph = decompose(noisy, faces, Parameters(n_slabs=n_slabs, method="berretti")).graph
+        low, high = graph.node_value[graph.arcs].T
+        assert (low <= high).all()
+        assert (low <= graph.point_value[graph.arc_points[:-1]]).all()
+        assert (high >= graph.point_value[graph.arc_points[1:] - 1]).all()
+        same_arc = np.diff(graph.point_arc) == 0
+        assert (np.diff(graph.point_value)[same_arc] >= 0).all()
