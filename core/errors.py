@@ -46,6 +46,10 @@ class ParameterError(ReebError, ValueError):
         self.name = name
 
 
+class UnknownParameterError(ParameterError, TypeError):
+    """There is no parameter of a name."""
+
+
 class MeshError(ReebError, ValueError):
     """The mesh cannot be decomposed.
 

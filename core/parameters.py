@@ -5,11 +5,14 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import wraps
 from typing import Any, ClassVar
 
-from .errors import ParameterError
+import numpy as np
+
+from .errors import ParameterError, UnknownParameterError
 from .sentence import Sentence
 
 PERCEPTUAL, BERRETTI = "perceptual", "berretti"
@@ -56,7 +59,16 @@ def _with_warnings(values: dict) -> dict:
     values, notes = present_names(values)
     for note in notes:
         warnings.warn(note, DeprecationWarning, stacklevel=3)
+    for name in values:
+        if name not in Parameters.__dataclass_fields__:
+            raise UnknownParameterError(Sentence("There is no parameter {name}.", name=_shown(name)), str(name))
     return values
+
+
+def _shown(value: object) -> str:
+    """A value as a sentence names it: not longer than a line, and whatever it is."""
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:50]}..."
 
 
 def _with_old_names(cls: type) -> type:
@@ -79,14 +91,15 @@ class Parameters:
     The metadata of a field holds its "range", (lowest, highest), if it is a number, its "choices" if it is one of
     several words, and always a "label" and a "description" for tooltips. ``Parameters.RANGES`` has all ranges by name.
 
-    Names of version 0.1.0 are understood as well, with a DeprecationWarning.
+    Names of version 0.1.0 are understood as well, with a DeprecationWarning. Values whose meaning is plain are taken
+    and converted: "0.5" and NumPy's numbers, 2.0 for a whole number, 1 for true.
 
     Raises
     ------
     ParameterError
-        A value is outside its range; ``error.name`` says which.
-    TypeError
-        There is no parameter of a name.
+        A value is outside its range, or none of its kind; ``error.name`` says which.
+    UnknownParameterError
+        There is no parameter of a name; it is a TypeError, too.
     """
 
     RANGES: ClassVar[dict[str, tuple[float, float]]]
@@ -144,34 +157,72 @@ class Parameters:
         "Loose parts with less than this share of the whole area are one part each")
 
     def __post_init__(self) -> None:
-        """Raise ParameterError if a value is outside its range or not among its choices."""
+        """Convert the values; raise ParameterError if one is outside its range or not among its choices."""
         for item in fields(self):
             limits = item.metadata.get("range")
             value = getattr(self, item.name)
+            if isinstance(value, np.ndarray) and value.ndim == 0:
+                value = value.item()
             if limits is not None:
-                low, high = limits
-                self._check_number(item.name, value, low, high, whole=item.type == "int")
-            elif "choices" in item.metadata and value not in item.metadata["choices"]:
-                choices = ", ".join(item.metadata["choices"])
-                raise ParameterError(
-                    Sentence("{name} must be one of {choices}, not {value!r}.",
-                             name=item.name, choices=choices, value=value), item.name)
+                value = self._number(item.name, value, limits, item.type == "int")
+            elif "choices" in item.metadata:
+                value = self._choice(item.name, value, item.metadata["choices"])
+            else:
+                value = self._switch(item.name, value)
+            object.__setattr__(self, item.name, value)
 
     @staticmethod
-    def _check_number(name: str, value: Any, low: float, high: float, whole: bool) -> None:
-        """Raise ParameterError if a value is not a number, or not a whole one, from ``low`` to ``high``."""
+    def _number(name: str, value: Any, limits: tuple[float, float], whole: bool) -> float | int:
+        """A value as a number, or a whole one, between two limits; raises ParameterError if it is none."""
+        low, high = limits
         try:
+            if isinstance(value, (bool, np.bool_, np.ndarray)):
+                raise TypeError
             number = float(value)
+        except OverflowError:
+            number = math.inf
         except (TypeError, ValueError):
-            raise ParameterError(Sentence("{name} must be a number, not {value!r}.",
-                                          name=name, value=value), name) from None
+            raise ParameterError(Sentence("{name} must be a number, not {value}.",
+                                          name=name, value=_shown(value)), name) from None
         if not math.isfinite(number) or not low <= number <= high or (whole and number % 1):
-            limits = {"name": name, "low": low, "high": high, "value": value}
+            words = {"name": name, "low": low, "high": high, "value": _shown(value)}
             raise ParameterError(
-                Sentence("{name} must be a whole number from {low} to {high}, not {value!r}.", **limits)
+                Sentence("{name} must be a whole number from {low} to {high}, not {value}.", **words)
                 if whole else
-                Sentence("{name} must be a number from {low} to {high}, not {value!r}.", **limits),
+                Sentence("{name} must be a number from {low} to {high}, not {value}.", **words),
                 name)
+        return int(number) if whole else number
+
+    @staticmethod
+    def _choice(name: str, value: Any, choices: tuple[str, ...]) -> str:
+        """A value as one of some words; raises ParameterError if it is none."""
+        if not isinstance(value, str) or value not in choices:
+            raise ParameterError(
+                Sentence("{name} must be one of {choices}, not {value}.",
+                         name=name, choices=", ".join(choices), value=_shown(value)), name)
+        return str(value)
+
+    @staticmethod
+    def _switch(name: str, value: Any) -> bool:
+        """A value as true or false; raises ParameterError if it is neither."""
+        if not isinstance(value, (bool, np.bool_, int, np.integer)) or value not in (0, 1):
+            raise ParameterError(
+                Sentence("{name} must be true or false, not {value}.", name=name, value=_shown(value)), name)
+        return bool(value)
+
+    @classmethod
+    def of(cls, values: Parameters | Mapping[str, Any] | None) -> Parameters:
+        """Take parameters, a mapping of their values by name, or None for those of the first preset.
+
+        values : Parameters, mapping or None. Returns Parameters. Raises ParameterError if it is something else, or as
+        Parameters does.
+        """
+        if values is None or isinstance(values, cls):
+            return values or cls()
+        if not isinstance(values, Mapping) or not all(isinstance(name, str) for name in values):
+            raise ParameterError(Sentence("Parameters are given by their names, not as {value}.",
+                                          value=_shown(values)))
+        return cls(**values)
 
     @classmethod
     def preset(cls, name: str, **changes: Any) -> Parameters:
@@ -192,13 +243,13 @@ class Parameters:
         ------
         ParameterError
             There is no such preset (``error.name`` is then "preset"), or a value is outside its range.
-        TypeError
-            There is no parameter of a name.
+        UnknownParameterError
+            There is no parameter of a name; it is a TypeError, too.
         """
-        if name not in PRESETS:
+        if not isinstance(name, str) or name not in PRESETS:
             raise ParameterError(
-                Sentence("There is no preset {name!r}. Choose one of: {presets}.",
-                         name=name, presets=", ".join(PRESETS)), "preset")
+                Sentence("There is no preset {name}. Choose one of: {presets}.",
+                         name=_shown(name), presets=", ".join(PRESETS)), "preset")
         return replace(PRESETS[name], **_with_warnings(changes))
 
 

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -36,7 +36,7 @@ MESH_SHARE, PARTS_SHARE = 0.14, 0.9
 def decompose(
     vertices: ArrayLike,
     faces: ArrayLike | Sequence[Sequence[int]],
-    parameters: Parameters | None = None,
+    parameters: Parameters | Mapping[str, Any] | None = None,
     polygon: ArrayLike | None = None,
     progress: Progress | None = None,
     model: BoostedTrees | None = None,
@@ -50,8 +50,8 @@ def decompose(
         Positions, in any unit of length.
     faces : (p, k) array_like of int, or a sequence of p index sequences
         Vertices of each face: triangles, quads or polygons.
-    parameters : Parameters, optional
-        Without it, the preset "Perceptual".
+    parameters : Parameters or mapping, optional
+        A mapping has values by the names of parameters. Without it, the preset "Perceptual".
     polygon : (m,) array_like of int, optional
         For a caller who has cut polygons into triangles already: ``faces`` are then (m, 3) triangles, and this is the
         polygon of each. The faces of the result are the polygons.
@@ -70,9 +70,11 @@ def decompose(
 
     Raises
     ------
+    ParameterError
+        A parameter is outside its range, or there is none of its name.
     MeshError
-        A shape, an index, a polygon's number or a coordinate is wrong; ``error.vertices`` and ``error.faces`` say
-        where.
+        A shape, a type, an index, a polygon's number or a coordinate is wrong; ``error.vertices`` and ``error.faces``
+        say where.
     EmptyMeshError
         The mesh has too few faces to have parts, or no area.
     ReebError
@@ -83,7 +85,7 @@ def decompose(
     The result is deterministic. The time is about that of one search for shortest paths per base vertex, some 140; the
     time of all other steps grows with the number of faces plus that of crossings of faces and levels.
     """
-    parameters = parameters or Parameters()
+    parameters = Parameters.of(parameters)
     watch = Stopwatch(progress)
     with watch.stage("mesh", MESH_SHARE):
         given = PolygonMesh.of(vertices, faces, polygon)

@@ -261,7 +261,7 @@ class Decomposition:
         if detail is None and n_parts is None:
             detail, n_parts = self.parameters.detail, self.parameters.n_parts
         asked = Parameters(detail=self.parameters.detail if detail is None else detail,
-                           n_parts=n_parts or 0)
+                           n_parts=0 if n_parts is None else n_parts)
         count = asked.n_parts or self.hierarchy.n_parts(asked.detail)
         return self.group(self.hierarchy.parts(count))
 

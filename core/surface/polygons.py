@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import EmptyMeshError, MeshError
 from ..sentence import Sentence
+from .arguments import corners, positions, whole_numbers
 from .arrays import expanded, frozen
 from .mesh import TriMesh
 
@@ -68,17 +69,11 @@ class PolygonMesh:
         if polygon is None:
             faces, polygon, n_polygons = _fan(faces)
         else:
-            faces = np.asarray(faces)
-            polygon = frozen(polygon, np.int64)
-            if polygon.shape != (len(faces),) or (polygon < 0).any():
-                raise MeshError(Sentence(
-                    "Polygon numbers must be {n} whole numbers from 0, one per triangle.",
-                    n=len(faces)))
-            n_polygons = int(polygon.max(initial=-1)) + 1
+            faces, polygon, n_polygons = _numbered(faces, polygon)
         if n_polygons == 0:
             raise EmptyMeshError(
                 Sentence("The mesh has no faces. Add some, or choose another object."))
-        mesh = cls(TriMesh(vertices, faces), frozen(polygon, np.int64), n_polygons)
+        mesh = cls(TriMesh(positions(vertices), faces), frozen(polygon, np.int64), n_polygons)
         mesh._check_size()
         return mesh
 
@@ -101,25 +96,31 @@ class PolygonMesh:
                 "All {n} faces have zero area. Check the scale of the object.", n=self.n_polygons))
 
 
+def _numbered(faces: ArrayLike, polygon: ArrayLike) -> tuple[np.ndarray, np.ndarray, int]:
+    """Triangles as they are given, the polygon of each, (m,), and the number of polygons."""
+    flat, sizes = corners(faces)
+    number = whole_numbers(polygon)
+    # A polygon has a triangle or more, so that no number is beyond the last triangle's.
+    if number is None or number.shape != (len(sizes),) or not ((number >= 0) & (number < len(sizes))).all():
+        raise MeshError(Sentence(
+            "Polygon numbers must be {n} whole numbers from 0, one per triangle.",
+            n=len(sizes)))
+    if (sizes != 3).any():
+        raise MeshError(Sentence("Triangles must have shape (m, 3), not {shape}.",
+                                 shape=(len(sizes), int(sizes[sizes != 3][0]))))
+    return flat.reshape(-1, 3), number, int(number.max(initial=-1)) + 1
+
+
 def _fan(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray, int]:
     """Triangles of polygons, (m, 3), the polygon of each triangle, (m,), and the number of polygons."""
-    if not isinstance(faces, np.ndarray) and isinstance(faces, Sequence) and len(faces):
-        sizes = np.array([len(face) for face in faces], np.int64)
-        flat = np.concatenate([np.asarray(face) for face in faces])
-    else:
-        faces = np.asarray(faces)
-        if faces.size == 0:
-            return np.empty((0, 3), np.int64), np.empty(0, np.int64), 0
-        if faces.ndim != 2:
-            raise MeshError(
-                Sentence("Faces must have shape (m, corners), not {shape}.", shape=faces.shape))
-        sizes = np.full(len(faces), faces.shape[1], np.int64)
-        flat = faces.ravel()
+    flat, sizes = corners(faces)
+    if not len(sizes):
+        return np.empty((0, 3), np.int64), np.empty(0, np.int64), 0
     if (sizes < 3).any():
         bad = np.flatnonzero(sizes < 3)
         raise MeshError(
             Sentence("{n} faces have fewer than three corners.", n=len(bad)), faces=bad)
     start = np.cumsum(sizes) - sizes
     polygon, corner = expanded(start, sizes - 2)
-    corners = np.stack([start[polygon], corner + 1, corner + 2], axis=1)
-    return flat[corners], polygon, len(sizes)
+    places = np.stack([start[polygon], corner + 1, corner + 2], axis=1)
+    return flat[places], polygon, len(sizes)

@@ -2,7 +2,10 @@
 """Ranges, messages and presets of the parameters."""
 
 from dataclasses import FrozenInstanceError, fields
+from decimal import Decimal
+from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from core.errors import ParameterError
@@ -115,3 +118,56 @@ def test_names_of_the_first_version_are_understood_with_a_note():
 def test_todays_names_give_no_note(recwarn):
     Parameters.preset("Perceptual", n_slabs=50, equalize=False)
     assert not recwarn
+
+
+@pytest.mark.parametrize("value", ["0.25", np.float32(0.25), np.array(0.25), Fraction(1, 4), Decimal("0.25"), " 0.25 "])
+def test_numbers_of_other_kinds(value):
+    taken = Parameters(detail=value)
+    assert taken == Parameters(detail=0.25)
+    assert type(taken.detail) is float
+
+
+@pytest.mark.parametrize("value", ["50", 50.0, np.int8(50), np.float64(50), np.array(50), Fraction(50), "50.0"])
+def test_whole_numbers_of_other_kinds(value):
+    taken = Parameters(n_slabs=value)
+    assert taken == Parameters(n_slabs=50)
+    assert type(taken.n_slabs) is int
+
+
+@pytest.mark.parametrize("value", [False, 0, np.False_, np.int64(0), np.array(False)])
+def test_switches_of_other_kinds(value):
+    assert Parameters(equalize=value).equalize is False
+
+
+@pytest.mark.parametrize("value", ["yes", "0", 2, None, 0.5, [], {}, np.array([True]), object()], ids=repr)
+def test_what_is_no_switch_is_refused(value):
+    with pytest.raises(ParameterError, match="^equalize must be true or false, not ") as caught:
+        Parameters(equalize=value)
+    assert caught.value.name == "equalize"
+
+
+@pytest.mark.parametrize("name", [*NUMBERS, "method", "pieces"])
+@pytest.mark.parametrize("value", [{}, set(), 1j, 10**400, "1" * 400, b"x", np.array([0.5]), np.zeros((2, 2)), True,
+                                   object(), np.datetime64(0, "s"), [[]], "{braces}", "nan"],
+                                   ids=lambda v: type(v).__name__)
+def test_odd_values_are_refused_in_a_short_sentence(name, value):
+    with pytest.raises(ParameterError) as caught:
+        Parameters(**{name: value})
+    assert caught.value.name == name
+    assert len(str(caught.value)) < 200
+
+
+def test_words_of_numpy_are_words():
+    taken = Parameters(method=np.str_("berretti"))
+    assert type(taken.method) is str
+
+
+def test_a_name_that_is_no_parameter():
+    for make in (lambda: Parameters(nonsense=1), lambda: Parameters.preset("Perceptual", nonsense=1)):
+        with pytest.raises(ParameterError, match="no parameter 'nonsense'") as caught:
+            make()
+        assert caught.value.name == "nonsense"
+        assert isinstance(caught.value, TypeError)
+    for name in ([], None, {}, "x" * 1000):
+        with pytest.raises(ParameterError, match="no preset"):
+            Parameters.preset(name)

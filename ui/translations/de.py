@@ -475,14 +475,21 @@ TEXTS = {
     "Face indices must be whole numbers, not {type}.": "Flächenindizes müssen ganze Zahlen sein, nicht {type}.",
     "Polygon numbers must be {n} whole numbers from 0, one per triangle.":
         "Polygonnummern müssen {n} ganze Zahlen ab 0 sein, eine je Dreieck.",
-    "{name} must be one of {choices}, not {value!r}.": "{name} muss eines von {choices} sein, nicht {value!r}.",
-    "{name} must be a number, not {value!r}.": "{name} muss eine Zahl sein, nicht {value!r}.",
-    "{name} must be a number from {low} to {high}, not {value!r}.":
-        "{name} muss eine Zahl von {low} bis {high} sein, nicht {value!r}.",
-    "{name} must be a whole number from {low} to {high}, not {value!r}.":
-        "{name} muss eine ganze Zahl von {low} bis {high} sein, nicht {value!r}.",
-    "There is no preset {name!r}. Choose one of: {presets}.":
-        "Es gibt keine Vorgabe {name!r}. Bitte eine von diesen wählen: {presets}.",
+    "{name} must be one of {choices}, not {value}.": "{name} muss eines von {choices} sein, nicht {value}.",
+    "{name} must be a number, not {value}.": "{name} muss eine Zahl sein, nicht {value}.",
+    "{name} must be a number from {low} to {high}, not {value}.":
+        "{name} muss eine Zahl von {low} bis {high} sein, nicht {value}.",
+    "{name} must be a whole number from {low} to {high}, not {value}.":
+        "{name} muss eine ganze Zahl von {low} bis {high} sein, nicht {value}.",
+    "{name} must be true or false, not {value}.": "{name} muss wahr oder falsch sein, nicht {value}.",
+    "There is no parameter {name}.": "Es gibt keinen Parameter {name}.",
+    "Parameters are given by their names, not as {value}.":
+        "Parameter werden mit ihren Namen angegeben, nicht als {value}.",
+    "Vertices must be rows of three numbers.": "Vertices müssen Zeilen aus drei Zahlen sein.",
+    "{n} faces are no rows of whole numbers (first: face {first}).":
+        "{n} Flächen sind keine Zeilen ganzer Zahlen (die erste: Fläche {first}).",
+    "There is no preset {name}. Choose one of: {presets}.":
+        "Es gibt keine Vorgabe {name}. Bitte eine von diesen wählen: {presets}.",
     "SciPy, which Reeb Parts computes with, could not be imported ({error}). Install Reeb Parts again; if that does "
     "not help, another extension brings a SciPy that does not fit this Blender.":
         "SciPy, womit Reeb Parts rechnet, konnte nicht importiert werden ({error}). Bitte Reeb Parts neu installieren; "

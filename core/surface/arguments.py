@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a caller gives as arrays, taken where its meaning is plain and refused with a MeshError elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from ..errors import MeshError
+from ..sentence import Sentence
+
+_EXACT = 2.0**53  # up to here every whole number is a float64
+
+
+def numbers(values: Any) -> np.ndarray | None:
+    """Values as an array of float64, whole numbers as they are; None if they are no numbers.
+
+    values : anything. Texts of numbers are numbers, and what is missing among them is nan; truth values are not, nor
+    are complex numbers, dates, and rows of different lengths.
+    """
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind in "iu":
+            return array
+        if array.dtype.kind == "O":
+            # Truth values and texts in between would become numbers.
+            if any(isinstance(value, (bool, np.bool_)) for value in array.flat):
+                return None
+        elif array.dtype.kind not in "fUS":
+            return None
+        with np.errstate(all="ignore"):
+            return array.astype(np.float64)
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
+def positions(values: Any) -> np.ndarray:
+    """Positions of vertices, of any shape; raises MeshError if they are no numbers."""
+    array = numbers(values)
+    if array is None:
+        raise MeshError(Sentence("Vertices must be rows of three numbers."))
+    return array
+
+
+def whole_numbers(values: Any) -> np.ndarray | None:
+    """Values as an array of int64, of any shape; None if they are no whole numbers, or larger than any index."""
+    array = numbers(values)
+    if array is None or array.dtype.kind == "i":
+        return array if array is None else array.astype(np.int64)
+    if not (np.abs(array) < _EXACT).all() or (array % 1).any():
+        return None
+    return array.astype(np.int64)
+
+
+def corners(faces: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of all faces one after the other, (c,) int64, and how many each face has, (p,) int64.
+
+    faces : (p, k) array_like of whole numbers, or a sequence of p such sequences. Raises MeshError.
+    """
+    array = whole_numbers(faces)
+    if array is not None and array.size == 0 and array.ndim < 3:
+        array = array.reshape(0, 3)
+    if array is not None and array.ndim == 2:
+        return array.ravel(), np.full(len(array), array.shape[1], np.int64)
+    if isinstance(faces, np.ndarray) and faces.dtype.kind == "O" and faces.ndim == 1:
+        faces = faces.tolist()
+    if array is None and isinstance(faces, np.ndarray):
+        raise MeshError(Sentence("Face indices must be whole numbers, not {type}.", type=faces.dtype))
+    if array is not None or not isinstance(faces, Sequence) or isinstance(faces, (str, bytes)):
+        shape = type(faces).__name__ if array is None else array.shape
+        raise MeshError(Sentence("Faces must have shape (m, corners), not {shape}.", shape=shape))
+    return _rows(faces)
+
+
+def _rows(faces: Sequence) -> tuple[np.ndarray, np.ndarray]:
+    """As ``corners``, of faces with different numbers of corners."""
+    if all(type(face) in (list, tuple) for face in faces):
+        flat = whole_numbers(list(chain.from_iterable(faces)))
+        if flat is not None and flat.ndim == 1:
+            return flat, np.array(list(map(len, faces)), np.int64)
+    # One by one, which is slower and can tell where it is wrong.
+    read = [whole_numbers(face) for face in faces]
+    rows = [row for row in read if row is not None and row.ndim == 1]
+    if len(rows) < len(read):
+        wrong = [index for index, row in enumerate(read) if row is None or row.ndim != 1]
+        raise MeshError(
+            Sentence("{n} faces are no rows of whole numbers (first: face {first}).", n=len(wrong), first=wrong[0]),
+            faces=wrong)
+    return np.concatenate(rows), np.array([len(row) for row in rows], np.int64)
