@@ -99,7 +99,7 @@ def decompose(
         found = decompose_component(component, parameters, watch, begin, width, model)
         results.append(join_pieces(found, join_model))
     with watch.stage("parts", 1.0):
-        result = assemble(given, working, results, parameters, watch.seconds)
+        result = assemble(given, working, results, parameters, watch.seconds).scaled(given.exponent)
     watch.progress("done", 1.0)
     return result
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import io
 import json
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -288,6 +288,17 @@ class Decomposition:
         place = np.empty(len(names), np.int64)
         place[np.argsort(middle, kind="stable")] = np.arange(len(names))
         return Parts(self, place[part])
+
+    def scaled(self, exponent: int) -> Decomposition:
+        """Copy the result of a mesh as that of the mesh multiplied by 2**exponent.
+
+        exponent : int. Returns a Decomposition of the same parts, with other areas, lengths and positions.
+        """
+        graph = replace(self.graph, **{
+            name: np.ldexp(getattr(self.graph, name), exponent)
+            for name in ("node_position", "point_position", "point_radius", "point_length")})
+        return replace(self, graph=graph, candidate_area=np.ldexp(self.candidate_area, 2 * exponent),
+                       candidate_pair_length=np.ldexp(self.candidate_pair_length, exponent))
 
     def to_bytes(self) -> bytes:
         """Write the whole result: returns compressed bytes that ``from_bytes`` reads."""

@@ -20,7 +20,7 @@ from ..surface.arrays import distinct_pairs, sums_by
 from .decomposition import Decomposition, Parts
 from .splits import Splits
 
-# Added to the areas by which candidates vote for numbers, in squared units of the vertices: candidates without an area
+# Added to the areas by which candidates vote for numbers, in units of about the whole area: candidates without an area
 # vote with this weight.
 LEAST_AREA = 1e-300
 
@@ -108,6 +108,12 @@ def default_name(number: int) -> str:
     number : int, 1 or more. Returns "Part 01" and so on.
     """
     return f"Part {number:02d}"
+
+
+def _votes(decomposition: Decomposition) -> np.ndarray:
+    """Weight of each candidate's vote, (c,) float64: its area, in such a unit that small meshes have votes, too."""
+    area = decomposition.candidate_area
+    return np.ldexp(area, -int(np.frexp(area.sum())[1])) + LEAST_AREA  # a power of two changes no digit
 
 
 def follow(part: np.ndarray, previous_number: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -247,7 +253,7 @@ def _births(
     of several such numbers, it takes the one of which it has most area. Otherwise it takes the number of parts at its
     level, or the next higher number that is not taken.
     """
-    area = decomposition.candidate_area[splits.order] + LEAST_AREA
+    area = _votes(decomposition)[splits.order]
     previous_number = previous_number[splits.order]
     known = np.unique(previous_number[previous_number > 0])
     code = np.where(previous_number > 0, np.searchsorted(known, previous_number), len(known))
@@ -389,4 +395,4 @@ def inherited(
     # A candidate that had the number of a pinned part but is not pinned to it has no previous number.
     elsewhere = np.where(np.isin(previous_number, pinned), 0, previous_number)
     known = np.where(pinned > 0, pinned, elsewhere)
-    return follow(part, known, decomposition.candidate_area + LEAST_AREA)[part]
+    return follow(part, known, _votes(decomposition))[part]

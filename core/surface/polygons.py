@@ -19,6 +19,12 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 MIN_FACES = 4  # number of faces of a tetrahedron, the smallest closed surface
+# Powers of two between which coordinates can be: areas in squared units of the caller must be numbers, too. These are
+# some 1e-152 and 1e152.
+LEAST_EXPONENT, LARGEST_EXPONENT = -505, 505
+# Meshes whose largest coordinate is between 2**-20 and 2**20 are taken as they are: what is chosen by a hash of
+# coordinates (see ``coarsening``) would be chosen differently elsewhere.
+USUAL_EXPONENT = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,16 +34,21 @@ class PolygonMesh:
     Attributes
     ----------
     triangles : TriMesh
-        All of the caller's vertices, and the m triangles of the polygons.
+        All of the caller's vertices, divided by 2**exponent, and the m triangles of the polygons.
     polygon : (m,) int64
         Polygon of each triangle, 0..n_polygons-1.
     n_polygons : int
         Number of polygons: the caller's faces.
+    exponent : int
+        Lengths in the caller's unit are 2**exponent times those here: a power of two, so that no digit changes. 0
+        unless the mesh is very large or very small; its largest coordinate here is then between 1/2 and 1, so that no
+        product of lengths overflows or vanishes.
     """
 
     triangles: TriMesh
     polygon: np.ndarray
     n_polygons: int
+    exponent: int = 0
 
     @classmethod
     def of(
@@ -62,7 +73,8 @@ class PolygonMesh:
         Raises
         ------
         MeshError
-            A shape, an index, a polygon's number or a coordinate is wrong.
+            A shape, an index, a polygon's number or a coordinate is wrong, or the mesh is too large for its area to be
+            a number.
         EmptyMeshError
             There are fewer than MIN_FACES polygons, or the surface has no area.
         """
@@ -73,7 +85,8 @@ class PolygonMesh:
         if n_polygons == 0:
             raise EmptyMeshError(
                 Sentence("The mesh has no faces. Add some, or choose another object."))
-        mesh = cls(TriMesh(positions(vertices), faces), frozen(polygon, np.int64), n_polygons)
+        triangles, exponent = _normalized(TriMesh(positions(vertices), faces))
+        mesh = cls(triangles, frozen(polygon, np.int64), n_polygons, exponent)
         mesh._check_size()
         return mesh
 
@@ -87,13 +100,31 @@ class PolygonMesh:
                     n=self.n_polygons, least=MIN_FACES),
                 faces=np.arange(self.n_polygons),
             )
-        used = np.zeros(self.triangles.n_vertices, bool)
-        used[self.triangles.faces] = True
+        if self.exponent > LARGEST_EXPONENT:
+            raise MeshError(Sentence("The mesh is too large to be measured. Check the scale of the object."))
+        used = _used(self.triangles)
         extent = np.ptp(self.triangles.vertices[used], axis=0).max()
         # An area below the rounding error of the coordinates is noise.
-        if not self.triangles.area > 1e-14 * extent**2:
+        if self.exponent < LEAST_EXPONENT or not self.triangles.area > 1e-14 * extent**2:
             raise EmptyMeshError(Sentence(
                 "All {n} faces have zero area. Check the scale of the object.", n=self.n_polygons))
+
+
+def _used(mesh: TriMesh) -> np.ndarray:
+    """Whether each vertex has a face, (n,) bool."""
+    used = np.zeros(mesh.n_vertices, bool)
+    used[mesh.faces] = True
+    return used
+
+
+def _normalized(mesh: TriMesh) -> tuple[TriMesh, int]:
+    """The mesh divided by a power of two so that no length is very large or very small, and the exponent."""
+    used = _used(mesh)
+    exponent = int(np.frexp(np.abs(mesh.vertices[used]).max(initial=0.0))[1])
+    if abs(exponent) <= USUAL_EXPONENT:
+        return mesh, 0
+    # A vertex without a face can be anywhere, and is of no account.
+    return TriMesh(np.ldexp(np.where(used[:, None], mesh.vertices, 0.0), -exponent), mesh.faces), exponent
 
 
 def _numbered(faces: ArrayLike, polygon: ArrayLike) -> tuple[np.ndarray, np.ndarray, int]:

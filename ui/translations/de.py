@@ -481,6 +481,8 @@ TEXTS = {
         "{name} muss eine Zahl von {low} bis {high} sein, nicht {value}.",
     "{name} must be a whole number from {low} to {high}, not {value}.":
         "{name} muss eine ganze Zahl von {low} bis {high} sein, nicht {value}.",
+    "The mesh is too large to be measured. Check the scale of the object.":
+        "Das Netz ist zu groß, um es zu messen. Bitte die Skalierung des Objekts prüfen.",
     "{name} must be true or false, not {value}.": "{name} muss wahr oder falsch sein, nicht {value}.",
     "There is no parameter {name}.": "Es gibt keinen Parameter {name}.",
     "Parameters are given by their names, not as {value}.":
