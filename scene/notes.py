@@ -25,4 +25,7 @@ def spoken(result: bpy.types.PropertyGroup) -> list[str]:
     """The notes in the language of the interface; those of an earlier version as they are."""
     if not result.note_words:
         return result.notes.splitlines()
-    return [rpt_(message).format(**values) for message, values in json.loads(result.note_words)]
+    try:
+        return [rpt_(message).format(**values) for message, values in json.loads(result.note_words)]
+    except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError):  # not written by us
+        return result.notes.splitlines()

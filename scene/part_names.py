@@ -8,6 +8,9 @@ import numpy as np
 
 from ..core.result.numbering import default_name
 
+#: The largest number that a part has: colours are looked up in a table of all numbers.
+MAX_NUMBER = 1_000_000
+
 
 def part_name(mesh: bpy.types.Mesh, number: int) -> str:
     """The name that the user gave to a part, or else its default name."""
@@ -37,8 +40,9 @@ def kept_colors(mesh: bpy.types.Mesh) -> dict:
 def number_colors(mesh: bpy.types.Mesh) -> np.ndarray:
     """The colour of each part of the list by its number, (largest number + 1, 4) float32, sRGB and alpha."""
     parts = mesh.reeb_parts.parts
-    colors = np.ones((max((part.number for part in parts), default=0) + 1, 4), np.float32)
-    for part in parts:
+    known = [part for part in parts if 0 <= part.number <= MAX_NUMBER]
+    colors = np.ones((max((part.number for part in known), default=0) + 1, 4), np.float32)
+    for part in known:
         colors[part.number, :3] = part.color
     return colors
 

@@ -145,6 +145,8 @@ def _with_result(mesh: bpy.types.Mesh, context: bpy.types.Context, work: Callabl
     try:
         with object_mode(context):
             work(store.load(mesh))
-    except SceneError:
-        # The panel says that the mesh was edited; a property that is changed cannot say anything.
-        mesh.reeb_parts.edited = True
+    except SceneError as error:
+        # The panel says that the mesh was edited; a property that is changed cannot say anything. A result that cannot
+        # be read says itself what is wrong with it, once something is done with it.
+        if not isinstance(error, store.UnreadableError):
+            mesh.reeb_parts.edited = True

@@ -20,12 +20,15 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts, Numbering, inherited
 from ..core.surface.labels import majority
-from . import mesh_arrays
+from . import mesh_arrays, part_names
 from .errors import SceneError, load_core, translated
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
 _read: dict[bytes, Decomposition] = {}
 _KEEP = 4
+
+# A mesh that is being edited is taken to have had at most so many times its vertices and faces before, or so many.
+_GROWTH, _SMALL = 16, 1_000_000
 
 # Set while properties are written that would otherwise act as if the user had changed them.
 _writing = False
@@ -45,6 +48,10 @@ def quiet() -> Iterator[None]:
 def is_quiet() -> bool:
     """Whether the program and not the user writes the properties."""
     return _writing
+
+
+class UnreadableError(SceneError):
+    """What is stored with a mesh is damaged, or of another version; it is kept until the mesh is decomposed again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +126,8 @@ def load(mesh: bpy.types.Mesh) -> Stored:
     if mesh.is_editmode:
         raise SceneError(rpt_("{name} is being edited. Leave Edit Mode first.").format(name=mesh.name))
     result = mesh.reeb_parts
-    if mesh_arrays.fingerprint(mesh) != result.fingerprint:
+    if (mesh_arrays.fingerprint(mesh) != result.fingerprint
+            or (result.n_vertices, result.n_faces) != (len(mesh.vertices), len(mesh.polygons))):
         raise SceneError(
             rpt_("{name} was edited since it was decomposed. Decompose it again.").format(name=mesh.name))
     return last(mesh)
@@ -127,8 +135,30 @@ def load(mesh: bpy.types.Mesh) -> Stored:
 
 def last(mesh: bpy.types.Mesh) -> Stored:
     """The stored result of a mesh that has one, in any mode; the mesh may have been edited since."""
-    numbers = np.frombuffer(mesh.reeb_parts.numbers, np.int32).astype(np.int64)
-    return Stored(_decomposition(mesh.reeb_parts.data), *numbers.reshape(3, -1))
+    result = mesh.reeb_parts
+    # While the mesh is edited, it may have other counts; what is read for it stays in proportion to it.
+    most = _GROWTH * (len(mesh.vertices) + len(mesh.polygons)) + _SMALL
+    if not (result.n_vertices <= most and result.n_faces <= most):
+        raise UnreadableError(translated(_damaged()))
+    decomposition = _decomposition(result.data, (result.n_vertices, result.n_faces))
+    numbers = result.numbers
+    if len(numbers) != 3 * 4 * decomposition.n_candidates:
+        raise UnreadableError(translated(_damaged()))
+    rows = np.frombuffer(numbers, np.int32).astype(np.int64).reshape(3, -1)
+    previous, pinned, shown = rows
+    listed = np.array([part.number for part in result.parts], np.int64)
+    every = np.concatenate([rows.ravel(), listed])
+    if (every < 0).any() or (every > part_names.MAX_NUMBER).any() or (shown == 0).any() or (listed == 0).any():
+        raise UnreadableError(translated(_damaged()))
+    return Stored(decomposition, previous, pinned, shown)
+
+
+def _damaged() -> Exception:
+    """The error whose sentence says that a stored result is damaged."""
+    load_core()
+    from ..core.result.stored import DamagedError
+
+    return DamagedError()
 
 
 def save(mesh: bpy.types.Mesh, stored: Stored) -> None:
@@ -179,25 +209,31 @@ def _face_numbers(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
         return np.where(kept, old.shown, old.previous_number)[candidates], old.pinned[candidates]
     attribute = mesh.attributes.get(result.face_attribute)
     faces = np.zeros(len(mesh.polygons), np.int64)
-    if attribute is not None and attribute.domain == "FACE" and len(attribute.data) == len(faces):
+    usable = attribute is not None and (attribute.domain, attribute.data_type) == ("FACE", "INT")
+    if usable and len(attribute.data) == len(faces):
         faces = mesh_arrays.read(attribute.data, "value", np.int32).astype(np.int64)
+        faces[(faces < 0) | (faces > part_names.MAX_NUMBER)] = 0
     pinned = [part.number for part in result.parts if part.pinned]
     return faces, np.where(np.isin(faces, pinned), faces, 0)
 
 
 def stretch_of(mesh: bpy.types.Mesh) -> np.ndarray:
     """What the object did to its mesh when it was decomposed, (3, 3) float64; see bridge.world_stretch."""
-    return np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+    stretch = np.array(mesh.reeb_parts.stretch[:], np.float64).reshape(3, 3)
+    return stretch if np.isfinite(stretch).all() else np.eye(3)
 
 
-def _decomposition(data: bytes) -> Decomposition:
+def _decomposition(data: bytes, counts: tuple[int, int]) -> Decomposition:
     if data not in _read:
         core = load_core()
         try:
-            _remember(data, core.Decomposition.from_bytes(data))
+            _remember(data, core.Decomposition.from_bytes(data, counts))
         except core.ReebError as error:
-            raise SceneError(translated(error)) from error
-    return _read[data]
+            raise UnreadableError(translated(error)) from error
+    found = _read[data]
+    if (found.n_vertices, found.n_faces) != counts:
+        raise UnreadableError(translated(_damaged()))
+    return found
 
 
 def _remember(data: bytes, decomposition: Decomposition) -> None:

@@ -7,16 +7,17 @@ import io
 import json
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from ..cuts.hierarchy import Hierarchy
-from ..errors import ReebError
+from ..errors import ParameterError
 from ..graph.reeb import ReebGraph
 from ..parameters import SEPARATE, Parameters, present_names
-from ..sentence import Sentence
 from ..surface.arrays import distinct_pairs, renumbered, sums_by
 from ..surface.labels import majority
+from .stored import DamagedError, NewerError, check, is_newer, read_archive, read_head
 
 VERSION = "0.2.0"
 _FORMAT = 1  # version of the layout that ``to_bytes`` writes
@@ -297,7 +298,8 @@ class Decomposition:
         graph = replace(self.graph, **{
             name: np.ldexp(getattr(self.graph, name), exponent)
             for name in ("node_position", "point_position", "point_radius", "point_length")})
-        return replace(self, graph=graph, candidate_area=np.ldexp(self.candidate_area, 2 * exponent),
+        mirror = np.concatenate([self.mirror[:3], np.ldexp(self.mirror[3:], exponent)])
+        return replace(self, graph=graph, mirror=mirror, candidate_area=np.ldexp(self.candidate_area, 2 * exponent),
                        candidate_pair_length=np.ldexp(self.candidate_pair_length, exponent))
 
     def to_bytes(self) -> bytes:
@@ -313,12 +315,15 @@ class Decomposition:
         return stream.getvalue()
 
     @classmethod
-    def from_bytes(cls, data: bytes) -> Decomposition:
+    def from_bytes(cls, data: bytes, counts: tuple[int, int] | None = None) -> Decomposition:
         """Read a result that ``to_bytes`` wrote, also one of version 0.1.0.
 
         Parameters
         ----------
         data : bytes
+            Anything; no more is read than a result of such a mesh can have.
+        counts : (int, int), optional
+            Numbers of vertices and faces of the mesh that the result is of, if they are known.
 
         Returns
         -------
@@ -326,25 +331,26 @@ class Decomposition:
 
         Raises
         ------
+        DamagedError
+            The bytes are damaged, ``to_bytes`` did not write them, or they are of another mesh.
+        NewerError
+            A newer version wrote them, and this one does not know their layout.
         ReebError
-            The bytes have a layout that this version does not know.
-        ValueError, KeyError, EOFError, zipfile.BadZipFile
-            The bytes are damaged, or ``to_bytes`` did not write them.
+            They have a layout that this version does not know any more.
         """
-        with np.load(io.BytesIO(data), allow_pickle=False) as stored:
-            arrays = {name: stored[name] for name in stored.files}
+        arrays = read_archive(data, ("head", *_STORED), counts)
+        head = read_head(arrays.pop("head", None), _FORMAT, VERSION)
         for name, array in _UNKNOWN_TO_0_1_0.items():
             arrays.setdefault(name, array)
-        head = json.loads(arrays.pop("head").tobytes())
-        if head["format"] != _FORMAT:
-            raise ReebError(
-                Sentence("The stored parts were written by another version. Decompose again."))
-        graph = {f.name: arrays[f"graph.{f.name}"] for f in fields(ReebGraph)}
+        check(arrays, counts)
+        graph: dict[str, Any] = {f.name: arrays[f"graph.{f.name}"] for f in fields(ReebGraph)}
         graph["n_components"] = int(graph["n_components"])
+        graph["node_kind"] = graph["node_kind"].astype(np.int8)
+        arrays["face_side"] = arrays["face_side"].astype(np.int8)
         hierarchy = Hierarchy.of(len(arrays["candidate_area"]), arrays["hierarchy.merges"],
                                  arrays["hierarchy.salience"])
         return cls(hierarchy=hierarchy, graph=ReebGraph(**graph),
-                   parameters=_stored_parameters(head["parameters"]), notes=tuple(head["notes"]),
+                   parameters=_stored_parameters(head["parameters"], head["version"]), notes=tuple(head["notes"]),
                    seconds=head["seconds"], version=head["version"],
                    **{name: arrays[name] for name in _ARRAYS})
 
@@ -356,7 +362,13 @@ _UNKNOWN_TO_0_1_0 = {"contacts": np.empty((0, 2), np.int64), "mirror": np.empty(
                      "face_side": np.empty(0, np.int8)}
 
 
-def _stored_parameters(values: dict) -> Parameters:
-    """Parameters of a stored result; version 0.1.0 had other names for some, and neither bodies
-    nor symmetry."""
-    return Parameters(**{"pieces": SEPARATE, "symmetry": False} | present_names(values)[0])
+#: All arrays that ``to_bytes`` writes.
+_STORED = (*_ARRAYS, "hierarchy.merges", "hierarchy.salience", *(f"graph.{f.name}" for f in fields(ReebGraph)))
+
+
+def _stored_parameters(values: dict, version: str) -> Parameters:
+    """Parameters of a stored result; version 0.1.0 had other names for some, and neither bodies nor symmetry."""
+    try:
+        return Parameters(**{"pieces": SEPARATE, "symmetry": False} | present_names(values)[0])
+    except ParameterError as error:  # one that this version does not know, or a value that it does not
+        raise (NewerError(version) if is_newer(version, VERSION) else DamagedError()) from error

@@ -483,6 +483,12 @@ TEXTS = {
         "{name} muss eine ganze Zahl von {low} bis {high} sein, nicht {value}.",
     "The mesh is too large to be measured. Check the scale of the object.":
         "Das Netz ist zu groß, um es zu messen. Bitte die Skalierung des Objekts prüfen.",
+    "The stored parts are damaged. Decompose again.":
+        "Die gespeicherten Teile sind beschädigt. Bitte erneut zerlegen.",
+    "The stored parts were written by Reeb Parts {version}, which is newer than this one. Install that version, or "
+    "decompose again.":
+        "Die gespeicherten Teile stammen von Reeb Parts {version}, das neuer ist als dieses. Bitte diese Version "
+        "installieren oder erneut zerlegen.",
     "{name} must be true or false, not {value}.": "{name} muss wahr oder falsch sein, nicht {value}.",
     "There is no parameter {name}.": "Es gibt keinen Parameter {name}.",
     "Parameters are given by their names, not as {value}.":

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A stored result is input like any other: bounded reading and checks of everything in it.
+
+The bytes are an .npz file, which may be damaged, made by hand, or written by another version.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import zipfile
+import zlib
+from typing import Any
+
+import numpy as np
+
+from ..errors import ReebError
+from ..sentence import Sentence
+from ..surface.arrays import components
+
+# Items that any other array has at most, per face and vertex, and on any mesh.
+PER_ELEMENT, AT_LEAST = 200, 100_000
+MAX_HEAD = 4_000_000  # bytes
+
+
+class DamagedError(ReebError):
+    """A stored result cannot be read, or its numbers do not fit each other."""
+
+    def __init__(self) -> None:
+        super().__init__(Sentence("The stored parts are damaged. Decompose again."))
+
+
+class NewerError(ReebError):
+    """A stored result was written by a version that knows more than this one."""
+
+    def __init__(self, version: object) -> None:
+        super().__init__(Sentence(
+            "The stored parts were written by Reeb Parts {version}, which is newer than this one. Install that "
+            "version, or decompose again.", version=str(version)[:20]))
+
+
+def read_archive(data: bytes, names: tuple[str, ...], counts: tuple[int, int] | None) -> dict[str, np.ndarray]:
+    """Read the arrays of an .npz file, none larger than such a result can have.
+
+    Parameters
+    ----------
+    data : bytes
+    names : tuple of str
+        Arrays to read if they are there; others are left alone.
+    counts : (int, int) or None
+        Numbers of vertices and faces, if they are known.
+
+    Returns
+    -------
+    arrays : dict of str -> array
+        Of whole numbers as int64, of others as float64; "head" as uint8.
+
+    Raises
+    ------
+    DamagedError
+    """
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            infos = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
+            n, p = counts or (_length(archive, infos["vertex_candidates"]), _length(archive, infos["candidates"]))
+            most = 8 * (PER_ELEMENT * (n + p) + AT_LEAST)
+            size = {"head": MAX_HEAD, "candidates": 8 * p, "vertex_candidates": 8 * n, "field": 8 * n}
+            found = {}
+            for name in names:
+                if name in infos:
+                    # Some bytes of a header come before the values.
+                    if infos[name].file_size > size.get(name, most) + 1024:
+                        raise DamagedError
+                    with archive.open(infos[name]) as file:
+                        found[name] = np.lib.format.read_array(io.BytesIO(file.read()), allow_pickle=False)
+    except (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, KeyError, TypeError, NotImplementedError,
+            RuntimeError, OverflowError, SyntaxError, MemoryError) as error:
+        raise DamagedError from error
+    return {name: _plain(array, name) for name, array in found.items()}
+
+
+def _length(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> int:
+    """Length of a stored array, by its header."""
+    with archive.open(info) as file:
+        version = np.lib.format.read_magic(file)
+        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+        (length,), _, _ = read(file)
+    return length
+
+
+def _plain(array: np.ndarray, name: str) -> np.ndarray:
+    """Whole numbers as int64, others as float64; raises DamagedError for what is neither."""
+    if array.dtype.kind not in "iuf":
+        raise DamagedError
+    if name == "head":
+        return array
+    return array.astype(np.int64 if array.dtype.kind in "iu" else np.float64)
+
+
+def read_head(array: np.ndarray | None, known: int, own: str) -> dict[str, Any]:
+    """Read what stands beside the arrays.
+
+    Parameters
+    ----------
+    array : (k,) uint8 or None
+        JSON.
+    known : int
+        The format that can be read.
+    own : str
+        This version.
+
+    Returns
+    -------
+    head : dict
+        With format, parameters, notes, seconds and version.
+
+    Raises
+    ------
+    DamagedError
+    NewerError
+        The format is another one, and the version newer than this one.
+    ReebError
+        The format is another one.
+    """
+    try:
+        if array is None or array.dtype != np.uint8:
+            raise DamagedError
+        head = json.loads(array.tobytes())
+        version, layout = head["version"], head["format"]
+        if type(layout) is not int or not isinstance(version, str):
+            raise DamagedError
+        if layout != known:
+            if is_newer(version, own):
+                raise NewerError(version)
+            raise ReebError(Sentence("The stored parts were written by another version. Decompose again."))
+        texts = all(isinstance(note, str) for note in head["notes"])
+        times = all(isinstance(time, (int, float)) for time in head["seconds"].values())
+        if not texts or not times or not isinstance(head["parameters"], dict):
+            raise DamagedError
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        raise DamagedError from error
+    return head
+
+
+def is_newer(version: str, than: str) -> bool:
+    """Whether a version, three numbers, is newer than another one."""
+    one, other = ([int(number) for number in re.findall(r"\d{1,9}", text)[:3]] for text in (version, than))
+    return one > other
+
+
+def check(arrays: dict[str, np.ndarray], counts: tuple[int, int] | None) -> None:
+    """Raise DamagedError unless the arrays of a result fit each other.
+
+    arrays : as ``Decomposition.to_bytes`` stores them. counts : numbers of vertices and faces, if they are known.
+    """
+    try:
+        fits = _fits(arrays, counts)
+    except (KeyError, ValueError, IndexError, TypeError) as error:
+        raise DamagedError from error
+    if not fits:
+        raise DamagedError
+
+
+def _fits(a: dict[str, np.ndarray], counts: tuple[int, int] | None) -> bool:
+    """Whether shapes, kinds, ranges and structure are those of a result."""
+    (n,), (p,), (c,) = a["vertex_candidates"].shape, a["candidates"].shape, a["candidate_area"].shape
+    (k,), (r,) = a["graph.node_kind"].shape, a["graph.point_value"].shape
+    s, q, e, t = (len(a[name]) for name in ("hierarchy.merges", "graph.arcs", "candidate_pairs", "contacts"))
+    mirrored = p if len(a["mirror"]) else 0
+    whole = {  # shape, lowest and highest value
+        "candidates": ((p,), 0, c), "vertex_candidates": ((n,), -1, c), "candidate_pairs": ((e, 2), 0, c),
+        "node_candidate": ((k,), 0, c), "point_candidate": ((r,), 0, c), "contacts": ((t, 2), 0, p),
+        "hierarchy.merges": ((s, 2), 0, c), "graph.node_kind": ((k,), 0, 3), "graph.arcs": ((q, 2), 0, k),
+        "face_twin": ((mirrored,), -1, p), "face_side": ((mirrored,), -1, 2),
+        "graph.arc_points": ((q + 1,), 0, r + 1), "graph.n_components": ((), 0, k + 1),
+    }
+    real = {
+        "candidate_area": (c,), "candidate_pair_length": (e,), "hierarchy.salience": (s,), "graph.node_value": (k,),
+        "graph.node_position": (k, 3), "graph.point_position": (r, 3), "graph.point_radius": (r,),
+        "graph.point_length": (r,), "graph.point_value": (r,), "field": (n,),
+        "mirror": (4 if mirrored else 0,),
+    }
+    return (
+        counts in (None, (n, p)) and p > 0 and c > 0
+        and all(a[name].shape == shape and a[name].dtype.kind == "i"
+                and bool(((a[name] >= low) & (a[name] < high)).all()) for name, (shape, low, high) in whole.items())
+        and all(a[name].shape == shape and a[name].dtype.kind == "f"
+                and bool((np.isfinite(a[name]) | (name == "field")).all()) for name, shape in real.items())
+        and bool(np.bincount(a["candidates"], minlength=c).all()) and bool((a["candidate_area"] >= 0).all())
+        and 0 < a["candidate_area"].sum() < np.inf
+        # The merges are a forest, and the points of the arcs follow each other.
+        and components(c, *a["hierarchy.merges"].T)[0] == c - s
+        and a["graph.arc_points"][0] == 0 and a["graph.arc_points"][-1] == r
+        and bool((np.diff(a["graph.arc_points"]) > 0).all())
+    )
