@@ -27,7 +27,7 @@ def start(*arguments, before="") -> subprocess.Popen:
     """Run the command with some arguments. before : Python that is run in the process first."""
     if bpy.app.binary_path:
         before = f"import sys; sys.dont_write_bytecode = True; {before}"
-        words = [bpy.app.binary_path, "--quiet", "--background", "--python-expr", before, "--command", "reeb_parts"]
+        words = [bpy.app.binary_path, "--background", "--python-expr", before, "--command", "reeb_parts"]
     else:
         words = [sys.executable, "-c", MODULE.format(tests=str(TESTS), before=before)]
     return subprocess.Popen([*words, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,

@@ -16,7 +16,8 @@ def full(model, tmp_path):
         before = process.content(tmp_path)
         ended = process.run(model, *arguments, before=process.FULL_DISK.format(size=size))
         assert process.content(tmp_path) == before
-        assert (ended.returncode, ended.stdout) == (1, "")
+        assert ended.returncode == 1
+        assert "{" not in ended.stdout  # a full Blender says its version there
         (sentence,) = re.findall(r"reeb_parts: (.* could not be written.*)", ended.stderr)
         assert name in sentence
         assert ".reeb_parts_" not in sentence
