@@ -16,12 +16,15 @@ import numpy as np
 from ..surface.arrays import components, distinct_pairs, renumbered
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
 from .hierarchy import Hierarchy
+from .joining.method import LAST
 
 # Shares of the area: below SMALL, what little of a candidate is left on the leading side joins a neighbor, and so does
 # what lies across the plane below CROSSING; a region without an image is one of its own from LONE on.
 SMALL, CROSSING, LONE = 0.0004, 0.001, 0.005
 OVERHANG = 0.25  # share of a candidate below which what lies beyond the plane is not asked for
-DETAILS = 0.3, 0.4, 0.5, 0.6, 0.7  # at which the parts of both sides are compared with those found
+# At these details the parts of both sides are compared with those found. Where more pairs of points than WORST come
+# together or apart, the faces are too large to be mirrored, or what was found speaks against the plane.
+DETAILS, WORST = (0.3, 0.4, 0.5, 0.6, 0.7), 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,10 +82,11 @@ def symmetric_candidates(
 
     Notes
     -----
-    Of both sides that one leads whose parts, mirrored, are more like those found on the whole.
+    Of both sides that one leads whose parts, mirrored, are more like those found on the whole. If neither is much like
+    them, everything stays as it was found.
     """
     found = [hierarchy.parts(hierarchy.n_parts(detail))[label] for detail in DETAILS]
-    best, least = (label, hierarchy), np.inf
+    best, least = (label, hierarchy), WORST
     for leads in (height >= 0, height <= 0):
         cells = _cells(graph, label, twin, leads)
         merges, strength = _linkage(cells, _touching(cells, graph.with_contacts(contacts)), _means(cells, hierarchy))
@@ -106,6 +110,7 @@ def _cells(graph: FaceGraph, label: np.ndarray, twin: np.ndarray, leads: np.ndar
     cell, crosses, seen = _lead_cells(graph, label, np.where(twin >= 0, label[image], -1), leader, asked)
     full = np.where(lone, -1, 2 * cell[leader] + (follows & ~crosses[cell[leader]]))
     full = connect(graph, fill_unlabeled(graph, full))
+    full = connect(graph, fill_unlabeled(graph, _without_lone(graph, full, crosses & seen, seen)))
     names, full = renumbered(full)
     lead, side = names // 2, np.where(names % 2, -1, 1)
     partner = np.searchsorted(names, names ^ 1).clip(max=len(names) - 1)
@@ -120,6 +125,25 @@ def _cells(graph: FaceGraph, label: np.ndarray, twin: np.ndarray, leads: np.ndar
     own[mirrored], other[mirrored] = other[partner[mirrored]], own[partner[mirrored]]
     side[(partner < 0) | (partner == np.arange(len(names)))] = 0
     return Cells(full, own, other, side, partner, np.bincount(full, graph.area))
+
+
+def _without_lone(graph: FaceGraph, full: np.ndarray, whole: np.ndarray, seen: np.ndarray) -> np.ndarray:
+    """Cell of each face, (p,): -1 for small cells whose image is not there, or not among the images of their neighbors.
+
+    full : (p,), twice the leading cell of each face, and 1 on the side that follows. whole, seen : (c,), which leading
+    cells are their own images, and which have one.
+    """
+    names, place = renumbered(full)
+    image = np.where(whole[names // 2], names, names ^ 1)
+    there = np.isin(image, names)
+    image = np.searchsorted(names, image).clip(max=len(names) - 1)
+    pairs = graph.boundaries(place)[0]
+    here, mirrored = (np.sort(ends, axis=1) @ (len(names), 1) for ends in (pairs, image[pairs]))
+    held = np.zeros(len(names), bool)
+    held[pairs[np.isin(mirrored, here) & there[pairs].all(axis=1)]] = True
+    free = np.bincount(pairs.ravel(), minlength=len(names)) == 0
+    small = np.bincount(place, graph.area) < LONE * graph.area.sum()
+    return np.where((small & seen[names // 2] & ~(held & there) & ~free)[place], -1, full)
 
 
 def _disagreement(first: np.ndarray, second: np.ndarray, area: np.ndarray) -> float:
@@ -162,9 +186,9 @@ def _lead_cells(
     largest = np.zeros(int(own.max()) + 1)
     np.maximum.at(largest, own, area)
     total, crosses = graph.area.sum(), own == other
-    # What little of a candidate crosses the plane from the side that follows is cut off there.
+    # What little of a candidate reaches over the plane from the side that follows is cut off there.
     little = np.bincount(mine, graph.area[asked], count) < OVERHANG * np.bincount(label, graph.area)[own]
-    small = ((area < SMALL * total) & (area < largest[own])) | (crosses & (little | (area < CROSSING * total)))
+    small = ((area < SMALL * total) & (area < largest[own])) | little | (crosses & (area < CROSSING * total))
     joins = _joined(FaceGraph(len(label), pairs, length, graph.area), cell, own, area, small)
     left, cell[asked] = renumbered(joins[mine])
     return cell, crosses[left], other[left] >= 0
@@ -207,7 +231,8 @@ def _means(cells: Cells, hierarchy: Hierarchy) -> np.ndarray:
     unseen = (cells.other < 0)[:, None] | (cells.other < 0)
     weight = 0.5 + 0.5 * np.sign(cells.side[:, None] + cells.side)
     weight = np.where(unseen | ((cells.side == 0)[:, None] & (cells.side == 0)), 1.0, weight)
-    return weight * here + (1.0 - weight) * there
+    # What nothing brought near each other stays apart to the last.
+    return np.where(here >= LAST, here, weight * here + (1.0 - weight) * there)
 
 
 class _Clusters:
@@ -245,7 +270,7 @@ class _Clusters:
         other = np.where(alone, clusters[:, None], every)  # the one of the two that is not its own image
         three &= self.twin[other] >= 0
         mine, its = self.area[clusters][:, None] * self.area, self.area[other] ** 2
-        return np.where(three, (2 * mine * mean + its * apart[other]) / (2 * mine + its), mean)
+        return np.where(three, np.maximum((2 * mine * mean + its * apart[other]) / (2 * mine + its), mean), mean)
 
     def merge_(self, a: int, b: int, strength: float) -> None:
         """Let cluster b become part of cluster a; the means are weighted by area."""

@@ -21,10 +21,10 @@ from ..sentence import Sentence
 from ..surface.arrays import components, last_of_each, renumbered, sums_by
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.polygons import PolygonMesh
-from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
-from ..surface.symmetry import face_twins, mirror_plane
+from ..surface.preparation import Component, WorkingMesh
 from .decomposition import Decomposition
 from .fans import boundaries
+from .mirrors import Mirror, find_mirrors
 from .votes import WIDTH, FaceVotes
 
 # Added to the areas and lengths by which faces vote for labels: as a share of the area of the mesh, and in units of the
@@ -70,48 +70,6 @@ class ComponentResult:
         return majority(self.sets.element_face, self.candidates.element_candidate, area, mesh.n_faces)
 
 
-@dataclass(frozen=True, eq=False)
-class Mirror:
-    """The plane of symmetry of the caller's mesh, and what it does to its p faces; all arrays empty without one.
-
-    Attributes
-    ----------
-    plane : (4,) float64
-        Normal, and distance from the origin.
-    twin : (p,) int64
-        Mirror image of each face; -1 for none.
-    height : (p,) float64
-        Signed distance of each face from the plane; 0 for a face that is its own image.
-    """
-
-    plane: np.ndarray
-    twin: np.ndarray
-    height: np.ndarray
-
-    @classmethod
-    def none(cls) -> Mirror:
-        """No plane."""
-        return cls(np.empty(0), np.empty(0, np.int64), np.empty(0))
-
-    @classmethod
-    def of(cls, given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]) -> Mirror:
-        """Find the plane of symmetry of the whole mesh; ``none`` if there is none."""
-        if len(results) == 1 and len(results[0].component.faces) == working.mesh.n_faces:
-            mesh, polygon = results[0].component.mesh, results[0].component.polygon
-        else:
-            mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
-            polygon = working.polygon[parent]
-        plane = mirror_plane(mesh)
-        if plane is None:
-            return cls.none()
-        twin = face_twins(mesh, polygon, given.n_polygons, plane)
-        area = np.bincount(polygon, mesh.face_area, given.n_polygons)
-        height = np.bincount(polygon, mesh.face_area * plane.heights(mesh.face_centroids), given.n_polygons)
-        height = np.divide(height, area, out=np.zeros_like(height), where=area > 0)
-        height[twin == np.arange(len(twin))] = 0.0
-        return cls(np.append(plane.normal, plane.offset), twin, height)
-
-
 def assemble(
     given: PolygonMesh,
     working: WorkingMesh,
@@ -140,9 +98,10 @@ def assemble(
     face_graph = _face_graph(given, working)
     contacts = _contacts(given, working, results)
     label, hierarchy = _face_candidates(given, working, results, face_graph, parameters)
-    mirror = Mirror.of(given, working, results) if parameters.symmetry else Mirror.none()
-    if len(mirror.plane):
+    mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
+    for mirror in mirrors:
         label, hierarchy = symmetric_candidates(face_graph, contacts, label, hierarchy, mirror.twin, mirror.height)
+    mirror = Mirror.joined(mirrors)
     label, hierarchy = settle(face_graph.with_contacts(contacts), label, hierarchy)
     face_graph = face_graph.with_contacts(contacts)
     values, notes = _vertex_field(given, working, results, parameters)

@@ -18,19 +18,24 @@ from .contact import diameter
 from .labels import majority
 from .mesh import TriMesh
 
-# In units of the diameter: how far a mirrored point may lie beside the surface where a plane is judged, and where twins
+# In units of the size: how far a mirrored point may lie beside the surface where a plane is judged, and where twins
 # are found, on a model bent to one side a little; and how much a turned normal counts where the nearest face is
 # searched, so that the two sides of a wall are told apart.
 MATCH, BENT, TURNED = 0.012, 0.03, 0.02
-LEAST = 0.8  # share of the area that must be matched for a plane to be one of symmetry
+LEAST = 0.85  # share of the area that must be matched for a plane to be one of symmetry
 # Upper bounds of the points that stand for the surface, and that are mirrored: to choose among planes, and to find the
 # place of one.
 COARSE, FINE = (2_000, 200), (12_000, 1_000)
+EQUAL = 0.05  # planes whose shares differ by less are equal: the first of them is taken, in all poses the same
 LIKELY = 0.5  # share of the area that the best plane must match already when few points are looked at
 # Number of faces from which on their centers alone are compared: faces are then much smaller than walls are thick.
 DENSE = 100_000
 STEPS, KEPT = 30, 0.8  # how often a plane is improved, and by which share of the probes, the best ones
-# A face is the exact twin of another if their centers, mirrored, are nearer than this, in units of its area's root.
+# Number of faces from which on they are small enough to be mirrored where the tessellation is not; share of the area
+# that must have exact twins on a mesh of fewer.
+MANY_FACES, MOSTLY = 3_000, 0.5
+# A face is the exact twin of another if their centers, mirrored, are nearer than this, in units of its area's root; and
+# a plane is exact if its share is less by this only.
 EXACT = 0.02
 
 
@@ -66,7 +71,7 @@ class MirrorPlane:
 
 @dataclass(frozen=True, eq=False)
 class _Elements:
-    """Small faces of a surface, in units of its diameter and from its middle.
+    """Small faces of a surface, in units of its size and from its middle.
 
     Attributes
     ----------
@@ -81,10 +86,11 @@ class _Elements:
 
     @classmethod
     def of(cls, mesh: TriMesh) -> tuple[_Elements, np.ndarray, float]:
-        """The faces of a mesh; and the middle and the diameter of the surface."""
+        """The faces of a mesh; and the middle and the size of the surface, its diameter or the root of its area."""
         area = mesh.face_area / mesh.area
         middle = area @ mesh.face_centroids
-        size = diameter(mesh.face_centroids, mesh.face_area)
+        # Pieces far from each other must not make the tolerances large.
+        size = min(diameter(mesh.face_centroids, mesh.face_area), np.sqrt(mesh.area))
         return cls((mesh.face_centroids - middle) / size, mesh.face_normals, area), middle, size
 
     def some(self, count: int) -> _Elements:
@@ -134,16 +140,21 @@ def mirror_plane(mesh: TriMesh) -> MirrorPlane | None:
         return None
     elements, middle, size = _Elements.of(mesh)
     few, probes = elements.some(COARSE[0]), elements.some(COARSE[1])
-    best = max((_improved(MirrorPlane(normal, 0.0), few, probes) for normal in _directions(elements)),
-               key=lambda plane: plane.share)
-    if best.share < LIKELY:
+    start = [_oriented(normal, 0.0) for normal in _directions(elements)]
+    tried = [_improved(plane, few, probes) for plane in start]
+    share = max(plane.share for plane in tried)
+    if share < LIKELY:
         return None
+    chosen = next(k for k, plane in enumerate(tried) if plane.share >= share - EQUAL)
     many, probes = elements.some(FINE[0]), elements.some(FINE[1])
-    best = _improved(best, many, probes)
+    best = _improved(tried[chosen], many, probes)
     if best.share < LEAST:
         return None
     if len(many.area) < mesh.n_faces:
         best = _improved(best, elements, probes)
+    # A plane through the middle, across a principal axis, is exact where the shape is, and the same in all poses.
+    if (exact := _judged(start[chosen], many, probes)).share >= best.share - EXACT:
+        best = exact
     return MirrorPlane(best.normal, float(size * best.offset + middle @ best.normal), best.share)
 
 
@@ -169,8 +180,13 @@ def _improved(plane: MirrorPlane, surface: _Elements, probes: _Elements) -> Mirr
         plane = better
         if moved < 1e-7:
             break
-    image = probes.mirrored(plane)
-    return MirrorPlane(plane.normal, plane.offset, float(probes.area @ _matched(image, surface, MATCH)[1]))
+    return _judged(plane, surface, probes)
+
+
+def _judged(plane: MirrorPlane, surface: _Elements, probes: _Elements) -> MirrorPlane:
+    """A plane with its share."""
+    _, matched = _matched(probes.mirrored(plane), surface, MATCH)
+    return MirrorPlane(plane.normal, plane.offset, float(probes.area @ matched))
 
 
 def _halfway(before: np.ndarray, after: np.ndarray, plane: MirrorPlane) -> MirrorPlane:
@@ -217,7 +233,8 @@ def face_twins(mesh: TriMesh, polygon: np.ndarray, n_polygons: int, plane: Mirro
     Returns
     -------
     twin : (n_polygons,) int64
-        The polygon that is its mirror image, or on which most of its mirror image lies; -1 where there is none.
+        The polygon that is its mirror image, or on which most of its mirror image lies; -1 where there is none, and
+        everywhere if there are few polygons and most of them have no exact image.
     """
     elements, middle, size = _Elements.of(mesh)
     local = MirrorPlane(plane.normal, float((plane.offset - middle @ plane.normal) / size))
@@ -246,6 +263,8 @@ def _exact_twins(
     same = apart <= EXACT * np.sqrt(whole.area)
     same &= (image.normal * normal[nearest]).sum(axis=1) > 0.99 * (normal**2).sum(axis=1)
     same &= np.abs(whole.area - whole.area[nearest]) <= EXACT * whole.area
+    if n_polygons < MANY_FACES and whole.area @ same < MOSTLY:
+        return np.full(n_polygons, -1)
     twin = chosen.copy()
     twin[present[same]] = present[nearest[same]]
     return twin

@@ -195,7 +195,8 @@ def test_scaled_and_moved(name, seed, scale, preset):
 def test_vertices_and_faces_permuted(name, preset):
     other, vertex, face = shapes.shuffled(model(name), np.random.default_rng(0))
     one, two = known(name, preset), decompose(*other, parameters=preset)
-    assert agreement(name, preset, two, face) > 0.99
+    # A candidate that changes on the leading side of a plane of symmetry changes on the other side, too.
+    assert agreement(name, preset, two, face) > (0.98 if len(one.mirror) else 0.99)
     np.testing.assert_allclose(one.field[vertex], two.field, atol=0.01)
     assert one.graph.n_loops == two.graph.n_loops
 

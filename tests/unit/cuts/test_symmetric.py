@@ -13,11 +13,12 @@ from core.surface.labels import FaceGraph
 
 
 def row(label, merges, salience):
-    """Eight faces in a row, mirrored in its middle."""
-    graph = FaceGraph(8, np.array([(i, i + 1) for i in range(7)]), np.ones(7), np.ones(8))
+    """Faces in a row, an even number, mirrored in its middle."""
+    n = len(label)
+    graph = FaceGraph(n, np.array([(i, i + 1) for i in range(n - 1)]), np.ones(n - 1), np.ones(n))
     return symmetric_candidates(
         graph, np.empty((0, 2), np.int64), np.array(label), Hierarchy.of(max(label) + 1, merges, salience),
-        np.arange(7, -1, -1), np.arange(8) - 3.5)
+        np.arange(n)[::-1], np.arange(n) - (n - 1) / 2)
 
 
 def parts(result, detail):
@@ -39,7 +40,7 @@ def test_a_symmetric_result_stays_as_it_is():
 
 def test_a_cut_that_only_one_side_has_is_on_both_or_on_neither():
     # The left end is cut off, the right one is not.
-    result = row([0, 0, 1, 1, 1, 1, 2, 2], [(1, 2), (0, 1)], [0.2, 0.9])
+    result = row([0] + 98 * [1] + [2], [(1, 2), (0, 1)], [0.2, 0.9])
     for detail in (0.05, 0.3, 0.5, 0.9):
         found = parts(result, detail)
         assert same(found, found[::-1])
@@ -47,8 +48,13 @@ def test_a_cut_that_only_one_side_has_is_on_both_or_on_neither():
 
 
 def test_a_candidate_that_hangs_over_the_plane_is_cut_off_there():
-    result = row([0, 0, 0, 0, 0, 1, 1, 1], [(0, 1)], [0.9])
-    assert same(parts(result, 0.5), [0, 0, 0, 0, 1, 1, 1, 1])
+    result = row(51 * [0] + 49 * [1], [(0, 1)], [0.9])
+    assert same(parts(result, 0.5), 50 * [0] + 50 * [1])
+
+
+def test_what_speaks_against_the_plane_is_left_as_it_is():
+    label = 20 * [0] + 80 * [1]
+    assert row(label, [(0, 1)], [0.9])[0].tolist() == label
 
 
 def test_parts_without_an_image_keep_their_own():

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The planes of symmetry of the caller's mesh, of the whole or of its bodies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..surface.mesh import TriMesh
+from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
+from ..surface.symmetry import LEAST, face_twins, mirror_plane
+
+LEAST_BODY = 0.1  # share of the area below which a body has no plane of its own
+
+
+@dataclass(frozen=True, eq=False)
+class Mirror:
+    """A plane of symmetry, and what it does to the caller's p faces; all arrays are empty without one.
+
+    Attributes
+    ----------
+    plane : (4,) float64
+        Normal, and distance from the origin.
+    twin : (p,) int64
+        Mirror image of each face; -1 for none.
+    height : (p,) float64
+        Signed distance of each face from the plane; 0 for a face that is its own image, or that has none.
+    """
+
+    plane: np.ndarray
+    twin: np.ndarray
+    height: np.ndarray
+
+    @classmethod
+    def of(cls, mesh: TriMesh, polygon: np.ndarray, n_polygons: int) -> Mirror | None:
+        """The plane of symmetry of small faces that lie in some of the caller's; None if there is none."""
+        plane = mirror_plane(mesh)
+        if plane is None:
+            return None
+        twin = face_twins(mesh, polygon, n_polygons, plane)
+        if (twin < 0).all():
+            return None
+        area = np.bincount(polygon, mesh.face_area, n_polygons)
+        height = np.bincount(polygon, mesh.face_area * plane.heights(mesh.face_centroids), n_polygons)
+        height = np.divide(height, area, out=np.zeros_like(height), where=area > 0)
+        height[twin == np.arange(n_polygons)] = 0.0
+        return cls(np.append(plane.normal, plane.offset), twin, height)
+
+    @classmethod
+    def joined(cls, mirrors: list[Mirror]) -> Mirror:
+        """Several that concern different faces as one; the plane is that of the first."""
+        if not mirrors:
+            return cls(np.empty(0), np.empty(0, np.int64), np.empty(0))
+        return cls(mirrors[0].plane, np.max([mirror.twin for mirror in mirrors], axis=0),
+                   np.sum([mirror.height for mirror in mirrors], axis=0))
+
+
+def find_mirrors(working: WorkingMesh, components: list[Component], n_polygons: int) -> list[Mirror]:
+    """Find the plane of symmetry of the whole, or, if it has none, those of large bodies.
+
+    Parameters
+    ----------
+    working : WorkingMesh
+    components : list of Component
+        Those that were decomposed.
+    n_polygons : int
+        Number of the caller's faces.
+
+    Returns
+    -------
+    mirrors : list of Mirror
+        The largest body first.
+    """
+    if len(components) == 1 and len(components[0].faces) == working.mesh.n_faces:
+        found = [Mirror.of(components[0].mesh, components[0].polygon, n_polygons)]
+        return [mirror for mirror in found if mirror is not None]
+    mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
+    whole = Mirror.of(mesh, working.polygon[parent], n_polygons)
+    large = [part for part in components if part.mesh.area >= LEAST_BODY * working.mesh.area]
+    if whole is not None and all(_covers(whole, part) for part in large):
+        return [whole]
+    large.sort(key=lambda part: -part.mesh.area)
+    found = [Mirror.of(part.mesh, part.polygon, n_polygons) for part in large]
+    return [mirror for mirror in found if mirror is not None]
+
+
+def _covers(mirror: Mirror, component: Component) -> bool:
+    """Whether a plane is one of symmetry of a component, too, or mirrors it on another."""
+    has_twin = mirror.twin[component.polygon] >= 0
+    return bool(component.mesh.face_area @ has_twin >= LEAST * component.mesh.area)
