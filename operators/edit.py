@@ -42,7 +42,7 @@ class ChosenPartsOperator(PartOperator):
         numbers = chosen_numbers(obj.data)
         edits.check_unlocked(obj.data, numbers)
         after = stored
-        for number in numbers:
+        for number in edits.one_of_each_pair(stored, numbers):
             after = self.edit(obj.data, after, number)
         edits.write(context, obj.data, stored, after)
 

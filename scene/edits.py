@@ -42,6 +42,16 @@ def check_unlocked(mesh: bpy.types.Mesh, numbers: Iterable[int]) -> None:
             raise SceneError(rpt_("{name} is locked. Unlock it in the list first.").format(name=part.name))
 
 
+def one_of_each_pair(stored: Stored, numbers: list[int]) -> list[int]:
+    """Parts without those that change with their mirror images, which come before them."""
+    from ..core.result.mirroring import twin_numbers
+
+    if not bpy.context.scene.reeb_parts.symmetry:
+        return numbers
+    twin = twin_numbers(stored.shown_parts())
+    return [number for place, number in enumerate(numbers) if twin.get(number) not in numbers[:place]]
+
+
 def locked_others(mesh: bpy.types.Mesh, number: int) -> list[int]:
     """Numbers of the locked parts but for one."""
     return [part.number for part in mesh.reeb_parts.parts if part.locked and part.number != number]
@@ -214,6 +224,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     from ..core.result.editing import split_candidates
 
     before = stored.face_numbers
+    face_numbers, _ = _mirrored(obj.data, stored, before, face_numbers, stored.decomposition.face_twin)
     moved = face_numbers != before
     if not moved.any():
         return
@@ -296,11 +307,40 @@ def _pinned(mesh: bpy.types.Mesh, stored: Stored, candidate_numbers: np.ndarray,
     stored : Stored
     """
     result = mesh.reeb_parts
-    to_pin = np.isin(candidate_numbers, list(changed)) | (stored.pinned > 0)
+    twin = stored.decomposition.candidate_twin
+    candidate_numbers, also = _mirrored(mesh, stored, stored.shown, candidate_numbers, twin)
+    to_pin = np.isin(candidate_numbers, [*changed, *also]) | (stored.pinned > 0)
     stored = replace(stored, pinned=np.where(to_pin, candidate_numbers, 0))
     # Around the pinned parts everything is as the hierarchy has it.
     count = len(np.unique(candidate_numbers)) if result.by_number else 0
     return stored.showing(stored.parts(result.detail, count))
+
+
+def _mirrored(
+    mesh: bpy.types.Mesh, stored: Stored, before: np.ndarray, after: np.ndarray, twin: np.ndarray
+) -> tuple[np.ndarray, list[int]]:
+    """A change of faces or candidates, and its mirror image if the scene's Symmetry is on and no locked part changes.
+
+    before, after : (n,) int64, numbers of parts. twin : (n,) int64, or empty without a plane of symmetry.
+
+    Returns the numbers after both, and those of the parts that the mirror image concerns.
+    """
+    from ..core.result.mirroring import on_both_sides, twin_numbers
+
+    if not bpy.context.scene.reeb_parts.symmetry or not (twin >= 0).any():
+        return after, []
+    taken = after.tolist()
+
+    def new() -> int:
+        taken.append(free_number(mesh, stored, taken))
+        return taken[-1]
+
+    both = on_both_sides(before, after, twin, twin_numbers(stored.shown_parts()), new)
+    extra = both != after
+    concerned = np.unique(np.concatenate([before[extra], both[extra]])).tolist()
+    if any(part.locked and part.number in concerned for part in mesh.reeb_parts.parts):
+        return after, []
+    return both, concerned
 
 
 def write(context: bpy.types.Context, mesh: bpy.types.Mesh, before: Stored, after: Stored) -> None:

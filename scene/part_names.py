@@ -15,14 +15,36 @@ MAX_NUMBER = 1_000_000
 def part_name(mesh: bpy.types.Mesh, number: int) -> str:
     """The name that the user gave to a part, or else its default name."""
     entry = _kept(mesh, number)
-    return entry.name if entry is not None and entry.name else default_name(number)
+    return entry.name if entry is not None and entry.name else own_name(mesh, number)
+
+
+def own_name(mesh: bpy.types.Mesh, number: int) -> str:
+    """The name of a part until the user gives it another; mirror images end in .L and .R while they are shown."""
+    shown = next((part.own_name for part in mesh.reeb_parts.parts if part.number == number), "")
+    return shown or default_name(number)
 
 
 def keep_name(mesh: bpy.types.Mesh, number: int, name: str) -> None:
     """Remember a name, also while its part is not shown."""
-    if entry := _keep(mesh, number, name != default_name(number)):
-        entry.name = "" if name == default_name(number) else name
+    own = own_name(mesh, number)
+    if entry := _keep(mesh, number, name != own):
+        entry.name = "" if name == own else name
         _drop_empty(mesh)
+
+
+def kept_names(mesh: bpy.types.Mesh) -> dict[int, str]:
+    """The names that the user gave to parts, by number."""
+    return {entry.number: entry.name for entry in mesh.reeb_parts.names if entry.name}
+
+
+def unnamed_twin(part: bpy.types.PropertyGroup) -> bpy.types.PropertyGroup | None:
+    """The mirror image of a part in the list, if the user has given it no name and the part's has a side."""
+    mirrored = bpy.utils.flip_name(part.own_name)
+    if mirrored == part.own_name or bpy.utils.flip_name(part.name) == part.name:
+        return None
+    mesh = part.id_data
+    twin = next((other for other in mesh.reeb_parts.parts if other.own_name == mirrored), None)
+    return None if twin is None or _kept(mesh, twin.number) is not None else twin
 
 
 def keep_color(mesh: bpy.types.Mesh, number: int, color: tuple[float, float, float] | None) -> None:

@@ -42,9 +42,19 @@ def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     with store.quiet():
         if not part.name.strip():
             part.name = part_names.part_name(mesh, part.number)
-        for obj in targets.users(mesh)[:1]:
-            vertex_groups.rename(obj, part)
-        part_names.keep_name(mesh, part.number, part.name)
+        _take_name(part)
+        twin = part_names.unnamed_twin(part)
+        if twin is not None and context.scene.reeb_parts.symmetry:
+            twin.name = bpy.utils.flip_name(part.name)
+            _take_name(twin)
+
+
+def _take_name(part: bpy.types.PropertyGroup) -> None:
+    """Let the vertex group and the number of a part take its name."""
+    mesh = part.id_data
+    for obj in targets.users(mesh)[:1]:
+        vertex_groups.rename(obj, part)
+    part_names.keep_name(mesh, part.number, part.name)
 
 
 def show_graph(obj: bpy.types.Object | None, shown: bool, context: bpy.types.Context) -> None:

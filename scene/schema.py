@@ -32,6 +32,7 @@ class ReebPart(bpy.types.PropertyGroup):
         description="Colour of the part; one that you choose stays with it",
     )
     share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")
+    own_name: StringProperty(description="The name of the part until the user gives it another")
     locked: BoolProperty(
         name="Locked", update=reactions.lock,
         description="The part stays as it is, whatever the detail and whatever is done to its neighbours",

@@ -198,7 +198,7 @@ class REEB_PARTS_PT_field(SettingsPanel, bpy.types.Panel):
 
 class REEB_PARTS_PT_graph(SettingsPanel, bpy.types.Panel):
     bl_label = "Graph"
-    names = ("method", "pieces", "small_region", "loose_part")
+    names = ("method", "pieces", "symmetry", "small_region", "loose_part")
 
 
 class REEB_PARTS_PT_boundaries(SettingsPanel, bpy.types.Panel):

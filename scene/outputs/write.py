@@ -108,12 +108,14 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
     known = {part.number: [getattr(part, key) for key in keys] for part in result.parts}
     wanted = numbered.numbers.tolist()
     shades = _part_colors(mesh, numbered)
+    own_names, kept_names = numbered.names, part_names.kept_names(mesh)
     with store.quiet():
         result.parts.clear()
         for label, number in enumerate(wanted):
             part = result.parts.add()
             part.number = number
-            part.name = part_names.part_name(mesh, number)
+            part.own_name = own_names[label]
+            part.name = kept_names.get(number) or own_names[label]
             part.color = shades[label]
             part.share = numbered.parts.share[label]
             for key, value in zip(keys, known.get(number, ()), strict=False):

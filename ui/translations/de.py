@@ -109,6 +109,11 @@ TEXTS = {
     "Method": "Methode",
     "How cuts are chosen: as people would, or by the paper's rules":
         "Wie Schnitte gewählt werden: so, wie Menschen schneiden würden, oder nach den Regeln des Artikels",
+    "Symmetry": "Symmetrie",
+    "Where the model is its own mirror image, or most of it is, make its parts so, too. Changes by hand are made on "
+    "both sides":
+        "Wo das Modell sein eigenes Spiegelbild ist, ganz oder zum größten Teil, die Teile ebenso bilden. Änderungen "
+        "von Hand geschehen auf beiden Seiten",
     "Pieces": "Stücke",
     "Whether pieces that touch without being joined form parts together, like a sleeve and an arm, or each piece is "
     "decomposed on its own":

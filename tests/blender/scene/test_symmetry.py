@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Symmetry: names of mirror images, and changes by hand on both sides."""
+
+import bpy
+import numpy as np
+import pytest
+import shapes
+
+
+@pytest.fixture
+def mesh(make):
+    obj = make(shapes.mirrored_figure(), "Figure")
+    bpy.ops.reeb_parts.decompose()
+    return obj.data
+
+
+def face_numbers(mesh):
+    return np.array([value.value for value in mesh.attributes["reeb_part"].data])
+
+
+def image(mesh):
+    """Mirror image of each face."""
+    center = np.array([polygon.center for polygon in mesh.polygons])
+    apart = np.linalg.norm(center[:, None] * (-1, 1, 1) - center, axis=2)
+    return apart.argmin(axis=1)
+
+
+def paired(mesh):
+    """The face numbers are the same on both sides but for the names of twins."""
+    numbers, other = face_numbers(mesh), face_numbers(mesh)[image(mesh)]
+    return len(set(zip(numbers.tolist(), other.tolist(), strict=True))) == len(set(numbers.tolist()))
+
+
+def part(mesh, ending):
+    return next(entry for entry in mesh.reeb_parts.parts if entry.name.endswith(ending))
+
+
+def choose(mesh, *parts):
+    numbers = [entry.number for entry in parts]
+    for index, entry in enumerate(mesh.reeb_parts.parts):
+        entry.selected = entry.number in numbers
+        if entry.number == numbers[0]:
+            mesh.reeb_parts.active = index
+
+
+def test_images_have_one_number_and_a_side(mesh):
+    names = [entry.name for entry in mesh.reeb_parts.parts]
+    left = [name for name in names if name.endswith(".L")]
+    assert left
+    assert sorted(name[:-1] + "R" for name in left) == sorted(name for name in names if name.endswith(".R"))
+    assert len(set(names)) == len(names)
+    for name in left:
+        vertex = next(entry for entry in mesh.reeb_parts.parts if entry.name == name)
+        center = np.array([polygon.center for polygon in mesh.polygons])[face_numbers(mesh) == vertex.number]
+        assert center[:, 0].mean() > 0
+
+
+def test_a_name_with_a_side_is_given_to_the_image_too(mesh):
+    left, right = part(mesh, ".L"), part(mesh, ".L").name[:-1] + "R"
+    right = next(entry for entry in mesh.reeb_parts.parts if entry.name == right)
+    left.name = "Arm.L"
+    assert right.name == "Arm.R"
+    right.name = "Hook"
+    left.name = "Wing.L"
+    assert right.name == "Hook"
+
+
+@pytest.mark.parametrize("edit", ["split", "grow", "shrink", "merge_neighbour"])
+def test_both_sides_change(mesh, edit):
+    before = face_numbers(mesh)
+    choose(mesh, part(mesh, ".L"))
+    assert getattr(bpy.ops.reeb_parts, edit)() == {"FINISHED"}
+    after = face_numbers(mesh)
+    assert (after != before).any()
+    assert paired(mesh)
+
+
+def test_two_images_marked_are_split_once(mesh):
+    count = len(mesh.reeb_parts.parts)
+    left = part(mesh, ".L")
+    right = next(entry for entry in mesh.reeb_parts.parts if entry.name == left.name[:-1] + "R")
+    choose(mesh, left, right)
+    bpy.ops.reeb_parts.split()
+    assert len(mesh.reeb_parts.parts) == count + 2
+    assert paired(mesh)
+
+
+def test_without_symmetry_one_side_changes(mesh):
+    bpy.context.scene.reeb_parts.symmetry = False
+    count = len(mesh.reeb_parts.parts)
+    choose(mesh, part(mesh, ".L"))
+    bpy.ops.reeb_parts.split()
+    assert len(mesh.reeb_parts.parts) == count + 1
+
+
+def test_a_locked_image_stays(mesh):
+    left = part(mesh, ".L")
+    right = next(entry for entry in mesh.reeb_parts.parts if entry.name == left.name[:-1] + "R")
+    right.locked = True
+    number, count = right.number, len(mesh.reeb_parts.parts)
+    before = face_numbers(mesh) == number
+    choose(mesh, left)
+    bpy.ops.reeb_parts.split()
+    assert len(mesh.reeb_parts.parts) == count + 1
+    assert np.array_equal(face_numbers(mesh) == number, before)
+
+
+def test_faces_assigned_are_assigned_on_both_sides(mesh):
+    for polygon in mesh.polygons:
+        polygon.select = polygon.center.x > 1.0
+    assert bpy.ops.reeb_parts.assign(new=True) == {"FINISHED"}
+    assert paired(mesh)
+    center = np.array([polygon.center for polygon in mesh.polygons])
+    assert len(set(face_numbers(mesh)[center[:, 0] > 1.0])) == 1
+    assert len(set(face_numbers(mesh)[center[:, 0] < -1.0])) == 1
