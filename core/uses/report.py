@@ -158,6 +158,7 @@ def _parts(
             "color": colors[index].tolist(),
             "bounding_box": None if boxes is None else np.asarray(boxes)[index].tolist(),
             "neighbours": sorted(beside[index]),
+            "twin": None if parts.twin[index] < 0 else int(parts.twin[index]),
         }
         for index, (number, name) in enumerate(zip(numbers, names, strict=True))
     ]

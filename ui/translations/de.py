@@ -109,6 +109,8 @@ TEXTS = {
     "Method": "Methode",
     "How cuts are chosen: as people would, or by the paper's rules":
         "Wie Schnitte gewählt werden: so, wie Menschen schneiden würden, oder nach den Regeln des Artikels",
+    "The name of the part until the user gives it another":
+        "Der Name des Teils, bis der Benutzer ihm einen anderen gibt",
     "Symmetry": "Symmetrie",
     "Where the model is its own mirror image, or most of it is, make its parts so, too. Changes by hand are made on "
     "both sides":
