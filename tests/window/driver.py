@@ -21,7 +21,7 @@ import pointer
 def steps():
     """One step after the other; yields the seconds to wait."""
     seen = {"version": bpy.app.version_string}
-    yield from pointer.spot_alone(maximised=True)
+    yield from pointer.spot_alone(maximised=True, symmetry=True)
     turn_view()
     seen["before"] = scene_facts()
     yield from open_tab()

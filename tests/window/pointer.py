@@ -358,8 +358,12 @@ def open_tab():
 # What most drivers begin with
 
 
-def spot_alone(maximised=False):
-    """The bundled model alone in the scene, filling the view, with our tab open."""
+def spot_alone(maximised=False, symmetry=False):
+    """The bundled model alone in the scene, filling the view, with our tab open.
+
+    Without symmetry tools change what is under the pointer only, and no part has a name with a side.
+    """
+    bpy.context.scene.reeb_parts.symmetry = symmetry
     for obj in list(bpy.data.objects):
         bpy.data.objects.remove(obj)
     bpy.ops.wm.obj_import(filepath=str(ROOT / "models" / "spot.obj"))
