@@ -102,10 +102,19 @@ def _image(model: Model, preset: str) -> Path:
 
 def _decompose(python: Path, path: Path, model: Model, preset: str) -> dict:
     """The command's report on one model; its picture is written."""
+    image = _image(model, preset)
+    return decompose_and_picture(
+        python, ROOT, path, image, SIZE, "--preset", preset, "--picture-turn", str(model.turn))
+
+
+def decompose_and_picture(
+    python: Path, checkout: Path, path: Path, image: Path, size: str, *options: str
+) -> list[dict]:
+    """The report on the objects of one model by the command of a checkout, which writes a picture, too."""
     with tempfile.TemporaryDirectory() as settings:
         command = [
-            str(python), str(ROOT / "tools" / "in_blender.py"), str(path), "--preset", preset,
-            "--picture", str(_image(model, preset)), "--picture-turn", str(model.turn), "--picture-size", SIZE,
+            str(python), str(checkout / "tools" / "in_blender.py"), str(path),
+            "--picture", str(image), "--picture-size", size, *options,
         ]  # fmt: skip
         variables = {**os.environ, "BLENDER_USER_RESOURCES": settings}
         done = subprocess.run(command, check=False, capture_output=True, text=True, env=variables)
