@@ -25,6 +25,7 @@ OVERHANG = 0.25  # share of a candidate below which what lies beyond the plane i
 # At these details the parts of both sides are compared with those found. Where more pairs of points than WORST come
 # together or apart, the faces are too large to be mirrored, or what was found speaks against the plane.
 DETAILS, WORST = (0.3, 0.4, 0.5, 0.6, 0.7), 0.05
+MOST_CANDIDATES = 2_000  # every pair of them is compared; of more, such as the blades of a lawn, all stay as they are
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +86,8 @@ def symmetric_candidates(
     Of both sides that one leads whose parts, mirrored, are more like those found on the whole. If neither is much like
     them, everything stays as it was found.
     """
+    if hierarchy.n_candidates > MOST_CANDIDATES:
+        return label, hierarchy
     found = [hierarchy.parts(hierarchy.n_parts(detail))[label] for detail in DETAILS]
     best, least = (label, hierarchy), WORST
     for leads in (height >= 0, height <= 0):

@@ -57,6 +57,13 @@ def test_what_speaks_against_the_plane_is_left_as_it_is():
     assert row(label, [(0, 1)], [0.9])[0].tolist() == label
 
 
+def test_thousands_of_candidates_are_left_as_they_are():
+    label = list(range(20_000))  # a table of all their pairs would take 3 GB
+    result = row(label, [(i, i + 1) for i in range(len(label) - 1)], np.linspace(0, 1, len(label) - 1))
+    assert result[0].tolist() == label
+    assert result[1].n_candidates == len(label)
+
+
 def test_parts_without_an_image_keep_their_own():
     graph = FaceGraph(5, np.array([(0, 1), (1, 2), (2, 3), (3, 4)]), np.ones(4), np.ones(5))
     label, hierarchy = symmetric_candidates(
