@@ -22,6 +22,7 @@ from .mesh import TriMesh
 # are found, on a model bent to one side a little; and how much a turned normal counts where the nearest face is
 # searched, so that the two sides of a wall are told apart.
 MATCH, BENT, TURNED = 0.012, 0.03, 0.02
+SAME = 1e-6  # difference of distances, in units of the size, that is a rounding error
 LEAST = 0.85  # share of the area that must be matched for a plane to be one of symmetry
 # Upper bounds of the points that stand for the surface, and that are mirrored: to choose among planes, and to find the
 # place of one.
@@ -114,9 +115,15 @@ class _Elements:
         return cKDTree(self.place, balanced_tree=False, compact_nodes=False)
 
     def nearest(self, image: _Elements) -> tuple[np.ndarray, np.ndarray]:
-        """Distance of the nearest element of each of some others, (k,) float64, and this element, (k,) int64."""
-        place = image.place if len(self.position) <= DENSE else image.position
-        return self.tree.query(place, workers=-1)
+        """Distance of the nearest element of each of some others, (k,) float64, and this element, (k,) int64.
+
+        Of elements equally far, as on a regular grid, the first: rounding must not choose.
+        """
+        if len(self.position) > DENSE:
+            return self.tree.query(image.position, workers=-1)
+        distance, nearest = self.tree.query(image.place, k=[1, 2, 3, 4], workers=-1)
+        equal = distance <= distance[:, :1] + SAME
+        return distance[:, 0], np.where(equal, nearest, len(self.position)).min(axis=1)
 
     def mirrored(self, plane: MirrorPlane) -> _Elements:
         """The mirror images."""
@@ -241,8 +248,9 @@ def face_twins(mesh: TriMesh, polygon: np.ndarray, n_polygons: int, plane: Mirro
     nearest, matched = _matched(elements.mirrored(local), elements, BENT)
     if n_polygons == mesh.n_faces > DENSE:
         return np.where(matched, nearest, -1)
-    chosen = majority(polygon, np.where(matched, polygon[nearest] + 1, 0), mesh.face_area + 1e-12 * mesh.area,
-                      n_polygons) - 1
+    # Halves of a face that was split vote alike to the last digit, whatever the pose.
+    weight = np.round(elements.area, 9) + 1e-12
+    chosen = majority(polygon, np.where(matched, polygon[nearest] + 1, 0), weight, n_polygons) - 1
     return _exact_twins(elements, polygon, n_polygons, local, np.maximum(chosen, -1))
 
 
