@@ -23,15 +23,15 @@ with tempfile.TemporaryDirectory() as folder:
 """
 
 
-def start(*arguments, before="") -> subprocess.Popen:
+def start(*arguments, before="", stdout=subprocess.PIPE, stderr=subprocess.PIPE) -> subprocess.Popen:
     """Run the command with some arguments. before : Python that is run in the process first."""
     if bpy.app.binary_path:
         before = f"import sys; sys.dont_write_bytecode = True; {before}"
         words = [bpy.app.binary_path, "--background", "--python-expr", before, "--command", "reeb_parts"]
     else:
         words = [sys.executable, "-c", MODULE.format(tests=str(TESTS), before=before)]
-    return subprocess.Popen([*words, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True, env=dict(os.environ))
+    return subprocess.Popen([*words, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=stdout,
+                            stderr=stderr, text=True, env=dict(os.environ))
 
 
 def run(*arguments, before="") -> subprocess.CompletedProcess:

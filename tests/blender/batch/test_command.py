@@ -3,6 +3,7 @@
 
 import os
 import signal
+import time
 from pathlib import Path
 
 import bpy
@@ -78,19 +79,24 @@ def test_numbers_out_of_range_are_refused(run, model, option, value):
 
 
 @pytest.mark.parametrize(("moment", "number"), [
-    ("mesh 0%", signal.SIGINT), ("cuts", signal.SIGTERM), ("STL Export", signal.SIGINT)])
-def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, moment, number):
+    ("mesh 0%", signal.SIGINT), ("cuts", signal.SIGTERM), ("files", signal.SIGINT)])
+def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, moment, number):
+    said = tmp_path_factory.mktemp("said")  # files, not pipes: nobody reads while the process writes
     before = process.content(tmp_path)
     (tmp_path / "out.json").write_text("an answer of yesterday")
     (tmp_path / "parts").mkdir()
     arguments = (model, "--json", tmp_path / "out.json", "--save", tmp_path / "out.blend",
                  "--parts", tmp_path / "parts", "--parts-format", "stl", "--picture", tmp_path / "out.png")
-    with process.start(*arguments) as running:
-        for line in running.stderr:
-            if moment in line:
-                os.kill(running.pid, number)
-                break
-        out, err = running.communicate(timeout=120)
+    files = len(list(tmp_path.rglob("*")))
+    with (open(said / "out", "w") as out, open(said / "err", "w") as err,
+          process.start(*arguments, stdout=out, stderr=err) as running):
+        reached = ((lambda: len(list(tmp_path.rglob("*"))) > files) if moment == "files"
+                   else lambda: moment in (said / "err").read_text())
+        while running.poll() is None and not reached():
+            time.sleep(0.01)
+        os.kill(running.pid, number)
+        running.wait(timeout=120)
+    out, err = ((said / name).read_text() for name in ("out", "err"))
     assert running.returncode == 128 + number
     assert "{" not in out  # a full Blender says its version there
     assert "Interrupted; nothing was written." in err
