@@ -63,12 +63,17 @@ def pinned(obj):
 
 
 def some_faces(obj):
-    """Faces selected in Edit Mode."""
+    """Faces of the head selected in Edit Mode."""
     mark(BODY)(obj)
+    part = obj.data.attributes["reeb_part"].data
+    of_head = [polygon for polygon in obj.data.polygons if part[polygon.index].value == number(obj, HEAD)][:40]
+    corners = {vertex for polygon in of_head for vertex in polygon.vertices}
     for polygon in obj.data.polygons:
-        polygon.select = polygon.index < 40
+        polygon.select = False
+    for polygon in of_head:
+        polygon.select = True
     for vertex in obj.data.vertices:
-        vertex.select = any(vertex.index in obj.data.polygons[i].vertices for i in range(40))
+        vertex.select = vertex.index in corners
     bpy.ops.object.mode_set(mode="EDIT")
 
 
