@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
+from .arrays import spread_evenly
 from .contact import diameter
 from .labels import majority
 from .mesh import TriMesh
@@ -96,10 +97,7 @@ class _Elements:
 
     def some(self, count: int) -> _Elements:
         """So many elements or fewer, at equal steps of area from the middle outwards; they count equally."""
-        order = np.argsort((self.position**2).sum(axis=1), kind="stable")
-        total = np.cumsum(self.area[order])
-        steps = (np.arange(count) + 0.5) / count * total[-1]
-        chosen = order[np.unique(np.searchsorted(total, steps).clip(max=len(order) - 1))]
+        chosen = spread_evenly(self.area, (self.position**2).sum(axis=1), count)
         return _Elements(self.position[chosen], self.normal[chosen], np.full(len(chosen), 1.0 / len(chosen)))
 
     @property
@@ -182,7 +180,7 @@ def _improved(plane: MirrorPlane, surface: _Elements, probes: _Elements) -> Mirr
         distance, nearest = surface.nearest(image)
         used = distance <= np.quantile(distance, KEPT)
         before, after = probes.position[used], surface.position[nearest[used]]
-        better = _halfway(before, after, plane)
+        better = _halfway(before, after)
         moved = np.abs(better.normal - plane.normal).max() + abs(better.offset - plane.offset)
         plane = better
         if moved < 1e-7:
@@ -196,7 +194,7 @@ def _judged(plane: MirrorPlane, surface: _Elements, probes: _Elements) -> Mirror
     return MirrorPlane(plane.normal, plane.offset, float(probes.area @ matched))
 
 
-def _halfway(before: np.ndarray, after: np.ndarray, plane: MirrorPlane) -> MirrorPlane:
+def _halfway(before: np.ndarray, after: np.ndarray) -> MirrorPlane:
     """The plane that mirrors points best onto others, (k, 3): across their differences, through their middles."""
     apart, middle = before - after, (before + after) / 2
     center = middle.mean(axis=0)
