@@ -88,6 +88,13 @@ class Dendrogram:
             np.stack([place[first], place[second], place[second] + size], axis=1), np.array(rows, np.int64))
 
     @cached_property
+    def place(self) -> np.ndarray:
+        """(c,) int64, place of each candidate in ``order``."""
+        place = np.empty(len(self.order), np.int64)
+        place[self.order] = np.arange(len(place))
+        return place
+
+    @cached_property
     def _gap_rows(self) -> list[np.ndarray]:
         """Row that joins the sets left and right of each gap between places, and its maxima over 2, 4, 8 ... gaps."""
         gaps = np.full(max(len(self.order) - 1, 1), np.iinfo(np.int64).max)
@@ -114,9 +121,7 @@ class Dendrogram:
         -----
         O(c log c) when it is first called, then O(e log c).
         """
-        place = np.empty(len(self.order), np.int64)
-        place[self.order] = np.arange(len(place))
-        low, high = np.sort([place[a], place[b]], axis=0)
+        low, high = np.sort([self.place[a], self.place[b]], axis=0)
         # The maximum over consecutive gaps is that over two overlapping ranges, each a power of two long.
         level = np.frexp(np.maximum(high - low, 1))[1] - 1
         found = np.zeros(len(low), np.int64)
@@ -210,7 +215,7 @@ class Hierarchy:
         return components(self.n_candidates, *done.T)[1]
 
     @cached_property
-    def _dendrogram(self) -> Dendrogram:
+    def dendrogram(self) -> Dendrogram:
         """Dendrogram of the merges."""
         return Dendrogram.of(self.n_candidates, self.merges)
 
@@ -220,7 +225,17 @@ class Hierarchy:
         a, b : (e,) int64, candidates. Returns the place of the merge in ``merges``, (e,) int64; the number of merges
         where no merge does, 0 where a and b are one candidate.
         """
-        return np.minimum(self._dendrogram.row_of(a, b), len(self.merges))
+        return np.minimum(self.dendrogram.row_of(a, b), len(self.merges))
+
+    def salience_table(self, candidates: np.ndarray) -> np.ndarray:
+        """Salience of what parts each two of some candidates.
+
+        candidates : (k,) int64. Returns (k, k) float64: 1 where no merge joins two candidates, 0 of one and itself.
+        """
+        a, b = np.meshgrid(candidates, candidates, indexing="ij")
+        table = np.append(self.salience, 1.0)[self.merge_of(a.ravel(), b.ravel())].reshape(a.shape)
+        table[a == b] = 0.0
+        return table
 
 
 @dataclass(frozen=True, eq=False)

@@ -88,11 +88,12 @@ def symmetric_candidates(
     """
     if hierarchy.n_candidates > MOST_CANDIDATES:
         return label, hierarchy
+    salience = hierarchy.salience_table(np.arange(hierarchy.n_candidates))
     found = [hierarchy.parts(hierarchy.n_parts(detail))[label] for detail in DETAILS]
     best, least = (label, hierarchy), WORST
     for leads in (height >= 0, height <= 0):
         cells = _cells(graph, label, twin, leads)
-        merges, strength = _linkage(cells, _touching(cells, graph.with_contacts(contacts)), _means(cells, hierarchy))
+        merges, strength = _linkage(cells, _touching(cells, graph.with_contacts(contacts)), _means(cells, salience))
         tree = Hierarchy.of(len(cells.area), merges, strength)
         error = np.mean([_disagreement(tree.parts(tree.n_parts(detail))[cells.label], parts, graph.area)
                          for detail, parts in zip(DETAILS, found, strict=True)])
@@ -173,8 +174,9 @@ def _lead_cells(
     which faces speak. Returns the cell of each face that speaks, (p,) int64, and whether each cell lies across the
     plane and whether it has an image, (c,) bool.
     """
-    pairs = leader[graph.pairs[asked[leader[graph.pairs]].all(axis=1)]]
-    length = graph.length[asked[leader[graph.pairs]].all(axis=1)]
+    pairs = leader[graph.pairs]
+    spoken = asked[pairs].all(axis=1)
+    pairs, length = pairs[spoken], graph.length[spoken]
     same = label[pairs[:, 0]] == label[pairs[:, 1]]
     cell = components(len(label), *pairs[same].T)[1]
     cell = np.where(asked, cell, -1)
@@ -223,12 +225,11 @@ def _touching(cells: Cells, graph: FaceGraph) -> np.ndarray:
     return touching | touching.T
 
 
-def _means(cells: Cells, hierarchy: Hierarchy) -> np.ndarray:
-    """Salience of what parts two cells, (c, c): as the leading side says, across the plane the mean of both sides."""
-    every = np.arange(hierarchy.n_candidates)
-    a, b = np.meshgrid(every, every, indexing="ij")
-    salience = np.append(hierarchy.salience, 1.0)[hierarchy.merge_of(a.ravel(), b.ravel())].reshape(a.shape)
-    np.fill_diagonal(salience, 0.0)
+def _means(cells: Cells, salience: np.ndarray) -> np.ndarray:
+    """Salience of what parts two cells, (c, c): as the leading side says, across the plane the mean of both sides.
+
+    salience : of what parts two candidates that were found, (c', c').
+    """
     here = salience[cells.own[:, None], cells.own]
     there = salience[cells.other[:, None], cells.other]
     unseen = (cells.other < 0)[:, None] | (cells.other < 0)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cuts.hierarchy import Dendrogram, Hierarchy
+from ..cuts.hierarchy import Hierarchy
 from ..surface.arrays import distinct_pairs, sums_by
 
 # A refined face leaves the part that has most of it only if this shortens the boundary by more than the area lost,
@@ -37,9 +37,8 @@ class FaceVotes:
     def __init__(
         self, owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_faces: int, hierarchy: Hierarchy
     ) -> None:
-        self._tree = Dendrogram.of(hierarchy.n_candidates, hierarchy.merges)
-        self._place = np.empty(hierarchy.n_candidates, np.int64)
-        self._place[self._tree.order] = np.arange(hierarchy.n_candidates)
+        self._tree = hierarchy.dendrogram
+        self._place = self._tree.place
         self.n_faces = n_faces
         # One cell for each face and candidate in it, those of one face in the order of the tree.
         cells, cell = distinct_pairs(owner, self._place[label])

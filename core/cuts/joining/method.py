@@ -70,9 +70,7 @@ def fine_parts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, agd: np.n
     present, part = renumbered(hierarchy.parts(hierarchy.n_parts(1.0 - FINE))[label])
     candidate = np.zeros(len(present), np.int64)
     candidate[part] = label
-    a, b = np.meshgrid(candidate, candidate, indexing="ij")
-    salience = np.append(hierarchy.salience, 1.0)[hierarchy.merge_of(a.ravel(), b.ravel())]
-    pairs = part_pairs(mesh, part, salience.reshape(len(present), -1), agd)
+    pairs = part_pairs(mesh, part, hierarchy.salience_table(candidate), agd)
     return FineParts(part, candidate, pairs)
 
 
