@@ -84,9 +84,8 @@ class Parts:
     @cached_property
     def side(self) -> np.ndarray:
         """(count,) int64, of a part that has a twin: 1 on the side of the plane's normal, -1 on the other; else 0."""
-        if not len(self.decomposition.face_side):
-            return np.zeros(self.count, np.int64)
-        side = np.sign(np.bincount(self.labels, self.decomposition.face_side, self.count)).astype(np.int64)
+        side = np.bincount(self.candidate_part, self.decomposition.candidate_side, self.count)
+        side = np.sign(side).astype(np.int64)
         apart = (self.twin >= 0) & (self.twin != np.arange(self.count))
         return np.where(apart & (side[self.twin] == -side), side, 0)
 
@@ -226,6 +225,13 @@ class Decomposition:
             return np.full(self.n_candidates, -1)
         image = np.where(self.face_twin >= 0, self.candidates[self.face_twin], -1)
         return majority(self.candidates, image + 1, np.ones(self.n_faces), self.n_candidates) - 1
+
+    @cached_property
+    def candidate_side(self) -> np.ndarray:
+        """(c,) float64, sum of ``face_side`` over the faces of each candidate; 0 without a plane."""
+        if not len(self.face_side):
+            return np.zeros(self.n_candidates)
+        return np.bincount(self.candidates, self.face_side, self.n_candidates)
 
     @cached_property
     def pair_merge(self) -> np.ndarray:

@@ -45,6 +45,8 @@ def on_both_sides(
     result = after.copy()
     moved = after != before
     of_new: dict[int, int] = {}
+    image_of = np.full(int(max(before.max(), *twin_number)) + 1, -1)
+    image_of[list(twin_number)] = list(twin_number.values())
     for number in np.unique(after[moved & (twin >= 0)]).tolist():
         mine = np.flatnonzero(moved & (twin >= 0) & (after == number))
         image = twin[mine]
@@ -56,8 +58,7 @@ def on_both_sides(
             target = number if itself.mean() > 0.5 else of_new.setdefault(number, new())
         if not target:
             continue
-        mirrored = np.array([twin_number.get(giver, -1) for giver in before[mine].tolist()])
-        right = ~moved[image] & (mirrored == before[image])
+        right = ~moved[image] & (image_of[before[mine]] == before[image])
         result[image[right]] = target
     gone = np.setdiff1d(after, result)
     image_stays = np.isin([twin_number.get(number, number) for number in gone.tolist()], after)

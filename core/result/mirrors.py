@@ -73,11 +73,12 @@ def find_mirrors(working: WorkingMesh, components: list[Component], n_polygons: 
         The largest body first.
     """
     if len(components) == 1 and len(components[0].faces) == working.mesh.n_faces:
-        found = [Mirror.of(components[0].mesh, components[0].polygon, n_polygons)]
-        return [mirror for mirror in found if mirror is not None]
-    mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
-    whole = Mirror.of(mesh, working.polygon[parent], n_polygons)
-    large = [part for part in components if part.mesh.area >= LEAST_BODY * working.mesh.area]
+        mesh, polygon, large = components[0].mesh, components[0].polygon, []
+    else:
+        mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
+        polygon = working.polygon[parent]
+        large = [part for part in components if part.mesh.area >= LEAST_BODY * working.mesh.area]
+    whole = Mirror.of(mesh, polygon, n_polygons)
     if whole is not None and all(_covers(whole, part) for part in large):
         return [whole]
     large.sort(key=lambda part: -part.mesh.area)
