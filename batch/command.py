@@ -63,7 +63,7 @@ def main(arguments: list[str]) -> int:
             _say(str(error))
             return FAILED
         try:
-            answer.write(json.dumps(result, indent=2, allow_nan=False) + "\n")
+            answer.write(_as_text(result))
             answer.flush()
         except OSError as error:
             _say(f"Standard output could not be written: {reason(error)}")
@@ -112,6 +112,11 @@ def _claim(options: argparse.Namespace, files: WholeFiles) -> None:
             files.claim(path)
     if options.parts is not None:
         files.claim_folder(options.parts)
+
+
+def _as_text(result: dict) -> str:
+    """The JSON as it is written."""
+    return json.dumps(result, indent=2, allow_nan=False) + "\n"
 
 
 def _problem(name: str, error: Exception) -> dict:
@@ -198,7 +203,7 @@ def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bp
         written["json"] = str(options.json)
     result = document(reports, blender=bpy.app.version_string, files=written, problems=problems)
     if options.json:
-        text = json.dumps(result, indent=2, allow_nan=False) + "\n"
+        text = _as_text(result)
         with files.writing(options.json, complete.text(text)) as path:
             path.write_bytes(text.encode())
     return result
