@@ -22,6 +22,7 @@ from .progress import Progress, Stopwatch
 from .result.assemble import ComponentResult, assemble
 from .result.decomposition import Decomposition
 from .surface.coarsening import Pyramid
+from .surface.ordering import sorted_by_place
 from .surface.polygons import PolygonMesh
 from .surface.preparation import Component, bodies, repair
 
@@ -88,7 +89,7 @@ def decompose(
     parameters = Parameters.of(parameters)
     watch = Stopwatch(progress)
     with watch.stage("mesh", MESH_SHARE):
-        given = PolygonMesh.of(vertices, faces, polygon)
+        given, ordering = sorted_by_place(PolygonMesh.of(vertices, faces, polygon))
         working = repair(given)
         chosen = bodies(working, parameters.pieces == TOGETHER, parameters.loose_part)
     results = []
@@ -99,7 +100,8 @@ def decompose(
         found = decompose_component(component, parameters, watch, begin, width, model)
         results.append(join_pieces(found, join_model))
     with watch.stage("parts", 1.0):
-        result = assemble(given, working, results, parameters, watch.seconds).scaled(given.exponent)
+        result = assemble(given, working, results, parameters, watch.seconds)
+        result = result.scaled(given.exponent).reordered(ordering)
     watch.progress("done", 1.0)
     return result
 

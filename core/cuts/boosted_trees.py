@@ -100,7 +100,8 @@ class BoostedTrees:
         No tree is walked [Lucchese2015]. All inner nodes compare at once; every node that sends a row to the right
         rules out the leaves on its left, and the row's leaf is the first that no node has ruled out.
         """
-        rows = rows.astype(np.float32)  # the thresholds were trained on values of 32 bits
+        # Values that are 0 but for rounding are 0. The thresholds were trained on values of 32 bits.
+        rows = (np.rint(rows * 2.0**26) / 2.0**26).astype(np.float32)
         feature, threshold, mask = self._by_node
         every = np.uint16(0xFFFF)
         n_trees, n_leaves = self.leaf.shape

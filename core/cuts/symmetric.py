@@ -13,13 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import components, distinct_pairs, renumbered
+from ..surface.arrays import components, distinct_pairs, renumbered, rounded
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
 from .hierarchy import Hierarchy
 from .joining.method import LAST
 
-# Shares of the area: below SMALL, what little of a candidate is left on the leading side joins a neighbor, and so does
-# what lies across the plane below CROSSING; a region without an image is one of its own from LONE on.
+# Shares of the area of the pieces that the plane mirrors: below SMALL, what little of a candidate is left on the
+# leading side joins a neighbor, and so does what lies across the plane below CROSSING; a region without an image is one
+# of its own from LONE on.
 SMALL, CROSSING, LONE = 0.0004, 0.001, 0.005
 OVERHANG = 0.25  # share of a candidate below which what lies beyond the plane is not asked for
 # At these details the parts of both sides are compared with those found. Where more pairs of points than WORST come
@@ -55,7 +56,7 @@ class Cells:
 
 def symmetric_candidates(
     graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, twin: np.ndarray,
-    height: np.ndarray,
+    height: np.ndarray, first: float = 1.0,
 ) -> tuple[np.ndarray, Hierarchy]:
     """Make candidates and their hierarchy symmetric.
 
@@ -73,6 +74,8 @@ def symmetric_candidates(
         Mirror image of each face; -1 for none.
     height : (p,) float64
         Signed distance of each face from the plane.
+    first : float
+        Above 0 if the side to which the normal points is to lead where both are equally good, below 0 for the other.
 
     Returns
     -------
@@ -90,31 +93,42 @@ def symmetric_candidates(
         return label, hierarchy
     salience = hierarchy.salience_table(np.arange(hierarchy.n_candidates))
     found = [hierarchy.parts(hierarchy.n_parts(detail))[label] for detail in DETAILS]
+    concerned = _mirrored_area(graph, twin)
+    whole = float(concerned.sum())
     best, least = (label, hierarchy), WORST
-    for leads in (height >= 0, height <= 0):
-        cells = _cells(graph, label, twin, leads)
+    for leads in (height * first >= 0, height * first <= 0):
+        cells = _cells(graph, label, twin, leads, whole)
         merges, strength = _linkage(cells, _touching(cells, graph.with_contacts(contacts)), _means(cells, salience))
         tree = Hierarchy.of(len(cells.area), merges, strength)
-        error = np.mean([_disagreement(tree.parts(tree.n_parts(detail))[cells.label], parts, graph.area)
+        error = np.mean([_disagreement(tree.parts(tree.n_parts(detail))[cells.label], parts, concerned)
                          for detail, parts in zip(DETAILS, found, strict=True)])
         if error < least - 1e-9:
             best, least = (cells.label, tree), error
     return best
 
 
-def _cells(graph: FaceGraph, label: np.ndarray, twin: np.ndarray, leads: np.ndarray) -> Cells:
-    """The candidates of the leading side and their images, and the candidates of what has no image."""
+def _mirrored_area(graph: FaceGraph, twin: np.ndarray) -> np.ndarray:
+    """Area of the faces, (p,), in the connected pieces that have a twin somewhere; 0 of those in others."""
+    count, piece = components(len(twin), *graph.pairs.T)
+    return np.where((np.bincount(piece, twin >= 0, count) > 0)[piece], graph.area, 0.0)
+
+
+def _cells(graph: FaceGraph, label: np.ndarray, twin: np.ndarray, leads: np.ndarray, whole: float) -> Cells:
+    """The candidates of the leading side and their images, and the candidates of what has no image.
+
+    whole : area of the pieces that the plane mirrors.
+    """
     faces = np.arange(len(label))
     image = np.where(twin >= 0, twin, faces)
     # A face that follows is what its twin is, if that one leads; a small region without twins is what is around it.
     follows = (twin >= 0) & ~leads & leads[image]
-    lone = (twin < 0) & ~leads & ~_large(graph, (twin < 0) & ~leads)
+    lone = (twin < 0) & ~leads & ~_large(graph, (twin < 0) & ~leads, LONE * whole)
     leader = np.where(follows, image, faces)
     asked = ~follows & ~lone
-    cell, crosses, seen = _lead_cells(graph, label, np.where(twin >= 0, label[image], -1), leader, asked)
+    cell, crosses, seen = _lead_cells(graph, label, np.where(twin >= 0, label[image], -1), leader, asked, whole)
     full = np.where(lone, -1, 2 * cell[leader] + (follows & ~crosses[cell[leader]]))
     full = connect(graph, fill_unlabeled(graph, full))
-    full = connect(graph, fill_unlabeled(graph, _without_lone(graph, full, crosses & seen, seen)))
+    full = connect(graph, fill_unlabeled(graph, _without_lone(graph, full, crosses & seen, seen, LONE * whole)))
     names, full = renumbered(full)
     lead, side = names // 2, np.where(names % 2, -1, 1)
     partner = np.searchsorted(names, names ^ 1).clip(max=len(names) - 1)
@@ -131,14 +145,14 @@ def _cells(graph: FaceGraph, label: np.ndarray, twin: np.ndarray, leads: np.ndar
     return Cells(full, own, other, side, partner, np.bincount(full, graph.area))
 
 
-def _without_lone(graph: FaceGraph, full: np.ndarray, whole: np.ndarray, seen: np.ndarray) -> np.ndarray:
+def _without_lone(graph: FaceGraph, full: np.ndarray, itself: np.ndarray, seen: np.ndarray, least: float) -> np.ndarray:
     """Cell of each face, (p,): -1 for small cells whose image is not there, or not among the images of their neighbors.
 
-    full : (p,), twice the leading cell of each face, and 1 on the side that follows. whole, seen : (c,), which leading
-    cells are their own images, and which have one.
+    full : (p,), twice the leading cell of each face, and 1 on the side that follows. itself, seen : (c,), which leading
+    cells are their own images, and which have one. least : area from which a cell is not small.
     """
     names, place = renumbered(full)
-    image = np.where(whole[names // 2], names, names ^ 1)
+    image = np.where(itself[names // 2], names, names ^ 1)
     there = np.isin(image, names)
     image = np.searchsorted(names, image).clip(max=len(names) - 1)
     pairs = graph.boundaries(place)[0]
@@ -146,7 +160,7 @@ def _without_lone(graph: FaceGraph, full: np.ndarray, whole: np.ndarray, seen: n
     held = np.zeros(len(names), bool)
     held[pairs[np.isin(mirrored, here) & there[pairs].all(axis=1)]] = True
     free = np.bincount(pairs.ravel(), minlength=len(names)) == 0
-    small = np.bincount(place, graph.area) < LONE * graph.area.sum()
+    small = np.bincount(place, graph.area) < least
     return np.where((small & seen[names // 2] & ~(held & there) & ~free)[place], -1, full)
 
 
@@ -158,21 +172,21 @@ def _disagreement(first: np.ndarray, second: np.ndarray, area: np.ndarray) -> fl
     return float(apart / area.sum() ** 2)
 
 
-def _large(graph: FaceGraph, chosen: np.ndarray) -> np.ndarray:
-    """Which of the chosen faces, (p,) bool, form connected regions of LONE of the area or more."""
+def _large(graph: FaceGraph, chosen: np.ndarray, least: float) -> np.ndarray:
+    """Which of the chosen faces, (p,) bool, form connected regions of a least area."""
     pairs = graph.pairs[chosen[graph.pairs].all(axis=1)]
     count, region = components(len(chosen), *pairs.T)
-    return chosen & (np.bincount(region, graph.area, count) >= LONE * graph.area.sum())[region]
+    return chosen & (np.bincount(region, graph.area, count) >= least)[region]
 
 
 def _lead_cells(
-    graph: FaceGraph, label: np.ndarray, mirrored: np.ndarray, leader: np.ndarray, asked: np.ndarray
+    graph: FaceGraph, label: np.ndarray, mirrored: np.ndarray, leader: np.ndarray, asked: np.ndarray, whole: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The candidates on the leading side, in connected pieces.
 
     mirrored, leader, asked : (p,), candidate of each face's image, -1 for none; the face that speaks for each face; and
-    which faces speak. Returns the cell of each face that speaks, (p,) int64, and whether each cell lies across the
-    plane and whether it has an image, (c,) bool.
+    which faces speak. whole : area of the pieces that the plane mirrors. Returns the cell of each face that speaks,
+    (p,) int64, and whether each cell lies across the plane and whether it has an image, (c,) bool.
     """
     pairs = leader[graph.pairs]
     spoken = asked[pairs].all(axis=1)
@@ -187,13 +201,13 @@ def _lead_cells(
     own[mine] = label[asked]
     weight = graph.area + 1e-12 * graph.area.sum()
     other = majority(mine, mirrored[asked] + 1, weight[asked], count) - 1
-    area = np.bincount(cell[leader][spoken_for], graph.area[spoken_for], count)
+    area = rounded(np.bincount(cell[leader][spoken_for], graph.area[spoken_for], count))
     largest = np.zeros(int(own.max()) + 1)
     np.maximum.at(largest, own, area)
-    total, crosses = graph.area.sum(), own == other
+    crosses = own == other
     # What little of a candidate reaches over the plane from the side that follows is cut off there.
     little = np.bincount(mine, graph.area[asked], count) < OVERHANG * np.bincount(label, graph.area)[own]
-    small = ((area < SMALL * total) & (area < largest[own])) | little | (crosses & (area < CROSSING * total))
+    small = ((area < SMALL * whole) & (area < largest[own])) | little | (crosses & (area < CROSSING * whole))
     joins = _joined(FaceGraph(len(label), pairs, length, graph.area), cell, own, area, small)
     left, cell[asked] = renumbered(joins[mine])
     return cell, crosses[left], other[left] >= 0
@@ -258,7 +272,7 @@ class _Clusters:
         if not len(clusters):
             return
         reach = np.where(self.touching[clusters], self.cost(clusters), np.inf)
-        self.nearest[clusters] = reach.argmin(axis=1)
+        self.nearest[clusters] = rounded(reach).argmin(axis=1)
         self.least[clusters] = reach[np.arange(len(clusters)), self.nearest[clusters]]
 
     def cost(self, clusters: np.ndarray) -> np.ndarray:
@@ -281,7 +295,7 @@ class _Clusters:
         self.merges.append((a, b))
         self.strength.append(strength)
         share = self.area[a] / (self.area[a] + self.area[b])
-        mean = share * self.mean[a] + (1.0 - share) * self.mean[b]
+        mean = self.mean[b] + share * (self.mean[a] - self.mean[b])
         self.mean[a] = self.mean[:, a] = mean
         near = self.touching[a] | self.touching[b]
         near[[a, b]] = False
@@ -301,7 +315,7 @@ def _linkage(cells: Cells, touching: np.ndarray, mean: np.ndarray) -> tuple[np.n
     """
     clusters = _Clusters(cells, touching, mean)
     while np.isfinite(clusters.least).any():
-        a = int(clusters.least.argmin())
+        a = int(rounded(clusters.least).argmin())
         b = int(clusters.nearest[a])
         _merge_with_image_(clusters, min(a, b), max(a, b), float(clusters.least[a]))
     return np.reshape(clusters.merges, (-1, 2)).astype(np.int64), np.array(clusters.strength, float)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import first_largest, frozen
+from ..surface.arrays import first_largest, frozen, weighted_sum
 from ..surface.coarsening import Pyramid, prolong
 from ..surface.mesh import TriMesh
 from .geodesic import GeodesicSolver
@@ -97,7 +97,7 @@ def spread_base_vertices(
     One search per base vertex: O(k n log n) time, 4 k n bytes. The first base vertex is the vertex farthest from
     the centroid, so that the choice depends on the shape and not on the order of the vertices.
     """
-    centroid = vertex_area @ mesh.vertices / vertex_area.sum()
+    centroid = weighted_sum(vertex_area, mesh.vertices) / vertex_area.sum()
     chosen = [first_largest(np.linalg.norm(mesh.vertices - centroid, axis=1))]
     rows = []
     nearest = np.full(mesh.n_vertices, np.inf)

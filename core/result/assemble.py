@@ -100,7 +100,8 @@ def assemble(
     label, hierarchy = _face_candidates(given, working, results, face_graph, parameters)
     mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
     for mirror in mirrors:
-        label, hierarchy = symmetric_candidates(face_graph, contacts, label, hierarchy, mirror.twin, mirror.height)
+        label, hierarchy = symmetric_candidates(face_graph, contacts, label, hierarchy, mirror.twin, mirror.height,
+                                                mirror.first)
     mirror = Mirror.joined(mirrors)
     label, hierarchy = settle(face_graph.with_contacts(contacts), label, hierarchy)
     face_graph = face_graph.with_contacts(contacts)

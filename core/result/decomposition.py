@@ -17,6 +17,7 @@ from ..graph.reeb import ReebGraph
 from ..parameters import SEPARATE, Parameters, present_names
 from ..surface.arrays import distinct_pairs, renumbered, sums_by
 from ..surface.labels import majority
+from ..surface.ordering import Ordering
 from .stored import DamagedError, NewerError, check, is_newer, read_archive, read_head
 
 VERSION = "0.2.0"
@@ -307,6 +308,19 @@ class Decomposition:
         mirror = np.concatenate([self.mirror[:3], np.ldexp(self.mirror[3:], exponent)])
         return replace(self, graph=graph, mirror=mirror, candidate_area=np.ldexp(self.candidate_area, 2 * exponent),
                        candidate_pair_length=np.ldexp(self.candidate_pair_length, exponent))
+
+    def reordered(self, ordering: Ordering) -> Decomposition:
+        """Copy the result of a mesh that was sorted as that of the mesh in the caller's order.
+
+        ordering : Ordering. Returns a Decomposition of the same parts.
+        """
+        face, vertex = np.argsort(ordering.polygon), np.argsort(ordering.vertex)
+        twin, side = self.face_twin, self.face_side
+        if len(twin):
+            twin, side = np.append(ordering.polygon, -1)[twin[face]], side[face]
+        return replace(self, candidates=self.candidates[face], vertex_candidates=self.vertex_candidates[vertex],
+                       field=self.field[vertex], contacts=ordering.polygon[self.contacts], face_twin=twin,
+                       face_side=side)
 
     def to_bytes(self) -> bytes:
         """Write the whole result: returns compressed bytes that ``from_bytes`` reads."""

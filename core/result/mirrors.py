@@ -26,11 +26,14 @@ class Mirror:
         Mirror image of each face; -1 for none.
     height : (p,) float64
         Signed distance of each face from the plane; 0 for a face that is its own image, or that has none.
+    first : float
+        1.0 or -1.0, the side of the first face beside the plane: it leads where both sides are equally good.
     """
 
     plane: np.ndarray
     twin: np.ndarray
     height: np.ndarray
+    first: float = 1.0
 
     @classmethod
     def of(cls, mesh: TriMesh, polygon: np.ndarray, n_polygons: int) -> Mirror | None:
@@ -41,11 +44,12 @@ class Mirror:
         twin = face_twins(mesh, polygon, n_polygons, plane)
         if (twin < 0).all():
             return None
-        area = np.bincount(polygon, mesh.face_area, n_polygons)
-        height = np.bincount(polygon, mesh.face_area * plane.heights(mesh.face_centroids), n_polygons)
+        area, beside = np.bincount(polygon, mesh.face_area, n_polygons), plane.heights(mesh.face_centroids)
+        height = np.bincount(polygon, mesh.face_area * beside, n_polygons)
         height = np.divide(height, area, out=np.zeros_like(height), where=area > 0)
         height[twin == np.arange(n_polygons)] = 0.0
-        return cls(np.append(plane.normal, plane.offset), twin, height)
+        clear = np.abs(beside) >= 0.5 * np.abs(beside).max()
+        return cls(np.append(plane.normal, plane.offset), twin, height, float(np.sign(beside[clear.argmax()])))
 
     @classmethod
     def joined(cls, mirrors: list[Mirror]) -> Mirror:
@@ -89,4 +93,4 @@ def find_mirrors(working: WorkingMesh, components: list[Component], n_polygons: 
 def _covers(mirror: Mirror, component: Component) -> bool:
     """Whether a plane is one of symmetry of a component, too, or mirrors it on another."""
     has_twin = mirror.twin[component.polygon] >= 0
-    return bool(component.mesh.face_area @ has_twin >= LEAST * component.mesh.area)
+    return bool(component.mesh.face_area[has_twin].sum() >= LEAST * component.mesh.area)

@@ -40,6 +40,15 @@ def first_largest(values: np.ndarray) -> int:
     return int((values >= (1 - 1e-9) * values.max()).argmax())
 
 
+def rounded(values: np.ndarray) -> np.ndarray:
+    """Numbers without their last digits, so that rounding errors do not decide which of two equal ones is larger.
+
+    values : array of float64. Returns float64 of 26 binary digits, about eight decimal ones.
+    """
+    mantissa, exponent = np.frexp(values)
+    return np.ldexp(np.rint(mantissa * 2.0**26), exponent - 26)
+
+
 def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     """Find the connected components of elements that are joined in pairs.
 
@@ -91,6 +100,40 @@ def sums_by(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
         return np.bincount(index, values, count)
     # One column at a time is several times faster than np.add.at, and adds in the order of the rows.
     return np.stack([np.bincount(index, column, count) for column in values.T], axis=1)
+
+
+def weighted_sum(weights: np.ndarray, values: np.ndarray) -> np.ndarray | float:
+    """Sum values, each times its weight, in an order that is the same everywhere.
+
+    A product of matrices adds in an order that depends on the processor, on the number of threads, and on where in
+    memory the arrays happen to lie; what two machines decide by the result may then differ.
+
+    Parameters
+    ----------
+    weights : (n,) float64
+    values : (n,) or (n, k) float64
+
+    Returns
+    -------
+    sum : float64 or (k,) float64
+    """
+    return (weights * values.T).T.sum(axis=0)
+
+
+def inner_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Inner products of points, (n, 3), with one vector, (3,), or with several, (k, 3).
+
+    Returns (n,) or (n, k) float64, the same everywhere, see ``weighted_sum``.
+    """
+    x, y, z = (np.multiply.outer(a[:, i], b[..., i]) for i in range(3))
+    return x + y + z
+
+
+def second_moments(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Sum of the outer product of each point, (n, 3), with itself, times its weight, (n,): (3, 3) float64."""
+    x, y, z = points.T
+    xx, yy, zz, yz, zx, xy = (weighted_sum(weights, p) for p in (x * x, y * y, z * z, y * z, z * x, x * y))
+    return np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])
 
 
 def both_ways(pairs: np.ndarray) -> np.ndarray:
@@ -159,9 +202,10 @@ def spread_evenly(area: np.ndarray, order: np.ndarray, count: int) -> np.ndarray
     faces : (count,) int64 or fewer
         In their order; a face as large as several steps once.
     """
-    along = np.argsort(order, kind="stable")
+    along = np.argsort(rounded(order), kind="stable")
     total = np.cumsum(area[along])
-    steps = (np.arange(count) + 0.5) / count * total[-1]
+    # Where a face ends at a step, as many do on a regular grid, the step is in this face.
+    steps = (np.arange(count) + 0.5) / count * total[-1] * (1 - 1e-9)
     return along[np.unique(np.searchsorted(total, steps).clip(max=len(area) - 1))]
 
 
@@ -212,7 +256,8 @@ def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray
     group : (n,) int64
         Group of each element, 0..count-1.
     *keys : (n,) arrays
-        Elements are sorted by the first key, equal ones by the second, and so on.
+        Elements are sorted by the first key, equal ones by the second, and so on. Numbers that differ by rounding
+        only are equal, see ``rounded``.
     count : int
         Number of groups.
 
@@ -221,7 +266,8 @@ def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray
     last : (count,) int64
         Index of that element; of elements equal in all keys the highest index. -1 for a group without elements.
     """
-    order = np.lexsort((*reversed(keys), group))
+    exact = [rounded(key) if key.dtype == np.float64 else key for key in keys]
+    order = np.lexsort((*reversed(exact), group))
     last = np.full(count, -1, np.int64)
     last[group[order]] = order  # NumPy keeps the last of the values written to one place
     return last

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import components, distinct_pairs, last_of_each
+from .arrays import components, distinct_pairs, last_of_each, rounded, weighted_sum
 from .mesh import TriMesh
 
 # In units of the diameter of a surface: how near two pieces must come to touch, how near to belong to one body, and
@@ -50,7 +50,7 @@ class SurfacePoints:
         face_at = np.empty(mesh.n_vertices, np.int64)
         face_at[mesh.faces[::-1]] = np.arange(mesh.n_faces)[::-1, None]
         offset = np.linalg.norm(mesh.corners - mesh.face_centroids[:, None], axis=2)
-        nearest = mesh.faces[np.arange(mesh.n_faces), offset.argmin(axis=1)]
+        nearest = mesh.faces[np.arange(mesh.n_faces), rounded(offset).argmin(axis=1)]
         points = cls(
             np.concatenate([mesh.vertices, mesh.face_centroids]),
             np.concatenate([face_at, np.arange(mesh.n_faces)]),
@@ -72,8 +72,8 @@ class SurfacePoints:
 
 def diameter(position: np.ndarray, area: np.ndarray) -> float:
     """Length of a rod that is spread as far about its middle as some points of a surface, (s, 3) and (s,)."""
-    middle = area @ position / area.sum()
-    return float(np.sqrt(12.0 * (area @ ((position - middle) ** 2).sum(axis=1)) / area.sum()))
+    middle = weighted_sum(area, position) / area.sum()
+    return float(np.sqrt(12.0 * weighted_sum(area, ((position - middle) ** 2).sum(axis=1)) / area.sum()))
 
 
 def near_pairs(points: SurfacePoints, label: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:

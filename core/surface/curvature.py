@@ -125,19 +125,19 @@ def _diffuse(mesh: TriMesh, exchange: csr_array, time: float, guess: np.ndarray)
     system = diags_array(diagonal).tocsr() - time * exchange
     start, x = mass[:, None] * mesh.face_normals, guess
     residual = start - system @ x
-    goal = 2e-3 * np.linalg.norm(start)
+    goal = 2e-3 * np.sqrt((start**2).sum())
     step = gradient = residual / diagonal[:, None]
-    power = np.vdot(residual, gradient)
+    power = (residual * gradient).sum()  # in a fixed order, see ``weighted_sum``
     # Conjugate gradients take the three coordinates as one unknown, so that the result turns with the mesh.
     for _ in range(SOLVER_STEPS):
-        if np.linalg.norm(residual) <= goal:
+        if np.sqrt((residual**2).sum()) <= goal:
             break
         image = system @ step
-        length = power / max(np.vdot(step, image), 1e-300)
+        length = power / max((step * image).sum(), 1e-300)
         x = x + length * step
         residual = residual - length * image
         gradient = residual / diagonal[:, None]
-        last, power = power, np.vdot(residual, gradient)
+        last, power = power, (residual * gradient).sum()
         step = gradient + step * (power / max(last, 1e-300))
     return x / np.maximum(np.linalg.norm(x, axis=1, keepdims=True), 1e-300)
 

@@ -43,12 +43,15 @@ class PolygonMesh:
         Lengths in the caller's unit are 2**exponent times those here: a power of two, so that no digit changes. 0
         unless the mesh is very large or very small; its largest coordinate here is then between 1/2 and 1, so that no
         product of lengths overflows or vanishes.
+    vertex_rank : (n,) int64, optional
+        Place of each vertex in the caller's order, if this is another.
     """
 
     triangles: TriMesh
     polygon: np.ndarray
     n_polygons: int
     exponent: int = 0
+    vertex_rank: np.ndarray | None = None
 
     @classmethod
     def of(

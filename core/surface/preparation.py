@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..sentence import Sentence
-from .arrays import components, distinct_pairs, frozen
+from .arrays import components, distinct_pairs, frozen, renumbered
 from .contact import Bridges, bridges
 from .mesh import TriMesh
+from .ordering import Ordering
 from .polygons import MIN_FACES, PolygonMesh
 
 # Longest edge of the copy, in units of the square root of the component's area: half the radius of the disc that a base
@@ -44,12 +45,15 @@ class WorkingMesh:
         The caller's vertex at each vertex.
     notes : tuple of Sentence
         What is odd about the caller's mesh and what was repaired, one sentence each.
+    vertex_rank : (n,) int64, optional
+        Place of each vertex in the caller's order, if this is another.
     """
 
     mesh: TriMesh
     polygon: np.ndarray
     vertex_source: np.ndarray
     notes: tuple[str, ...] = ()
+    vertex_rank: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +63,7 @@ class Component:
     Attributes
     ----------
     faces : (k,) int64
-        Faces of the working mesh that form the component.
+        Faces of the working mesh that form the component, in the order of its own mesh before edges were split.
     mesh : TriMesh
         The component with its long edges split: m faces and n vertices.
     polygon : (m,) int64
@@ -92,9 +96,14 @@ class Component:
         -------
         component : Component
         """
-        whole = len(faces) == working.mesh.n_faces
-        mesh, index = (working.mesh, slice(None)) if whole else working.mesh.submesh(faces)
-        source = working.vertex_source[index]
+        mesh, source = working.mesh, working.vertex_source
+        if len(faces) < mesh.n_faces:
+            # Sorted by places of its own, so that it is what it would be without the others.
+            part, index = mesh.submesh(faces)
+            names, polygon = renumbered(working.polygon[faces])
+            rank = working.vertex_source if working.vertex_rank is None else working.vertex_rank
+            ordering = Ordering.of(part, polygon, len(names), rank[index])
+            mesh, source, faces = ordering.sorted(part), source[index][ordering.vertex], faces[ordering.triangle]
         fine, parent = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area))
         added = np.full(fine.n_vertices - len(source), -1)
         return cls(faces, fine, working.polygon[faces][parent], np.concatenate([source, added]),
@@ -180,7 +189,8 @@ def repair(given: PolygonMesh) -> WorkingMesh:
     copy, note_turned = _turn_outwards(copy)
     return WorkingMesh(copy, frozen(given.polygon[whole], np.int64),
                        frozen(vertex_source, np.int64),
-                       _notes(given) + note_joined + note_turned)
+                       _notes(given) + note_joined + note_turned,
+                       None if given.vertex_rank is None else given.vertex_rank[vertex_source])
 
 
 def split_long_edges(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndarray]:

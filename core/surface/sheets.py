@@ -16,7 +16,7 @@ from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import splu, spsolve
 from scipy.spatial import cKDTree
 
-from .arrays import spread_evenly, sums_by, symmetric_matrix
+from .arrays import inner_products, spread_evenly, sums_by, symmetric_matrix
 from .balls import ball_radius
 from .labels import majority
 from .mesh import TriMesh
@@ -128,11 +128,11 @@ def _winding(mesh: TriMesh, probe: np.ndarray, surface: np.ndarray) -> np.ndarra
 
     def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Products (a - p) (b - p), (k, s), of corners a and b of the surface as seen from the probes."""
-        return square - p @ (a + b).T + (a * b).sum(axis=1)
+        return square - inner_products(p, a + b) + (a * b).sum(axis=1)
 
     a, b, c = corners
     normal = np.cross(b - a, c - a)
-    volume = (normal * a).sum(axis=1) - p @ normal.T
+    volume = (normal * a).sum(axis=1) - inner_products(p, normal)
     la, lb, lc = (np.sqrt(np.maximum(dot(x, x), 0.0)) for x in (a, b, c))
     angle = 2 * np.arctan2(volume, la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
     angle[probe[:, None] == surface] = 0.0
@@ -259,11 +259,11 @@ def _ball_height(mesh: TriMesh, thin: np.ndarray, within: np.ndarray) -> np.ndar
     point, inwards, ends = _outline(mesh, thin, place)
     radius = ball_radius(cKDTree(np.concatenate([point, ends])), point, inwards, LARGEST)
     center = point + radius[:, None] * inwards
-    # r^2 - |x - c|^2 = r^2 - |c|^2 + 2 x c - |x|^2, of which the largest needs one product of matrices.
+    # r^2 - |x - c|^2 = r^2 - |c|^2 + 2 x c - |x|^2, of which the largest needs inner products only.
     rest, height = radius**2 - (center**2).sum(axis=1), np.zeros(mesh.n_vertices)
     for some in np.array_split(np.flatnonzero(within), 1 + len(center) * mesh.n_vertices // CHUNK):
         x = place[some]
-        height[some] = (2 * x @ center.T + rest).max(axis=1) - (x**2).sum(axis=1)
+        height[some] = (2 * inner_products(x, center) + rest).max(axis=1) - (x**2).sum(axis=1)
     return unit * np.sqrt(np.maximum(height, 0.0))
 
 

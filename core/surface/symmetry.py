@@ -14,10 +14,11 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import spread_evenly
+from .arrays import inner_products, second_moments, spread_evenly, weighted_sum
 from .contact import diameter
 from .labels import majority
 from .mesh import TriMesh
+from .ordering import principal_axes
 
 # In units of the size: how far a mirrored point may lie beside the surface where a plane is judged, and where twins
 # are found, on a model bent to one side a little; and how much a turned normal counts where the nearest face is
@@ -60,7 +61,7 @@ class MirrorPlane:
 
     def heights(self, points: np.ndarray) -> np.ndarray:
         """Signed distance of points, (k, 3), from the plane, (k,) float64."""
-        return points @ self.normal - self.offset
+        return inner_products(points, self.normal) - self.offset
 
     def mirrored(self, points: np.ndarray) -> np.ndarray:
         """Mirror images of points, (k, 3)."""
@@ -68,7 +69,7 @@ class MirrorPlane:
 
     def turned(self, directions: np.ndarray) -> np.ndarray:
         """Mirror images of directions, (k, 3)."""
-        return directions - 2.0 * (directions @ self.normal)[:, None] * self.normal
+        return directions - 2.0 * inner_products(directions, self.normal)[:, None] * self.normal
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +91,7 @@ class _Elements:
     def of(cls, mesh: TriMesh) -> tuple[_Elements, np.ndarray, float]:
         """The faces of a mesh; and the middle and the size of the surface, its diameter or the root of its area."""
         area = mesh.face_area / mesh.area
-        middle = area @ mesh.face_centroids
+        middle = weighted_sum(area, mesh.face_centroids)
         # Pieces far from each other must not make the tolerances large.
         size = min(diameter(mesh.face_centroids, mesh.face_area), np.sqrt(mesh.area))
         return cls((mesh.face_centroids - middle) / size, mesh.face_normals, area), middle, size
@@ -165,8 +166,7 @@ def mirror_plane(mesh: TriMesh) -> MirrorPlane | None:
 
 def _directions(elements: _Elements) -> np.ndarray:
     """Unit normals of the planes to try, (k, 3): the principal axes and the axes of the coordinates."""
-    moments = (elements.area[:, None] * elements.position).T @ elements.position
-    tried = list(np.linalg.eigh(moments)[1].T)
+    tried = list(principal_axes(second_moments(elements.position, elements.area), np.eye(3))[::-1])
     for axis in np.eye(3):
         if max(abs(axis @ known) for known in tried) < np.cos(np.deg2rad(3.0)):
             tried.append(axis)
@@ -191,14 +191,15 @@ def _improved(plane: MirrorPlane, surface: _Elements, probes: _Elements) -> Mirr
 def _judged(plane: MirrorPlane, surface: _Elements, probes: _Elements) -> MirrorPlane:
     """A plane with its share."""
     _, matched = _matched(probes.mirrored(plane), surface, MATCH)
-    return MirrorPlane(plane.normal, plane.offset, float(probes.area @ matched))
+    return MirrorPlane(plane.normal, plane.offset, float(probes.area[matched].sum()))
 
 
 def _halfway(before: np.ndarray, after: np.ndarray) -> MirrorPlane:
     """The plane that mirrors points best onto others, (k, 3): across their differences, through their middles."""
     apart, middle = before - after, (before + after) / 2
     center = middle.mean(axis=0)
-    across, along = apart.T @ apart, (middle - center).T @ (middle - center)
+    every = np.ones(len(apart))
+    across, along = second_moments(apart, every), second_moments(middle - center, every)
     scale = np.trace(across) or 1.0, np.trace(along) or 1.0
     normal = np.linalg.eigh(across / scale[0] - along / scale[1])[1][:, -1]
     return _oriented(normal, normal @ center)
@@ -269,7 +270,7 @@ def _exact_twins(
     same = apart <= EXACT * np.sqrt(whole.area)
     same &= (image.normal * normal[nearest]).sum(axis=1) > 0.99 * (normal**2).sum(axis=1)
     same &= np.abs(whole.area - whole.area[nearest]) <= EXACT * whole.area
-    if n_polygons < MANY_FACES and whole.area @ same < MOSTLY:
+    if n_polygons < MANY_FACES and whole.area[same].sum() < MOSTLY:
         return np.full(n_polygons, -1)
     twin = chosen.copy()
     twin[present[same]] = present[nearest[same]]

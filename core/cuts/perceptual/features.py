@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...surface.arrays import rounded
 from .measures import BORDER, REGION, matrices, products
 
 #: Features of one region. perimeter_ratio and extent_1 are in units of the square root of the region's area, extent_2
@@ -155,7 +156,8 @@ def cut_features(regions: RegionMeasures, ends: np.ndarray, border: np.ndarray) 
         The features FEATURES, in this order: of the cut, of the smaller region, of the larger region, of their union.
     """
     r, b = REGION, BORDER
-    swap = regions.sums[ends[:, 0], r.area] > regions.sums[ends[:, 1], r.area]
+    area = rounded(regions.sums[:, r.area])
+    swap = area[ends[:, 0]] > area[ends[:, 1]]
     small, large = np.where(swap[:, None], ends[:, ::-1], ends).T
     length = np.maximum(border[:, b.length], 1e-9)
     union = region_shape(

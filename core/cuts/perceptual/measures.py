@@ -15,6 +15,7 @@ import numpy as np
 
 from ...field.agd import ScalarField, equalize
 from ...graph.level_sets import LevelSets
+from ...surface.arrays import weighted_sum
 from ...surface.curvature import angle_defect, curvature_across
 from .thickness import LARGEST, thickness
 
@@ -102,7 +103,8 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
     log_thickness, log_clearance = (np.log(radius / LARGEST) for radius in thickness(mesh, agd))
     log_contour = np.log(_contour_length(sets))
     share = mesh.face_area / mesh.area
-    center = (mesh.face_centroids - share @ mesh.face_centroids) / unit
+    centroid = weighted_sum(share, mesh.face_centroids)
+    center = (mesh.face_centroids - centroid) / unit
     normal = mesh.face_normals
     face = np.column_stack([
         np.ones(mesh.n_faces), center, products(center), normal, products(normal),
@@ -113,7 +115,7 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
     curvature = curvature_across(mesh)
     a, b = mesh.edges.pairs.T
     middle = mesh.vertices[mesh.edges.vertices[mesh.edges.pair_edge]].mean(axis=1)
-    middle = (middle - share @ mesh.face_centroids) / unit
+    middle = (middle - centroid) / unit
     pair = np.column_stack([
         np.ones(len(a)), *curvature, *(np.minimum(c, 0.0) for c in curvature),
         *(curvature < CREASE), np.minimum(mesh.dihedral, 0.0),

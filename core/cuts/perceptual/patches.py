@@ -14,7 +14,15 @@ import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
 from ...graph.level_sets import LevelSets, cut_at_levels, uniform_levels
-from ...surface.arrays import components, first_largest, last_of_each, renumbered, symmetric_matrix
+from ...surface.arrays import (
+    components,
+    first_largest,
+    last_of_each,
+    renumbered,
+    rounded,
+    symmetric_matrix,
+    weighted_sum,
+)
 from ...surface.labels import label_boundaries, longest_neighbor, majority
 from ...surface.mesh import TriMesh
 
@@ -27,6 +35,7 @@ ROUNDS = 3  # number of rounds in which two thirds of the seeds are added; the f
 # the shared edge, plus TURN per radian of a convex turn, or TURN * CONCAVE per radian of a concave turn.
 TURN = 0.1
 CONCAVE = 20.0
+STEP = 2.0**-22  # unit of these lengths
 SLABS = 24  # number of slabs whose pieces are the patches of ``level_set_patches``
 SMALLEST = 0.0004  # share of the area of the surface below which a patch joins a neighbor
 
@@ -106,7 +115,7 @@ def absorb_small(mesh: TriMesh, label: np.ndarray, least_area: float) -> np.ndar
         Patch of each face, numbered anew from 0.
     """
     while True:
-        area = np.bincount(label, mesh.face_area)
+        area = rounded(np.bincount(label, mesh.face_area))
         goal = longest_neighbor(*label_boundaries(label, mesh.edges.pairs, mesh.pair_length), len(area))
         goal = np.where(goal >= 0, goal, np.arange(len(area)))
         # A patch joins larger patches only, so that two patches never join each other.
@@ -123,14 +132,15 @@ def _crease_graph(mesh: TriMesh) -> csr_array:
     """Symmetric (m, m) matrix of the lengths of the ways between neighboring faces; TURN has the formula."""
     turn = mesh.dihedral
     length = mesh.pair_distance / np.sqrt(mesh.area) + TURN * np.where(turn < 0, -CONCAVE * turn, turn)
-    # SciPy takes a stored 0 for "no edge".
-    return symmetric_matrix(mesh.edges.pairs, np.maximum(length, 1e-9), mesh.n_faces)
+    # In whole steps, whose sums are exact: of two ways that are equally long, rounding must not choose. SciPy takes a
+    # stored 0 for "no edge".
+    return symmetric_matrix(mesh.edges.pairs, np.maximum(np.rint(length / STEP), 1.0), mesh.n_faces)
 
 
 def _first_seeds(mesh: TriMesh, count: int) -> np.ndarray:
     """Faces found by farthest-point sampling with straight distances, (count,) int64 or fewer."""
     center = mesh.face_centroids
-    middle = mesh.face_area @ center / mesh.area
+    middle = weighted_sum(mesh.face_area, center) / mesh.area
     seeds = [first_largest(((center - middle) ** 2).sum(axis=1))]
     nearest = np.full(mesh.n_faces, np.inf)
     while len(seeds) < min(count, mesh.n_faces):

@@ -9,13 +9,14 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import spread_evenly
+from ...surface.arrays import rounded, spread_evenly
 from ...surface.balls import ball_radius
 from ...surface.mesh import TriMesh
 
 LARGEST = 0.2  # radius at which balls begin to shrink, in units of the square root of the area
 N_SURFACE = 12_000  # upper bound of the number of points that represent the surface
 N_PROBES = 2_500  # upper bound of the number of faces measured; a face gets the mean of the three nearest of them
+AMONG = 6  # upper bound of their number, as several may be equally near
 
 
 def thickness(mesh: TriMesh, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -41,11 +42,20 @@ def thickness(mesh: TriMesh, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     tree = cKDTree(surface)
     # The nearest probe is searched by position and normal, so that it is on the same side of a thin wall.
     place = np.hstack([center, 0.05 * normal])
-    _, near = cKDTree(place[probe]).query(place, k=min(3, len(probe)))
-    near = near.reshape(len(place), -1)
+    near, counts = _nearest(cKDTree(place[probe]), place)
+    share = counts / counts.sum(axis=1, keepdims=True)
     return tuple(
-        np.exp(np.log(_radius(tree, center[probe], side * normal[probe]))[near].mean(axis=1))
+        np.exp((share * np.log(_radius(tree, center[probe], side * normal[probe]))[near]).sum(axis=1))
         for side in (-1.0, 1.0))
+
+
+def _nearest(tree: cKDTree, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Nearest points of a tree, (k, AMONG) or fewer, and which of them count, (k, AMONG) bool.
+
+    The first three count, and others as near as the third: on a regular grid, rounding must not choose.
+    """
+    distance, near = tree.query(place, k=list(range(1, min(AMONG, tree.n) + 1)))
+    return near, rounded(distance) <= rounded(distance[:, min(2, tree.n - 1), None])
 
 
 def _radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray) -> np.ndarray:

@@ -143,7 +143,9 @@ def test_finer_candidates_change_no_parts(result, tree, seed):
 def test_the_graph_follows_a_branch_that_is_cut_half_way(result, tree):
     """Once they stayed with the old candidate: the graph's colors, picking and the JSON named the wrong part."""
     graph, table = tree
-    tip = int(np.flatnonzero(result.graph.node_kind == MAXIMUM)[0])
+    tips = np.flatnonzero(result.graph.node_kind == MAXIMUM)
+    points = np.bincount(result.point_candidate, minlength=result.n_candidates)
+    tip = int(tips[points[result.node_candidate[tips]].argmax()])  # of a branch long enough to be halved
     branch = result.node_candidate[tip]
     mine = np.flatnonzero(result.point_candidate == branch)
     level = np.median(result.graph.point_value[mine])

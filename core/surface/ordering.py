@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An order of faces and vertices that the shape alone decides.
+
+Of two cuts, seeds or neighbors that are equally good, the first is chosen, and symmetric or regular meshes are full of
+such pairs. The caller's order must not be what decides: the same model, exported again, is to have the same parts. So
+every run begins by sorting faces and vertices by their place along the principal axes of the surface, and ends by
+bringing the result back to the caller's order. What lies near each other then also lies near in memory.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .arrays import components, frozen, inner_products, renumbered, second_moments, sums_by, weighted_sum
+from .mesh import TriMesh
+from .polygons import PolygonMesh
+
+# Places are compared by whole steps, the largest coordinate being so many, so that rounding does not decide; only what
+# is at one place by COARSE is compared by FINE.
+COARSE, FINE = 2**19, 2**40
+# Shifts and masks that put two zeros before each of 21 binary digits.
+_SPREAD = ((32, 0x1F00000000FFFF), (16, 0x1F0000FF0000FF), (8, 0x100F00F00F00F00F), (4, 0x10C30C30C30C30C3),
+           (2, 0x1249249249249249))
+EQUAL = 1e-6  # relative difference below which two moments are equal
+LEAST_PIECE = 0.01  # share of the faces from which a piece is sorted in a frame of its own
+EVEN = 1e-9  # relative size of a third moment below which both sides are alike
+
+
+@dataclass(frozen=True, eq=False)
+class Ordering:
+    """Where the vertices, triangles and polygons of a sorted mesh are in that which was given.
+
+    The order does not depend on that of the given faces, nor on pose and scale; on that of the given vertices only
+    where a symmetry of the shape leaves several orders.
+
+    Attributes
+    ----------
+    vertex : (n,) int64
+        The given vertex at each place.
+    triangle : (m,) int64
+        The given triangle at each place.
+    polygon : (p,) int64
+        The given polygon at each place.
+    """
+
+    vertex: np.ndarray
+    triangle: np.ndarray
+    polygon: np.ndarray
+
+    @classmethod
+    def of(
+        cls, mesh: TriMesh, polygon: np.ndarray, n_polygons: int, vertex_rank: np.ndarray | None = None
+    ) -> Ordering:
+        """Find the order of a mesh of m triangles and n vertices.
+
+        polygon : (m,) int64, of each triangle, 0..n_polygons-1. vertex_rank : (n,) int64, the order of the vertices
+        that decides where the shape is symmetric; that in which they are without it.
+        """
+        corner, normal = _in_own_frame(mesh, vertex_rank)
+        center = corner[mesh.faces].mean(axis=1)
+
+        def beside() -> np.ndarray:
+            """What lies around each vertex, (n, 3): seams have two vertices at one place."""
+            around = sums_by(mesh.faces.ravel(), np.repeat((center + normal) / 2, 3, axis=0), mesh.n_vertices)
+            return around / np.maximum(np.bincount(mesh.faces.ravel(), minlength=mesh.n_vertices), 1)[:, None]
+
+        count = np.maximum(np.bincount(polygon, minlength=n_polygons), 1)[:, None]
+        by_place = _order(sums_by(polygon, center, n_polygons) / count,
+                          lambda: sums_by(polygon, normal, n_polygons) / count)
+        triangle = np.argsort(_inverse(by_place)[polygon], kind="stable")
+        return cls(_order(corner, beside), triangle, by_place)
+
+    def with_piece(self, piece: Ordering, vertex: np.ndarray, polygon: np.ndarray) -> Ordering:
+        """The order with the vertices and polygons of a piece, in their places, in the order of the piece.
+
+        vertex, polygon : those of the mesh that are the vertices and polygons of the piece. The triangles stay.
+        """
+        changed = {}
+        for name, inside in (("vertex", vertex), ("polygon", polygon)):
+            order = getattr(self, name).copy()
+            within = np.zeros(len(order), bool)
+            within[inside] = True
+            order[within[order]] = inside[getattr(piece, name)]
+            changed[name] = order
+        return replace(self, **changed)
+
+    def sorted(self, mesh: TriMesh) -> TriMesh:
+        """The mesh that was given, in this order; each triangle begins with its first vertex."""
+        faces = _inverse(self.vertex)[mesh.faces[self.triangle]]
+        turn = (faces.argmin(axis=1)[:, None] + np.arange(3)) % 3
+        return TriMesh(mesh.vertices[self.vertex], np.take_along_axis(faces, turn, axis=1))
+
+
+def sorted_by_place(given: PolygonMesh) -> tuple[PolygonMesh, Ordering]:
+    """Sort faces and vertices by where they are.
+
+    Large pieces are sorted in frames of their own, so that they are what they would be without the others.
+
+    given : PolygonMesh. Returns the same surface, and where its elements are in the one given.
+    """
+    mesh = given.triangles
+    ordering = Ordering.of(mesh, given.polygon, given.n_polygons)
+    a, b, c = mesh.faces.T
+    _, piece = components(mesh.n_vertices, np.concatenate([a, b]), np.concatenate([b, c]))
+    size = np.bincount(piece[a])
+    for chosen in np.flatnonzero((size >= LEAST_PIECE * mesh.n_faces) & (size < mesh.n_faces)).tolist():
+        faces = np.flatnonzero(piece[a] == chosen)
+        part, index = mesh.submesh(faces)
+        names, polygon = renumbered(given.polygon[faces])
+        ordering = ordering.with_piece(Ordering.of(part, polygon, len(names)), index, names)
+    ordering = replace(ordering, triangle=np.argsort(_inverse(ordering.polygon)[given.polygon], kind="stable"))
+    number = _inverse(ordering.polygon)[given.polygon[ordering.triangle]]
+    return replace(given, triangles=ordering.sorted(mesh), polygon=frozen(number, np.int64),
+                   vertex_rank=frozen(ordering.vertex, np.int64)), ordering
+
+
+def principal_axes(moments: np.ndarray, toward: np.ndarray) -> np.ndarray:
+    """Find the principal axes of second moments.
+
+    All directions across the axis of a solid of revolution, and all of a ball, are principal axes: rounding must not
+    choose between them.
+
+    Parameters
+    ----------
+    moments : (3, 3) float64
+    toward : (k, 3) float64
+        Directions that span the space. Where any axis would do, it points to the first of them that is not much shorter
+        than the others, as seen along the axes there are.
+
+    Returns
+    -------
+    axes : (3, 3) float64
+        Unit vectors of either sign, a row each, that of the largest moment first.
+    """
+    values, vectors = np.linalg.eigh(moments)
+    equal = np.diff(values) <= EQUAL * values[-1]
+    if not equal.any():
+        return vectors.T[::-1]
+    axis = _across(toward, np.empty((0, 3))) if equal.all() else vectors[:, 2 if equal[0] else 0]
+    beside = _across(toward, axis[None])
+    pair = [beside, np.cross(axis, beside)]
+    return np.array([axis, *pair] if equal[0] else [*pair, axis])
+
+
+def _across(toward: np.ndarray, axes: np.ndarray) -> np.ndarray:
+    """Unit vector, (3,), to the first of some directions, (k, 3), that is at least half as long across the axes."""
+    for axis in axes:
+        toward = toward - inner_products(toward, axis)[:, None] * axis
+    length = np.linalg.norm(toward, axis=1)
+    first = (length >= 0.5 * length.max()).argmax()
+    return toward[first] / max(length[first], 1e-300)
+
+
+def _in_own_frame(mesh: TriMesh, vertex_rank: np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
+    """Place of each vertex, (n, 3), and normal of each face, (m, 3), along the axes of the surface itself.
+
+    Places are from its middle, in units of the largest coordinate of a vertex with a face. Each axis points to where
+    the farther places are, or away from there; where both sides are alike, the first vertex that is clearly on one side
+    decides.
+    """
+    middle = weighted_sum(mesh.face_area, mesh.face_centroids) / mesh.area
+    used = np.unique(mesh.faces)
+    if vertex_rank is not None:
+        used = used[np.argsort(vertex_rank[used], kind="stable")]
+    position = mesh.face_centroids - middle
+    corner = np.zeros((mesh.n_vertices, 3))
+    corner[used] = mesh.vertices[used] - middle
+    axes = principal_axes(second_moments(position, mesh.face_area), corner[used])
+    for axis in axes:
+        along = inner_products(position, axis)
+        lean = (mesh.face_area * along**3).sum() / max((mesh.face_area * np.abs(along) ** 3).sum(), 1e-300)
+        if abs(lean) < EVEN:
+            height = inner_products(corner[used], axis)
+            lean = height[(np.abs(height) >= 0.5 * np.abs(height).max()).argmax()]
+        axis *= -1.0 if lean < 0 else 1.0
+    axes[[0, 2]] *= -1.0  # which end comes first is a convention
+    corner = inner_products(corner, axes)
+    return corner / np.abs(corner).max(), inner_products(mesh.face_normals, axes)
+
+
+def _order(place: np.ndarray, beside: Callable[[], np.ndarray]) -> np.ndarray:
+    """Sort points by their place, and points at one place by what is beside them; (n,) int64.
+
+    place, and what ``beside`` returns : (n, 3), between -1 and 1.
+    """
+    cell = _cell(place)
+    order = np.argsort(cell, kind="stable")
+    same = cell[order[1:]] == cell[order[:-1]]
+    tied = np.flatnonzero(np.append(same, False) | np.append(False, same))
+    if len(tied):
+        some = order[tied]
+        x, y, z = np.rint(place[some] * FINE).astype(np.int64).T
+        order[tied] = some[np.lexsort((_cell(beside()[some]), z, y, x, cell[some]))]
+    return order
+
+
+def _cell(place: np.ndarray) -> np.ndarray:
+    """Number of the cell of space in which each point lies, (n,) int64, along the curve of [Morton1966].
+
+    The curve stays long in one region of space before it goes on to the next. Sorted along an axis, the first of equals
+    would lie on one side of the shape always, and neighbors far apart in memory.
+    """
+    number = np.zeros(len(place), np.int64)
+    for axis, column in enumerate((np.rint(place * COARSE).astype(np.int64) + COARSE).T):
+        for shift, mask in _SPREAD:
+            column = (column | column << shift) & mask
+        number |= column << axis
+    return number
+
+
+def _inverse(order: np.ndarray) -> np.ndarray:
+    """Place of each element in an order."""
+    place = np.empty(len(order), np.int64)
+    place[order] = np.arange(len(order))
+    return place

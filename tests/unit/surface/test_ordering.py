@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The order in which a mesh is worked on: that of its places, whatever the caller's."""
+
+
+import numpy as np
+import pytest
+import shapes
+from shapes import Shape
+
+from core import Parameters, decompose
+from core.surface.ordering import principal_axes, sorted_by_place
+from core.surface.polygons import PolygonMesh
+
+
+def bent(shape):
+    """A shape without any symmetry."""
+    x, y, z = shape.vertices.T
+    return Shape(np.stack([x + 0.3 * z**2 + 0.1 * y, 1.3 * y + 0.2 * x * z, z + 0.15 * x**2], axis=1), shape.faces)
+
+
+LOPSIDED = {"sphere": bent(shapes.icosphere(3)), "torus": bent(shapes.torus(24, 9)), "tree": bent(shapes.tube_tree()),
+            "grid": bent(Shape(shapes.flat_grid(9, 5).vertices / 9, shapes.flat_grid(9, 5).faces))}
+
+
+def sorted_mesh(shape):
+    mesh, ordering = sorted_by_place(PolygonMesh.of(*shape))
+    return mesh, ordering
+
+
+@pytest.mark.parametrize("name", LOPSIDED)
+def test_neither_order_nor_pose_nor_scale_changes_the_order(name):
+    one, _ = sorted_mesh(LOPSIDED[name])
+    for seed in range(3):
+        rng = np.random.default_rng(seed)
+        turn, by = shapes.rotation(rng), rng.normal(size=3)
+        moved = Shape(3.7 * LOPSIDED[name].vertices @ turn.T + by, LOPSIDED[name].faces)
+        two, ordering = sorted_mesh(shapes.shuffled(moved, rng)[0])
+        np.testing.assert_array_equal(one.triangles.faces, two.triangles.faces)
+        np.testing.assert_allclose(3.7 * one.triangles.vertices @ turn.T + by, two.triangles.vertices, atol=1e-12)
+        assert sorted(ordering.vertex.tolist()) == list(range(len(moved.vertices)))
+        assert sorted(ordering.polygon.tolist()) == list(range(len(moved.faces)))
+
+
+@pytest.mark.parametrize("shape", [shapes.icosphere(2), shapes.torus(), shapes.dumbbell(), shapes.flat_grid(6, 6)])
+def test_of_symmetric_shapes_the_order_of_the_faces_changes_nothing(shape):
+    one, _ = sorted_mesh(shape)
+    face = np.random.default_rng(0).permutation(len(shape.faces))
+    two, _ = sorted_mesh(Shape(shape.vertices, shape.faces[face]))
+    np.testing.assert_array_equal(one.triangles.faces, two.triangles.faces)
+    np.testing.assert_array_equal(one.triangles.vertices, two.triangles.vertices)
+
+
+def test_polygons_stay_whole():
+    _, ordering = sorted_mesh(LOPSIDED["grid"])
+    faces = LOPSIDED["grid"].faces
+    mesh, ordering = sorted_by_place(PolygonMesh.of(LOPSIDED["grid"].vertices, faces, np.arange(len(faces)) // 2))
+    for place, polygon in enumerate(ordering.polygon.tolist()):
+        here = ordering.vertex[mesh.triangles.faces[mesh.polygon == place]]
+        assert {frozenset(t) for t in here.tolist()} == {frozenset(t) for t in faces[2 * polygon:2 * polygon + 2].tolist()}
+
+
+def test_two_vertices_at_one_place_are_told_apart_by_their_faces():
+    """A seam: the sphere is cut in two, and both halves have the vertices between them."""
+    sphere = LOPSIDED["sphere"]
+    upper = sphere.vertices[sphere.faces].mean(axis=1)[:, 2] > 0
+    cut = Shape(np.concatenate([sphere.vertices, sphere.vertices]),
+                np.where(upper[:, None], sphere.faces, sphere.faces + len(sphere.vertices)))
+    used = np.unique(cut.faces)
+    cut = Shape(cut.vertices[used], np.searchsorted(used, cut.faces))
+    one, _ = sorted_mesh(cut)
+    two, _ = sorted_mesh(shapes.shuffled(cut, np.random.default_rng(0))[0])
+    np.testing.assert_array_equal(one.triangles.faces, two.triangles.faces)
+
+
+def test_principal_axes_of_what_has_more_than_three():
+    eye = np.eye(3)
+    np.testing.assert_allclose(principal_axes(np.diag([2.0, 2.0, 2.0]), eye), eye, atol=1e-12)
+    toward = np.array([(0.01, 0, 5), (3.0, 4.0, 1.0), (1, 0, 0)])
+    axes = principal_axes(np.diag([1.0, 1.0, 7.0]), toward)
+    np.testing.assert_allclose(np.abs(axes[0]), (0, 0, 1), atol=1e-12)
+    np.testing.assert_allclose(axes[1], (0.6, 0.8, 0), atol=1e-12)
+    np.testing.assert_allclose(axes @ axes.T, eye, atol=1e-12)
+
+
+@pytest.mark.parametrize("parameters", [Parameters(), Parameters(symmetry=False, pieces="separate")])
+def test_a_model_exported_again_has_the_same_parts(parameters):
+    """To the last bit: other numbers for its vertices, other faces first."""
+    rng = np.random.default_rng(5)
+    noisy = shapes.flat_grid(30, 20)
+    noisy = Shape(noisy.vertices / 30 + rng.normal(scale=0.004, size=noisy.vertices.shape), noisy.faces)
+    for shape in (LOPSIDED["tree"], noisy, shapes.together(LOPSIDED["torus"], LOPSIDED["sphere"])):
+        other, vertex, face = shapes.shuffled(shape, rng)
+        one, two = decompose(*shape, parameters), decompose(*other, parameters)
+        np.testing.assert_array_equal(one.field[vertex], two.field)
+        np.testing.assert_array_equal(one.hierarchy.salience, two.hierarchy.salience)
+        np.testing.assert_array_equal(one.candidates[face], two.candidates)
+        np.testing.assert_array_equal(one.graph.node_position, two.graph.node_position)
+        if len(one.face_twin):
+            back = np.argsort(face)
+            np.testing.assert_array_equal(np.append(back, -1)[one.face_twin[face]], two.face_twin)
+
+
+def test_box_frames_with_their_faces_in_another_order():
+    frame = shapes.torus(4, 4)
+    face = np.random.default_rng(2).permutation(len(frame.faces))
+    one, two = decompose(*frame), decompose(frame.vertices, frame.faces[face])
+    np.testing.assert_array_equal(one.candidates[face], two.candidates)
+    np.testing.assert_array_equal(one.hierarchy.merges, two.hierarchy.merges)
+
+
+def test_moved_far_away():
+    shape = LOPSIDED["tree"]
+    one, two = decompose(*shape), decompose(shape.vertices + (40.0, -7.0, 0.3), shape.faces)
+    np.testing.assert_array_equal(one.candidates, two.candidates)
