@@ -80,3 +80,19 @@ def test_the_panel_comes_up_without_scipy():
     code = "import sys; sys.modules['scipy'] = None\n" + "\n".join(f"import {name}" for name in sorted(names))
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_no_shipped_module_starts_threads():
+    """Blender's Python does not support them, and the moderators of its extensions site refuse them."""
+    refused = {"threading", "_thread", "multiprocessing", "concurrent", "asyncio"}
+    builder = (ROOT / "tools" / "build.py").read_text(encoding="utf-8")
+    folders = [name for name in ("batch", "core", "operators", "scene", "ui", "viewport") if f'"{name}"' in builder]
+    paths = [ROOT / "__init__.py", *(path for name in folders for path in (ROOT / name).rglob("*.py"))]
+    assert len(folders) == 6
+    found = set()
+    for path in paths:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module or ""] if isinstance(node, ast.ImportFrom) and not node.level else []
+            found |= {(path.relative_to(ROOT).as_posix(), name) for name in names if name.split(".")[0] in refused}
+    assert found == set()
