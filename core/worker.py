@@ -24,6 +24,9 @@ from .pipeline import decompose
 
 # Seconds between two messages about progress; nobody looks more often.
 INTERVAL = 0.02
+# How far the window of the process that asked goes first where both want a processor, as of Unix's ``nice``. On two
+# busy cores the window was drawn 0.6 times as often as before without it, and as often as before with it.
+NICE = 5
 
 
 def run(folder: Path) -> None:
@@ -40,6 +43,8 @@ def run(folder: Path) -> None:
     {"shape", "done": true} and {"shape", "error"}, and in the end {"end": true}; without that, the run has failed, and
     what it failed of is on standard error. {"failed": "memory"} says what else could not be told apart from a crash.
     """
+    if sys.platform != "win32":  # there, who starts the process says so
+        os.nice(NICE)
     _end_with_parent(folder)
     say(ready=True)
     try:

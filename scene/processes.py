@@ -30,6 +30,8 @@ import pathlib
 from core.worker import run
 run(pathlib.Path(folder))
 """
+# For Windows: no console, and Blender's window goes first, see core.worker.NICE.
+_FLAGS = getattr(subprocess, "CREATE_NO_WINDOW", 0) | getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)
 # Exit statuses of Windows where there is no memory left: STATUS_NO_MEMORY, STATUS_COMMITMENT_LIMIT.
 _NO_MEMORY = {0xC0000017, 0xC000012D}
 _SAYS_NO_MEMORY = ("MemoryError", "bad_alloc", "Memory allocation")  # of Python, C++ and OpenBLAS
@@ -85,8 +87,7 @@ class Worker:
         options = dict.fromkeys(["-I", "-S", *bpy.app.python_args, *(["-B"] if sys.dont_write_bytecode else [])])
         command = [python, *options, "-c", _START, own, str(self.folder), *_libraries()]
         with open(self.folder / "messages", "wb") as out, open(self.folder / "errors", "wb") as errors:
-            return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=out, stderr=errors,
-                                    creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0))
+            return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=out, stderr=errors, creationflags=_FLAGS)
 
     @property
     def pid(self) -> int:

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh of a million vertices is decomposed while somebody turns the view, in a real window: how often it is drawn,
+and what Esc leaves.
+
+Executed inside Blender as driver.py is, which says how.
+"""
+
+import json
+import os
+import sys
+import time
+
+import bpy
+from mathutils import Quaternion
+
+sys.path.append(os.path.dirname(__file__))
+import pointer
+
+CUTS = 18  # of every edge: 1,060,000 vertices
+SECONDS = float(os.environ.get("FLUID_SECONDS", "15"))  # how long it is watched
+
+drawn = []  # when the view was drawn
+
+
+def steps():
+    """One step after the other; yields the seconds to wait."""
+    seen = {}
+    yield from pointer.spot_alone()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide(number_cuts=CUTS)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    draw_little()
+    yield 2.0
+    seen["vertices"] = len(mesh().vertices)
+    handle = bpy.types.SpaceView3D.draw_handler_add(lambda: drawn.append(time.monotonic()), (), "WINDOW", "POST_PIXEL")
+    yield from turned(6.0)
+    seen["idle"] = rates()
+    yield from pointer.push("reeb_parts.decompose")
+    yield from pointer.until(lambda: job() is not None, pointer.PATIENCE)
+    yield from pointer.until(lambda: job() is None or job().stage)
+    begin = time.monotonic()
+    yield from turned(SECONDS, lambda: job() is not None)
+    seen["computing"] = rates()
+    seen["watched"] = time.monotonic() - begin
+    pointer.shot("1_computing.png")
+    if job() is not None:
+        seen["stage"], pid = job().stage, job().pid
+        seen["files"] = sorted(os.listdir(job()._worker.folder))
+        pointer.xdo("mousemove", *pointer.in_view())
+        yield 0.1
+        begin = time.monotonic()
+        pointer.xdo("key", "Escape")
+        while job() is not None:
+            yield 0.01
+        seen["ended after"] = time.monotonic() - begin
+        seen["process"] = os.path.exists(f"/proc/{pid}")
+    yield from turned(3.0)
+    seen["afterwards"] = rates()
+    bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
+    seen["left"] = [name for name in os.listdir(bpy.app.tempdir) if name.startswith("reeb_parts_")]
+    seen["parts"] = len(mesh().reeb_parts.parts)
+    seen["attributes"] = sorted(a.name for a in mesh().attributes)
+    (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
+
+
+def draw_little():
+    """Where there is no graphics card, drawing two million faces takes a second, whatever else happens."""
+    if "FLUID_ALL" not in os.environ:
+        bpy.data.objects["spot"].display_type = "BOUNDS"
+        bpy.context.preferences.system.viewport_aa = "OFF"
+        pointer.view_area().spaces.active.overlay.show_floor = False
+
+
+def job():
+    """What is being computed, or None."""
+    return sys.modules["bl_ext.user_default.reeb_parts.scene.jobs"].current
+
+
+def turned(seconds, going=lambda: True):
+    """Turn the view a little at every chance, as a drag does; counting begins anew."""
+    view = pointer.view_area().spaces.active.region_3d
+    drawn.clear()
+    end = time.monotonic() + seconds
+    while time.monotonic() < end and going():
+        view.view_rotation = view.view_rotation @ Quaternion((0.0, 0.0, 1.0), 0.02)
+        pointer.region("WINDOW").tag_redraw()
+        yield 0.0
+
+
+def rates():
+    """Redraws per second, the longest time between two of them, and that which 95 of 100 do not exceed."""
+    gaps = sorted(b - a for a, b in zip(drawn, drawn[1:], strict=False))
+    return {"count": len(drawn), "per second": len(gaps) / sum(gaps), "longest": gaps[-1],
+            "95 %": gaps[int(0.95 * len(gaps))]}
+
+
+def mesh():
+    """Looked up anew, since undo replaces it."""
+    return bpy.data.objects["spot"].data
