@@ -15,6 +15,7 @@ import signal
 import sys
 import time
 import traceback
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -89,16 +90,18 @@ def _arguments(folder: Path, number: int, parameters: Any) -> tuple:
 def _end_with_parent(folder: Path) -> None:
     """Have this process look whether it is alone when something happens to the pipe, as far as the system tells.
 
-    Windows does not: there it is seen at the next step of the progress.
+    Where the system does not, as on Windows, it is seen at the next step of the progress.
     """
     # Ctrl+C in the console is for the process that asked; that one decides what becomes of this one.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform != "win32":
         import fcntl
 
+        os.set_blocking(0, False)
         signal.signal(signal.SIGIO, lambda *_: _end_if_alone(folder))
-        fcntl.fcntl(0, fcntl.F_SETOWN, os.getpid())
-        fcntl.fcntl(0, fcntl.F_SETFL, fcntl.fcntl(0, fcntl.F_GETFL) | os.O_ASYNC | os.O_NONBLOCK)
+        with suppress(OSError):  # of a system that sends no signals for pipes
+            fcntl.fcntl(0, fcntl.F_SETOWN, os.getpid())
+            fcntl.fcntl(0, fcntl.F_SETFL, fcntl.fcntl(0, fcntl.F_GETFL) | os.O_ASYNC)
     _end_if_alone(folder)
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy
 import shapes
 
 from core import Parameters, decompose, handover
@@ -23,8 +24,9 @@ def start(folder, *given, parameters=None):
     """The process for some shapes, with its standard input and output."""
     arrays = [(s.vertices, s.faces, np.arange(len(s.faces))) for s in given]
     handover.write_request(folder, arrays, parameters or Parameters())
-    code = f"import sys; sys.path.insert(0, {str(OWN)!r}); import pathlib; from core.worker import run; " \
-           f"run(pathlib.Path({str(folder)!r}))"
+    libraries = sorted({str(Path(module.__path__[0]).parent) for module in (np, scipy)})
+    code = f"import sys; sys.path[:] = [{str(OWN)!r}, *sys.path, *{libraries}]; import pathlib; " \
+           f"from core.worker import run; run(pathlib.Path({str(folder)!r}))"
     return subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE)
 

@@ -7,6 +7,7 @@ Executed inside Blender as driver.py is, which says how.
 
 import json
 import os
+import signal
 import sys
 import time
 
@@ -36,15 +37,13 @@ def steps():
     handle = bpy.types.SpaceView3D.draw_handler_add(lambda: drawn.append(time.monotonic()), (), "WINDOW", "POST_PIXEL")
     yield from turned(6.0)
     seen["idle"] = rates()
-    yield from pointer.push("reeb_parts.decompose")
-    yield from pointer.until(lambda: job() is not None, pointer.PATIENCE)
-    yield from pointer.until(lambda: job() is None or job().stage)
+    yield from started()
     begin = time.monotonic()
     yield from turned(SECONDS, lambda: job() is not None)
     seen["computing"] = rates()
     seen["watched"] = time.monotonic() - begin
     pointer.shot("1_computing.png")
-    if job() is not None:
+    if job() is not None:  # it may be over by then if FLUID_SECONDS says so
         seen["stage"], pid = job().stage, job().pid
         seen["files"] = sorted(os.listdir(job()._worker.folder))
         pointer.xdo("mousemove", *pointer.in_view())
@@ -55,13 +54,36 @@ def steps():
             yield 0.01
         seen["ended after"] = time.monotonic() - begin
         seen["process"] = os.path.exists(f"/proc/{pid}")
+        seen["cancelled"] = facts()
     yield from turned(3.0)
     seen["afterwards"] = rates()
     bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
-    seen["left"] = [name for name in os.listdir(bpy.app.tempdir) if name.startswith("reeb_parts_")]
-    seen["parts"] = len(mesh().reeb_parts.parts)
-    seen["attributes"] = sorted(a.name for a in mesh().attributes)
+    yield from started()
+    os.kill(job().pid, signal.SIGSEGV)
+    yield from pointer.until(lambda: job() is None)
+    yield 0.5
+    pointer.shot("2_crashed.png")
+    seen["crashed"] = facts()
+    yield from started()
+    # Blender quits now.
+    seen["last"] = {"pid": job().pid, "folder": str(job()._worker.folder)}
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
+
+
+def started():
+    """Press Decompose, and wait until something is being computed."""
+    yield from pointer.push("reeb_parts.decompose")
+    yield from pointer.until(lambda: job() is not None and job().stage, pointer.PATIENCE)
+
+
+def facts():
+    """What is left in the file and on the disk."""
+    return {
+        "folders": [name for name in os.listdir(bpy.app.tempdir) if name.startswith("reeb_parts_")],
+        "parts": len(mesh().reeb_parts.parts),
+        "attributes": [a.name for a in mesh().attributes if a.name.lower().startswith("reeb")],
+        "objects": [obj.name for obj in bpy.data.objects],
+    }  # fmt: skip
 
 
 def draw_little():

@@ -4,6 +4,8 @@
 What is compared is the same window before and meanwhile: how fast it draws at all depends on the machine.
 """
 
+from pathlib import Path
+
 import pytest
 
 
@@ -25,6 +27,16 @@ def test_escape_ends_it_at_once_and_leaves_nothing(seen):
     assert seen["files"]
     assert seen["ended after"] < 0.5
     assert seen["process"] is False
-    assert seen["left"] == []
-    assert seen["parts"] == 0
-    assert "reeb_part" not in seen["attributes"]
+    assert seen["cancelled"] == NOTHING
+
+
+def test_a_crash_leaves_nothing(seen):
+    assert seen["crashed"] == NOTHING
+
+
+def test_nothing_is_left_when_blender_quits_meanwhile(seen):
+    assert not Path(seen["last"]["folder"]).exists()
+    assert not Path(f"/proc/{seen['last']['pid']}").exists()
+
+
+NOTHING = {"folders": [], "parts": 0, "attributes": [], "objects": ["spot"]}
