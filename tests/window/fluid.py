@@ -64,6 +64,8 @@ def steps():
     yield 0.5
     pointer.shot("2_crashed.png")
     seen["crashed"] = facts()
+    yield from pointer.tap("Escape")  # the sentence, which lies over the button
+    yield from pointer.rest(*pointer.in_view())
     yield from started()
     # Blender quits now.
     seen["last"] = {"pid": job().pid, "folder": str(job()._worker.folder)}
