@@ -6,14 +6,12 @@ Blender stays alive meanwhile, whatever becomes of that process; where there can
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from typing import Any
 
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core import handover
-from ..core.errors import ReebError
 from ..core.parameters import Parameters
 from . import compute
 from .bridge import Shape
@@ -53,7 +51,7 @@ class Job:
         self.result: list[Outcome] | None = None
         self.error: Exception | None = None
         self._shapes, self._parameters = shapes, parameters
-        self._found: dict[tuple, Any] = {}  # a Decomposition or a ReebError, by compute.key_of
+        self._found: dict[tuple, Any] = {}  # a Decomposition or an error of core, by compute.key_of
         self._missing: list[int] = []  # shapes that are computed
         self._worker: Worker | None = None
         self._ready = False
@@ -105,7 +103,7 @@ class Job:
                 self._compute_here(show)
             else:
                 self._listen()
-        except (SceneError, ReebError) as error:
+        except Exception as error:  # noqa: BLE001 - whoever asks for the result raises it, when all is closed
             self.error = error
         if not self.running:
             self._close()
@@ -128,7 +126,7 @@ class Job:
         if self._ready or self._worker.lacked_memory():
             raise self._failure()
         # Python could not be started properly: it cannot load NumPy, say, because the system does not let it.
-        sys.stderr.write(self._worker.complaints())
+        self._worker.pass_on_complaints()
         self._close()
         self.in_blender = True
 
@@ -174,7 +172,7 @@ class Job:
         """Why the process has ended before its time, as the sentence for the user."""
         assert self._worker is not None
         name, shape = self._shapes[self._index if self._ready else self._missing[0]]
-        sys.stderr.write(self._worker.complaints())
+        self._worker.pass_on_complaints()
         if memory or self._worker.lacked_memory():
             return compute.lacking_memory(name, shape)
         return SceneError(

@@ -114,6 +114,11 @@ class Worker:
             return (self.folder / "errors").read_text(encoding="utf-8", errors="replace")
         return ""
 
+    def pass_on_complaints(self) -> None:
+        """Write them where Blender writes its own, for whoever looks for the cause."""
+        if sys.stderr is not None:  # as it is for programs without a console on Windows
+            sys.stderr.write(self.complaints())
+
     def lacked_memory(self) -> bool:
         """Whether it has ended because there was no memory left, as far as that can be told."""
         status = self._process.poll()

@@ -279,6 +279,26 @@ def test_where_no_python_can_be_started_blender_computes(
     assert not (tmp_path / "started").exists()
 
 
+@pytest.mark.parametrize(("name", "known"), [
+    ("python3.11", True), ("python3.13", True), ("python.exe", True), ("python", True), ("Python", True),
+    ("blender", False), ("blender.exe", False), ("Blender", False), ("maya.bin", False),
+])  # fmt: skip
+def test_what_counts_as_an_interpreter(package, other_python, name, known):
+    """By the names that it has in builds of Blender, and those of programs around it."""
+    processes = importlib.import_module(f"{package}.scene.processes")
+    other_python(name, "#!/bin/sh")
+    assert processes.interpreter() == (sys.executable if known else None)
+
+
+def test_an_error_of_our_own_is_raised_when_all_is_closed(jobs, read, parameters):
+    job = started(jobs, read(shapes.subdivide(shapes.tube_tree())), parameters())
+    pid = job.pid
+    job._missing.clear()  # so that it does not know what the process speaks of
+    until(lambda: job.poll() or not job.running)
+    assert isinstance(job.error, IndexError)
+    assert not alive(pid)
+
+
 def test_errors_while_blender_computes(jobs, read, parameters, other_python):
     other_python("", None)
     triangle = shapes.Shape(np.eye(3), np.array([[0, 1, 2]]))
