@@ -46,7 +46,7 @@ class REEB_PARTS_OT_decompose(
         return True
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """From the panel: with the panel's settings, in a thread, so that the window stays alive."""
+        """From the panel: with the panel's settings, in a process of its own, so that the window stays alive."""
         self._take_over_former_names()
         defaults.adopt(context.scene)
         settings = context.scene.reeb_parts
@@ -106,25 +106,26 @@ class REEB_PARTS_OT_decompose(
 
     def _start(self, context: bpy.types.Context) -> set[str]:
         parameters, shapes = self._read(context)
-        self._job = jobs.Job(lambda progress: compute_all(shapes, parameters, progress))
+        self._job = jobs.Job(shapes, parameters)
+        self._job.start()
         jobs.current = self._job
         self._shown = ""
         self._digests = {name: shape.digest for name, shape in shapes}
         self._timer = context.window_manager.event_timer_add(0.05, window=context.window)
         context.window_manager.progress_begin(0, 100)
         context.window_manager.modal_handler_add(self)
-        self._job.start()
+        self._show_progress(context)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Watch the thread; every other event goes its usual way."""
+        """Watch the process; every other event goes its usual way."""
         if event.type == "ESC" and event.value == "PRESS":
             self._job.cancel()
         if event.type == "TIMER":
+            self._job.poll(lambda: self._show_progress(context))
             self._show_progress(context)
-        if self._job.running and not self._job.cancelled:
+        if self._job.running:
             return {"PASS_THROUGH" if event.type != "ESC" else "RUNNING_MODAL"}
-        # A cancelled thread ends by itself at its next step, and what it returns is not used.
         self._stop_watching(context)
         if self._job.cancelled:
             self.report({"INFO"}, rpt_("Cancelled; nothing was changed"))
@@ -139,14 +140,20 @@ class REEB_PARTS_OT_decompose(
     def _finish(self, context: bpy.types.Context) -> None:
         if self._job.error is not None:
             raise self._job.error
+        assert self._job.result is not None
         check_unchanged(self._digests)
         if self.colors:
             shading.show_colors(context)
         self._write(context, self._job.result)
+        if self._job.in_blender:
+            self.report({"INFO"}, rpt_("Blender stood still, since its Python could not be started beside it"))
 
     def _show_progress(self, context: bpy.types.Context) -> None:
-        text = rpt_("Reeb Parts: {stage} ({share:.0%})    Esc: cancel").format(
-            stage=self._job.text, share=self._job.share)
+        if self._job.in_blender:
+            text = rpt_("Reeb Parts: {stage} ({share:.0%})    Blender stands still until the parts are there")
+        else:
+            text = rpt_("Reeb Parts: {stage} ({share:.0%})    Esc: cancel")
+        text = text.format(stage=self._job.text, share=self._job.share)
         if text != self._shown:
             self._shown = text
             context.window_manager.progress_update(round(100 * self._job.share))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shape of an object as arrays for core, and the way between the coordinates of mesh and shape.
 
-Everything is read in bulk on the main thread, so that the computation can run in another one.
+Everything is read in bulk on the main thread, so that the computation can run in another process.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From shapes to decompositions; no Blender data is touched, so this can run in a thread.
+"""From shapes to decompositions; no Blender data is touched.
 
 The last few decompositions are kept, so that the redo panel need not compute them again.
 """
@@ -10,10 +10,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from bpy.app.translations import pgettext_rpt as rpt_
+
 from ..core.errors import Cancelled, ReebError
 from ..core.parameters import Parameters
 from .bridge import Shape
-from .errors import load_core
+from .errors import SceneError, load_core
 
 if TYPE_CHECKING:
     from ..core.result.decomposition import Decomposition
@@ -34,6 +36,13 @@ class Outcome:
     problem: str = ""  # a core.sentence.Sentence
     seconds: float = 0.0
 
+    @classmethod
+    def of(cls, name: str, shape: Shape, found: Decomposition | ReebError) -> Outcome:
+        """The outcome for an object, from what core returned or raised."""
+        if isinstance(found, ReebError):
+            return cls(name, shape, problem=found.args[0])
+        return cls(name, shape, found, seconds=sum(found.seconds.values()))
+
 
 def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
                 progress: Callable[..., None]) -> list[Outcome]:
@@ -45,6 +54,11 @@ def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
     parameters : Parameters
     progress : callable(stage, share, name of the object if there are several)
         What it raises ends everything.
+
+    Raises
+    ------
+    SceneError
+        There is not enough memory.
     """
     outcomes = []
     for index, (name, shape) in enumerate(shapes):
@@ -53,15 +67,24 @@ def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
         def step(stage: str, share: float, index: int = index, told: tuple[str, ...] = told) -> None:
             progress(stage, (index + share) / len(shapes), *told)
 
+        found: Decomposition | ReebError
         try:
-            result = decomposition(shape, parameters, step)
+            found = decomposition(shape, parameters, step)
         except Cancelled:
             raise
         except ReebError as error:
-            outcomes.append(Outcome(name, shape, problem=error.args[0]))
-        else:
-            outcomes.append(Outcome(name, shape, result, seconds=sum(result.seconds.values())))
+            found = error
+        except MemoryError as error:
+            raise lacking_memory(name, shape) from error
+        outcomes.append(Outcome.of(name, shape, found))
     return outcomes
+
+
+def lacking_memory(name: str, shape: Shape) -> SceneError:
+    """The sentence that an object could not be computed for lack of memory."""
+    return SceneError(
+        rpt_("There is not enough memory to decompose {name} ({n} vertices); nothing was changed. Close other "
+             "programs, or decimate a copy and decompose that.").format(name=name, n=len(shape.vertices)))
 
 
 def decomposition(shape: Shape, parameters: Parameters,
@@ -74,14 +97,29 @@ def decomposition(shape: Shape, parameters: Parameters,
         The mesh cannot be decomposed, or ``progress`` cancelled.
     """
     core = load_core()
-    key = (shape.digest, replace(parameters, detail=0.5, n_parts=0))
-    if key in _done:
-        return replace(_done[key], parameters=parameters)
-    result = core.decompose(shape.vertices, shape.triangles, parameters, shape.polygon, progress)
-    _done[key] = result
+    found = known(shape, parameters)
+    if found is None:
+        found = core.decompose(shape.vertices, shape.triangles, parameters, shape.polygon, progress)
+        remember(shape, parameters, found)
+    return found
+
+
+def key_of(shape: Shape, parameters: Parameters) -> tuple:
+    """What a decomposition depends on."""
+    return shape.digest, replace(parameters, detail=0.5, n_parts=0)
+
+
+def known(shape: Shape, parameters: Parameters) -> Decomposition | None:
+    """The decomposition of a shape if it is among the last few."""
+    found = _done.get(key_of(shape, parameters))
+    return found and replace(found, parameters=parameters)
+
+
+def remember(shape: Shape, parameters: Parameters, found: Decomposition) -> None:
+    """Keep a decomposition, and forget the oldest but a few."""
+    _done[key_of(shape, parameters)] = found
     while len(_done) > _KEEP:
         del _done[next(iter(_done))]
-    return result
 
 
 def forget() -> None:

@@ -7,7 +7,6 @@ Everything is read in bulk. n vertices, e edges, c corners, p faces.
 from __future__ import annotations
 
 import hashlib
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import bpy
@@ -51,14 +50,10 @@ def fingerprint(mesh: bpy.types.Mesh) -> str:
 def digest(*arrays: np.ndarray) -> str:
     """Equal for arrays of equal shapes and bytes."""
     whole = hashlib.blake2b(digest_size=16)
-    with ThreadPoolExecutor() as pool:  # hashing large arrays leaves the interpreter to the others
-        for array, part in zip(arrays, pool.map(_digest_of, arrays), strict=True):
-            whole.update(str(array.shape).encode() + part)
+    for array in arrays:
+        part = hashlib.blake2b(np.ascontiguousarray(array), digest_size=16).digest()
+        whole.update(str(array.shape).encode() + part)
     return whole.hexdigest()
-
-
-def _digest_of(array: np.ndarray) -> bytes:
-    return hashlib.blake2b(np.ascontiguousarray(array), digest_size=16).digest()
 
 
 def face_corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:

@@ -322,14 +322,28 @@ class Decomposition:
                        field=self.field[vertex], contacts=ordering.polygon[self.contacts], face_twin=twin,
                        face_side=side)
 
+    def to_arrays(self) -> dict[str, np.ndarray]:
+        """All arrays by name, those of hierarchy and graph as "hierarchy.merges" and so on; not copied."""
+        arrays = {f"hierarchy.{name}": getattr(self.hierarchy, name) for name in ("merges", "salience")}
+        arrays |= {f"graph.{f.name}": np.asarray(getattr(self.graph, f.name)) for f in fields(ReebGraph)}
+        return arrays | {name: getattr(self, name) for name in _ARRAYS}
+
+    @classmethod
+    def from_arrays(cls, arrays: dict[str, np.ndarray], parameters: Parameters, notes: tuple[str, ...],
+                    seconds: dict[str, float], version: str = VERSION) -> Decomposition:
+        """Put a decomposition together from what ``to_arrays`` gives, and from its other attributes."""
+        graph: dict[str, Any] = {f.name: arrays[f"graph.{f.name}"] for f in fields(ReebGraph)}
+        graph["n_components"] = int(graph["n_components"])
+        hierarchy = Hierarchy.of(len(arrays["candidate_area"]), arrays["hierarchy.merges"],
+                                 arrays["hierarchy.salience"])
+        return cls(hierarchy=hierarchy, graph=ReebGraph(**graph), parameters=parameters, notes=notes,
+                   seconds=seconds, version=version, **{name: arrays[name] for name in _ARRAYS})
+
     def to_bytes(self) -> bytes:
         """Write the whole result: returns compressed bytes that ``from_bytes`` reads."""
-        arrays = {f"hierarchy.{n}": getattr(self.hierarchy, n) for n in ("merges", "salience")}
-        arrays |= {f"graph.{f.name}": getattr(self.graph, f.name) for f in fields(ReebGraph)}
-        arrays |= {name: getattr(self, name) for name in _ARRAYS}
         head = {"format": _FORMAT, "parameters": asdict(self.parameters), "notes": self.notes,
                 "seconds": self.seconds, "version": self.version}
-        arrays["head"] = np.frombuffer(json.dumps(head).encode(), np.uint8)
+        arrays = self.to_arrays() | {"head": np.frombuffer(json.dumps(head).encode(), np.uint8)}
         stream = io.BytesIO()
         np.savez_compressed(stream, **arrays)
         return stream.getvalue()
@@ -363,16 +377,10 @@ class Decomposition:
         for name, array in _UNKNOWN_TO_0_1_0.items():
             arrays.setdefault(name, array)
         check(arrays, counts)
-        graph: dict[str, Any] = {f.name: arrays[f"graph.{f.name}"] for f in fields(ReebGraph)}
-        graph["n_components"] = int(graph["n_components"])
-        graph["node_kind"] = graph["node_kind"].astype(np.int8)
+        arrays["graph.node_kind"] = arrays["graph.node_kind"].astype(np.int8)
         arrays["face_side"] = arrays["face_side"].astype(np.int8)
-        hierarchy = Hierarchy.of(len(arrays["candidate_area"]), arrays["hierarchy.merges"],
-                                 arrays["hierarchy.salience"])
-        return cls(hierarchy=hierarchy, graph=ReebGraph(**graph),
-                   parameters=_stored_parameters(head["parameters"], head["version"]), notes=tuple(head["notes"]),
-                   seconds=head["seconds"], version=head["version"],
-                   **{name: arrays[name] for name in _ARRAYS})
+        return cls.from_arrays(arrays, _stored_parameters(head["parameters"], head["version"]), tuple(head["notes"]),
+                               head["seconds"], head["version"])
 
 
 _ARRAYS = ("candidates", "vertex_candidates", "candidate_area", "candidate_pairs",

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import tomllib
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -33,7 +34,62 @@ def test_version_is_the_one_of_the_code_and_has_an_entry_in_the_changelog(manife
 
 def test_the_build_knows_the_digest_of_every_wheel_and_of_no_other(manifest):
     lines = (ROOT / "tools" / "wheels.sha256").read_text(encoding="ascii").splitlines()
-    assert sorted(line.split()[1] for line in lines) == sorted(Path(wheel).name for wheel in manifest["wheels"])
+    wheels = [*(Path(wheel).name for wheel in manifest["wheels"]), build_constant("DEBIAN_WHEEL")]
+    assert sorted(line.split()[1] for line in lines) == sorted(wheels)
+
+
+def test_the_zip_for_debian_differs_by_its_wheel_alone(manifest):
+    """Nobody else downloads the wheel of Debian's Python, and Debian's build none of the others."""
+    code = "import pathlib, sys; sys.path.insert(0, 'tools'); import build; " \
+           "sys.stdout.write(build.debian_manifest(pathlib.Path('blender_manifest.toml').read_text(encoding='utf-8')))"
+    text = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, check=True).stdout
+    debian = tomllib.loads(text.decode())
+    assert debian.pop("wheels") == [f"./wheels/{build_constant('DEBIAN_WHEEL')}"]
+    assert debian.pop("platforms") == ["linux-x64"]
+    assert debian == {key: value for key, value in manifest.items() if key not in ("wheels", "platforms")}
+    assert wheel_fields(build_constant("DEBIAN_WHEEL"))[:3] == ["scipy", "1.18.1", "cp314"]
+
+
+def test_the_manifest_says_what_the_site_asks_for(manifest):
+    assert set(manifest["permissions"]) == {"files"}  # neither network nor clipboard, camera, microphone
+    for reason in (manifest["tagline"], *manifest["permissions"].values()):
+        assert len(reason) <= 64
+        assert reason[-1].isalnum()
+    assert "Blender" not in manifest["name"]
+    assert manifest["website"].startswith("https://")
+    assert all(re.fullmatch(r"\d{4}(-\d{4})? \S.*\S", line) for line in manifest["copyright"])
+
+
+def test_whom_the_wheels_name_is_credited(manifest):
+    """Every holder in a wheel's own licence files, of which two wheels at hand are read."""
+    credited = " ".join(manifest["copyright"])
+    wheels = [ROOT / wheel for wheel in manifest["wheels"] if (ROOT / wheel).exists()]
+    for wheel in wheels:
+        with zipfile.ZipFile(wheel) as archive:
+            names = [name for name in archive.namelist() if re.search(r"LICEN[CS]E|COPYING", name)]
+            text = "\n".join(archive.read(name).decode("utf-8", "replace") for name in names)
+        for holder in HOLDERS:
+            if holder in text:
+                assert holder in credited, (wheel.name, holder)
+        found = set(re.findall(r"(?im)^\W*copyright \(c\)\s+[\d, -]+,?\s*(.+?)[\s.,<]*$", text))
+        assert {line for line in found if not any(holder in line for holder in HOLDERS)} <= NO_HOLDERS
+
+
+#: Names in the licence files of the wheels that hold copyright in what the wheels carry.
+HOLDERS = (
+    "Enthought", "SciPy Developers", "The OpenBLAS Project", "The University of Tennessee", "Free Software Foundation",
+    "The University of California Berkeley", "The University of Colorado Denver", "Quansight-Labs", "Rice University",
+    "Max-Planck-Society", "Scilab Enterprises", "C.B. Barber",
+)  # fmt: skip
+#: Lines that look as if they named one: patches to the way in which ARPACK is built elsewhere.
+NO_HOLDERS = {"Jordi Gutiérrez Hermoso (Octave patch)", "Sébastien Fabbro (gentoo patch)"}
+
+
+def build_constant(name):
+    """A constant of tools/build.py."""
+    builder = ast.parse((ROOT / "tools" / "build.py").read_text(encoding="utf-8"))
+    (value,) = (node.value for node in builder.body if isinstance(node, ast.Assign) and node.targets[0].id == name)
+    return ast.literal_eval(value)
 
 
 def test_scipy_alone_is_bundled(manifest):
@@ -61,7 +117,8 @@ def test_everything_in_the_checkout_is_shipped_or_left_out_on_purpose(manifest):
 
 def test_official_blenders_share_one_scipy(manifest):
     # The one release that works with the NumPy of Blender 4.2 (1.24) and of 5.2 (2.3).
-    assert {wheel_fields(wheel)[1] for wheel in manifest["wheels"] if "cp314" not in wheel} == {"1.15.3"}
+    assert {wheel_fields(wheel)[1] for wheel in manifest["wheels"]} == {"1.15.3"}
+    assert {wheel_fields(wheel)[2] for wheel in manifest["wheels"]} == {"cp311", "cp313"}
 
 
 def test_the_panel_comes_up_without_scipy():
@@ -80,3 +137,19 @@ def test_the_panel_comes_up_without_scipy():
     code = "import sys; sys.modules['scipy'] = None\n" + "\n".join(f"import {name}" for name in sorted(names))
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_no_shipped_module_starts_threads():
+    """Blender's Python does not support them, and the moderators of its extensions site refuse them."""
+    refused = {"threading", "_thread", "multiprocessing", "concurrent", "asyncio"}
+    builder = (ROOT / "tools" / "build.py").read_text(encoding="utf-8")
+    folders = [name for name in ("batch", "core", "operators", "scene", "ui", "viewport") if f'"{name}"' in builder]
+    paths = [ROOT / "__init__.py", *(path for name in folders for path in (ROOT / name).rglob("*.py"))]
+    assert len(folders) == 6
+    found = set()
+    for path in paths:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module or ""] if isinstance(node, ast.ImportFrom) and not node.level else []
+            found |= {(path.relative_to(ROOT).as_posix(), name) for name in names if name.split(".")[0] in refused}
+    assert found == set()

@@ -94,6 +94,8 @@ TEXTS = {
     "New scenes start with these settings.": "Neue Szenen beginnen mit diesen Einstellungen.",
     # Wie weit die Berechnung ist
     "Reeb Parts: {stage} ({share:.0%})    Esc: cancel": "Reeb Parts: {stage} ({share:.0%})    Esc: abbrechen",
+    "Reeb Parts: {stage} ({share:.0%})    Blender stands still until the parts are there":
+        "Reeb Parts: {stage} ({share:.0%})    Blender steht still, bis die Teile da sind",
     "mesh": "Mesh",
     "distances": "Abstände",
     "reeb graph": "Reeb-Graph",
@@ -512,6 +514,16 @@ TEXTS = {
     # Was aus dem Zerlegen wurde
     "Reeb Parts is still computing": "Reeb Parts rechnet noch",
     "{n} parts in {seconds:.1f} s": "{n} Teile in {seconds:.1f} s",
+    "Blender stood still, since its Python could not be started beside it":
+        "Blender stand still, weil sein Python nicht daneben gestartet werden konnte",
+    "There is not enough memory to decompose {name} ({n} vertices); nothing was changed. Close other programs, or "
+    "decimate a copy and decompose that.":
+        "Der Speicher reicht nicht, um {name} zu zerlegen ({n} Punkte); nichts wurde geändert. Bitte andere Programme "
+        "schließen, oder eine Kopie dezimieren und diese zerlegen.",
+    "The process that decomposed {name} ended unexpectedly ({reason}); nothing was changed. Try again, and report it "
+    "if that happens again.":
+        "Der Prozess, der {name} zerlegte, endete unerwartet ({reason}); nichts wurde geändert. Bitte noch einmal "
+        "versuchen, und es melden, wenn das wieder geschieht.",
     "Cancelled; nothing was changed": "Abgebrochen; nichts wurde geändert",
     "{name} is gone; its parts were computed in vain.":
         "{name} ist nicht mehr da; seine Teile wurden vergeblich berechnet.",

@@ -290,7 +290,7 @@ def set_up(package, name, situation, make, tree, tmp_path):
         bpy.ops.object.mode_set(mode=situation)
     if name == "cancel":
         jobs = importlib.import_module(f"{package}.scene.jobs")
-        jobs.current = jobs.Job(lambda progress: None)
+        jobs.current = jobs.Job([], None)
     return {key: str(tmp_path / "parts") if value is FOLDER else value for key, value in arguments.items()}
 
 

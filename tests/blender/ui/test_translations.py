@@ -5,9 +5,10 @@ Blender as a module knows no languages; what Blender really says is tried in a f
 """
 
 import importlib
+import os
 import re
+import signal
 import string
-import time
 from collections import Counter
 from pathlib import Path
 
@@ -25,6 +26,8 @@ ENGLISH = {
     "facts": [r"5 parts in \d+\.\d\d s", "10 nodes, 9 arcs, 0 loops"],
     "locked": "Part 01 is locked. Unlock it in the list first.",
     "progress": "BODY: reeb graph",
+    "SIGKILL": r"There is not enough memory to decompose Tree \(\d+ vertices\); nothing was changed\. Close .*\.",
+    "SIGSEGV": r"The process that decomposed Tree ended unexpectedly \(signal 11\); nothing was changed\. Try .*\.",
     "button": "Merge Parts",
     "tooltip": "Close holes",
 }
@@ -36,6 +39,8 @@ GERMAN = {
     "facts": [r"5 Teile in \d+\.\d\d s", "10 Knoten, 9 Bögen, 0 Schleifen"],
     "locked": "Part 01 ist gesperrt. Bitte zuerst in der Liste entsperren.",
     "progress": "BODY: Reeb-Graph",
+    "SIGKILL": r"Der Speicher reicht nicht, um Tree zu zerlegen \(\d+ Punkte\); nichts wurde geändert\. Bitte .*\.",
+    "SIGSEGV": r"Der Prozess, der Tree zerlegte, endete unerwartet \(signal 11\); nichts wurde geändert\. Bitte .*\.",
     "button": "Teile zusammenführen",
     "tooltip": "Löcher schließen",
 }
@@ -144,11 +149,22 @@ def test_reports(said, obj, capfd):
 
 def test_progress(said, package):
     jobs = importlib.import_module(f"{package}.scene.jobs")
-    job = jobs.Job(lambda progress: progress("reeb graph", 0.5, "BODY"))
-    job.start()
-    while job.running:
-        time.sleep(0.01)
-    assert (job.text, job.share) == (said["progress"], 0.5)
+    job = jobs.Job([], None)
+    job.stage, job.of = "reeb graph", "BODY"
+    assert job.text == said["progress"]
+
+
+def test_why_there_is_no_result(said, obj, package):
+    jobs, bridge, parameters = (
+        importlib.import_module(f"{package}.{name}") for name in ("scene.jobs", "scene.bridge", "core.parameters"))
+    for number in (signal.SIGKILL, signal.SIGSEGV):
+        job = jobs.Job([("Tree", bridge.read_shape(obj))], parameters.Parameters(base_spacing=0.0005))
+        job.start()
+        while job.running:
+            if job.stage:
+                os.kill(job.pid, number)
+            job.poll()
+        assert re.fullmatch(said[number.name], str(job.error))
 
 
 def test_the_panel_also_in_a_file_that_was_opened_again(said, obj, package, tmp_path):

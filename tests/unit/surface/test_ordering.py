@@ -55,8 +55,9 @@ def test_polygons_stay_whole():
     faces = LOPSIDED["grid"].faces
     mesh, ordering = sorted_by_place(PolygonMesh.of(LOPSIDED["grid"].vertices, faces, np.arange(len(faces)) // 2))
     for place, polygon in enumerate(ordering.polygon.tolist()):
-        here = ordering.vertex[mesh.triangles.faces[mesh.polygon == place]]
-        assert {frozenset(t) for t in here.tolist()} == {frozenset(t) for t in faces[2 * polygon:2 * polygon + 2].tolist()}
+        here = ordering.vertex[mesh.triangles.faces[mesh.polygon == place]].tolist()
+        there = faces[2 * polygon:2 * polygon + 2].tolist()
+        assert {frozenset(corners) for corners in here} == {frozenset(corners) for corners in there}
 
 
 def test_two_vertices_at_one_place_are_told_apart_by_their_faces():
