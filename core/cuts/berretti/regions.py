@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Regions of [Berretti2009] (section 3.1): intervals are fused, then regions, then small regions are ranked."""
+"""Regions of [Berretti2009] (section 3.1): between events, then fused by adjacency, then ranked by size."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
-from ...surface.arrays import components, renumbered
+from ...surface.arrays import components, distinct_pairs, renumbered
 from ..hierarchy import Hierarchy
 
 
@@ -51,7 +51,7 @@ def berretti_regions(
     -------
     regions : Regions
     """
-    count, region = fuse_intervals(sets, topology)
+    count, region = regions_between_events(sets, topology)
     count, region = fuse_equal_adjacency(sets, count, region)
     return rank_regions(sets, region, small_region)
 
@@ -81,11 +81,12 @@ def rank_regions(sets: LevelSets, region: np.ndarray, small_region: float) -> Re
     return Regions(region, len(names), Hierarchy.of(len(names), merges, salience))
 
 
-def fuse_intervals(sets: LevelSets, topology: ReebTopology) -> tuple[int, np.ndarray]:
-    """Fuse consecutive slabs with equally many connected components, until all neighboring intervals differ.
+def regions_between_events(sets: LevelSets, topology: ReebTopology) -> tuple[int, np.ndarray]:
+    """Find the regions between the values at which the number of connected components changes.
 
-    Ripples (leaves that ``simplify`` cancelled) are not counted, since each would end an interval for the whole
-    surface. The pieces of a ripple belong to the region to which it is attached.
+    The number is that of the connected component that is followed, not of the whole surface: a limb is not cut where
+    another limb begins or ends. A piece in which components join or split belongs to the side on which they are one.
+    Ripples (leaves that ``simplify`` cancelled) are not counted, and belong to the region to which they are attached.
 
     Parameters
     ----------
@@ -97,26 +98,16 @@ def fuse_intervals(sets: LevelSets, topology: ReebTopology) -> tuple[int, np.nda
     Returns
     -------
     count : int
-        Number of regions: of connected components of the intervals.
+        Number of regions.
     region : (P,) int64
-        Region of each piece, 0..count-1.
+        Region of each piece, 0..count-1; every region is connected.
     """
-    kept = topology.contour_arc >= 0
-    on_graph = np.zeros(sets.n_pieces, bool)
-    on_graph[sets.contour_pieces[kept]] = True
-    on_graph |= ~on_graph.any()  # a graph of one node has no contour
-    interval = np.arange(len(sets.levels) + 1)  # the interval of each slab
-    while True:
-        piece_interval = interval[sets.piece_slab]
-        lower, upper = piece_interval[sets.contour_pieces].T
-        _, part = components(sets.n_pieces, *sets.contour_pieces[lower == upper].T)
-        first = np.unique(part[on_graph], return_index=True)[1]
-        n_parts = np.bincount(piece_interval[on_graph][first], minlength=interval[-1] + 1)
-        starts = np.append(True, n_parts[1:] != n_parts[:-1])
-        if starts.all():
-            break
-        interval = (np.cumsum(starts) - 1)[interval]
-    return components(sets.n_pieces, *sets.contour_pieces[(lower == upper) | ~kept].T)
+    on_graph = topology.contour_arc >= 0
+    lower, upper = sets.contour_pieces.T
+    n_above = np.bincount(lower[on_graph], minlength=sets.n_pieces)
+    n_below = np.bincount(upper[on_graph], minlength=sets.n_pieces)
+    event = on_graph & ((n_above[lower] > 1) | (n_below[upper] > 1))
+    return components(sets.n_pieces, *sets.contour_pieces[~event].T)
 
 
 class FusionGraph:
@@ -177,8 +168,10 @@ def fuse_equal_adjacency(
 ) -> tuple[int, np.ndarray]:
     """Fuse adjacent regions with equally many neighbors, until no such pair or only two regions are left.
 
-    [Berretti2009] leaves the order open. Here the pair of least area is fused first, so that slivers disappear before
-    larger regions do.
+    [Berretti2009] leaves the order open. Here all pairs are fused at once that have equally many neighbors, then the
+    neighbors are counted anew. So a chain of regions, from each of which one limb branches off, becomes one region;
+    pair by pair, the first pair would have one neighbor more than the rest of the chain. A round that would leave no
+    cut fuses the pair of least area only.
 
     Parameters
     ----------
@@ -196,20 +189,21 @@ def fuse_equal_adjacency(
     region : (P,) int64
         Region of each piece, 0..count-1.
     """
-    graph = FusionGraph(sets, count, region)
-    target = np.arange(count)
-    while True:
-        pairs = [(graph.area[a] + graph.area[b], a, b) for a in sorted(graph.alive)
-                 for b in graph.neighbors[a]
-                 if a < b and len(graph.neighbors[a]) == len(graph.neighbors[b])]
-        # The last two regions have one neighbor each; if they were fused, no cut would be left.
-        if not pairs or len(graph.alive) <= 2:
+    region = np.asarray(region)
+    while count > 2:
+        low, high = np.sort(region[sets.contour_pieces], axis=1).T
+        pairs = distinct_pairs(low[low != high], high[low != high])[0]
+        degree = np.bincount(pairs.ravel(), minlength=count)
+        equal = pairs[degree[pairs[:, 0]] == degree[pairs[:, 1]]]
+        if not len(equal):
             break
-        _, keep, gone = min(pairs)
-        graph.merge(keep, gone)
-        target[target == gone] = keep
-    kept, fused = renumbered(target[region])
-    return len(kept), fused
+        left, target = components(count, *equal.T)
+        if left < 2:
+            area = np.bincount(region, sets.piece_area, count)
+            least = area[equal].sum(axis=1).argmin()
+            left, target = components(count, *equal[[least]].T)
+        count, region = left, target[region]
+    return count, region
 
 
 def fuse_small(

@@ -69,10 +69,10 @@ def test_without_concavity_the_regions_stay():
 
 
 def test_concavity_pulls_cuts_into_creases():
-    # Distance from the middle of the tree: its four branches leave a ball, with a crease around each foot.
-    shape = shapes.tube_tree()
-    distance = np.linalg.norm(shape.vertices, axis=1)
-    sets = cut_at_levels(TriMesh(*shape), distance, np.linspace(distance.min(), distance.max(), 51)[1:-1])
+    # Two handles, between whose feet the surface is concave: the narrowest level set is not that of the saddle.
+    shape = shapes.surface_of_genus(2)
+    height = shape.vertices @ (0.2, 1.0, 0.1)
+    sets = cut_at_levels(TriMesh(*shape), (height - height.min()) / np.ptp(height), uniform_levels(50))
     topology = simplify(sets, reeb_topology(sets), 0.0025, 1)
     curvature = k_min(sets.mesh)
 
@@ -89,7 +89,7 @@ def test_concavity_pulls_cuts_into_creases():
 
     stay, slide = cuts(0.0), cuts(1.0)
     assert len(stay) == len(slide) >= 4
-    assert np.mean(energy(slide)) < np.mean(energy(stay)) - 0.01
+    assert np.mean(energy(slide)) < np.mean(energy(stay)) - 0.003
     assert max(np.sort(energy(slide)) - np.sort(energy(stay))) <= 0
 
 
