@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the paper reports, beside the same of this program on a benchmark; writes docs/comparison.md and its plots.
 
-    python3 benchmarks/paper.py DATA [--report DIR] [--jobs N] [--page FILE]
+    python3 benchmarks/paper.py DATA [--report DIR] [--meshes N ...] [--jobs N] [--page FILE]
 
 DATA is the folder that benchmarks/report.py takes, and DIR (default: report) the folder that it writes: what is found
 there is not computed again. The figures of the paper are those of S. Berretti, A. Del Bimbo, P. Pala, "3D Mesh
@@ -63,10 +63,11 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("data", type=Path, metavar="DATA")
     parser.add_argument("--report", type=Path, default=Path("report"), metavar="DIR")
+    parser.add_argument("--meshes", nargs="+", type=int, metavar="N", help="only these")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="meshes at a time")
     parser.add_argument("--page", type=Path, default=packages.ROOT / "docs" / "comparison.md", metavar="FILE")
     arguments = parser.parse_args()
-    numbers = mesh_numbers(arguments.data)
+    numbers = arguments.meshes or mesh_numbers(arguments.data)
     if not numbers:
         parser.error(f"no N.npz in {arguments.data}")
     arguments.report.mkdir(parents=True, exist_ok=True)
@@ -250,7 +251,23 @@ def table_1(rows: list[dict]) -> list[str]:
                     lines)
 
 
-NOTES = ("## Where the outcome differs, and why", "")
+NOTES = (
+    "## Where the outcome differs, and why", "",
+    "- **SE is ahead of RG**, over all and in the group of complex objects, where the paper has RG ahead. It was tried "
+    "to find out why, on 30 meshes (two of each category), told the number of parts: the Rand index error of SE is "
+    "0.128; with patches that do not end in creases 0.147, with cuts whose cost does not know of creases 0.177, with "
+    "neither 0.247, which is that of RG. As the paper's authors describe SE - one embedding, two samples - it has 0.124 "
+    "where all samples have 0.108 (45 meshes). So it is the concave creases, in the patches and in the cost of a cut, "
+    "that put SE ahead; RG uses them only to move cuts along an arc.",
+    "- **RG is ahead of SE where limbs are all there is**: ant, octopus and, by a little, four-legged animals. On hands "
+    "and airplanes, whose fingers and wings begin at creases that are no level sets, SE is ahead.",
+    "- **RG is ahead of CC** on complex objects, as in the paper; CC has its worst agreement on airplanes and busts. On "
+    "machine parts CC and RG are alike, and on tables, which are flat with sharp edges, CC is ahead.",
+    "- **RG on cups, tables and machine parts** is far from people, as the paper says of CAD parts: every rim, corner and "
+    "fold is a local maximum of the field, a limb by its rules.",
+    "- **RG's numbers of parts** are one or two above the paper's Table 1. Its models may have fewer ripples than scans "
+    "of 2007 have; at ends of a body people's shoulders and hips remain as parts of their own.", "",
+)
 
 
 if __name__ == "__main__":

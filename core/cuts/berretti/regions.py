@@ -86,7 +86,8 @@ def regions_between_events(sets: LevelSets, topology: ReebTopology) -> tuple[int
 
     The number is that of the connected component that is followed, not of the whole surface: a limb is not cut where
     another limb begins or ends. A piece in which components join or split belongs to the side on which they are one.
-    Ripples (leaves that ``simplify`` cancelled) are not counted, and belong to the region to which they are attached.
+    What rises from a minimum is the middle of a body, no protrusion, and belongs to what it joins. Ripples (leaves that
+    ``simplify`` cancelled) are not counted, and belong to the region to which they are attached.
 
     Parameters
     ----------
@@ -106,7 +107,10 @@ def regions_between_events(sets: LevelSets, topology: ReebTopology) -> tuple[int
     lower, upper = sets.contour_pieces.T
     n_above = np.bincount(lower[on_graph], minlength=sets.n_pieces)
     n_below = np.bincount(upper[on_graph], minlength=sets.n_pieces)
-    event = on_graph & ((n_above[lower] > 1) | (n_below[upper] > 1))
+    ends_below = np.bincount(topology.arcs.ravel(), minlength=topology.n_nodes)[topology.arcs[:, 0]] == 1
+    from_minimum = np.zeros(sets.n_contours, bool)
+    from_minimum[on_graph] = ends_below[topology.contour_arc[on_graph]]
+    event = on_graph & ((n_above[lower] > 1) | ((n_below[upper] > 1) & ~from_minimum))
     return components(sets.n_pieces, *sets.contour_pieces[~event].T)
 
 
