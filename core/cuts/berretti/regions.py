@@ -103,6 +103,11 @@ def regions_between_events(sets: LevelSets, topology: ReebTopology) -> tuple[int
     region : (P,) int64
         Region of each piece, 0..count-1; every region is connected.
     """
+    return components(sets.n_pieces, *sets.contour_pieces[~_events(sets, topology)].T)
+
+
+def _events(sets: LevelSets, topology: ReebTopology) -> np.ndarray:
+    """Which contours are next to a piece in which components join or split, on the side of several, (C,) bool."""
     on_graph = topology.contour_arc >= 0
     lower, upper = sets.contour_pieces.T
     n_above = np.bincount(lower[on_graph], minlength=sets.n_pieces)
@@ -110,8 +115,43 @@ def regions_between_events(sets: LevelSets, topology: ReebTopology) -> tuple[int
     ends_below = np.bincount(topology.arcs.ravel(), minlength=topology.n_nodes)[topology.arcs[:, 0]] == 1
     from_minimum = np.zeros(sets.n_contours, bool)
     from_minimum[on_graph] = ends_below[topology.contour_arc[on_graph]]
-    event = on_graph & ((n_above[lower] > 1) | ((n_below[upper] > 1) & ~from_minimum))
-    return components(sets.n_pieces, *sets.contour_pieces[~event].T)
+    return on_graph & ((n_above[lower] > 1) | ((n_below[upper] > 1) & ~from_minimum))
+
+
+def with_finer(sets: LevelSets, topology: ReebTopology, regions: Regions, small_region: float) -> Regions:
+    """Cut regions where components begin, end, join or split anywhere, so that there is something finer than regions.
+
+    The pieces of a region merge before any two regions do, the smallest first.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        P pieces.
+    topology : ReebTopology
+        Reeb graph of the component without ripples.
+    regions : Regions
+    small_region : float
+        See ``rank_regions``.
+
+    Returns
+    -------
+    regions : Regions
+        With the parts of ``regions`` at every level of detail at which no region is cut.
+    """
+    level = np.zeros(len(sets.levels), bool)
+    at_node = (topology.piece_node[sets.contour_pieces] >= 0).any(axis=1) & (topology.contour_arc >= 0)
+    level[sets.contour_level[at_node]] = True
+    lower, upper = regions.piece_region[sets.contour_pieces].T
+    inside = lower == upper
+    joined = inside & ~(level[sets.contour_level] & (topology.contour_arc >= 0) & ~at_node)
+    count, fine = components(sets.n_pieces, *sets.contour_pieces[joined].T)
+    merges, ratio = fuse_small(sets, count, fine, inside)
+    least = regions.hierarchy.salience.min(initial=0.5)
+    one_of = np.empty(regions.count, np.int64)  # a piece of each region stands for it
+    one_of[regions.piece_region] = fine
+    return Regions(fine, count, Hierarchy.of(
+        count, np.concatenate([merges, one_of[regions.hierarchy.merges]]),
+        np.concatenate([least * ratio / (ratio + small_region), regions.hierarchy.salience])))
 
 
 class FusionGraph:
@@ -125,6 +165,8 @@ class FusionGraph:
         Number of regions.
     region : (P,) int64
         Region of each piece, 0..count-1.
+    contours : (C,) bool, optional
+        Contours across which regions are neighbors; all without.
 
     Attributes
     ----------
@@ -136,12 +178,13 @@ class FusionGraph:
         Regions that have not been fused into another.
     """
 
-    def __init__(self, sets: LevelSets, count: int, region: np.ndarray) -> None:
+    def __init__(self, sets: LevelSets, count: int, region: np.ndarray, contours: np.ndarray | None = None) -> None:
         self.area = np.bincount(region, sets.piece_area, count).tolist()
         self.neighbors = [{} for _ in range(count)]
         self.alive = set(range(count))
-        lower, upper = region[sets.contour_pieces].T
-        for a, b, length in zip(lower.tolist(), upper.tolist(), sets.contour_length.tolist(),
+        chosen = np.ones(sets.n_contours, bool) if contours is None else contours
+        lower, upper = region[sets.contour_pieces[chosen]].T
+        for a, b, length in zip(lower.tolist(), upper.tolist(), sets.contour_length[chosen].tolist(),
                                 strict=True):
             if a != b:
                 self.neighbors[a][b] = self.neighbors[a].get(b, 0.0) + length
@@ -211,7 +254,7 @@ def fuse_equal_adjacency(
 
 
 def fuse_small(
-    sets: LevelSets, count: int, region: np.ndarray
+    sets: LevelSets, count: int, region: np.ndarray, contours: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Fuse the smallest region into the neighbor along its longest boundary, until no two regions touch.
 
@@ -223,6 +266,8 @@ def fuse_small(
         Number of regions.
     region : (P,) int64
         Region of each piece, 0..count-1.
+    contours : (C,) bool, optional
+        Contours across which regions may be fused; all without.
 
     Returns
     -------
@@ -232,7 +277,7 @@ def fuse_small(
     ratio : (s,) float64
         Area of the fused region over that of the region that was then the largest.
     """
-    graph = FusionGraph(sets, count, region)
+    graph = FusionGraph(sets, count, region, contours)
     merges, ratio, alone = [], [], 0.0
     while len(graph.alive) > 1:
         smallest = min(graph.alive, key=lambda r: (graph.area[r], r))
