@@ -15,8 +15,8 @@ import numpy as np
 from .errors import ParameterError, UnknownParameterError
 from .sentence import Sentence
 
-PERCEPTUAL, BERRETTI = "perceptual", "berretti"
-METHODS = (PERCEPTUAL, BERRETTI)
+PERCEPTUAL, BERRETTI, LAVOUE, LIU = "perceptual", "berretti", "lavoue", "liu"
+METHODS = (PERCEPTUAL, BERRETTI, LAVOUE, LIU)
 TOGETHER, SEPARATE = "together", "separate"
 PIECES = (TOGETHER, SEPARATE)
 
@@ -106,7 +106,8 @@ class Parameters:
 
     method: str = field(default=PERCEPTUAL, metadata={
         "choices": METHODS, "label": "Method",
-        "description": "How cuts are chosen: as people would, or by the paper's rules"})
+        "description": "How cuts are chosen: as people would, by the paper's rules on the Reeb graph, where curvature "
+                       "changes, or by cutting in two again and again"})
     pieces: str = field(default=TOGETHER, metadata={
         "choices": PIECES, "label": "Pieces",
         "description": "Whether pieces that touch without being joined form parts together, like a sleeve and an arm, "
@@ -141,6 +142,13 @@ class Parameters:
     sigma: float = _number(
         0.15, 0.0, 0.25, "Crease length",
         "How much of a cut's length must be concave to count (the paper's sigma)")
+    n_clusters: int = _number(
+        0, 0, 32, "Curvature classes",
+        "Number of classes of curvature that the surface is sorted into; 0 chooses it from the data")
+    outline_weight: float = _number(
+        0.5, 0.0, 1.0, "Outline",
+        "How far the outline of a part, unfolded into the plane, counts when its cut is judged: 0 judges by the cut "
+        "alone")
     smoothing: int = _number(
         10, 0, 100, "Smoothing",
         "Rounds that take saw teeth off the cuts, a face at a time; 0 leaves them as they fall")
@@ -256,8 +264,10 @@ class Parameters:
 Parameters.RANGES = {f.name: f.metadata["range"] for f in fields(Parameters)
                      if "range" in f.metadata}
 
-PERCEPTUAL_PRESET, BERRETTI_2009 = "Perceptual", "Berretti 2009"
+PERCEPTUAL_PRESET, BERRETTI_2009, LAVOUE_2005, LIU_2007 = "Perceptual", "Berretti 2009", "Lavoue 2005", "Liu 2007"
 PRESETS = {
     PERCEPTUAL_PRESET: Parameters(),
     BERRETTI_2009: Parameters(method=BERRETTI, follow_level_sets=True, symmetry=False),
+    LAVOUE_2005: Parameters(method=LAVOUE, symmetry=False),
+    LIU_2007: Parameters(method=LIU, symmetry=False),
 }

@@ -159,18 +159,32 @@ def _mend_system(environment: Environment, interpreter: Path) -> None:
         packages += [package for library, package in LIBRARIES.items() if not _loads(library)]
     if not packages:
         return
+    if not _apt_installs(packages):
+        command = f"apt-get update && apt-get install --no-install-recommends {' '.join(packages)}"
+        fail(f"some system packages are missing; as root, run: {command}")
+
+
+def browser() -> str | None:
+    """A Chromium for the tests of pages, installed through apt where that is possible; None if there is none."""
+    names = ("chromium", "chromium-browser", "google-chrome")
+    found = next(filter(None, map(shutil.which, names)), None)
+    if found is None and _apt_installs(["chromium"]):
+        found = shutil.which("chromium")
+    return found
+
+
+def _apt_installs(packages: list[str]) -> bool:
+    """Install Debian packages without asking for a password; whether that was possible."""
     install = ["apt-get", "install", "--yes", "--no-install-recommends", *packages]
     sudo = [] if os.geteuid() == 0 else ["sudo", "-n"]
     allowed = not sudo or (shutil.which("sudo") and not _run(["sudo", "-n", "true"], quiet=True))
-    command = f"apt-get update && apt-get install --no-install-recommends {' '.join(packages)}"
     if not (shutil.which("apt-get") and allowed):
-        fail(f"some system packages are missing; as root, run: {command}")
+        return False
     say(f"installing system packages: {' '.join(packages)}")
     os.environ["DEBIAN_FRONTEND"] = "noninteractive"
     # Of what apt prints only its complaints.
     apt = [["apt-get", "update", "-qq"], [*install, "-qq"]]
-    if any(subprocess.run([*sudo, *words], stdout=subprocess.DEVNULL, check=False).returncode for words in apt):
-        fail(f"apt-get failed, see above; as root, run: {command}")
+    return not any(subprocess.run([*sudo, *words], stdout=subprocess.DEVNULL, check=False).returncode for words in apt)
 
 
 def _loads(library: str) -> bool:

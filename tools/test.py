@@ -228,11 +228,15 @@ def _documents(blender: str | None, scratch: Path, extra: list[str], log: Path |
     # Made here, under the lock, rather than by the commands.
     for environment in (environments.any_blender(), environments.benchmarks(), LINT):
         _prepare(environment)
+    with PREPARING:
+        browser = environments.browser()
+    if not browser:
+        _left_out("the test of the report's page, there is no Chromium; as root, run: apt-get install chromium")
     if not blender:
         _left_out("the commands of a full Blender that the pages name, no --blender was given")
-        return _pytest("documents", None, scratch, extra, log, BLENDER="")
+        return _pytest("documents", None, scratch, extra, log, BLENDER="", BROWSER=browser or "")
     shutil.copytree(scratch / "resources", scratch / "documents", symlinks=True)
-    return _pytest("documents", None, scratch, extra, log, BLENDER=blender)
+    return _pytest("documents", None, scratch, extra, log, BLENDER=blender, BROWSER=browser or "")
 
 
 def _full_blender(blender: str, gui: str | None, scratch: Path) -> list[Step]:

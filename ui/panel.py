@@ -9,7 +9,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
-from ..core.parameters import BERRETTI
+from ..core.parameters import BERRETTI, LAVOUE, LIU
 from ..scene import graph_objects, jobs, notes, part_names, store
 
 
@@ -198,7 +198,12 @@ class REEB_PARTS_PT_field(SettingsPanel, bpy.types.Panel):
 
 class REEB_PARTS_PT_graph(SettingsPanel, bpy.types.Panel):
     bl_label = "Graph"
-    names = ("method", "pieces", "symmetry", "small_region", "loose_part")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
+        own = {LAVOUE: ("n_clusters",), LIU: ("outline_weight",)}.get(settings.method, ("small_region",))
+        for name in ("method", "pieces", "symmetry", *own, "loose_part"):
+            column.prop(settings, name)
 
 
 class REEB_PARTS_PT_boundaries(SettingsPanel, bpy.types.Panel):
@@ -206,8 +211,9 @@ class REEB_PARTS_PT_boundaries(SettingsPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = settings_column(self, context)
-        of_method = ("concavity_weight", "sigma") if settings.method == BERRETTI else ()
-        for name in ("follow_level_sets", "band_ratio", *of_method, "smoothing"):
+        of_paper = ("concavity_weight", "sigma") if settings.method == BERRETTI else ()
+        movable = () if settings.method in {LAVOUE, LIU} else ("follow_level_sets", "band_ratio")
+        for name in (*movable, *of_paper, "smoothing"):
             column.prop(settings, name)
 
 

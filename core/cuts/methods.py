@@ -8,11 +8,13 @@ from collections.abc import Callable
 from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebTopology
-from ..parameters import PERCEPTUAL, Parameters
+from ..parameters import BERRETTI, LAVOUE, PERCEPTUAL, Parameters
 from ..surface.coarsening import Pyramid
 from .berretti.method import berretti_candidates
 from .boosted_trees import BoostedTrees
 from .hierarchy import Candidates
+from .lavoue.method import lavoue_candidates
+from .liu.method import liu_candidates
 from .perceptual.method import perceptual_candidates
 
 
@@ -54,6 +56,12 @@ def find_candidates(
     """
     if parameters.method == PERCEPTUAL:
         return perceptual_candidates(sets, field, pyramid, parameters, model, progress)
-    candidates = berretti_candidates(sets, topology, parameters)
-    n_pieces, piece = sets.mesh.face_components
-    return candidates if n_pieces == 1 else candidates.within(piece[sets.element_face])
+    if parameters.method == BERRETTI:
+        candidates = berretti_candidates(sets, topology, parameters)
+        n_pieces, piece = sets.mesh.face_components
+        return candidates if n_pieces == 1 else candidates.within(piece[sets.element_face])
+    if parameters.method == LAVOUE:
+        label, hierarchy = lavoue_candidates(sets.mesh, parameters.n_clusters)
+    else:
+        label, hierarchy = liu_candidates(sets.mesh, parameters.outline_weight, progress)
+    return Candidates(label[sets.element_face], hierarchy)

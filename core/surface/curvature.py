@@ -20,6 +20,24 @@ MAX_CONDUCTANCE = 20.0
 def k_min(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
     """Estimate the smaller principal curvature at every vertex, negative in concavities.
 
+    Parameters
+    ----------
+    mesh : TriMesh
+        n vertices, faces turned outwards.
+    smoothing_steps : int
+        Number of rings of neighbors over which the tensor of a vertex is summed.
+
+    Returns
+    -------
+    k_min : (n,) float64
+        In units of 1 / length of the vertices.
+    """
+    return principal_curvatures(mesh, smoothing_steps)[:, 0]
+
+
+def principal_curvatures(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
+    """Estimate both principal curvatures at every vertex, negative in concavities.
+
     The curvature tensor of [CohenSteiner2003] is the sum of the dihedral angles along the edges around a vertex,
     divided by the vertex's area. Of its two eigenvalues tangent to the surface, each is the curvature in the
     direction perpendicular to its eigenvector. [Berretti2009] uses another estimator; one that needs no fit
@@ -34,8 +52,8 @@ def k_min(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
 
     Returns
     -------
-    k_min : (n,) float64
-        In units of 1 / length of the vertices.
+    curvatures : (n, 2) float64
+        The smaller and the larger one, in units of 1 / length of the vertices.
 
     Notes
     -----
@@ -55,7 +73,7 @@ def k_min(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
     for _ in range(smoothing_steps):
         sums, normals, area = (_plus_neighbors(x, a, b) for x in (sums, normals, area))
     safe = np.maximum(area, 1e-12 * mesh.area)
-    return _smaller_tangent_eigenvalue(sums.reshape(-1, 3, 3) / safe[:, None, None], normals)
+    return _tangent_eigenvalues(sums.reshape(-1, 3, 3) / safe[:, None, None], normals)
 
 
 def _plus_neighbors(values: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -63,8 +81,8 @@ def _plus_neighbors(values: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndar
     return values + sums_by(a, values[b], len(values)) + sums_by(b, values[a], len(values))
 
 
-def _smaller_tangent_eigenvalue(tensor: np.ndarray, normals: np.ndarray) -> np.ndarray:
-    """Smaller eigenvalue, (n,), of (n, 3, 3) symmetric tensors in the planes perpendicular to (n, 3) normals."""
+def _tangent_eigenvalues(tensor: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """Eigenvalues, (n, 2), rising, of (n, 3, 3) symmetric tensors in the planes perpendicular to (n, 3) normals."""
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     normal = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0)
     normal[length[:, 0] == 0] = (0.0, 0.0, 1.0)
@@ -73,7 +91,8 @@ def _smaller_tangent_eigenvalue(tensor: np.ndarray, normals: np.ndarray) -> np.n
     u /= np.linalg.norm(u, axis=1, keepdims=True)
     v = np.cross(normal, u)
     uu, uv, vv = (np.einsum("ni,nij,nj->n", p, tensor, q) for p, q in ((u, u), (u, v), (v, v)))
-    return (uu + vv) / 2 - np.hypot((uu - vv) / 2, uv)
+    mean, radius = (uu + vv) / 2, np.hypot((uu - vv) / 2, uv)
+    return np.stack([mean - radius, mean + radius], axis=1)
 
 
 def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.ndarray:

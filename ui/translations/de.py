@@ -109,8 +109,21 @@ TEXTS = {
     "Berretti": "Berretti",
     "Berretti 2009": "Berretti 2009",
     "Method": "Methode",
-    "How cuts are chosen: as people would, or by the paper's rules":
-        "Wie Schnitte gewählt werden: so, wie Menschen schneiden würden, oder nach den Regeln des Artikels",
+    "Lavoue": "Lavoué",
+    "Lavoue 2005": "Lavoué 2005",
+    "Liu": "Liu",
+    "Liu 2007": "Liu 2007",
+    "How cuts are chosen: as people would, by the paper's rules on the Reeb graph, where curvature changes, or by "
+    "cutting in two again and again":
+        "Wie Schnitte gewählt werden: so, wie Menschen schneiden würden, nach den Regeln des Artikels auf dem "
+        "Reeb-Graphen, wo sich die Krümmung ändert, oder durch immer neues Teilen in zwei",
+    "Curvature classes": "Krümmungsklassen",
+    "Number of classes of curvature that the surface is sorted into; 0 chooses it from the data":
+        "Anzahl der Krümmungsklassen, in die die Oberfläche eingeteilt wird; 0 wählt sie aus den Daten",
+    "Outline": "Umriss",
+    "How far the outline of a part, unfolded into the plane, counts when its cut is judged: 0 judges by the cut alone":
+        "Wie sehr der Umriss eines in die Ebene ausgebreiteten Teils zählt, wenn sein Schnitt beurteilt wird: 0 "
+        "urteilt nur nach dem Schnitt",
     "The name of the part until the user gives it another":
         "Der Name des Teils, bis der Benutzer ihm einen anderen gibt",
     "Symmetry": "Symmetrie",

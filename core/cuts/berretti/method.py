@@ -14,7 +14,7 @@ from ...surface.labels import majority, spread
 from ..hierarchy import Candidates
 from ..minimum_cut import move_cuts
 from .boundary_search import search_boundaries
-from .regions import berretti_regions, rank_regions
+from .regions import berretti_regions, rank_regions, with_finer
 
 DECISION = 0.5  # salience of a merge whose area ratio is the paper's threshold, Parameters.small_region
 
@@ -35,8 +35,8 @@ def berretti_candidates(
     Returns
     -------
     candidates : Candidates
-        The regions, including small ones, which merge first. Merges below the paper's threshold have a salience below
-        DECISION.
+        Pieces of the regions, which merge first, then small regions. Merges below the paper's threshold have a salience
+        below DECISION.
     """
     regions = berretti_regions(sets, topology, parameters.small_region)
     curvature = k_min(sets.mesh)
@@ -47,6 +47,7 @@ def berretti_candidates(
     # A cut that moves may leave little of a region. Regions are therefore ranked again after the cuts have moved.
     regions = rank_regions(sets, _follow(sets, regions.piece_region, piece_part, moved),
                            parameters.small_region)
+    regions = with_finer(sets, topology, regions, parameters.small_region)
     candidate = regions.piece_region[sets.element_piece]
     if parameters.follow_level_sets:
         return Candidates(candidate, regions.hierarchy)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Regions of [Berretti2009] (section 3.1): intervals are fused, then regions, then small regions are ranked."""
+"""Regions of [Berretti2009] (section 3.1): between events, then fused by adjacency, then ranked by size."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
-from ...surface.arrays import components, renumbered
+from ...surface.arrays import components, distinct_pairs, renumbered
 from ..hierarchy import Hierarchy
 
 
@@ -51,7 +51,7 @@ def berretti_regions(
     -------
     regions : Regions
     """
-    count, region = fuse_intervals(sets, topology)
+    count, region = regions_between_events(sets, topology)
     count, region = fuse_equal_adjacency(sets, count, region)
     return rank_regions(sets, region, small_region)
 
@@ -81,11 +81,13 @@ def rank_regions(sets: LevelSets, region: np.ndarray, small_region: float) -> Re
     return Regions(region, len(names), Hierarchy.of(len(names), merges, salience))
 
 
-def fuse_intervals(sets: LevelSets, topology: ReebTopology) -> tuple[int, np.ndarray]:
-    """Fuse consecutive slabs with equally many connected components, until all neighboring intervals differ.
+def regions_between_events(sets: LevelSets, topology: ReebTopology) -> tuple[int, np.ndarray]:
+    """Find the regions between the values at which the number of connected components changes.
 
-    Ripples (leaves that ``simplify`` cancelled) are not counted, since each would end an interval for the whole
-    surface. The pieces of a ripple belong to the region to which it is attached.
+    The number is that of the connected component that is followed, not of the whole surface: a limb is not cut where
+    another limb begins or ends. A piece in which components join or split belongs to the side on which they are one.
+    What rises from a minimum is the middle of a body, no protrusion, and belongs to what it joins. Ripples (leaves that
+    ``simplify`` cancelled) are not counted, and belong to the region to which they are attached.
 
     Parameters
     ----------
@@ -97,26 +99,59 @@ def fuse_intervals(sets: LevelSets, topology: ReebTopology) -> tuple[int, np.nda
     Returns
     -------
     count : int
-        Number of regions: of connected components of the intervals.
+        Number of regions.
     region : (P,) int64
-        Region of each piece, 0..count-1.
+        Region of each piece, 0..count-1; every region is connected.
     """
-    kept = topology.contour_arc >= 0
-    on_graph = np.zeros(sets.n_pieces, bool)
-    on_graph[sets.contour_pieces[kept]] = True
-    on_graph |= ~on_graph.any()  # a graph of one node has no contour
-    interval = np.arange(len(sets.levels) + 1)  # the interval of each slab
-    while True:
-        piece_interval = interval[sets.piece_slab]
-        lower, upper = piece_interval[sets.contour_pieces].T
-        _, part = components(sets.n_pieces, *sets.contour_pieces[lower == upper].T)
-        first = np.unique(part[on_graph], return_index=True)[1]
-        n_parts = np.bincount(piece_interval[on_graph][first], minlength=interval[-1] + 1)
-        starts = np.append(True, n_parts[1:] != n_parts[:-1])
-        if starts.all():
-            break
-        interval = (np.cumsum(starts) - 1)[interval]
-    return components(sets.n_pieces, *sets.contour_pieces[(lower == upper) | ~kept].T)
+    return components(sets.n_pieces, *sets.contour_pieces[~_events(sets, topology)].T)
+
+
+def _events(sets: LevelSets, topology: ReebTopology) -> np.ndarray:
+    """Which contours are next to a piece in which components join or split, on the side of several, (C,) bool."""
+    on_graph = topology.contour_arc >= 0
+    lower, upper = sets.contour_pieces.T
+    n_above = np.bincount(lower[on_graph], minlength=sets.n_pieces)
+    n_below = np.bincount(upper[on_graph], minlength=sets.n_pieces)
+    ends_below = np.bincount(topology.arcs.ravel(), minlength=topology.n_nodes)[topology.arcs[:, 0]] == 1
+    from_minimum = np.zeros(sets.n_contours, bool)
+    from_minimum[on_graph] = ends_below[topology.contour_arc[on_graph]]
+    return on_graph & ((n_above[lower] > 1) | ((n_below[upper] > 1) & ~from_minimum))
+
+
+def with_finer(sets: LevelSets, topology: ReebTopology, regions: Regions, small_region: float) -> Regions:
+    """Cut regions where components begin, end, join or split anywhere, so that there is something finer than regions.
+
+    The pieces of a region merge before any two regions do, the smallest first.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        P pieces.
+    topology : ReebTopology
+        Reeb graph of the component without ripples.
+    regions : Regions
+    small_region : float
+        See ``rank_regions``.
+
+    Returns
+    -------
+    regions : Regions
+        With the parts of ``regions`` at every level of detail at which no region is cut.
+    """
+    level = np.zeros(len(sets.levels), bool)
+    at_node = (topology.piece_node[sets.contour_pieces] >= 0).any(axis=1) & (topology.contour_arc >= 0)
+    level[sets.contour_level[at_node]] = True
+    lower, upper = regions.piece_region[sets.contour_pieces].T
+    inside = lower == upper
+    joined = inside & ~(level[sets.contour_level] & (topology.contour_arc >= 0) & ~at_node)
+    count, fine = components(sets.n_pieces, *sets.contour_pieces[joined].T)
+    merges, ratio = fuse_small(sets, count, fine, inside)
+    least = regions.hierarchy.salience.min(initial=0.5)
+    one_of = np.empty(regions.count, np.int64)  # a piece of each region stands for it
+    one_of[regions.piece_region] = fine
+    return Regions(fine, count, Hierarchy.of(
+        count, np.concatenate([merges, one_of[regions.hierarchy.merges]]),
+        np.concatenate([least * ratio / (ratio + small_region), regions.hierarchy.salience])))
 
 
 class FusionGraph:
@@ -130,6 +165,8 @@ class FusionGraph:
         Number of regions.
     region : (P,) int64
         Region of each piece, 0..count-1.
+    contours : (C,) bool, optional
+        Contours across which regions are neighbors; all without.
 
     Attributes
     ----------
@@ -141,12 +178,13 @@ class FusionGraph:
         Regions that have not been fused into another.
     """
 
-    def __init__(self, sets: LevelSets, count: int, region: np.ndarray) -> None:
+    def __init__(self, sets: LevelSets, count: int, region: np.ndarray, contours: np.ndarray | None = None) -> None:
         self.area = np.bincount(region, sets.piece_area, count).tolist()
         self.neighbors = [{} for _ in range(count)]
         self.alive = set(range(count))
-        lower, upper = region[sets.contour_pieces].T
-        for a, b, length in zip(lower.tolist(), upper.tolist(), sets.contour_length.tolist(),
+        chosen = np.ones(sets.n_contours, bool) if contours is None else contours
+        lower, upper = region[sets.contour_pieces[chosen]].T
+        for a, b, length in zip(lower.tolist(), upper.tolist(), sets.contour_length[chosen].tolist(),
                                 strict=True):
             if a != b:
                 self.neighbors[a][b] = self.neighbors[a].get(b, 0.0) + length
@@ -177,8 +215,10 @@ def fuse_equal_adjacency(
 ) -> tuple[int, np.ndarray]:
     """Fuse adjacent regions with equally many neighbors, until no such pair or only two regions are left.
 
-    [Berretti2009] leaves the order open. Here the pair of least area is fused first, so that slivers disappear before
-    larger regions do.
+    [Berretti2009] leaves the order open. Here all pairs are fused at once that have equally many neighbors, then the
+    neighbors are counted anew. So a chain of regions, from each of which one limb branches off, becomes one region;
+    pair by pair, the first pair would have one neighbor more than the rest of the chain. A round that would leave no
+    cut fuses the pair of least area only.
 
     Parameters
     ----------
@@ -196,24 +236,25 @@ def fuse_equal_adjacency(
     region : (P,) int64
         Region of each piece, 0..count-1.
     """
-    graph = FusionGraph(sets, count, region)
-    target = np.arange(count)
-    while True:
-        pairs = [(graph.area[a] + graph.area[b], a, b) for a in sorted(graph.alive)
-                 for b in graph.neighbors[a]
-                 if a < b and len(graph.neighbors[a]) == len(graph.neighbors[b])]
-        # The last two regions have one neighbor each; if they were fused, no cut would be left.
-        if not pairs or len(graph.alive) <= 2:
+    region = np.asarray(region)
+    while count > 2:
+        low, high = np.sort(region[sets.contour_pieces], axis=1).T
+        pairs = distinct_pairs(low[low != high], high[low != high])[0]
+        degree = np.bincount(pairs.ravel(), minlength=count)
+        equal = pairs[degree[pairs[:, 0]] == degree[pairs[:, 1]]]
+        if not len(equal):
             break
-        _, keep, gone = min(pairs)
-        graph.merge(keep, gone)
-        target[target == gone] = keep
-    kept, fused = renumbered(target[region])
-    return len(kept), fused
+        left, target = components(count, *equal.T)
+        if left < 2:
+            area = np.bincount(region, sets.piece_area, count)
+            least = area[equal].sum(axis=1).argmin()
+            left, target = components(count, *equal[[least]].T)
+        count, region = left, target[region]
+    return count, region
 
 
 def fuse_small(
-    sets: LevelSets, count: int, region: np.ndarray
+    sets: LevelSets, count: int, region: np.ndarray, contours: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Fuse the smallest region into the neighbor along its longest boundary, until no two regions touch.
 
@@ -225,6 +266,8 @@ def fuse_small(
         Number of regions.
     region : (P,) int64
         Region of each piece, 0..count-1.
+    contours : (C,) bool, optional
+        Contours across which regions may be fused; all without.
 
     Returns
     -------
@@ -234,7 +277,7 @@ def fuse_small(
     ratio : (s,) float64
         Area of the fused region over that of the region that was then the largest.
     """
-    graph = FusionGraph(sets, count, region)
+    graph = FusionGraph(sets, count, region, contours)
     merges, ratio, alone = [], [], 0.0
     while len(graph.alive) > 1:
         smallest = min(graph.alive, key=lambda r: (graph.area[r], r))

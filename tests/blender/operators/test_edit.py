@@ -120,7 +120,8 @@ def test_a_grain_does_not_split(obj, result):
 
 
 def test_lock_keeps_a_part_and_unlock_releases_it(obj, result):
-    number = result.parts[-1].number
+    # A limb: what is left without it hangs together.
+    number = next(p.number for p in reversed(result.parts) if len(neighbours(obj.data, p.number)) == 1)
     mask = numbers(obj.data) == number
     part(result, number).locked = True
     result.detail = 0.0
@@ -346,9 +347,13 @@ def neighbours_in_object_mode(obj):
 
 @pytest.mark.parametrize("operator", ["split", "shrink", "grow", "merge_neighbour"])
 def test_what_is_not_possible_with_one_of_several_parts_is_done_to_none(obj, result, operator):
-    # Nine parts of ten candidates: only the first can be split or give something away.
-    result.n_parts = 9
-    good, bad = result.parts[0].number, result.parts[-1].number
+    # One part less than there are candidates: only one can be split or give something away.
+    result.n_parts = 1000
+    finest = numbers(obj.data)
+    result.n_parts = len(result.parts) - 1
+    good = int(numbers(obj.data)[finest != numbers(obj.data)][0])
+    # What one gives away must not be what the other has too little of.
+    bad = next(p.number for p in reversed(result.parts) if p.number not in {good, *neighbours(obj.data, good)})
     if operator in ("grow", "merge_neighbour"):  # impossible where all around is locked
         bad = next(p.number for p in reversed(result.parts) if good not in neighbours(obj.data, p.number))
         for number in neighbours(obj.data, bad):
@@ -370,7 +375,7 @@ def test_several_parts_at_once_are_as_one_after_the_other(make, tree, operator):
     shown = []
     for together in (True, False):
         obj = make(tree, "One")
-        bpy.ops.reeb_parts.decompose(method="berretti", n_parts=4)
+        bpy.ops.reeb_parts.decompose(method="liu", n_parts=4)  # parts of many candidates
         mesh = obj.data
         chosen = [part.number for part in mesh.reeb_parts.parts][:2]
         for marked in ([chosen] if together else [[number] for number in chosen]):

@@ -86,7 +86,9 @@ def test_parts_of_a_figure_are_exactly_symmetric_at_every_detail(method):
         assert np.array_equal(found.twin[found.labels], found.labels[twin])
         assert np.array_equal(found.side[found.twin], -found.side)
     assert result.parts(detail=0.0).count == 1
-    assert [result.parts(n_parts=n).count for n in range(1, 12)] == list(range(1, 12))
+    most = min(result.n_candidates, 11)
+    assert most > 5
+    assert [result.parts(n_parts=n).count for n in range(1, most + 1)] == list(range(1, most + 1))
 
 
 def test_limbs_of_the_figure_are_pairs():

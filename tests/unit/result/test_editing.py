@@ -122,6 +122,9 @@ def tree():
 def test_finer_candidates_change_no_parts(result, tree, seed):
     graph, table = tree
     chosen = np.random.default_rng(seed).random(graph.n_faces) < 0.5
+    # Every candidate is cut, however small.
+    chosen[np.unique(result.candidates, return_index=True)[1]] = True
+    chosen[graph.n_faces - 1 - np.unique(result.candidates[::-1], return_index=True)[1]] = False
     finer = split_candidates(result, chosen, graph, table)
     assert finer.n_candidates == 2 * result.n_candidates
     for detail in (0.0, 0.4, 0.6, 0.99):

@@ -9,8 +9,8 @@ from core.cuts.berretti.regions import (
     FusionGraph,
     berretti_regions,
     fuse_equal_adjacency,
-    fuse_intervals,
     fuse_small,
+    regions_between_events,
 )
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_topology
@@ -44,33 +44,54 @@ def described(sets, count, region):
 
 def test_a_y_by_hand():
     sets = y_shape()
-    # One piece in slabs 0..4 (the bar ends at 4, the arms are free from 4.5 on), two in 5 and 6
-    # (the short arm ends at 6, inside slab 6), one in 7.
-    count, region = fuse_intervals(sets, reeb_topology(sets))
-    stem = ([0, 1, 2, 3, 4], 7.0)  # stem 3, bar 3, two halves of arms
-    assert described(sets, count, region) == [stem, ([5, 6], 1.5), ([5, 6], 2.0), ([7], 0.5)]
-    # Neighbors: tip 1, long arm 2, stem 2, short arm 1. Arm and stem fuse; then 1, 2, 1.
-    count, region = fuse_equal_adjacency(sets, count, region)
-    assert described(sets, count, region) == [([0, 1, 2, 3, 4, 5, 6], 9.0), ([5, 6], 1.5), ([7], 0.5)]
-    # The tip goes first, at 0.5 of 9, then the short arm at 1.5 of 9.5.
+    # The bar ends at 4, inside slab 4, which is one piece; the arms are free from 4.5 on. The short arm ends at 6,
+    # which does not concern the long one.
+    count, region = regions_between_events(sets, reeb_topology(sets))
+    stem, short, long = ([0, 1, 2, 3, 4], 7.0), ([5, 6], 1.5), ([5, 6, 7], 2.5)
+    assert described(sets, count, region) == [stem, short, long]
+    # Neighbors: stem 2, arms 1 each. Nothing is fused.
+    assert described(sets, *fuse_equal_adjacency(sets, count, region)) == [stem, short, long]
+    # The short arm goes first, at 1.5 of 7, then the long arm at 2.5 of 8.5.
     _, ratio = fuse_small(sets, count, region)
-    assert ratio == pytest.approx([0.5 / 9, 1.5 / 9.5])
-    regions = berretti_regions(sets, reeb_topology(sets), 0.1)
-    assert regions.hierarchy.n_parts(0.5) == 2  # the threshold 0.1 lies between
+    assert ratio == pytest.approx([1.5 / 7, 2.5 / 8.5])
+    regions = berretti_regions(sets, reeb_topology(sets), 0.25)
+    assert regions.hierarchy.n_parts(0.5) == 2  # the threshold 0.25 lies between
 
 
-def test_contiguous_intervals_differ():
+def test_a_body_with_limbs_along_it_is_one_region():
+    # A comb: a back of eleven squares, and a tooth of three on every second one, from the third on.
+    cells = [(x, 0) for x in range(11)] + [(x, y) for x in (2, 4, 6, 8) for y in (1, 2, 3)]
+    shape = shapes.flat_cells(cells)
+    # Higher along the back, and higher still up each tooth.
+    values = shape.vertices[:, 0] + 0.9 * np.maximum(shape.vertices[:, 1] - 1, 0)
+    sets = cut_at_levels(TriMesh(*shape), values, np.arange(0.25, values.max(), 0.5))
+    topology = reeb_topology(sets)
+    assert regions_between_events(sets, topology)[0] > 6  # the back falls apart where each tooth begins
+    count, region = fuse_equal_adjacency(sets, *regions_between_events(sets, topology))
+    # Behind the first tooth: the beginning of the back, at one end of the chain, has one neighbor less.
+    back = region[sets.vertex_piece[(shape.vertices[:, 1] == 0) & (np.abs(shape.vertices[:, 0] - 5.5) < 2)]]
+    tips = region[sets.vertex_piece[shape.vertices[:, 1] == 4]]
+    assert len(set(back.tolist())) == 1
+    assert not set(back.tolist()) & set(tips.tolist())
+    assert len(set(tips.tolist())) == 4
+    assert count <= 7
+
+
+def test_a_region_ends_where_its_own_level_set_joins_or_splits():
     for shape, direction in ((shapes.surface_of_genus(2), (1, 0.1, 0)), (shapes.tube_tree(), (0.3, 1, 0.2))):
         sets = along(shape, direction)
-        _, region = fuse_intervals(sets, reeb_topology(sets))
-        # Count regions over each slab: consecutive slabs differ only where an interval ends.
-        starts = [set(region[sets.piece_slab == s].tolist()) for s in range(len(sets.levels) + 1)]
-        ends = [s for s in range(len(starts) - 1) if starts[s].isdisjoint(starts[s + 1])]
-        assert ends
-        for s in ends:
-            assert len(starts[s]) != len(starts[s + 1])
-        for s in set(range(len(starts) - 1)) - set(ends):
-            assert starts[s] == starts[s + 1]
+        topology = reeb_topology(sets)
+        count, region = regions_between_events(sets, topology)
+        lower, upper = sets.contour_pieces.T
+        ends = region[lower] != region[upper]
+        assert 0 < ends.sum() < sets.n_contours
+        # No region ends along an arc of the graph, away from its nodes.
+        inside = (topology.piece_node[lower] < 0) & (topology.piece_node[upper] < 0)
+        assert not (ends & inside).any()
+        # Within a region no two contours of one level lie side by side, other than around a node.
+        for r in range(count):
+            levels = sets.contour_level[~ends & (region[lower] == r)]
+            assert len(levels) - len(np.unique(levels)) <= (topology.piece_node[region == r] >= 0).sum()
 
 
 @pytest.fixture(params=["genus 1", "genus 3", "tree", "dumbbell", "noise"])
@@ -98,14 +119,14 @@ def assert_connected(sets, count, region):
 
 def test_regions_are_connected(made):
     sets, topology = made
-    count, region = fuse_intervals(sets, topology)
+    count, region = regions_between_events(sets, topology)
     assert_connected(sets, count, region)
     assert_connected(sets, *fuse_equal_adjacency(sets, count, region))
 
 
 def test_no_two_regions_of_equal_adjacency_touch(made):
     sets, topology = made
-    count, region = fuse_equal_adjacency(sets, *fuse_intervals(sets, topology))
+    count, region = fuse_equal_adjacency(sets, *regions_between_events(sets, topology))
     pairs = region_pairs(sets, region)
     degree = np.bincount(pairs.ravel(), minlength=count)
     if count > 2:
@@ -114,7 +135,7 @@ def test_no_two_regions_of_equal_adjacency_touch(made):
 
 def test_small_regions_go_smallest_first(made):
     sets, topology = made
-    count, region = fuse_equal_adjacency(sets, *fuse_intervals(sets, topology))
+    count, region = fuse_equal_adjacency(sets, *regions_between_events(sets, topology))
     merges, ratio = fuse_small(sets, count, region)
     assert merges.shape == (count - 1, 2)
     area, part = np.bincount(region, sets.piece_area, count), np.arange(count)
