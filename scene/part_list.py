@@ -99,8 +99,11 @@ def mark(mesh: bpy.types.Mesh, action: str, with_faces: Container[int] = ()) -> 
 def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The user has clicked a part in the list: only it is chosen, and in Edit Mode its faces are selected."""
     mesh = result.id_data
-    if result.active >= len(result.parts):
+    if not len(result.parts):
         return
+    if not 0 <= result.active < len(result.parts):  # a script has set it
+        with quiet.quiet():
+            result.active = max(0, min(result.active, len(result.parts) - 1))
     mark(mesh, "NONE")
     if mesh.is_editmode:
         _select_in_edit_mode(mesh, active_number(mesh))
