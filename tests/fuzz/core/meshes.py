@@ -13,7 +13,7 @@ SHAPES = {
     "octahedron": lambda rng: shapes.octahedron(),
     "ball": lambda rng: shapes.icosphere(int(rng.integers(0, 3))),
     "grid": lambda rng: shapes.flat_grid(*rng.integers(1, 12, 2).tolist()),
-    "cells": lambda rng: shapes.flat_cells([(x, y) for x in range(6) for y in range(6) if rng.random() < 0.6] or [(0, 0)]),
+    "cells": lambda rng: shapes.flat_cells([(0, 0), *np.argwhere(rng.random((6, 6)) < 0.6).tolist()]),
     "torus": lambda rng: shapes.torus(*rng.integers(3, 16, 2).tolist()),
     "tree": lambda rng: shapes.tube_tree(int(rng.integers(1, 5)), 0.3),
     "dumbbell": lambda rng: shapes.dumbbell(20, 8),
