@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Odd shapes cost about what ordinary ones do: time is that of the processor, beside an ordinary mesh of 10,000 faces."""
+"""Odd shapes cost about what ordinary ones do: time of the processor, beside an ordinary mesh of 10,000 faces."""
 
 import time
 
