@@ -186,7 +186,8 @@ def build(case):
     """Vertices, faces and polygons of a case; polygons may be None."""
     shape = SHAPES[case["shape"]](np.random.default_rng(case["seed"]))
     vertices, faces = np.asarray(shape.vertices, float), np.asarray(shape.faces, np.int64)
-    for name, amount, seed in case["damages"]:
+    # What is refused comes last: nothing more can be done to faces whose vertices are not there.
+    for name, amount, seed in sorted(case["damages"], key=lambda damage: damage[0] in REFUSED):
         if len(vertices) and len(faces):
             with np.errstate(all="ignore"):
                 vertices, faces = DAMAGES[name](vertices, faces, amount, np.random.default_rng(seed))
