@@ -7,7 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import outputs, store, targets
+from ..scene import outputs, quiet, targets
 from ..scene.outputs import face_sets, materials, seams
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
@@ -30,7 +30,7 @@ class OutputOperator(PartOperator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         output, done, undone = self.output
         obj = targets.users(obj.data)[0]
-        with store.quiet():
+        with quiet.quiet():
             (output.remove if self.remove else output.add)(obj)
             if not self.remove:
                 numbered = stored.shown_parts()

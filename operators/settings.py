@@ -7,6 +7,7 @@ from ..core.parameters import PRESETS
 from ..scene import defaults
 from ..scene.reporting import ReportingOperator
 from ..scene.settings import OUTPUTS, OVERLAY
+from ..scene.transaction import keep_group
 
 
 class SceneOperator(ReportingOperator):
@@ -24,6 +25,7 @@ class REEB_PARTS_OT_use_preferences(SceneOperator, bpy.types.Operator):
     bl_label = "Use Preferences in This Scene"
 
     def run(self, context: bpy.types.Context) -> None:
+        keep_group(context.scene, "reeb_parts")
         settings = context.scene.reeb_parts
         defaults.use(settings, ("preset", *OUTPUTS, *OVERLAY))
         # Also what was changed after the preset was chosen.
@@ -37,6 +39,7 @@ class REEB_PARTS_OT_reset_parameters(SceneOperator, bpy.types.Operator):
     bl_label = "Reset Parameters to Preset"
 
     def run(self, context: bpy.types.Context) -> None:
+        keep_group(context.scene, "reeb_parts")
         settings = context.scene.reeb_parts
         detail, n_parts = settings.detail, settings.n_parts
         settings.use_parameters(PRESETS[settings.preset])

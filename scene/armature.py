@@ -11,7 +11,8 @@ from mathutils import Matrix, Vector
 
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts
-from . import bridge, mesh_arrays, outputs, part_names, piece_objects, store, targets
+from . import bridge, mesh_arrays, modifiers, outputs, part_names, piece_objects, quiet, store, targets, transaction
+from .modes import set_mode
 from .selection import nothing_selected
 from .store import Stored
 from .temporary import remove_object
@@ -26,9 +27,15 @@ MADE = "reeb_parts_looks"  # on the armature: what it was like when it was made
 
 def remove_modifier(obj: bpy.types.Object) -> None:
     """Take our modifier off an object; the armature stays."""
+    modifier = _modifier(obj)
+    if modifier is not None:
+        modifiers.remove(obj, modifier)
+
+
+def _modifier(obj: bpy.types.Object) -> bpy.types.ArmatureModifier | None:
+    """Our modifier on an object, or None."""
     modifier = obj.modifiers.get(NAME)
-    if modifier is not None and modifier.type == "ARMATURE":
-        obj.modifiers.remove(modifier)
+    return modifier if modifier is not None and modifier.type == "ARMATURE" else None
 
 
 def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, deform: bool) -> bpy.types.Object:
@@ -60,10 +67,12 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     collection.objects.link(rig)
     _add_bones(context, rig, bones, [part.group for part in obj.data.reeb_parts.parts] or names)
     rig[MADE] = _looks(rig)
-    remove_modifier(obj)
     if deform:
-        modifier = obj.modifiers.new(NAME, "ARMATURE")
+        modifier = _modifier(obj) or modifiers.new(obj, NAME, "ARMATURE")
+        transaction.keep(modifier, "object")
         modifier.object = rig
+    else:
+        remove_modifier(obj)
     return rig
 
 
@@ -90,8 +99,9 @@ def _write_groups(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     """The bones find their vertices by the names of groups: make these unless they are there."""
     result = obj.data.reeb_parts
     if not result.has_groups:
+        transaction.keep_mesh(obj.data)
         result.has_groups = True
-        with store.quiet():
+        with quiet.quiet():
             outputs.update_outputs(targets.users(obj.data)[0], numbered)
 
 
@@ -100,8 +110,9 @@ def _remove_earlier(collection: bpy.types.Collection) -> None:
         if rig.get(ROLE) != "armature":
             continue
         if not rig.children and _looks(rig) == rig.get(MADE):
-            remove_object(rig, bpy.data.armatures)
+            remove_object(rig)
         else:
+            transaction.keep_keys(rig, ROLE, MADE)
             del rig[ROLE], rig[MADE]
 
 
@@ -110,16 +121,15 @@ def _add_bones(context: bpy.types.Context, rig: bpy.types.Object, bones: Bones, 
     layer = context.view_layer
     with nothing_selected(layer):
         layer.objects.active = rig
-        with context.temp_override(active_object=rig, object=rig):
-            bpy.ops.object.mode_set(mode="EDIT")
-            made = [rig.data.edit_bones.new(name) for name in names]
-            for index, bone in enumerate(made):
-                bone.head, bone.tail = Vector(bones.head[index]), Vector(bones.tail[index])
-            for index, bone in enumerate(made):
-                if bones.parent[index] >= 0:
-                    bone.parent = made[bones.parent[index]]
-                    bone.use_connect = bool(bones.connected[index])
-            bpy.ops.object.mode_set(mode="OBJECT")
+        set_mode(rig, "EDIT")
+        made = [rig.data.edit_bones.new(name) for name in names]
+        for index, bone in enumerate(made):
+            bone.head, bone.tail = Vector(bones.head[index]), Vector(bones.tail[index])
+        for index, bone in enumerate(made):
+            if bones.parent[index] >= 0:
+                bone.parent = made[bones.parent[index]]
+                bone.use_connect = bool(bones.connected[index])
+        set_mode(rig, "OBJECT")
 
 
 def _looks(rig: bpy.types.Object) -> str:

@@ -13,9 +13,10 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .. import __package__ as base_package
-from ..core.parameters import PRESETS
-from . import store
+from ..core.parameters import PRESETS, RENAMED
+from . import quiet
 from .settings import OUTPUTS, OVERLAY, PARAMETERS, take_over_former_names
+from .transaction import keep_group, transaction
 
 
 def preferences() -> bpy.types.AddonPreferences | None:
@@ -29,6 +30,14 @@ def adopt(scene: bpy.types.Scene) -> None:
     if not scene.is_editable:
         return
     settings = scene.reeb_parts
+    if settings.adopted and not any(settings.is_property_set(name) for name in RENAMED):
+        return
+    with transaction():
+        keep_group(scene, "reeb_parts")
+        _adopt(settings)
+
+
+def _adopt(settings: bpy.types.PropertyGroup) -> None:
     take_over_former_names(settings)
     if not settings.adopted:
         names = [name for name in (*OUTPUTS, *OVERLAY) if not settings.is_property_set(name)]
@@ -44,11 +53,13 @@ def use(settings: bpy.types.PropertyGroup, names: Iterable[str]) -> None:
     if chosen is None:
         return
     # No graph is drawn anew by this.
-    with store.quiet():
+    with quiet.quiet():
         settings.adopted = True
         for name in names:
             if getattr(settings, name) != getattr(chosen, name):
                 setattr(settings, name, getattr(chosen, name))
+                if name == "preset":
+                    settings.use_parameters(PRESETS[settings.preset])
 
 
 def complete(operator: bpy.types.Operator) -> None:

@@ -21,7 +21,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.result.decomposition import Decomposition
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
-from . import bridge, mesh_arrays, part_names, reactions, store
+from . import bridge, mesh_arrays, part_names, quiet, reactions, store
 from .errors import SceneError
 from .outputs import face_sets
 from .selection import selected_faces
@@ -233,7 +233,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     for number in np.unique(face_numbers[moved]).tolist():
         inside = moved & (face_numbers == number)
         stored = _finer(stored, split_candidates(stored.decomposition, inside, *mesh_tables))
-    with store.quiet():
+    with quiet.quiet():
         store.save(obj.data, stored)
     numbers = stored.shown.copy()
     numbers[stored.decomposition.candidates[moved]] = face_numbers[moved]
@@ -284,7 +284,7 @@ def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, nu
     result = mesh.reeb_parts
     locked = {part.number for part in result.parts if part.locked}
     pinned = np.where(np.isin(stored.pinned, list(set(numbers) - locked)), 0, stored.pinned)
-    with store.quiet():
+    with quiet.quiet():
         store.save_numbers(mesh, replace(stored, pinned=pinned))
     result.by_number = False
     reactions.show(result, context)

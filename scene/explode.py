@@ -11,9 +11,10 @@ from collections.abc import Iterable
 
 import bpy
 
-from . import outputs, store, targets
+from . import modifiers, outputs, quiet, store, targets, transaction
 from .errors import SceneError
 from .outputs import face_attribute
+from .settled import reaction
 
 NAME = "Reeb Parts Explode"
 PROPERTY = "reeb_parts_made.explode"
@@ -26,6 +27,7 @@ def find(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
                  if modifier.type == "NODES" and modifier.node_group and OURS in modifier.node_group), None)
 
 
+@reaction
 def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The slider was moved: the modifier is there while there is something for it to do."""
     obj = made.id_data
@@ -38,6 +40,7 @@ def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 def forget(obj: bpy.types.Object) -> None:
     """Take the modifier away and forget what was made of the object; pieces are the user's from now on."""
     _remove_modifier(obj)
+    transaction.keep_group(obj, "reeb_parts_made")
     obj.property_unset("reeb_parts_made")
 
 
@@ -45,9 +48,10 @@ def _remove_modifier(obj: bpy.types.Object) -> None:
     modifier = find(obj)
     if modifier is not None:
         group = modifier.node_group
-        obj.modifiers.remove(modifier)
-        if group.users == 0:
-            bpy.data.node_groups.remove(group)
+        unused = group.users == 1
+        modifiers.remove(obj, modifier)
+        if unused:
+            transaction.discard(group)
 
 
 def _ensure(obj: bpy.types.Object) -> None:
@@ -55,12 +59,15 @@ def _ensure(obj: bpy.types.Object) -> None:
     if not store.has_parts(obj):
         return
     name = _face_attribute(obj)
-    modifier = find(obj) or obj.modifiers.new(NAME, "NODES")
+    modifier = find(obj) or modifiers.new(obj, NAME, "NODES")
     group = modifier.node_group
     if group is None or group[OURS] != obj.name:
         # A copy of the object comes with the group of the original, which listens to the original.
+        transaction.keep(modifier, "node_group")
         modifier.node_group = group = _node_group(obj)
-    group.nodes["Part"].inputs["Name"].default_value = name
+    socket = group.nodes["Part"].inputs["Name"]
+    transaction.keep(socket, "default_value")
+    socket.default_value = name
 
 
 def _face_attribute(obj: bpy.types.Object) -> str:
@@ -71,7 +78,7 @@ def _face_attribute(obj: bpy.types.Object) -> str:
             numbered = store.load(obj.data).shown_parts()
         except SceneError:  # the mesh was edited: the panel says so
             return ""
-        with store.quiet():
+        with quiet.quiet():
             face_attribute.add(obj)
             outputs.update_outputs(targets.users(obj.data)[0], numbered, numbered.candidate_numbers)
     return result.face_attribute

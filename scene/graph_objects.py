@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.graph.reeb import ReebGraph
 from ..core.result.numbering import NumberedParts
-from . import bridge, part_names, store
+from . import bridge, part_names, store, transaction
 from .outputs.colors import linear
 from .temporary import remove_object
 
@@ -50,6 +50,7 @@ def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) 
     while waiting:
         layer = waiting.pop()
         if layer.collection == collection:
+            transaction.keep(layer, "hide_viewport")
             layer.hide_viewport = hidden
         waiting.extend(layer.children)
     return True
@@ -123,6 +124,8 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
         remove(obj)
         return
     for node in nodes:
+        transaction.keep_keys(node, "part")
+        transaction.keep(node, "color")
         node["part"] = numbers[node["node"]]
         node.color = (*linear(colors[node["part"], :3].tolist()), 1.0)
 
@@ -135,10 +138,12 @@ def restyle(obj: bpy.types.Object | None, style: Any) -> None:
     corners = np.array([corner[:] for corner in obj.bound_box])
     size = style.node_size * float(np.linalg.norm(np.ptp(corners, axis=0)))
     for item in collection.objects:
+        transaction.keep(item, "empty_display_size", "show_in_front")
         if item.get(ROLE) == "node":
             item.empty_display_size = size
             item.show_in_front = style.in_front
         elif item.get(ROLE) == "arcs":
+            transaction.keep(item.data, "bevel_depth")
             item.data.bevel_depth = style.line_thickness
             item.show_in_front = style.in_front
 
@@ -148,13 +153,14 @@ def remove(obj: bpy.types.Object) -> None:
     for collection in list(bpy.data.collections):
         if SOURCE not in collection or collection[SOURCE] not in (obj, None):
             continue
-        for item in list(collection.objects):
-            if ROLE in item:
-                remove_object(item, bpy.data.curves)
-        if len(collection.all_objects) or len(collection.children):
-            del collection[SOURCE]  # the user put something in it: it is the user's now
-        else:
-            bpy.data.collections.remove(collection)
+        ours = [item for item in collection.objects if ROLE in item]
+        theirs = [item for item in collection.all_objects if item not in ours]
+        for item in ours:
+            remove_object(item)
+        transaction.keep_keys(collection, SOURCE)
+        del collection[SOURCE]
+        if not theirs and not len(collection.children):  # else it is the user's now, who put something in it
+            transaction.discard(collection)
 
 
 def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | None:

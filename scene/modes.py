@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import bpy
@@ -29,9 +29,21 @@ def object_mode(context: bpy.types.Context) -> Iterator[None]:
     if mode == "OBJECT":
         yield
         return
-    with context.temp_override(active_object=active, object=active):
-        bpy.ops.object.mode_set(mode="OBJECT")
-        try:
-            yield
-        finally:
-            bpy.ops.object.mode_set(mode=mode)
+    set_mode(active, "OBJECT")
+    try:
+        yield
+    finally:
+        set_mode(active, mode)
+
+
+def set_mode(obj: bpy.types.Object, mode: str) -> None:
+    """Change the mode of the active object."""
+    call_with(bpy.ops.object.mode_set, obj, mode=mode)
+
+
+def call_with(operator: Callable[..., set[str]], obj: bpy.types.Object, **arguments: str | float) -> set[str]:
+    """Call one of Blender's operators with an object as the active one, whatever the window shows; its result."""
+    edited = {"edit_object": obj} if obj.mode == "EDIT" else {}
+    # On one line, so that nothing can be raised before the override ends: Blender would keep it for ever.
+    with bpy.context.temp_override(active_object=obj, object=obj, **edited): done = operator(**arguments)  # noqa: E701
+    return done

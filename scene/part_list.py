@@ -9,8 +9,9 @@ import bmesh
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import store, targets
+from . import quiet, store, targets, transaction
 from .errors import SceneError
+from .settled import reaction
 
 
 def check_parts(obj: bpy.types.Object | None) -> None:
@@ -42,8 +43,9 @@ def wanted_numbers(mesh: bpy.types.Mesh, which: str) -> list[int]:
 
 def choose(mesh: bpy.types.Mesh, numbers: list[int]) -> None:
     """Choose these parts and no others: the first becomes the active one, and several are marked."""
+    transaction.keep_result(mesh)
     result = mesh.reeb_parts
-    with store.quiet():
+    with quiet.quiet():
         for index, part in enumerate(result.parts):
             part.selected = part.number in numbers and len(numbers) > 1
             if part.number == numbers[0]:
@@ -52,7 +54,8 @@ def choose(mesh: bpy.types.Mesh, numbers: list[int]) -> None:
 
 def make_active(mesh: bpy.types.Mesh, number: int) -> None:
     """Make a part the active one of the list, which scrolls to it; no mark changes."""
-    with store.quiet():
+    transaction.keep_result(mesh)
+    with quiet.quiet():
         for index, part in enumerate(mesh.reeb_parts.parts):
             if part.number == number:
                 mesh.reeb_parts.active = index
@@ -60,8 +63,9 @@ def make_active(mesh: bpy.types.Mesh, number: int) -> None:
 
 def toggle(mesh: bpy.types.Mesh, number: int) -> None:
     """Mark a part that is not marked, or take its mark away; it becomes the active one."""
+    transaction.keep_result(mesh)
     result = mesh.reeb_parts
-    with store.quiet():
+    with quiet.quiet():
         if not any(part.selected for part in result.parts):
             result.parts[result.active].selected = True
         for index, part in enumerate(result.parts):
@@ -81,6 +85,7 @@ def mark(mesh: bpy.types.Mesh, action: str, with_faces: Container[int] = ()) -> 
     with_faces : container of int
         Numbers of the parts that "FACES" marks.
     """
+    transaction.keep_result(mesh)
     result = mesh.reeb_parts
     share = result.parts[result.active].share
     for part in result.parts:
@@ -90,11 +95,15 @@ def mark(mesh: bpy.types.Mesh, action: str, with_faces: Container[int] = ()) -> 
         }[action]
 
 
+@reaction
 def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The user has clicked a part in the list: only it is chosen, and in Edit Mode its faces are selected."""
     mesh = result.id_data
-    if store.is_quiet() or result.active >= len(result.parts):
+    if not len(result.parts):
         return
+    if not 0 <= result.active < len(result.parts):  # a script has set it
+        with quiet.quiet():
+            result.active = max(0, min(result.active, len(result.parts) - 1))
     mark(mesh, "NONE")
     if mesh.is_editmode:
         _select_in_edit_mode(mesh, active_number(mesh))
@@ -106,9 +115,20 @@ def _select_in_edit_mode(mesh: bpy.types.Mesh, number: int) -> None:
     layer = edit.faces.layers.int.get(mesh.reeb_parts.face_attribute)
     if layer is None:
         return
+    before = [item for items in (edit.verts, edit.edges, edit.faces) for item in items if item.select]
+    transaction.on_failure(_select_again, mesh, edit, before)
     for item in (*edit.verts, *edit.edges):
         item.select = False
     for face in edit.faces:
         face.select_set(face[layer] == number and not face.hide)
     edit.select_flush_mode()
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def _select_again(mesh: bpy.types.Mesh, edit: bmesh.types.BMesh, selected: list) -> None:
+    """Select elements of an edit mesh, and nothing else."""
+    for item in (*edit.verts, *edit.edges, *edit.faces):
+        item.select = False
+    for item in selected:
+        item.select = True
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

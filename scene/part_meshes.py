@@ -13,7 +13,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import caps, mesh_arrays, outputs, store
+from . import caps, mesh_arrays, outputs, quiet
 from .outputs import kept_aside, materials
 from .temporary import freed, removed
 
@@ -23,7 +23,7 @@ def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
     copy = mesh.copy()
     result = copy.reeb_parts
     twin = bpy.data.objects.new(copy.name, copy)
-    with removed(bpy.data.objects, twin), store.quiet():
+    with removed(bpy.data.objects, twin), quiet.quiet():
         result.has_materials = False
         for part in result.parts:
             part.material = None

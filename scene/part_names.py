@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.result.numbering import default_name
+from . import transaction
 
 #: The largest number that a part has: colours are looked up in a table of all numbers.
 MAX_NUMBER = 1_000_000
@@ -75,6 +76,7 @@ def _kept(mesh: bpy.types.Mesh, number: int) -> bpy.types.PropertyGroup | None:
 
 def _keep(mesh: bpy.types.Mesh, number: int, make: bool) -> bpy.types.PropertyGroup | None:
     """The entry of a number; made if it is not there and asked for."""
+    transaction.keep_result(mesh)
     entry = _kept(mesh, number)
     if entry is None and make:
         entry = mesh.reeb_parts.names.add()

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from . import explode, graph_objects, mesh_arrays, part_names
+from . import explode, graph_objects, mesh_arrays, part_names, transaction
 from .outputs.colors import linear
 from .part_meshes import part_meshes
 from .settings import SeparateProperties
@@ -25,6 +25,8 @@ MADE = "reeb_parts_looks"  # on a piece: what it was like when it was made
 
 def collection_of(obj: bpy.types.Object) -> bpy.types.Collection | None:
     """The collection with the pieces of an object, or None."""
+    if not obj.is_property_set("reeb_parts_made"):  # to read it would set it
+        return None
     collection = obj.reeb_parts_made.pieces
     # A copy of the object has this too, but another name.
     return collection if collection is not None and collection.get(COLLECTION_OF) == obj.name else None
@@ -92,8 +94,11 @@ def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.ty
     if collection is None:
         collection = bpy.data.collections.new(f"Parts of {obj.name}")
         collection[COLLECTION_OF] = obj.name
+        transaction.keep_group(obj, "reeb_parts_made")
         obj.reeb_parts_made.pieces = collection
     if collection not in context.scene.collection.children_recursive:
+        if not transaction.is_new(collection):
+            transaction.on_failure(context.scene.collection.children.unlink, collection)
         context.scene.collection.children.link(collection)
     return collection
 
@@ -105,8 +110,9 @@ def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
         if piece[NUMBER] not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
             continue
         if piece.mode == "OBJECT" and not piece.children and _looks(piece) == piece[MADE]:
-            remove_object(piece, bpy.data.meshes)
+            remove_object(piece)
             continue
+        transaction.keep_keys(piece, NUMBER, MADE)
         del piece[NUMBER], piece[MADE]
         kept += 1
     return kept
@@ -157,13 +163,18 @@ def _center(mesh: bpy.types.Mesh) -> Vector:
 
 def show_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Show the object that pieces come from, with its graph if the scene shows graphs."""
-    obj.hide_set(False)
-    obj.hide_render = False
+    _set_hidden(obj, False)
     graph_objects.set_hidden(context, obj, not context.scene.reeb_parts.graph)
 
 
 def hide_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Hide the object that pieces come from, with its graph, in the viewport and in renders."""
-    obj.hide_set(True)
-    obj.hide_render = True
+    _set_hidden(obj, True)
     graph_objects.set_hidden(context, obj, True)
+
+
+def _set_hidden(obj: bpy.types.Object, hidden: bool) -> None:
+    transaction.keep(obj, "hide_render")
+    transaction.on_failure(obj.hide_set, obj.hide_get())
+    obj.hide_set(hidden)
+    obj.hide_render = hidden

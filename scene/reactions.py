@@ -13,33 +13,34 @@ import bpy
 import numpy as np
 
 from ..core.result.numbering import NumberedParts
-from . import graph_objects, outputs, part_names, store, targets
+from . import graph_objects, outputs, part_names, quiet, store, targets
 from .errors import SceneError
 from .modes import object_mode
 from .outputs import vertex_groups
+from .settled import reaction
 from .store import Stored
+from .transaction import keep_result
 
 
+@reaction
 def show_detail(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The Detail slider was moved."""
-    if not store.is_quiet():
-        result.by_number = False
-        show(result, context)
+    result.by_number = False
+    show(result, context)
 
 
+@reaction
 def show_number(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A number of parts was typed."""
-    if not store.is_quiet():
-        result.by_number = True
-        show(result, context)
+    result.by_number = True
+    show(result, context)
 
 
+@reaction
 def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A part was renamed: its vertex group and its number take the name."""
-    if store.is_quiet():
-        return
     mesh = part.id_data
-    with store.quiet():
+    with quiet.quiet():
         if not part.name.strip():
             part.name = part_names.part_name(mesh, part.number)
         _take_name(part)
@@ -59,7 +60,7 @@ def _take_name(part: bpy.types.PropertyGroup) -> None:
 
 def show_graph(obj: bpy.types.Object | None, shown: bool, context: bpy.types.Context) -> None:
     """Hide the graph of an object that has parts, or show it; it is drawn if there is none yet."""
-    if obj is None or store.is_quiet() or not store.has_parts(obj):
+    if obj is None or not store.has_parts(obj):
         return
     if graph_objects.set_hidden(context, obj, not shown) or not shown:
         return
@@ -74,21 +75,21 @@ def show_graph(obj: bpy.types.Object | None, shown: bool, context: bpy.types.Con
 
 def use_palette(obj: bpy.types.Object | None, palette: str, context: bpy.types.Context) -> None:
     """Colour the parts of an object, if it has any, from another palette."""
-    if obj is None or store.is_quiet() or not store.has_parts(obj) or obj.data.reeb_parts.palette == palette:
+    if obj is None or not store.has_parts(obj) or obj.data.reeb_parts.palette == palette:
         return
     mesh = obj.data
 
     def recolor_all(stored: Stored) -> None:
+        keep_result(mesh)
         mesh.reeb_parts.palette = palette
         refresh(context, mesh, stored, stored.shown_parts())
 
     _with_result(mesh, context, recolor_all)
 
 
+@reaction
 def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A part was given another colour: all that is coloured by it takes it, and it stays."""
-    if store.is_quiet():
-        return
     mesh = part.id_data
 
     def keep(stored: Stored) -> None:
@@ -105,16 +106,15 @@ def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     _with_result(mesh, context, keep)
 
 
+@reaction
 def lock(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A part was locked or unlocked in the list."""
-    if store.is_quiet():
-        return
     mesh = part.id_data
     number, locked = part.number, part.locked
 
     def pin(stored: Stored) -> None:
         pinned = np.where(stored.shown == number, number if locked else 0, stored.pinned)
-        with store.quiet():
+        with quiet.quiet():
             store.save_numbers(mesh, replace(stored, pinned=pinned))
         show(mesh.reeb_parts, context)
 
@@ -126,7 +126,7 @@ def refresh(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, nu
     before = stored.shown
     stored = stored.showing(numbered)
     objects = targets.users(mesh)
-    with store.quiet():
+    with quiet.quiet():
         store.save_numbers(mesh, stored)
         outputs.update_outputs(objects[0], numbered, before)
     store.mark_pins(mesh, stored)
@@ -144,7 +144,7 @@ def show(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
             store.mark_pins(mesh, stored)
         else:
             refresh(context, mesh, stored, numbered)
-        with store.quiet():
+        with quiet.quiet():
             result.n_parts = numbered.parts.count
 
     _with_result(mesh, context, write)
@@ -152,11 +152,13 @@ def show(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 
 def _with_result(mesh: bpy.types.Mesh, context: bpy.types.Context, work: Callable[[Stored], None]) -> None:
     """Do something with the stored result of a mesh, in Object Mode."""
-    try:
-        with object_mode(context):
-            work(store.load(mesh))
-    except SceneError as error:
-        # The panel says that the mesh was edited; a property that is changed cannot say anything. A result that cannot
-        # be read says itself what is wrong with it, once something is done with it.
-        if not isinstance(error, store.UnreadableError):
-            mesh.reeb_parts.edited = True
+    with object_mode(context):
+        try:
+            stored = store.load(mesh)
+        except SceneError as error:
+            # The panel says that the mesh was edited; a property that is changed cannot say anything. A result that
+            # cannot be read says itself what is wrong with it, once something is done with it.
+            if not isinstance(error, store.UnreadableError):
+                mesh.reeb_parts.edited = True
+        else:
+            work(stored)

@@ -14,6 +14,7 @@ from .errors import SceneError, translated
 from .modes import object_mode
 from .part_list import check_parts
 from .store import Stored
+from .transaction import transaction
 
 
 class ReportingOperator:
@@ -53,9 +54,13 @@ class ReportingOperator:
         return self.attempt(self.run, context)
 
     def attempt(self, work: Callable[..., set[str] | None], *arguments: object) -> set[str]:
-        """What a method returns, None for FINISHED; what it raises is reported, and the operator is cancelled."""
+        """What a method returns, None for FINISHED; what it raises is reported, and the operator is cancelled.
+
+        Whatever is raised, all that was written is taken back.
+        """
         try:
-            return work(*arguments) or {"FINISHED"}
+            with transaction():
+                return work(*arguments) or {"FINISHED"}
         except (SceneError, ReebError) as error:
             self.report({"ERROR"}, translated(error))
             return {"CANCELLED"}

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import armature, bridge, explode, graph_objects, notes, outputs, store, targets, uv_map
+from . import armature, bridge, explode, graph_objects, notes, outputs, quiet, store, targets, transaction, uv_map
 from .compute import Outcome
 from .errors import SceneError
 
@@ -43,10 +43,11 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
     mesh, decomposition = obj.data, outcome.decomposition
     assert decomposition is not None
     parameters = decomposition.parameters
+    transaction.keep_mesh(mesh)
     stored = store.succeed(mesh, decomposition)
     numbered = stored.shown_parts()
     result = mesh.reeb_parts
-    with store.quiet():
+    with quiet.quiet():
         store.save(mesh, stored)
         result.object_name = obj.name
         result.stretch = outcome.shape.stretch.ravel().tolist()
@@ -66,6 +67,7 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
 
 def clear(obj: bpy.types.Object) -> None:
     """Remove parts, graph and stored result of an object; Object Mode."""
+    transaction.keep_mesh(obj.data)
     for user in targets.users(obj.data):
         explode.forget(user)
         armature.remove_modifier(user)

@@ -4,6 +4,8 @@
 The names of the properties and of the pointers to them are those of files that exist: they never change.
 """
 
+from typing import Any
+
 import bpy
 from bpy.props import (
     BoolProperty,
@@ -17,6 +19,7 @@ from bpy.props import (
 
 from . import explode, part_list, reactions
 from .settings import ReebPartsSettings, ReebPartsUse
+from .settled import Settled
 
 
 class ReebPart(bpy.types.PropertyGroup):
@@ -52,7 +55,7 @@ class ReebName(bpy.types.PropertyGroup):
     color: FloatVectorProperty(subtype="COLOR_GAMMA", size=3)
 
 
-class ReebPartsResult(bpy.types.PropertyGroup):
+class ReebPartsResult(bpy.types.PropertyGroup, Settled):
     """A decomposition and what was written of it; on the mesh."""
 
     # The result itself
@@ -103,8 +106,12 @@ class ReebPartsResult(bpy.types.PropertyGroup):
     had_material_index: BoolProperty()
     had_seams: BoolProperty()
 
+    def watched(self) -> dict[str, Any]:
+        return {"detail": self.detail, "n_parts": self.n_parts, "by_number": self.by_number, "active": self.active,
+                "parts": [{"name": part.name, "color": part.color[:], "locked": part.locked} for part in self.parts]}
 
-class ReebPartsMade(bpy.types.PropertyGroup):
+
+class ReebPartsMade(bpy.types.PropertyGroup, Settled):
     """What was made from an object's parts; on the object."""
 
     pieces: PointerProperty(type=bpy.types.Collection, description="Where the separated parts are")
@@ -113,6 +120,9 @@ class ReebPartsMade(bpy.types.PropertyGroup):
         description="How far the parts drift apart, as a multiple of their distance from the middle. Only "
         "looks so: at 0 the mesh is as it was. Can be animated",
     )
+
+    def watched(self) -> dict[str, Any]:
+        return {"explode": self.explode}
 
 
 CLASSES = (ReebPartsSettings, ReebPartsUse, ReebPart, ReebName, ReebPartsResult, ReebPartsMade)

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 
-from . import mesh_arrays
+from . import mesh_arrays, transaction
 
 
 def selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -48,6 +48,7 @@ def _touched(mesh: bpy.types.Mesh, mask: np.ndarray) -> tuple[np.ndarray, np.nda
 
 
 def _set_flags(mesh: bpy.types.Mesh, flag: str, faces: np.ndarray, edges: np.ndarray, vertices: np.ndarray) -> None:
+    transaction.keep_mesh(mesh)
     for items, values in ((mesh.edges, edges), (mesh.vertices, vertices), (mesh.polygons, faces)):
         items.foreach_set(flag, values)
     mesh.update()

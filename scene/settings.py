@@ -13,8 +13,9 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
 from ..core.uses.colors import PALETTES
-from . import graph_objects, reactions, store
+from . import graph_objects, reactions
 from .errors import translated
+from .settled import Settled, reaction
 
 
 def _property(field: Field) -> Any:
@@ -132,9 +133,9 @@ class OutputProperties:
 OUTPUTS = tuple(OutputProperties.__annotations__)
 
 
+@reaction
 def _redraw_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    if not store.is_quiet():
-        graph_objects.restyle(context.object, self)
+    graph_objects.restyle(context.object, self)
 
 
 class OverlayProperties:
@@ -199,19 +200,22 @@ class SeparateProperties(WhichProperties):
 PRESET_ITEMS = [(name, name, "") for name in PRESETS]
 
 
+@reaction
 def _use_preset(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    if self.preset != "CUSTOM":
-        self.use_parameters(PRESETS[self.preset])
+    self.use_parameters(PRESETS[self.preset])
 
 
+@reaction
 def _repaint(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     reactions.use_palette(context.object, self.palette, context)
 
 
+@reaction
 def _show_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     reactions.show_graph(context.object, self.graph, context)
 
 
+@reaction
 def _set_by_former_name(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     for name in [name for name in RENAMED if self.is_property_set(name)]:
         for present in RENAMED[name]:  # what a script sets last counts
@@ -234,7 +238,7 @@ class FormerArguments:
 
 
 class ReebPartsSettings(
-    bpy.types.PropertyGroup, FormerParameters, ParameterProperties, OutputProperties, OverlayProperties
+    bpy.types.PropertyGroup, FormerParameters, ParameterProperties, OutputProperties, OverlayProperties, Settled
 ):
     """What the next run will do; on the scene."""
 
@@ -248,6 +252,10 @@ class ReebPartsSettings(
         return any(abs(getattr(self, name) - getattr(preset, name)) > 1e-6 * abs(getattr(preset, name))
                    if isinstance(getattr(preset, name), float) else getattr(self, name) != getattr(preset, name)
                    for name in PARAMETERS if name not in {"detail", "n_parts"})
+
+    def watched(self) -> dict[str, Any]:
+        names = ("preset", "palette", *OVERLAY)
+        return {"graph": self.graph, **{name: getattr(self, name) for name in names}}
 
     highlight: BoolProperty(
         name="Outline chosen parts", default=True,

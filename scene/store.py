@@ -8,8 +8,6 @@ the mesh was decomposed; ``pinned``, the number of the part that it stays in wha
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -20,7 +18,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts, Numbering, inherited
 from ..core.surface.labels import majority
-from . import mesh_arrays, part_names
+from . import mesh_arrays, part_names, quiet, transaction
 from .errors import SceneError, load_core, translated
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
@@ -29,25 +27,6 @@ _KEEP = 4
 
 # A mesh that is being edited is taken to have had at most so many times its vertices and faces before, or so many.
 _GROWTH, _SMALL = 16, 1_000_000
-
-# Set while properties are written that would otherwise act as if the user had changed them.
-_writing = False
-
-
-@contextmanager
-def quiet() -> Iterator[None]:
-    """Write properties without their update functions doing anything."""
-    global _writing
-    before, _writing = _writing, True
-    try:
-        yield
-    finally:
-        _writing = before
-
-
-def is_quiet() -> bool:
-    """Whether the program and not the user writes the properties."""
-    return _writing
 
 
 class UnreadableError(SceneError):
@@ -163,6 +142,7 @@ def _damaged() -> Exception:
 
 def save(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Keep a result with its mesh; Object Mode."""
+    transaction.keep_result(mesh)
     result = mesh.reeb_parts
     data = stored.decomposition.to_bytes()
     _remember(data, stored.decomposition)
@@ -177,6 +157,7 @@ def save(mesh: bpy.types.Mesh, stored: Stored) -> None:
 
 def save_numbers(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Keep which candidate has which number."""
+    transaction.keep_result(mesh)
     rows = np.stack([stored.previous_number, stored.pinned, stored.shown])
     mesh.reeb_parts.numbers = rows.astype(np.int32).tobytes()
 
@@ -256,7 +237,8 @@ def forget() -> None:
 
 def mark_pins(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Tell the list which parts stay whatever the detail."""
+    transaction.keep_result(mesh)
     pinned = set(stored.pinned.tolist())
-    with quiet():
+    with quiet.quiet():
         for part in mesh.reeb_parts.parts:
             part.pinned = part.number in pinned

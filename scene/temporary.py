@@ -9,6 +9,8 @@ from contextlib import contextmanager
 import bmesh
 import bpy
 
+from . import transaction
+
 
 @contextmanager
 def removed(collection: bpy.types.bpy_prop_collection, *blocks: bpy.types.ID) -> Iterator[None]:
@@ -29,9 +31,10 @@ def freed(bm: bmesh.types.BMesh) -> Iterator[bmesh.types.BMesh]:
         bm.free()
 
 
-def remove_object(obj: bpy.types.Object, collection: bpy.types.bpy_prop_collection) -> None:
-    """Remove an object, and its data from the collection of ``bpy.data`` that they are in unless others use them."""
+def remove_object(obj: bpy.types.Object) -> None:
+    """Remove an object, and its data unless others use them."""
     data = obj.data
-    bpy.data.objects.remove(obj)
-    if data is not None and data.users == 0:
-        collection.remove(data)
+    if data is not None and data.users == 1:
+        transaction.discard(obj, data)
+    else:
+        transaction.discard(obj)

@@ -7,8 +7,9 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import mesh_arrays, part_meshes, store
+from . import mesh_arrays, part_meshes, store, transaction
 from .errors import SceneError
+from .modes import call_with, set_mode
 from .selection import nothing_selected
 from .temporary import removed
 
@@ -23,6 +24,8 @@ def find(mesh: bpy.types.Mesh) -> bpy.types.MeshUVLoopLayer | None:
 
 def remove(mesh: bpy.types.Mesh) -> None:
     """Remove our UV map."""
+    transaction.keep_mesh(mesh)
+    transaction.keep_keys(mesh, MADE)
     layer = find(mesh)
     if layer is not None:
         mesh.uv_layers.remove(layer)
@@ -47,6 +50,8 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, face_numbers: np.n
     """
     mesh = obj.data
     coordinates = _unwrapped(context, obj, _seams(obj, face_numbers, open_parts), method)
+    transaction.keep_mesh(mesh)
+    transaction.keep_keys(mesh, MADE)
     layer = find(mesh)
     if layer is None:
         layer = mesh.uv_layers.new(name=UV_MAP, do_init=False)
@@ -88,11 +93,9 @@ def _unwrap_all(context: bpy.types.Context, twin: bpy.types.Object, method: str)
     """Unwrap all faces of an object with Blender's operator, which works on the active object in Edit Mode."""
     twin.select_set(True)
     context.view_layer.objects.active = twin
-    with context.temp_override(active_object=twin, object=twin):
-        bpy.ops.object.mode_set(mode="EDIT")
-        with context.temp_override(edit_object=twin):
-            bpy.ops.uv.unwrap(method=method, margin=0.005)
-        bpy.ops.object.mode_set(mode="OBJECT")
+    set_mode(twin, "EDIT")
+    call_with(bpy.ops.uv.unwrap, twin, method=method, margin=0.005)
+    set_mode(twin, "OBJECT")
 
 
 def _prepare(twin: bpy.types.Object, points: np.ndarray, seams: np.ndarray) -> None:

@@ -36,7 +36,10 @@ def snapshot() -> dict:
         "scene": _collection(bpy.context.scene.collection),
         "layer": _layer(layer.layer_collection),
         "settings": [_group(bpy.context.scene, name) for name in ("reeb_parts", "reeb_parts_use")],
-        "materials": {m.name: {"users": m.users, "color": tuple(m.diffuse_color)} for m in bpy.data.materials},
+        "materials": {m.name: _material(m) for m in bpy.data.materials},
+        "curves": {curve.name: _curve(curve) for curve in bpy.data.curves},
+        "armatures": {armature.name: _bones(armature) for armature in bpy.data.armatures},
+        "nodes": {group.name: _nodes(group) for group in bpy.data.node_groups},
         "active": getattr(layer.objects.active, "name", None),
         "selected": sorted(obj.name for obj in layer.objects.selected),
     }  # fmt: skip
@@ -116,6 +119,7 @@ def _geometry(mesh, user) -> dict:
                   for name in ("vertices", "edges", "polygons") for flag in ("select", "hide")},
         "seams": _hash(_read(mesh.edges, "use_seam", bool, 1)),
         "attributes": {a.name: _attribute(a) for a in mesh.attributes},
+        "order": [a.name for a in mesh.attributes],
         "active attribute": mesh.attributes.active.name if mesh.attributes.active else None,
         "active color": mesh.attributes.active_color_name,
         "render color": mesh.attributes.default_color_name,
@@ -124,6 +128,35 @@ def _geometry(mesh, user) -> dict:
         "keys": _keys(mesh.shape_keys) if mesh.shape_keys else None,
         "materials": [m.name if m else None for m in mesh.materials],
     }  # fmt: skip
+
+
+def _material(material) -> dict:
+    tree = material.node_tree
+    return {"users": material.users, "color": tuple(material.diffuse_color), "nodes": tree and _nodes(tree)}
+
+
+def _nodes(tree) -> list:
+    """Nodes with their settings and what their sockets are set to, and the links between them."""
+    nodes = [(node.name, node.bl_idname, [_socket(socket) for socket in (*node.inputs, *node.outputs)])
+             for node in tree.nodes]
+    return [*nodes, *[(link.from_socket.path_from_id(), link.to_socket.path_from_id()) for link in tree.links],
+            _properties(tree)]
+
+
+def _socket(socket):
+    value = getattr(socket, "default_value", None)
+    return socket.name, tuple(value) if hasattr(value, "__len__") and not isinstance(value, str) else str(value)
+
+
+def _curve(curve) -> dict:
+    return {"thickness": curve.bevel_depth, "splines": [
+        [_hash(_read(spline.points, name, np.float32, width)) for name, width in (("co", 4), ("radius", 1))]
+        for spline in curve.splines]}
+
+
+def _bones(armature) -> list:
+    return [(bone.name, bone.parent and bone.parent.name, tuple(bone.head_local), tuple(bone.tail_local),
+             bone.use_connect) for bone in armature.bones]
 
 
 def _user(mesh):

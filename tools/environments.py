@@ -22,6 +22,8 @@ PROGRAM = Path(sys.argv[0]).stem
 #: The SciPy that travels inside the extension, see blender_manifest.toml.
 SCIPY = "scipy==1.15.3"
 PYTEST = "pytest==9.2.0"
+#: What makes meshes up for tests/fuzz.
+HYPOTHESIS = "hypothesis==6.170.15"
 #: What the tests check the JSON with.
 JSONSCHEMA = "jsonschema==4.26.0"
 

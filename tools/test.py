@@ -5,6 +5,7 @@
     ./test unit-newest blender-5.2             only these
     ./test --blender PATH [--gui PATH]         also on the built extension, installed into a full Blender
     ./test unit-newest -- -k torus --pdb       everything after -- goes to pytest
+    ./test --fuzz MINUTES                      look for faults, and store each as a case in tests/fuzz/cases
 
 The unit tests of core/ need no Blender and run with the oldest and the newest NumPy and SciPy that the
 product supports. The operator tests run in Blender as a Python module, with the NumPy that each official
@@ -34,10 +35,11 @@ from functools import partial
 from pathlib import Path
 
 import environments
-from environments import JSONSCHEMA, PYTEST, ROOT, SCIPY, Environment, say
+from environments import HYPOTHESIS, JSONSCHEMA, PYTEST, ROOT, SCIPY, Environment, say
 
 LINT = environments.lint()
 NEWEST = environments.any_python("unit-newest", "numpy", "scipy", PYTEST, JSONSCHEMA)
+FUZZ = environments.any_python("fuzz", "numpy", "scipy", PYTEST, HYPOTHESIS)
 OLDEST = Environment("unit-oldest", "3.11", ("numpy==1.24.3", SCIPY, PYTEST, JSONSCHEMA))
 
 
@@ -54,6 +56,8 @@ SUITES = {
     "unit-oldest": Suite(OLDEST, "tests/unit"),
     "unit-newest": Suite(NEWEST, "tests/unit"),
     "documents": Suite(NEWEST, "tests/documents"),
+    "fuzz-core": Suite(FUZZ, "tests/fuzz/core"),
+    "fuzz-blender": Suite(environments.BLENDER_52, "tests/fuzz/blender"),
     "blender-4.2": Suite(environments.BLENDER_42, "tests/blender"),
     "blender-4.5": Suite(environments.BLENDER_45, "tests/blender"),
     "blender-5.2": Suite(environments.BLENDER_52, "tests/blender"),
@@ -63,6 +67,9 @@ SUITES = {
 PYTEST_AND_LEAVE = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
 #: Which diagonal of operators and situations a Blender runs, for tests/blender; the newest runs the whole table.
 DIAGONAL = "REEB_PARTS_DIAGONAL"
+#: The suites that can run for long, and how many tests in each share that time.
+LONG = {"fuzz-core": 1, "fuzz-blender": 3}
+COUNTS = "counts.txt"
 NOT_RUN: list[str] = []
 PREPARING = threading.Lock()  # two of pip and apt at a time would get in each other's way
 
@@ -99,12 +106,16 @@ def main() -> None:
     parser.add_argument("--lint", action="store_true", help="also check the style and the types")
     parser.add_argument("--blender", metavar="PATH", help="also build, install and test in this full Blender")
     parser.add_argument("--gui", metavar="PATH", help="with --blender: also press the buttons in a real window")
+    parser.add_argument("--fuzz", type=float, metavar="MINUTES", help="run the harness of tests/fuzz for so long")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="steps at a time, default 2")
     arguments = parser.parse_args(ours)
     if unknown := set(arguments.suites) - set(SUITES):
         parser.error(f"no such suite: {', '.join(sorted(unknown))} (there are {', '.join(SUITES)})")
+    if arguments.fuzz:
+        arguments.suites = arguments.suites or LONG
     with tempfile.TemporaryDirectory() as scratch:
         outcomes = _run(_steps(arguments, for_pytest, Path(scratch)), arguments.jobs, Path(scratch))
+        _tell_counts(Path(scratch) / COUNTS)
     _summary(outcomes)
 
 
@@ -121,10 +132,13 @@ def _steps(arguments: argparse.Namespace, for_pytest: list[str], scratch: Path) 
             chosen.append(name)
         else:
             _left_out(f"{name} needs Python {SUITES[name].environment.python}, which was not found here")
-    blenders = [name for name in SUITES if name in chosen and SUITES[name].environment.blender]
+    blenders = [name for name in SUITES if name in chosen and SUITES[name].folder == "tests/blender"]
     for name in reversed(chosen):  # the longest are the last ones of SUITES
         number = blenders.index(name) if name in blenders[:-1] else None
         work = partial(_pytest, name, number, scratch, for_pytest)
+        if arguments.fuzz and name in LONG:
+            work = partial(work, REEB_PARTS_FUZZ=str(60 * arguments.fuzz / LONG[name]),
+                           REEB_PARTS_FUZZ_COUNTS=str(scratch / COUNTS))
         after = ""
         if name == "documents":
             after = "build" if arguments.blender else ""
@@ -268,6 +282,16 @@ def _full_blender(blender: str, gui: str | None, scratch: Path) -> list[Step]:
     parts = {"inside": False, "command": False, **({"window": True} if gui else {})}
     return [Step("build", build), *(Step(f"installed, {name}", partial(part, name), after="build", alone=alone)
                                     for name, alone in parts.items())]
+
+
+def _tell_counts(path: Path) -> None:
+    """How much the harness has tried, each kind on a line."""
+    totals: dict[str, int] = {}
+    for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
+        number, what = line.split(" ", 1)
+        totals[what] = totals.get(what, 0) + int(number)
+    for what, number in totals.items():
+        print(f"tried: {number} {what}")
 
 
 def _count(name: str, report: Path, status: int) -> tuple[int, int]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import bpy
 
+from ..scene import transaction
+
 
 @dataclass
 class ViewSettings:
@@ -27,6 +29,7 @@ def show_colors(context: bpy.types.Context) -> None:
         return
     before = ViewSettings(space.shading.color_type, space.overlay.show_relationship_lines)
     _before.setdefault(space.as_pointer(), before)
+    _keep(space)
     space.shading.color_type = "VERTEX"
     space.overlay.show_relationship_lines = False
 
@@ -35,6 +38,7 @@ def show_pieces(context: bpy.types.Context) -> None:
     """Colour the solid view by object, where it showed the parts: now these are objects."""
     space = _solid_view(context)
     if space is not None and space.as_pointer() in _before and space.shading.color_type == "VERTEX":
+        _keep(space)
         space.shading.color_type = "OBJECT"
 
 
@@ -44,10 +48,17 @@ def restore_colors(context: bpy.types.Context) -> None:
     if space is None or space.type != "VIEW_3D" or space.as_pointer() not in _before:
         return
     before = _before.pop(space.as_pointer())
+    transaction.on_failure(_before.__setitem__, space.as_pointer(), before)
+    _keep(space)
     if space.shading.color_type in {"VERTEX", "OBJECT"}:
         space.shading.color_type = before.color_type
     if not space.overlay.show_relationship_lines:
         space.overlay.show_relationship_lines = before.relationship_lines
+
+
+def _keep(space: bpy.types.SpaceView3D) -> None:
+    transaction.keep(space.shading, "color_type")
+    transaction.keep(space.overlay, "show_relationship_lines")
 
 
 def _solid_view(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:

@@ -10,6 +10,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..scene import redraw
 from ..scene.errors import SceneError
 from ..scene.reporting import ReportingOperator
+from ..scene.transaction import transaction
 from . import pointing
 from .lines import Lines
 from .pointing import Target
@@ -91,9 +92,12 @@ class ViewTool(ReportingOperator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        result = self._answer(context, event)
-        if result & {"FINISHED", "CANCELLED"}:
-            self._end(context)
+        result = {"CANCELLED"}  # by Blender, if it ends with an exception
+        try:
+            result = self._answer(context, event)
+        finally:
+            if result & {"FINISHED", "CANCELLED"}:
+                self._end(context)
         return result
 
     def cancel(self, context: bpy.types.Context) -> None:
@@ -101,18 +105,22 @@ class ViewTool(ReportingOperator):
 
     def _answer(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         try:
-            if event.type in _CANCEL and event.value == "PRESS":
-                return self.give_up(context)
-            if event.type in _CONFIRM and event.value == "PRESS":
-                return self.confirm(context)
-            # Of the area that it was started in there may be nothing left: another workspace, a maximised area.
-            place = pointing.viewport_region(context.window.screen, event.mouse_x, event.mouse_y)
-            if place is None and self.aims:
-                return {"PASS_THROUGH"}
-            return self._use(context, self._target(context, place), event)
+            with transaction():
+                return self._do(context, event)
         except SceneError as error:
             self.report({"ERROR"}, str(error))
             return self.give_up(context)
+
+    def _do(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type in _CANCEL and event.value == "PRESS":
+            return self.give_up(context)
+        if event.type in _CONFIRM and event.value == "PRESS":
+            return self.confirm(context)
+        # Of the area that it was started in there may be nothing left: another workspace, a maximised area.
+        place = pointing.viewport_region(context.window.screen, event.mouse_x, event.mouse_y)
+        if place is None and self.aims:
+            return {"PASS_THROUGH"}
+        return self._use(context, self._target(context, place), event)
 
     def _use(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> set[str]:
         if event.type in _MOVES:

@@ -25,7 +25,11 @@ MAX_EDGE = 0.5 * np.sqrt(0.005)
 # Refinement stops when it has multiplied the number of faces by this factor: needles (long, thin triangles) become
 # too many, and a coarser copy is better.
 MAX_GROWTH = 4
-MIN_BUDGET = 50_000  # number of faces up to which refinement never stops early
+MIN_BUDGET = 50_000  # number of faces up to which refinement of a single body never stops early
+ALL_BUDGETS = 66_000  # number of faces that several bodies share for that
+# A body of few faces takes as long as hundreds of faces of a large one. So of very many bodies only those of more faces
+# are decomposed: this number of bodies, and one more for so many faces of the whole.
+MANY_BODIES, FACES_PER_BODY = 20, 300
 # Relative difference below which two lengths are equal: rounding errors must not decide how a box is divided.
 ROUNDING = 1e-9
 
@@ -81,7 +85,7 @@ class Component:
     bridges: Bridges
 
     @classmethod
-    def of(cls, working: WorkingMesh, faces: np.ndarray, connected: bool = True) -> Component:
+    def of(cls, working: WorkingMesh, faces: np.ndarray, connected: bool = True, n_bodies: int = 1) -> Component:
         """Cut some pieces out of the working mesh, split their long edges and link the pieces.
 
         Parameters
@@ -91,6 +95,8 @@ class Component:
             All faces of these pieces, rising.
         connected : bool
             Whether all pieces are to hang together; see ``bridges``.
+        n_bodies : int
+            Among how many bodies the mesh is divided, which share the faces that splitting may add.
 
         Returns
         -------
@@ -104,7 +110,7 @@ class Component:
             rank = working.vertex_source if working.vertex_rank is None else working.vertex_rank
             ordering = Ordering.of(part, polygon, len(names), rank[index])
             mesh, source, faces = ordering.sorted(part), source[index][ordering.vertex], faces[ordering.triangle]
-        fine, parent = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area))
+        fine, parent = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area), min(MIN_BUDGET, ALL_BUDGETS // n_bodies))
         added = np.full(fine.n_vertices - len(source), -1)
         return cls(faces, fine, working.polygon[faces][parent], np.concatenate([source, added]),
                    bridges(fine, connected))
@@ -129,15 +135,15 @@ def bodies(working: WorkingMesh, together: bool, loose_part: float) -> list[Comp
     count, piece = working.mesh.face_components
     if not together or count == 1:
         chosen = worth_cutting(working, piece, loose_part)
-        return [Component.of(working, np.flatnonzero(piece == label)) for label in chosen]
+        return [Component.of(working, np.flatnonzero(piece == label), n_bodies=len(chosen)) for label in chosen]
     every = Component.of(working, np.arange(working.mesh.n_faces), connected=False)
     at = np.empty(int(working.polygon.max()) + 1, np.int64)
     at[working.polygon] = piece
     n_bodies, body = components(count, *at[every.polygon[every.bridges.faces]].T)
     if n_bodies == 1:
         return [every]
-    return [Component.of(working, np.flatnonzero(body[piece] == label))
-            for label in worth_cutting(working, body[piece], loose_part)]
+    chosen = worth_cutting(working, body[piece], loose_part)
+    return [Component.of(working, np.flatnonzero(body[piece] == label), n_bodies=len(chosen)) for label in chosen]
 
 
 def worth_cutting(working: WorkingMesh, label: np.ndarray, loose_part: float) -> list[int]:
@@ -162,6 +168,10 @@ def worth_cutting(working: WorkingMesh, label: np.ndarray, loose_part: float) ->
     n_polygons = np.bincount(pairs[:, 0], minlength=len(area))
     # A component a million times shorter than the largest one is a rounding error of coordinates.
     large = (area >= max(loose_part * area.sum(), 1e-12 * area.max())) & (n_polygons >= MIN_FACES)
+    most = MANY_BODIES + int(n_polygons.sum()) // FACES_PER_BODY
+    if large.sum() > most:
+        # All bodies of one number of faces are decomposed, or none.
+        large &= n_polygons > np.sort(n_polygons[large])[-most - 1]
     return np.flatnonzero(large).tolist()
 
 
@@ -193,11 +203,12 @@ def repair(given: PolygonMesh) -> WorkingMesh:
                        None if given.vertex_rank is None else given.vertex_rank[vertex_source])
 
 
-def split_long_edges(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndarray]:
+def split_long_edges(mesh: TriMesh, max_length: float, least_budget: int = MIN_BUDGET) -> tuple[TriMesh, np.ndarray]:
     """Split edges at their middle until none is longer than a limit.
 
     An edge is split for all its faces at once, so that no gaps appear; the shape of the surface does not change.
-    Splitting stops early, with longer edges, once the mesh has MAX_GROWTH times its faces and at least MIN_BUDGET.
+    Splitting stops early, with longer edges, before the mesh has more than MAX_GROWTH times its faces and more than
+    ``least_budget``.
 
     Parameters
     ----------
@@ -205,6 +216,8 @@ def split_long_edges(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndar
         m faces.
     max_length : float
         In the unit of the vertices, above 0.
+    least_budget : int
+        Number of faces up to which splitting never stops early.
 
     Returns
     -------
@@ -214,14 +227,24 @@ def split_long_edges(mesh: TriMesh, max_length: float) -> tuple[TriMesh, np.ndar
         Face given in which each face lies.
     """
     parent = np.arange(mesh.n_faces)
-    budget = max(MIN_BUDGET, MAX_GROWTH * mesh.n_faces)
-    while mesh.n_faces < budget:
-        long = mesh.edge_length > (1 + ROUNDING) * max_length
+    budget = max(least_budget, MAX_GROWTH * mesh.n_faces)
+    while True:
+        long = _longest(mesh, max_length, budget - mesh.n_faces)
         if not long.any():
-            break
+            return mesh, parent
         mesh, step = split_edges(mesh, long)
         parent = parent[step]
-    return mesh, parent
+
+
+def _longest(mesh: TriMesh, max_length: float, most: int) -> np.ndarray:
+    """Edges longer than a limit, (e,) bool: the longest, as many as add no more faces than allowed."""
+    long = mesh.edge_length > (1 + ROUNDING) * max_length
+    if mesh.edges.n_faces[long].sum() <= most:
+        return long
+    order = np.argsort(-mesh.edge_length, kind="stable")
+    fits = np.searchsorted(np.cumsum(mesh.edges.n_faces[order]), most, side="right")
+    # Edges of one length are split all, or none.
+    return mesh.edge_length > (1 + ROUNDING) * max(max_length, mesh.edge_length[order[min(fits, len(order) - 1)]])
 
 
 def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]:

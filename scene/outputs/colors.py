@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from .. import mesh_arrays, targets
+from ..modes import call_with
 from .kept_aside import add_attribute, remove_attribute
 
 NAME = "Reeb Parts"
@@ -97,9 +98,8 @@ def _write_many(mesh: bpy.types.Mesh, attribute: bpy.types.Attribute, numbers: n
     try:
         mesh.attributes[made].data.foreach_set("color", _spread(exact, numbers))
         mesh.attributes.active = mesh.attributes[made]
-        with bpy.context.temp_override(object=users[0], active_object=users[0]):
-            done = "FINISHED" in bpy.ops.geometry.attribute_convert(
-                mode="GENERIC", domain="CORNER", data_type="BYTE_COLOR")
+        done = "FINISHED" in call_with(bpy.ops.geometry.attribute_convert, users[0], mode="GENERIC", domain="CORNER",
+                                       data_type="BYTE_COLOR")
     except RuntimeError:  # not in this context
         pass
     finally:

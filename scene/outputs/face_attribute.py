@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
+from .. import transaction
 from .kept_aside import add_attribute, remove_attribute
 
 NAME = "reeb_part"
@@ -14,6 +15,7 @@ NAME = "reeb_part"
 
 def add(obj: bpy.types.Object) -> None:
     """Make the attribute with each face's part number, unless it is there."""
+    transaction.keep_mesh(obj.data)
     result = obj.data.reeb_parts
     result.face_attribute = add_attribute(obj.data, result.face_attribute, NAME, "INT", "FACE")
 

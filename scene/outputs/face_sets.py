@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
+from .. import transaction
 from .kept_aside import PREFIX, add_attribute, bring_back, keep_aside, remove_attribute
 
 NAME = ".sculpt_face_set"
@@ -15,6 +16,7 @@ _KEPT = f"{PREFIX}_face_set"
 
 def add(obj: bpy.types.Object) -> None:
     """Put our face sets where the user's were; those are kept aside."""
+    transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
     if result.has_face_sets and NAME in mesh.attributes:
@@ -29,6 +31,7 @@ def add(obj: bpy.types.Object) -> None:
 
 def remove(obj: bpy.types.Object) -> None:
     """Bring the user's face sets back, or none."""
+    transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
     if result.has_face_sets:

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
+from .. import transaction
 from .colors import linear
 from .kept_aside import PREFIX, bring_back, keep_aside, remove_attribute
 
@@ -18,6 +19,7 @@ _KEPT = f"{PREFIX}_material"
 
 def add(obj: bpy.types.Object) -> None:
     """Keep aside which material slot each face uses."""
+    transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
     if not result.has_materials:
@@ -28,6 +30,7 @@ def add(obj: bpy.types.Object) -> None:
 
 def remove(obj: bpy.types.Object) -> None:
     """Remove our materials and their slots; each face uses the slot it used before."""
+    transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
     for part in result.parts:
@@ -50,7 +53,7 @@ def remove_one(mesh: bpy.types.Mesh, material: bpy.types.Material | None) -> Non
         if part.material == material:
             part.material = None
     if material.users == 0:
-        bpy.data.materials.remove(material)
+        transaction.discard(material)
 
 
 def drop_slots(mesh: bpy.types.Mesh, gone: Container[bpy.types.Material]) -> None:
@@ -78,7 +81,9 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
 
 
 def _color_material(material: bpy.types.Material, color: list[float]) -> None:
+    transaction.keep(material, "diffuse_color")
     material.diffuse_color = (*color, 1.0)
     for node in material.node_tree.nodes:
         if node.type == "BSDF_PRINCIPLED":
+            transaction.keep(node.inputs["Base Color"], "default_value")
             node.inputs["Base Color"].default_value = (*color, 1.0)

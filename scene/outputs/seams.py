@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ...core.result.numbering import NumberedParts
-from .. import mesh_arrays
+from .. import mesh_arrays, transaction
 from .kept_aside import PREFIX, bring_back, keep_aside, remove_attribute
 
 _KEPT = f"{PREFIX}_seam"
@@ -14,6 +14,7 @@ _KEPT = f"{PREFIX}_seam"
 
 def add(obj: bpy.types.Object) -> None:
     """Keep aside which seams the user has."""
+    transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
     if not result.has_seams:
@@ -24,6 +25,7 @@ def add(obj: bpy.types.Object) -> None:
 
 def remove(obj: bpy.types.Object) -> None:
     """Leave the user's seams alone again."""
+    transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
     if result.has_seams and _KEPT in mesh.attributes:

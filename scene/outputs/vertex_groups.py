@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
-from .. import mesh_arrays
+from .. import mesh_arrays, transaction
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,6 +161,7 @@ def remove(obj: bpy.types.Object) -> None:
 
 def rename(obj: bpy.types.Object, part: bpy.types.PropertyGroup) -> None:
     """Give the part's vertex group the part's name, or the nearest that is free."""
+    transaction.keep_mesh(obj.data)
     if part.group in obj.vertex_groups:
         group = obj.vertex_groups[part.group]
         group.name = part.name

@@ -15,7 +15,7 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import PALETTE, PALETTES, number_colors
-from .. import part_names, store
+from .. import part_names, quiet, transaction
 from . import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
 
 #: The outputs by the names of their switches, see settings.OutputProperties.
@@ -37,6 +37,7 @@ def write_outputs(obj: bpy.types.Object, numbered: NumberedParts, distances: np.
     outputs
         Has the switches of settings.OutputProperties.
     """
+    transaction.keep_mesh(obj.data)
     vertex_groups.remove(obj)
     for name, output in OUTPUTS.items():
         (output.add if getattr(outputs, name) else output.remove)(obj)
@@ -57,6 +58,7 @@ def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.nd
         where writing is slow.
     """
     mesh = obj.data
+    transaction.keep_mesh(mesh)
     old = part_names.number_colors(mesh)
     gone = _list_parts(mesh, numbered)
     new = part_names.number_colors(mesh)
@@ -73,6 +75,7 @@ def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.nd
 
 def update_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the colour attribute and the materials up to date with the colours of the list, which stays."""
+    transaction.keep_mesh(mesh)
     colors.write(mesh, numbered.face_numbers, part_names.number_colors(mesh))
     materials.write(mesh, numbered)
     mesh.update()
@@ -92,6 +95,7 @@ def _recolored(numbered: NumberedParts, before: np.ndarray | None, old: np.ndarr
 
 def remove_outputs(obj: bpy.types.Object) -> None:
     """Take back all that was written to the mesh; the result itself stays."""
+    transaction.keep_mesh(obj.data)
     for output in OUTPUTS.values():
         output.remove(obj)
     obj.data.update()
@@ -109,7 +113,7 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
     wanted = numbered.numbers.tolist()
     shades = _part_colors(mesh, numbered)
     own_names, kept_names = numbered.names, part_names.kept_names(mesh)
-    with store.quiet():
+    with quiet.quiet():
         result.parts.clear()
         for label, number in enumerate(wanted):
             part = result.parts.add()

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Odd shapes cost about what ordinary ones do: time of the processor, beside an ordinary mesh of 10,000 faces."""
+
+import time
+
+import numpy as np
+import pytest
+import shapes
+
+from core.field.agd import spread_base_vertices
+from core.field.geodesic import GeodesicSolver
+from core.parameters import Parameters
+from core.pipeline import decompose
+from core.surface.mesh import TriMesh
+from core.surface.polygons import PolygonMesh
+from core.surface.preparation import MAX_EDGE, MIN_BUDGET, bodies, repair, split_long_edges
+
+#: An odd shape of up to so many faces takes at most as many times as long as an ordinary one, which takes 0.6 s.
+FACES, TIMES = 10_000, 5.0
+
+
+def ribbon(n_faces, width):
+    """A flat strip of length 1."""
+    x = np.linspace(0.0, 1.0, n_faces // 2 + 1)
+    zero, first = np.zeros_like(x), np.arange(len(x) - 1)
+    side = [np.stack([x, zero + y, zero], axis=1) for y in (0.0, width)]
+    second = first + len(x)
+    return shapes.Shape(np.concatenate(side), np.concatenate(
+        [np.stack([first, first + 1, second + 1], axis=1), np.stack([first, second + 1, second], axis=1)]))
+
+
+def fan(n_faces, height):
+    """Faces around one vertex."""
+    angle, index = 2 * np.pi * np.arange(n_faces) / n_faces, np.arange(n_faces)
+    rim = np.stack([np.cos(angle), np.sin(angle), np.zeros(n_faces)], axis=1)
+    return shapes.Shape(np.concatenate([[(0, 0, height)], rim]),
+                        np.stack([np.zeros(n_faces, int), 1 + index, 1 + (index + 1) % n_faces], axis=1))
+
+
+def tetrahedra(count, size=1.0):
+    """Far from each other, at random."""
+    one, rng = shapes.tetrahedron(), np.random.default_rng(0)
+    places = 3 * count ** (1 / 3) * rng.random((count, 1, 3))
+    return shapes.Shape((places + size * one.vertices).reshape(-1, 3),
+                        (len(one.vertices) * np.arange(count)[:, None, None] + one.faces).reshape(-1, 3))
+
+
+def needles(count):
+    """Balls a thousand times as long as wide."""
+    ball = shapes.icosphere(1)
+    return shapes.together(*(shapes.Shape(ball.vertices * (1, 1e-3, 1e-3) + (0, i, 0), ball.faces)
+                             for i in range(count)))
+
+
+ODD = {
+    "ribbon": lambda: ribbon(120, 1e-6), "long ribbon": lambda: ribbon(5000, 1e-3), "fan": lambda: fan(10_000, 1.0),
+    "tall fan": lambda: fan(120, 100.0), "tetrahedra": lambda: tetrahedra(99),
+    "thousands of tetrahedra": lambda: tetrahedra(2500, 1e-2), "needles": lambda: needles(3),
+    "needle": lambda: shapes.cylinder(4, 12, 1e-4, 1.0), "crumbs": lambda: shapes.crumbs(3000),
+    "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
+}
+
+
+def seconds(shape):
+    """What the processor needs for a mesh."""
+    start = time.process_time()
+    decompose(*shape, parameters=Parameters())
+    return time.process_time() - start
+
+
+@pytest.fixture(scope="module")
+def ordinary():
+    """Seconds for an ordinary mesh of about FACES faces."""
+    mesh, _ = split_long_edges(TriMesh(*shapes.tube_tree(4, 0.11)), 0.1)
+    assert 0.7 * FACES < mesh.n_faces < 1.5 * FACES
+    return min(seconds((mesh.vertices, mesh.faces)) for _ in range(2)) * FACES / mesh.n_faces
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_odd_shapes_cost_what_ordinary_ones_do(name, ordinary):
+    shape = ODD[name]()
+    assert len(shape.faces) <= FACES
+    assert seconds(shape) <= TIMES * ordinary
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_no_more_faces_than_the_budget(name):
+    mesh = repair(PolygonMesh.of(*ODD[name]())).mesh
+    fine, _ = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area))
+    assert fine.n_faces <= max(MIN_BUDGET, 4 * mesh.n_faces)
+
+
+def test_splitting_stops_at_edges_of_one_length():
+    """A ribbon of equal faces stays one: all its rungs are split, or none."""
+    mesh, _ = split_long_edges(TriMesh(*ribbon(120, 1e-6)), 1e-9)
+    length = mesh.edge_length[mesh.edge_length > 1e-5]
+    assert length.max() <= 2.01 * length.min()
+
+
+def test_a_ribbon_has_few_base_vertices():
+    mesh = TriMesh(*ribbon(4000, 1e-5))
+    radius = np.sqrt(0.005 * mesh.area)
+    base = spread_base_vertices(mesh, GeodesicSolver(mesh), mesh.vertex_area, radius)
+    expected = mesh.area / (1.5 * radius**2)
+    assert len(base.indices) == int(np.ceil(2 * expected))
+    assert base.areas.sum() == pytest.approx(mesh.area)
+
+
+@pytest.mark.parametrize(("count", "wanted"), [(20, 20), (21, 0), (99, 0)])
+def test_of_very_many_bodies_of_few_faces_none_is_decomposed(count, wanted):
+    places = np.stack(np.meshgrid(*3 * [np.arange(5)]), axis=-1).reshape(-1, 3)[:count]
+    shape = shapes.together(*(shapes.moved(shapes.tetrahedron(), 50.0 * place) for place in places))
+    assert len(bodies(repair(PolygonMesh.of(*shape)), True, 0.001)) == wanted
+    result = decompose(*shape, parameters=Parameters(detail=1.0))
+    assert result.parts(n_parts=count).count == count
+
+
+def test_larger_bodies_among_many_small_ones_are_decomposed():
+    small = [shapes.moved(shapes.tetrahedron(), (90.0 * i, 0, 0)) for i in range(60)]
+    shape = shapes.together(shapes.moved(shapes.icosphere(2), (0, 500, 0)), *small)
+    chosen = bodies(repair(PolygonMesh.of(*shape)), True, 0.001)
+    sizes = [len(body.faces) for body in chosen]  # some of the small ones lie so near each other that they are one
+    assert 320 in sizes
+    assert 4 not in sizes
