@@ -25,7 +25,7 @@ COARSE, FINE = 2**19, 2**40
 _SPREAD = ((32, 0x1F00000000FFFF), (16, 0x1F0000FF0000FF), (8, 0x100F00F00F00F00F), (4, 0x10C30C30C30C30C3),
            (2, 0x1249249249249249))
 EQUAL = 1e-6  # relative difference below which two moments are equal
-LEAST_PIECE = 0.01  # share of the faces from which a piece is sorted in a frame of its own
+LEAST_PIECE = 0.05  # share of the faces from which a piece is sorted in a frame of its own
 EVEN = 1e-9  # relative size of a third moment below which both sides are alike
 
 

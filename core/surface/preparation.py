@@ -26,7 +26,7 @@ MAX_EDGE = 0.5 * np.sqrt(0.005)
 # too many, and a coarser copy is better.
 MAX_GROWTH = 4
 MIN_BUDGET = 50_000  # number of faces up to which refinement of a single body never stops early
-ALL_BUDGETS = 66_000  # number of faces that several bodies share for that
+ALL_BUDGETS = 50_000  # number of faces that several bodies share for that
 # A body of few faces takes as long as hundreds of faces of a large one. So of very many bodies only those of more faces
 # are decomposed: this number of bodies, and one more for so many faces of the whole.
 MANY_BODIES, FACES_PER_BODY = 20, 300
