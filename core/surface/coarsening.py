@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import both_ways, sums_by
+from .arrays import both_ways, rounded, sums_by
 from .mesh import TriMesh
+from .ordering import rank_by_place
 
 SMOOTHING_STEPS = 3  # rounds in which ``prolong`` averages neighbors, to close the seams between cells
 _MIX = np.uint64(0x9E3779B97F4A7C15)  # 2**64 over the golden ratio, made odd: the multiplier of the hash splitmix64
@@ -67,19 +68,19 @@ def coarsen(
 
     Notes
     -----
-    O(n + m), whole arrays. The vertices are chosen by a hash of their coordinates, so that the choice does not
-    depend on the order of vertices or faces.
+    O(n log n + m), whole arrays. The vertices are chosen by a hash of their rank by place, see ``ordering``: neither
+    order nor pose nor scale change the choice.
     """
     links = mesh.edges.vertices if links is None else links
     a, b = both_ways(links).T
     order = np.argsort(a, kind="stable")
     a, b = a[order], b[order]
     length = np.linalg.norm(mesh.vertices[a] - mesh.vertices[b], axis=1)
-    seed = _independent_set(a, b, _priority(mesh.vertices))
+    seed = _independent_set(a, b, _priority(mesh.vertices, vertex_area))
     name = np.where(seed, np.cumsum(seed) - 1, -1)
     owner = name.copy()
     near = seed[b] & ~seed[a]
-    by_length = np.lexsort((length[near], a[near]))[::-1]
+    by_length = np.lexsort((rounded(length[near]), a[near]))[::-1]
     owner[a[near][by_length]] = name[b[near][by_length]]  # NumPy keeps what is written last: the nearest
     faces = owner[mesh.faces]
     faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
@@ -186,15 +187,13 @@ def _gradients(mesh: TriMesh, links: np.ndarray, values: np.ndarray) -> np.ndarr
     return np.linalg.solve(normal + damping[:, None, None] * np.eye(3), right[:, :, None])[:, :, 0]
 
 
-def _priority(points: np.ndarray) -> np.ndarray:
-    """Distinct whole numbers, (n,) int64, that look random and depend on the coordinates alone."""
-    bits = (np.ascontiguousarray(points) + 0.0).view(np.uint64)
-    mixed = np.zeros(len(points), np.uint64)
-    for column in bits.T:
-        mixed = (mixed ^ column) * _MIX
-        mixed ^= mixed >> np.uint64(29)
+def _priority(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """The whole numbers below n, (n,) int64, in an order that looks random: that of a hash of each point's rank."""
+    mixed = (rank_by_place(points, weight).astype(np.uint64) + np.uint64(1)) * _MIX
+    for shift in (30, 27, 31):
+        mixed = (mixed ^ (mixed >> np.uint64(shift))) * _MIX
     rank = np.empty(len(points), np.int64)
-    rank[np.lexsort((*points.T, mixed))] = np.arange(len(points))
+    rank[np.argsort(mixed, kind="stable")] = np.arange(len(points))
     return rank
 
 

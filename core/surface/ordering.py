@@ -154,31 +154,57 @@ def _across(toward: np.ndarray, axes: np.ndarray) -> np.ndarray:
     return toward[first] / max(length[first], 1e-300)
 
 
+def rank_by_place(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Sort points by their place in their own frame.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    weight : (n,) float64
+        Such as the area that each stands for.
+
+    Returns
+    -------
+    rank : (n,) int64
+        Place of each in the order, which depends on order, pose and scale as ``Ordering`` does.
+    """
+    position = points - weighted_sum(weight, points) / weight.sum()
+    place = inner_products(position, _own_axes(position, weight, position))
+    return _inverse(_order(place / max(np.abs(place).max(), 1e-300), lambda: np.zeros_like(place)))
+
+
 def _in_own_frame(mesh: TriMesh, vertex_rank: np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
     """Place of each vertex, (n, 3), and normal of each face, (m, 3), along the axes of the surface itself.
 
-    Places are from its middle, in units of the largest coordinate of a vertex with a face. Each axis points to where
-    the farther places are, or away from there; where both sides are alike, the first vertex that is clearly on one side
-    decides.
+    Places are from its middle, in units of the largest coordinate of a vertex with a face.
     """
     middle = weighted_sum(mesh.face_area, mesh.face_centroids) / mesh.area
     used = np.unique(mesh.faces)
     if vertex_rank is not None:
         used = used[np.argsort(vertex_rank[used], kind="stable")]
-    position = mesh.face_centroids - middle
     corner = np.zeros((mesh.n_vertices, 3))
     corner[used] = mesh.vertices[used] - middle
-    axes = principal_axes(second_moments(position, mesh.face_area), corner[used])
+    axes = _own_axes(mesh.face_centroids - middle, mesh.face_area, corner[used])
+    corner = inner_products(corner, axes)
+    return corner / np.abs(corner).max(), inner_products(mesh.face_normals, axes)
+
+
+def _own_axes(position: np.ndarray, weight: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Axes of a surface, (3, 3), a row each: the principal axes of positions, (m, 3), from their middle.
+
+    Each points to where the farther positions are, or away from there; where both sides are alike, the first of some
+    points, (k, 3), that is clearly on one side decides.
+    """
+    axes = principal_axes(second_moments(position, weight), points)
     for axis in axes:
         along = inner_products(position, axis)
-        lean = (mesh.face_area * along**3).sum() / max((mesh.face_area * np.abs(along) ** 3).sum(), 1e-300)
+        lean = (weight * along**3).sum() / max((weight * np.abs(along) ** 3).sum(), 1e-300)
         if abs(lean) < EVEN:
-            height = inner_products(corner[used], axis)
+            height = inner_products(points, axis)
             lean = height[(np.abs(height) >= 0.5 * np.abs(height).max()).argmax()]
         axis *= -1.0 if lean < 0 else 1.0
     axes[[0, 2]] *= -1.0  # which end comes first is a convention
-    corner = inner_products(corner, axes)
-    return corner / np.abs(corner).max(), inner_products(mesh.face_normals, axes)
+    return axes
 
 
 def _order(place: np.ndarray, beside: Callable[[], np.ndarray]) -> np.ndarray:

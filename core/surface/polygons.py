@@ -22,8 +22,7 @@ MIN_FACES = 4  # number of faces of a tetrahedron, the smallest closed surface
 # Powers of two between which coordinates can be: areas in squared units of the caller must be numbers, too. These are
 # some 1e-152 and 1e152.
 LEAST_EXPONENT, LARGEST_EXPONENT = -505, 505
-# Meshes whose largest coordinate is between 2**-20 and 2**20 are taken as they are: what is chosen by a hash of
-# coordinates (see ``coarsening``) would be chosen differently elsewhere.
+# Meshes whose largest coordinate is between 2**-20 and 2**20 are taken as they are.
 USUAL_EXPONENT = 20
 
 

@@ -113,3 +113,15 @@ def test_moved_far_away():
     shape = LOPSIDED["tree"]
     one, two = decompose(*shape), decompose(shape.vertices + (40.0, -7.0, 0.3), shape.faces)
     np.testing.assert_array_equal(one.candidates, two.candidates)
+
+
+def test_a_dense_mesh_moved_turned_scaled_and_shuffled():
+    """Distances are measured on a coarser copy; which vertices it keeps was once decided by their coordinates."""
+    shape = bent(shapes.tube_tree(4, 0.028))
+    assert len(shape.vertices) > 20_000
+    rng = np.random.default_rng(1)
+    moved = Shape(1.1 * shape.vertices @ shapes.rotation(rng).T + (3.0, 0.2, -5.0), shape.faces)
+    other, _, face = shapes.shuffled(moved, rng)
+    one, two = decompose(*shape).parts(), decompose(*other).parts()
+    # Parts are numbered by the caller's order.
+    assert len(np.unique(np.stack([one.labels[face], two.labels]), axis=1).T) == one.count == two.count
