@@ -411,7 +411,8 @@ def test_pieces_scaled_moved_and_permuted(name, preset):
     other, _, face = shapes.shuffled(shape, rng)
     shuffled = decompose(*other, preset)
     # Two cuts of the tree are nearly as good as each other in the method that cuts in two again and again.
-    least = 0.97 if (preset.method, name) == ("liu", "tree") else 0.99
+    # Boxes have equal sides, between which the order of the vertices decides; regions of curvature grow over edges.
+    least = {("liu", "tree"): 0.97, ("lavoue", "table"): 0.97}.get((preset.method, name), 0.99)
     assert rand_index(one.parts().labels[face], shuffled.parts().labels, areas[face]) > least
 
 
@@ -459,8 +460,10 @@ def test_zero_area_faces_follow_a_neighbor(preset):
     shape = shapes.with_flat_faces(shapes.tube_tree())
     result = sound_triangles(shape, preset)
     assert noted(result, "10 faces have zero area")
+    # Classes of curvature move when a few of the curvatures do, those beside the new faces.
+    least = 0.93 if preset.method == "lavoue" else 0.97
     assert rand_index(known("tree", preset).parts().labels, result.parts().labels[:-10],
-                      TriMesh(*model("tree")).face_area) > 0.97
+                      TriMesh(*model("tree")).face_area) > least
 
 
 def test_a_face_that_is_one_point(preset):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...surface.arrays import distinct_pairs, renumbered, sums_by
+from ...surface.arrays import distinct_pairs, renumbered, rounded, sums_by, weighted_sum
 
 MOST_CLUSTERS = 12  # upper bound of the number of clusters that is chosen from the data
 EXPLAINED = 0.9  # share of the variance that enough clusters explain
@@ -41,7 +41,7 @@ def cluster(points: np.ndarray, weight: np.ndarray, count: int = 0) -> np.ndarra
     -----
     The rounds run on the means of occupied bins, whose number does not grow with that of the points.
     """
-    place = np.floor(points / BIN).astype(np.int64)
+    place = np.rint(points / BIN).astype(np.int64)  # flat regions, of curvature 0 but for rounding, are in one bin
     bins, of_bin = distinct_pairs(*(place - place.min(axis=0)).T)
     total = np.bincount(of_bin, weight, len(bins))
     means = sums_by(of_bin, weight[:, None] * points, len(bins)) / total[:, None]
@@ -63,8 +63,10 @@ def _split(points: np.ndarray, weight: np.ndarray, label: np.ndarray) -> np.ndar
     offset = points - _centers(points, weight, label)[label]
     squares = np.bincount(label, weight * (offset**2).sum(axis=1), count)
     inside = label == squares.argmax()
-    axes = np.linalg.eigh((weight[inside, None] * offset[inside]).T @ offset[inside])[1]
-    far = inside & (offset @ axes[:, -1] > 0)
+    x, y = offset[inside].T
+    xx, xy, yy = (weighted_sum(weight[inside], p) for p in (x * x, x * y, y * y))
+    axis = np.linalg.eigh(np.array([[xx, xy], [xy, yy]]))[1][:, -1]
+    far = inside & (rounded(offset[:, 0] * axis[0] + offset[:, 1] * axis[1]) > 0)
     return np.where(far, count, label) if far.any() and (inside & ~far).any() else None
 
 
@@ -75,12 +77,12 @@ def _moved(points: np.ndarray, weight: np.ndarray, label: np.ndarray) -> tuple[n
     """
     for _ in range(ROUNDS):
         square = ((points[:, None] - _centers(points, weight, label)) ** 2).sum(axis=2)
-        before, label = label, square.argmin(axis=1)
+        before, label = label, rounded(square).argmin(axis=1)
         if np.array_equal(before, label):
             break
     label = renumbered(label)[1]
     square = ((points - _centers(points, weight, label)[label]) ** 2).sum(axis=1)
-    return label, float(weight @ square / weight.sum())
+    return label, float(weighted_sum(weight, square) / weight.sum())
 
 
 def _centers(points: np.ndarray, weight: np.ndarray, label: np.ndarray) -> np.ndarray:

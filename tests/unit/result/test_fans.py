@@ -62,7 +62,8 @@ def touching_pairs(faces, label):
 def test_the_cuts_are_the_pairs_of_parts_that_share_an_edge(preset, n_pages):
     vertices, faces = book(n_pages)
     result = decompose(vertices, faces, Parameters.preset(preset))
-    assert result.n_candidates > 2
+    # Flat pages all have one curvature: the method that classifies by it finds two candidates.
+    assert result.n_candidates >= (2 if preset == "Lavoue 2005" else 3)
     for count in range(2, result.n_candidates + 1):
         parts = result.parts(n_parts=count)
         assert [tuple(cut) for cut in parts.cuts.tolist()] == touching_pairs(faces, parts.labels)
