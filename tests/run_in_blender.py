@@ -26,6 +26,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PARTS = {"inside": ["tests/unit", "tests/blender"], "command": ["tests/installed"], "window": ["tests/window"]}
+# What is the same in any Python and takes minutes runs in the unit tests' own environments only.
+ELSEWHERE = "not Liu and not Lavoue and not test_cost"
 PACKAGE = "bl_ext.user_default.reeb_parts"
 
 
@@ -50,7 +52,8 @@ def main() -> int:
         if arguments.part == "install":
             return 0
         pytest_arguments = ["-q", "-p", "no:cacheprovider", *PARTS[arguments.part]]
-        pytest_arguments += ["-k", arguments.k] if arguments.k else []
+        words = arguments.k or (ELSEWHERE if arguments.part == "inside" else "")
+        pytest_arguments += ["-k", words] if words else []
         if arguments.junit:
             pytest_arguments.append(f"--junitxml={arguments.junit.resolve()}")
         if arguments.part == "inside":
