@@ -26,8 +26,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PARTS = {"inside": ["tests/unit", "tests/blender"], "command": ["tests/installed"], "window": ["tests/window"]}
-# What is the same in any Python and takes minutes runs in the unit tests' own environments only.
-ELSEWHERE = "not Liu and not Lavoue and not test_cost"
+# Whole runs of the presets "Lavoue 2005" and "Liu 2007", and costs, take minutes and are tried in unit-newest.
+ELSEWHERE = "not 2005 and not 2007 and not test_cost"
 PACKAGE = "bl_ext.user_default.reeb_parts"
 
 
