@@ -113,9 +113,10 @@ def escaped():
 def by_graph():
     """A click on a node, on an arc, and on another arc right after; no tool is at work."""
     node = next(item for item in spot().children if item.get("part") == number("Part 02"))
+    clicked = node.name
     yield from pointer.press(*pointer.over(node.matrix_world.translation))
     yield 0.3
-    note("a node", [chosen(), bpy.context.view_layer.objects.active.name])
+    note("a node", [chosen(), bpy.context.view_layer.objects.active.name, clicked])
     pointer.shot("7_node.png")
     for name in ("Part 06", "Part 03"):
         yield from pointer.press(*on_arc(name))
