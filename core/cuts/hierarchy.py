@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..surface.arrays import components, distinct_pairs, frozen
+from ..surface.arrays import components, distinct_pairs, frozen, inverse
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -80,8 +80,7 @@ class Dendrogram:
                 order.append(start)
                 start = following[start]
             ends.append(len(order))
-        place = np.empty(count, np.int64)
-        place[order] = np.arange(count)
+        place = inverse(np.array(order, np.int64))
         first, second, size = np.array(joins, np.int64).reshape(-1, 3).T
         return cls(
             np.array(order, np.int64), np.stack([ends[:-1], ends[1:]], axis=1),
@@ -90,9 +89,7 @@ class Dendrogram:
     @cached_property
     def place(self) -> np.ndarray:
         """(c,) int64, place of each candidate in ``order``."""
-        place = np.empty(len(self.order), np.int64)
-        place[self.order] = np.arange(len(place))
-        return place
+        return inverse(self.order)
 
     @cached_property
     def _gap_rows(self) -> list[np.ndarray]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..surface.arrays import inverse
 from ..surface.mesh import TriMesh
 
 MINIMUM, SADDLE, MAXIMUM = 0, 1, 2
@@ -45,9 +46,7 @@ def total_order(values: np.ndarray) -> np.ndarray:
 
     values : (n,) float64. Returns the place of each vertex in this total order, (n,) int64, 0..n-1.
     """
-    rank = np.empty(len(values), np.int64)
-    rank[np.argsort(values, kind="stable")] = np.arange(len(values))
-    return rank
+    return inverse(np.argsort(values, kind="stable"))
 
 
 def critical_points(mesh: TriMesh, rank: np.ndarray) -> CriticalPoints:

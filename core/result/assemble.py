@@ -281,8 +281,7 @@ def _vertex_field(
 ) -> tuple[np.ndarray, tuple[Sentence, ...]]:
     """Normalized field at the caller's vertices, (n,) float64, and notes about pieces and bodies."""
     values = np.full(given.triangles.n_vertices, np.nan)
-    used = np.unique(given.triangles.faces)
-    values[used] = 0.0  # in components that were not decomposed
+    values[given.triangles.used] = 0.0  # in components that were not decomposed
     for r in results:
         kept = r.component.vertex_source >= 0
         values[r.component.vertex_source[kept]] = r.field.normalized[kept]

@@ -15,7 +15,7 @@ from ..cuts.hierarchy import Hierarchy
 from ..errors import ParameterError
 from ..graph.reeb import ReebGraph
 from ..parameters import SEPARATE, Parameters, present_names
-from ..surface.arrays import distinct_pairs, renumbered, sums_by
+from ..surface.arrays import distinct_pairs, inverse, renumbered, sums_by
 from ..surface.labels import majority
 from ..surface.ordering import Ordering
 from .stored import DamagedError, NewerError, check, is_newer, read_archive, read_head
@@ -288,14 +288,12 @@ class Decomposition:
         -------
         parts : Parts
         """
-        names, part = renumbered(candidate_part)
+        _, part = renumbered(candidate_part)
         area = np.bincount(part, self.candidate_area)
         n_faces = np.bincount(self.candidates, minlength=self.n_candidates)
         middle = np.bincount(part, n_faces * self._face_order) / np.bincount(part, n_faces)
         middle[np.lexsort((middle, -area))[0]] = -1.0
-        place = np.empty(len(names), np.int64)
-        place[np.argsort(middle, kind="stable")] = np.arange(len(names))
-        return Parts(self, place[part])
+        return Parts(self, inverse(np.argsort(middle, kind="stable"))[part])
 
     def scaled(self, exponent: int) -> Decomposition:
         """Copy the result of a mesh as that of the mesh multiplied by 2**exponent.
@@ -314,7 +312,7 @@ class Decomposition:
 
         ordering : Ordering. Returns a Decomposition of the same parts.
         """
-        face, vertex = np.argsort(ordering.polygon), np.argsort(ordering.vertex)
+        face, vertex = inverse(ordering.polygon), inverse(ordering.vertex)
         twin, side = self.face_twin, self.face_side
         if len(twin):
             twin, side = np.append(ordering.polygon, -1)[twin[face]], side[face]

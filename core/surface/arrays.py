@@ -49,6 +49,15 @@ def rounded(values: np.ndarray) -> np.ndarray:
     return np.ldexp(np.rint(mantissa * 2.0**26), exponent - 26)
 
 
+def whole_steps(length: np.ndarray) -> np.ndarray:
+    """Lengths of ways in whole steps of 2**-22, one or more: their sums are exact.
+
+    Of two ways that are equally long, rounding must not choose. SciPy takes a length of 0 for "no way".
+    length : array of float64, in units of about the size of the surface.
+    """
+    return np.maximum(np.rint(length * 2.0**22), 1.0)
+
+
 def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     """Find the connected components of elements that are joined in pairs.
 
@@ -75,9 +84,14 @@ def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     count, label = connected_components(graph, directed=False)
     first = np.full(count, n, np.int64)
     np.minimum.at(first, label, np.arange(n))
-    rank = np.empty(count, np.int64)
-    rank[np.argsort(first, kind="stable")] = np.arange(count)
-    return count, rank[label]
+    return count, inverse(np.argsort(first, kind="stable"))[label]
+
+
+def inverse(order: np.ndarray) -> np.ndarray:
+    """Place of each element in an order, (n,) int64. order : (n,) int64, the element at each place."""
+    place = np.empty(len(order), np.int64)
+    place[order] = np.arange(len(order))
+    return place
 
 
 def sums_by(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import both_ways, rounded, sums_by
+from .arrays import both_ways, inverse, rounded, sums_by
 from .mesh import TriMesh
 from .ordering import rank_by_place
 
@@ -192,9 +192,7 @@ def _priority(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
     mixed = (rank_by_place(points, weight).astype(np.uint64) + np.uint64(1)) * _MIX
     for shift in (30, 27, 31):
         mixed = (mixed ^ (mixed >> np.uint64(shift))) * _MIX
-    rank = np.empty(len(points), np.int64)
-    rank[np.argsort(mixed, kind="stable")] = np.arange(len(points))
-    return rank
+    return inverse(np.argsort(mixed, kind="stable"))
 
 
 def _independent_set(a: np.ndarray, b: np.ndarray, priority: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import both_ways, components, distinct_pairs, last_of_each, sums_by
+from .arrays import both_ways, components, distinct_pairs, inverse, last_of_each, sums_by
 
 #: What it costs faces to change label: called with faces, their labels and the new labels.
 Loss = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
@@ -251,8 +251,7 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int, loss: Loss | No
         # A gain below 1e-9 of the longest edge is a rounding error.
         gain[gain <= 1e-9 * length.max(initial=0.0)] = 0.0
         # Of two neighbors that both gain, the one that gains more changes; of equal ones that of the higher index.
-        rank = np.empty(graph.n_faces, np.int64)
-        rank[np.lexsort((np.arange(graph.n_faces), gain))] = np.arange(graph.n_faces)
+        rank = inverse(np.lexsort((np.arange(graph.n_faces), gain)))
         beaten = np.zeros(graph.n_faces, bool)
         beaten[a[(gain[b] > 0) & (rank[b] > rank[a])]] = True
         flip = (gain > 0) & ~beaten

@@ -91,6 +91,13 @@ class TriMesh:
         return self.vertices[self.faces]
 
     @cached_property
+    def used(self) -> np.ndarray:
+        """(n,) bool, whether each vertex has a face."""
+        used = np.zeros(self.n_vertices, bool)
+        used[self.faces] = True
+        return used
+
+    @cached_property
     def area_normals(self) -> np.ndarray:
         """(m, 3) float64, normal of each face, as long as the face's area."""
         p, q, r = self.corners.transpose(1, 0, 2)
@@ -169,16 +176,15 @@ class TriMesh:
     @property
     def euler_characteristic(self) -> int:
         """Number of vertices that have a face, minus the number of edges, plus the number of faces."""
-        used = len(np.unique(self.faces))
-        return used - len(self.edges.vertices) + self.n_faces
+        return int(self.used.sum()) - len(self.edges.vertices) + self.n_faces
 
     def submesh(self, face_mask: np.ndarray) -> tuple[TriMesh, np.ndarray]:
         """Copy some faces, with their vertices only.
 
         Parameters
         ----------
-        face_mask : (m,) bool
-            Faces to copy.
+        face_mask : (m,) bool, or (m',) int64
+            Faces to copy, or these in the order in which they are to be.
 
         Returns
         -------

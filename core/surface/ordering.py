@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import components, frozen, inner_products, renumbered, second_moments, sums_by, weighted_sum
+from .arrays import components, frozen, inner_products, inverse, renumbered, second_moments, sums_by, weighted_sum
 from .mesh import TriMesh
 from .polygons import PolygonMesh
 
@@ -31,7 +31,7 @@ EVEN = 1e-9  # relative size of a third moment below which both sides are alike
 
 @dataclass(frozen=True, eq=False)
 class Ordering:
-    """Where the vertices, triangles and polygons of a sorted mesh are in that which was given.
+    """Where the vertices and polygons of a sorted mesh are in that which was given.
 
     The order does not depend on that of the given faces, nor on pose and scale; on that of the given vertices only
     where a symmetry of the shape leaves several orders.
@@ -40,14 +40,11 @@ class Ordering:
     ----------
     vertex : (n,) int64
         The given vertex at each place.
-    triangle : (m,) int64
-        The given triangle at each place.
     polygon : (p,) int64
         The given polygon at each place.
     """
 
     vertex: np.ndarray
-    triangle: np.ndarray
     polygon: np.ndarray
 
     @classmethod
@@ -70,13 +67,12 @@ class Ordering:
         count = np.maximum(np.bincount(polygon, minlength=n_polygons), 1)[:, None]
         by_place = _order(sums_by(polygon, center, n_polygons) / count,
                           lambda: sums_by(polygon, normal, n_polygons) / count)
-        triangle = np.argsort(_inverse(by_place)[polygon], kind="stable")
-        return cls(_order(corner, beside), triangle, by_place)
+        return cls(_order(corner, beside), by_place)
 
     def with_piece(self, piece: Ordering, vertex: np.ndarray, polygon: np.ndarray) -> Ordering:
         """The order with the vertices and polygons of a piece, in their places, in the order of the piece.
 
-        vertex, polygon : those of the mesh that are the vertices and polygons of the piece. The triangles stay.
+        vertex, polygon : those of the mesh that are the vertices and polygons of the piece.
         """
         changed = {}
         for name, inside in (("vertex", vertex), ("polygon", polygon)):
@@ -87,11 +83,15 @@ class Ordering:
             changed[name] = order
         return replace(self, **changed)
 
-    def sorted(self, mesh: TriMesh) -> TriMesh:
-        """The mesh that was given, in this order; each triangle begins with its first vertex."""
-        faces = _inverse(self.vertex)[mesh.faces[self.triangle]]
+    def sorted(self, mesh: TriMesh, polygon: np.ndarray) -> tuple[TriMesh, np.ndarray]:
+        """Sort the mesh that was given; each triangle begins with its first vertex.
+
+        polygon : (m,) int64, of each triangle given. Returns the mesh, and the given triangle at each place, (m,).
+        """
+        triangle = np.argsort(inverse(self.polygon)[polygon], kind="stable")
+        faces = inverse(self.vertex)[mesh.faces[triangle]]
         turn = (faces.argmin(axis=1)[:, None] + np.arange(3)) % 3
-        return TriMesh(mesh.vertices[self.vertex], np.take_along_axis(faces, turn, axis=1))
+        return TriMesh(mesh.vertices[self.vertex], np.take_along_axis(faces, turn, axis=1)), triangle
 
 
 def sorted_by_place(given: PolygonMesh) -> tuple[PolygonMesh, Ordering]:
@@ -111,9 +111,9 @@ def sorted_by_place(given: PolygonMesh) -> tuple[PolygonMesh, Ordering]:
         part, index = mesh.submesh(faces)
         names, polygon = renumbered(given.polygon[faces])
         ordering = ordering.with_piece(Ordering.of(part, polygon, len(names)), index, names)
-    ordering = replace(ordering, triangle=np.argsort(_inverse(ordering.polygon)[given.polygon], kind="stable"))
-    number = _inverse(ordering.polygon)[given.polygon[ordering.triangle]]
-    return replace(given, triangles=ordering.sorted(mesh), polygon=frozen(number, np.int64),
+    triangles, triangle = ordering.sorted(mesh, given.polygon)
+    number = inverse(ordering.polygon)[given.polygon[triangle]]
+    return replace(given, triangles=triangles, polygon=frozen(number, np.int64),
                    vertex_rank=frozen(ordering.vertex, np.int64)), ordering
 
 
@@ -170,7 +170,7 @@ def rank_by_place(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """
     position = points - weighted_sum(weight, points) / weight.sum()
     place = inner_products(position, _own_axes(position, weight, position))
-    return _inverse(_order(place / max(np.abs(place).max(), 1e-300), lambda: np.zeros_like(place)))
+    return inverse(_order(place / max(np.abs(place).max(), 1e-300), lambda: np.zeros_like(place)))
 
 
 def _in_own_frame(mesh: TriMesh, vertex_rank: np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
@@ -179,7 +179,7 @@ def _in_own_frame(mesh: TriMesh, vertex_rank: np.ndarray | None) -> tuple[np.nda
     Places are from its middle, in units of the largest coordinate of a vertex with a face.
     """
     middle = weighted_sum(mesh.face_area, mesh.face_centroids) / mesh.area
-    used = np.unique(mesh.faces)
+    used = np.flatnonzero(mesh.used)
     if vertex_rank is not None:
         used = used[np.argsort(vertex_rank[used], kind="stable")]
     corner = np.zeros((mesh.n_vertices, 3))
@@ -235,10 +235,3 @@ def _cell(place: np.ndarray) -> np.ndarray:
             column = (column | column << shift) & mask
         number |= column << axis
     return number
-
-
-def _inverse(order: np.ndarray) -> np.ndarray:
-    """Place of each element in an order."""
-    place = np.empty(len(order), np.int64)
-    place[order] = np.arange(len(order))
-    return place

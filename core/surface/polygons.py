@@ -104,7 +104,7 @@ class PolygonMesh:
             )
         if self.exponent > LARGEST_EXPONENT:
             raise MeshError(Sentence("The mesh is too large to be measured. Check the scale of the object."))
-        used = _used(self.triangles)
+        used = self.triangles.used
         extent = np.ptp(self.triangles.vertices[used], axis=0).max()
         # An area below the rounding error of the coordinates is noise.
         if self.exponent < LEAST_EXPONENT or not self.triangles.area > 1e-14 * extent**2:
@@ -112,21 +112,13 @@ class PolygonMesh:
                 "All {n} faces have zero area. Check the scale of the object.", n=self.n_polygons))
 
 
-def _used(mesh: TriMesh) -> np.ndarray:
-    """Whether each vertex has a face, (n,) bool."""
-    used = np.zeros(mesh.n_vertices, bool)
-    used[mesh.faces] = True
-    return used
-
-
 def _normalized(mesh: TriMesh) -> tuple[TriMesh, int]:
     """The mesh divided by a power of two so that no length is very large or very small, and the exponent."""
-    used = _used(mesh)
-    exponent = int(np.frexp(np.abs(mesh.vertices[used]).max(initial=0.0))[1])
+    exponent = int(np.frexp(np.abs(mesh.vertices[mesh.used]).max(initial=0.0))[1])
     if abs(exponent) <= USUAL_EXPONENT:
         return mesh, 0
     # A vertex without a face can be anywhere, and is of no account.
-    return TriMesh(np.ldexp(np.where(used[:, None], mesh.vertices, 0.0), -exponent), mesh.faces), exponent
+    return TriMesh(np.ldexp(np.where(mesh.used[:, None], mesh.vertices, 0.0), -exponent), mesh.faces), exponent
 
 
 def _numbered(faces: ArrayLike, polygon: ArrayLike) -> tuple[np.ndarray, np.ndarray, int]:

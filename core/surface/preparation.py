@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..sentence import Sentence
-from .arrays import components, distinct_pairs, frozen, renumbered
+from .arrays import components, distinct_pairs, frozen, inverse, renumbered
 from .contact import Bridges, bridges
 from .mesh import TriMesh
 from .ordering import Ordering
@@ -109,7 +109,8 @@ class Component:
             names, polygon = renumbered(working.polygon[faces])
             rank = working.vertex_source if working.vertex_rank is None else working.vertex_rank
             ordering = Ordering.of(part, polygon, len(names), rank[index])
-            mesh, source, faces = ordering.sorted(part), source[index][ordering.vertex], faces[ordering.triangle]
+            mesh, triangle = ordering.sorted(part, polygon)
+            source, faces = source[index][ordering.vertex], faces[triangle]
         fine, parent = split_long_edges(mesh, MAX_EDGE * np.sqrt(mesh.area), min(MIN_BUDGET, ALL_BUDGETS // n_bodies))
         added = np.full(fine.n_vertices - len(source), -1)
         return cls(faces, fine, working.polygon[faces][parent], np.concatenate([source, added]),
@@ -332,9 +333,7 @@ def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
     source = source[order]
     if count == mesh.n_vertices and (source == np.arange(count)).all():
         return mesh, source
-    place = np.empty(count, np.int64)
-    place[order] = np.arange(count)
-    return TriMesh(mesh.vertices[source], place[fan].reshape(-1, 3)), source
+    return TriMesh(mesh.vertices[source], inverse(order)[fan].reshape(-1, 3)), source
 
 
 def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
@@ -384,7 +383,7 @@ def edge_direction(mesh: TriMesh, face: np.ndarray, edge: np.ndarray) -> np.ndar
 def _notes(given: PolygonMesh) -> tuple[str, ...]:
     """One sentence for each oddity of the caller's mesh."""
     mesh = given.triangles
-    n_lost = mesh.n_vertices - len(np.unique(mesh.faces))
+    n_lost = int((~mesh.used).sum())
     flat = np.ones(given.n_polygons, bool)
     longest = mesh.edge_length[mesh.edges.face_edges].max(axis=1)
     # The area of three corners on a line is rarely exactly 0.

@@ -8,13 +8,12 @@ import heapq
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
-from ...surface.arrays import components, rounded, sums_by, symmetric_matrix
+from ...surface.arrays import components, rounded, sums_by, symmetric_matrix, whole_steps
 from ...surface.labels import label_boundaries
 from ...surface.mesh import TriMesh
 
 # Share of the area below which a region is a sliver: whatever parts it from its neighbors counts SLIVER times only.
 SMALL, SLIVER = 0.02, 0.1
-STEP = 2.0**-22  # unit of lengths of ways, in units of the square root of the area
 
 
 def grow_regions(mesh: TriMesh, label: np.ndarray) -> np.ndarray:
@@ -40,8 +39,7 @@ def grow_regions(mesh: TriMesh, label: np.ndarray) -> np.ndarray:
     first, second = mesh.edges.pairs.T
     together = seed[first] & seed[second] & (corners[first, 0] == corners[second, 0])
     core = components(mesh.n_faces, first[together], second[together])[1]
-    # In whole steps, whose sums are exact: of two ways that are equally long, rounding must not choose.
-    way = np.maximum(np.rint(mesh.pair_distance / (STEP * np.sqrt(mesh.area))), 1.0)
+    way = whole_steps(mesh.pair_distance / np.sqrt(mesh.area))
     source = np.full(mesh.n_faces, -1)
     if seed.any():
         ways = symmetric_matrix(mesh.edges.pairs, way, mesh.n_faces)

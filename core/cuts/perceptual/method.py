@@ -183,7 +183,7 @@ def _coarse_copy(pyramid: Pyramid) -> tuple[np.ndarray, TriMesh]:
 
 def _is_whole(copy: TriMesh, area: float, n_pieces: int) -> bool:
     """Whether a coarse copy has the pieces of the mesh from which it was made, and nearly its area."""
-    whole = copy.n_faces > 0 and len(np.unique(copy.faces)) == copy.n_vertices
+    whole = copy.n_faces > 0 and copy.used.all()
     return whole and copy.face_components[0] == n_pieces and copy.area > 0.9 * area
 
 

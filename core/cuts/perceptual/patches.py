@@ -22,6 +22,7 @@ from ...surface.arrays import (
     rounded,
     symmetric_matrix,
     weighted_sum,
+    whole_steps,
 )
 from ...surface.labels import label_boundaries, longest_neighbor, majority
 from ...surface.mesh import TriMesh
@@ -35,7 +36,6 @@ ROUNDS = 3  # number of rounds in which two thirds of the seeds are added; the f
 # the shared edge, plus TURN per radian of a convex turn, or TURN * CONCAVE per radian of a concave turn.
 TURN = 0.1
 CONCAVE = 20.0
-STEP = 2.0**-22  # unit of these lengths
 SLABS = 24  # number of slabs whose pieces are the patches of ``level_set_patches``
 SMALLEST = 0.0004  # share of the area of the surface below which a patch joins a neighbor
 
@@ -132,9 +132,7 @@ def _crease_graph(mesh: TriMesh) -> csr_array:
     """Symmetric (m, m) matrix of the lengths of the ways between neighboring faces; TURN has the formula."""
     turn = mesh.dihedral
     length = mesh.pair_distance / np.sqrt(mesh.area) + TURN * np.where(turn < 0, -CONCAVE * turn, turn)
-    # In whole steps, whose sums are exact: of two ways that are equally long, rounding must not choose. SciPy takes a
-    # stored 0 for "no edge".
-    return symmetric_matrix(mesh.edges.pairs, np.maximum(np.rint(length / STEP), 1.0), mesh.n_faces)
+    return symmetric_matrix(mesh.edges.pairs, whole_steps(length), mesh.n_faces)
 
 
 def _first_seeds(mesh: TriMesh, count: int) -> np.ndarray:
