@@ -11,16 +11,24 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from . import explode, graph_objects, mesh_arrays, part_names, transaction
+from . import explode, graph_objects, mesh_arrays, modified, part_names, transaction
 from .outputs.colors import linear
 from .part_meshes import part_meshes
 from .settings import SeparateProperties
 from .store import Stored
-from .temporary import remove_object
+from .temporary import remove_object, removed
 
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: name of the object that the pieces come from
 NUMBER = "reeb_parts_number"  # on a piece: of its part
 MADE = "reeb_parts_looks"  # on a piece: what it was like when it was made
+
+# Modifiers that do the same to a mesh wherever the origin of its object is. Others, such as Mirror and Array, work
+# about the origin, and a piece with another one would change its shape.
+_ANYWHERE = {
+    "ARMATURE", "BEVEL", "BOOLEAN", "CORRECTIVE_SMOOTH", "CURVE", "DATA_TRANSFER", "DECIMATE", "EDGE_SPLIT",
+    "LAPLACIANSMOOTH", "LATTICE", "MASK", "SHRINKWRAP", "SMOOTH", "SOLIDIFY", "SUBSURF", "TRIANGULATE",
+    "WEIGHTED_NORMAL", "WELD", "WIREFRAME",
+}  # fmt: skip
 
 
 def collection_of(obj: bpy.types.Object) -> bpy.types.Collection | None:
@@ -73,7 +81,11 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
         Earlier pieces that were left alone.
     """
     kept = _remove_earlier(obj, numbers)
-    meshes, left_open = part_meshes(obj.data, stored.shown_parts().face_numbers, numbers, style.caps)
+    face_numbers = stored.shown_parts().face_numbers
+    seen = modified.seen_mesh(context, obj, face_numbers) if style.seen and modified.has_modifiers(obj) else None
+    mesh, face_numbers = seen or (obj.data, face_numbers)
+    with removed(bpy.data.meshes, *([mesh] if seen else [])):
+        meshes, left_open = part_meshes(mesh, face_numbers, numbers, style.caps)
     collection = make_collection(context, obj)
     colors = {part.number: part.color[:] for part in obj.data.reeb_parts.parts}
     made = []
@@ -133,14 +145,14 @@ def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: Separa
     piece.name = mesh.name = name
     piece.data = mesh
     piece.hide_viewport = piece.hide_render = False
-    if not style.modifiers:
+    if not style.modifiers or style.seen:
         piece.modifiers.clear()
     if style.parent:
         # What moved the object moves its child already.
         piece.animation_data_clear()
         piece.constraints.clear()
-    # The origin of an object that something holds cannot be moved.
-    free = not piece.animation_data and not piece.constraints
+    # The origin of an object that something holds, or that something works about, cannot be moved.
+    free = not piece.animation_data and not piece.constraints and all(map(_works_anywhere, piece.modifiers))
     middle = _center(mesh) if style.center and free else Vector()
     if style.parent:
         piece.parent, piece.parent_type = obj, "OBJECT"
@@ -149,6 +161,11 @@ def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: Separa
     else:
         piece.location += piece.matrix_basis.to_3x3() @ middle
     return piece
+
+
+def _works_anywhere(modifier: bpy.types.Modifier) -> bool:
+    """Whether a modifier does the same wherever the origin is."""
+    return modifier.type in _ANYWHERE or (modifier.type == "MIRROR" and modifier.mirror_object is not None)
 
 
 def _center(mesh: bpy.types.Mesh) -> Vector:

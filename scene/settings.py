@@ -184,7 +184,13 @@ class SeparateProperties(WhichProperties):
     )
     modifiers: BoolProperty(
         name="Keep modifiers", default=True,
-        description="Copy the object's modifiers to each piece",
+        description="Copy the object's modifiers to each piece. Where one works about the origin, as Mirror does, "
+        "the pieces keep the origin of the object, so that all stays in its place",
+    )
+    seen: BoolProperty(
+        name="Apply modifiers", default=False,
+        description="Cut the mesh as it is seen, with its modifiers applied, instead of the one that is stored; "
+        "the pieces then have no modifiers",
     )
     parent: BoolProperty(
         name="Parent to original", default=False,

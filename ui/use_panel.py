@@ -25,7 +25,7 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         # Separate stands above its options, so that no one has to scroll for it in a small window.
         column.row().prop(settings, "which", expand=True)
         column.operator("reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
-        for name in ("caps", "center", "modifiers", "parent", "hide"):
+        for name in ("caps", "center", "modifiers", "seen", "parent", "hide"):
             column.prop(settings, name)
         column.separator()
         column.prop(context.object.reeb_parts_made, "explode", slider=True)

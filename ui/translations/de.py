@@ -278,7 +278,18 @@ TEXTS = {
     "Put the origin of each piece to the middle of its surface; without it, all keep the origin of the object":
         "Den Ursprung jedes Stücks in die Mitte seiner Oberfläche setzen; sonst behalten alle den Ursprung des Objekts",
     "Keep modifiers": "Mit Modifikatoren",
-    "Copy the object's modifiers to each piece": "Die Modifikatoren des Objekts auf jedes Stück kopieren",
+    "Copy the object's modifiers to each piece. Where one works about the origin, as Mirror does, the pieces keep the "
+    "origin of the object, so that all stays in its place":
+        "Die Modifikatoren des Objekts auf jedes Stück kopieren. Wirkt einer um den Ursprung, wie Spiegeln, behalten "
+        "die Stücke den Ursprung des Objekts, damit alles an seinem Platz bleibt",
+    "Apply modifiers": "Modifikatoren anwenden",
+    "Cut the mesh as it is seen, with its modifiers applied, instead of the one that is stored; the pieces then have "
+    "no modifiers":
+        "Das Netz so zerlegen, wie man es sieht, mit angewendeten Modifikatoren, statt so, wie es gespeichert ist; die "
+        "Stücke haben dann keine Modifikatoren",
+    "The modifiers of {name} make {n} faces that belong to no part. Apply the modifiers and decompose again.":
+        "Die Modifikatoren von {name} erzeugen {n} Flächen, die zu keinem Teil gehören. Wende die Modifikatoren an und "
+        "zerlege neu.",
     "Parent to original": "Original als Eltern",
     "Make the pieces children of the object, so that they follow it; without it, they have the parent that the object "
     "has":

@@ -10,6 +10,8 @@ import numpy as np
 import pieces as carried
 import pytest
 import shapes
+from mathutils import Matrix
+from scipy.spatial import cKDTree
 from snapshot import activate, changes, check_undo, snapshot
 
 SPOT = Path(__file__).resolve().parents[3] / "models" / "spot.obj"
@@ -484,3 +486,97 @@ def test_models_in_closed_pieces_lose_nothing(model, parts, make):
     # Blender keeps directions as two angles, and takes a small one for none.
     assert found.differences.pop("normals") < 0.014
     assert max(found.differences.values()) == 0
+
+
+def mirrored(obj, **settings):
+    """Give an object a Mirror modifier in its own plane x = 0 and let it stand aside and turned."""
+    obj.data.transform(Matrix.Translation((6, 0, 0)))
+    obj.location, obj.rotation_euler = (1, 2, 3), (0.1, 0.2, 0.3)
+    modifier = obj.modifiers.new("Mirror", "MIRROR")
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+
+
+def seen_faces(*objects):
+    """The places of the middles of all faces as they are seen."""
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    found = []
+    for obj in objects:
+        mesh = obj.evaluated_get(depsgraph).data
+        matrix = np.array(obj.matrix_world)
+        found.append(read(mesh.polygons, "center", np.float32, 3) @ matrix[:3, :3].T + matrix[:3, 3])
+    return np.concatenate(found)
+
+
+def same_places(points, others):
+    """Whether points are the same in any order."""
+    return len(points) == len(others) and max(cKDTree(points).query(others)[0].max(),
+                                              cKDTree(others).query(points)[0].max()) < 1e-4
+
+
+@pytest.mark.parametrize("style", [{}, {"center": False}, {"seen": True}, {"parent": True}])
+def test_with_a_mirror_modifier_pieces_stay_where_they_were(obj, style):
+    """Without a mirror object, the modifier mirrors about the origin, which a piece has to keep then."""
+    mirrored(obj)
+    bpy.ops.reeb_parts.decompose()
+    before = seen_faces(obj)
+    bpy.ops.reeb_parts.separate(**style)
+    assert same_places(seen_faces(*pieces()), before)
+    assert all(bool(piece.modifiers) != style.get("seen", False) for piece in pieces())
+
+
+def test_about_another_object_pieces_have_origins_of_their_own(obj):
+    empty = bpy.data.objects.new("Plane", None)
+    bpy.context.scene.collection.objects.link(empty)
+    empty.location.x = -0.123
+    mirrored(obj, mirror_object=empty)
+    bpy.ops.reeb_parts.decompose()
+    before = seen_faces(obj)
+    bpy.ops.reeb_parts.separate()
+    assert same_places(seen_faces(*pieces()), before)
+    assert len({tuple(piece.location) for piece in pieces()}) == len(pieces())
+
+
+@pytest.mark.parametrize("materials", [False, True])
+def test_what_is_seen_is_cut_with_all_that_modifiers_make(obj, materials):
+    """Subdivision makes four faces of a quad, three of a triangle; each stays in the part of its face."""
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    bpy.ops.reeb_parts.decompose(materials=materials)
+    before, stored = seen_faces(obj), snapshot()["meshes"]["Tree"]
+    bpy.ops.reeb_parts.separate(seen=True, caps=True, hide=False)
+    assert snapshot()["meshes"]["Tree"] == stored
+    corners = read(obj.data.polygons, "loop_total", np.int32)
+    expected = np.bincount(numbers_of(obj), corners)[1:].astype(int).tolist()
+    assert [int((caps_of(piece.data) == 0).sum()) for piece in pieces()] == expected
+    assert [len(piece.data.materials) for piece in pieces()] == [int(materials)] * len(pieces())
+    assert not any(a.name.startswith(("reeb", "Reeb")) and a.name != "reeb_cap"
+                   for piece in pieces() for a in piece.data.attributes)
+    assert not any(piece.vertex_groups for piece in pieces())
+    bpy.ops.reeb_parts.separate(seen=True, hide=False)
+    assert same_places(seen_faces(*pieces()), before)
+
+
+def test_faces_of_no_part_are_refused_and_nothing_written(obj):
+    obj.modifiers.new("Remesh", "REMESH").voxel_size = 0.5
+    bpy.ops.reeb_parts.decompose()
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="belong to no part"):
+        bpy.ops.reeb_parts.separate(seen=True)
+    assert snapshot() == before
+
+
+def test_groups_of_a_cage_survive_subdivision(obj):
+    """After Subdivision, all corners of the faces of a part have the full weight of its group, and few others."""
+    bpy.ops.reeb_parts.decompose()
+    names = {part.number: part.name for part in obj.data.reeb_parts.parts}
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    bpy.ops.object.modifier_apply(modifier="Subdivision")
+    numbers = numbers_of(obj)
+    for number, name in names.items():
+        index = obj.vertex_groups[name].index
+        full = np.array([any(g.group == index and g.weight > 0.999 for g in v.groups) for v in obj.data.vertices])
+        corner = full[read(obj.data.loops, "vertex_index", np.int32)]
+        inside = np.logical_and.reduceat(corner, read(obj.data.polygons, "loop_start", np.int32))
+        assert inside[numbers == number].all()
+        assert inside.sum() < 1.1 * (numbers == number).sum()
