@@ -27,12 +27,13 @@ import bpy
 
 from ..core.errors import ReebError
 from ..core.parameters import Parameters
+from ..core.uses.options import chosen_parameters
 from ..scene import bridge, complete, export, graph_objects, results, targets
 from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
 from ..scene.whole_files import WholeFiles, reason, scene_files, together
 from .interrupt import Interrupted, Interrupts
-from .options import MODELS, chosen_parameters, parser
+from .options import MODELS, parser
 
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),

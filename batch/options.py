@@ -6,11 +6,9 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
-from dataclasses import fields, replace
 from pathlib import Path
 
-from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
-from ..core.sentence import Sentence
+from ..core.uses.options import add_parameters, dashed
 from ..scene.settings import OutputProperties, OverlayProperties
 
 #: Models that can be read besides scenes, see command.IMPORTERS.
@@ -41,7 +39,7 @@ def parser(description: str | None) -> argparse.ArgumentParser:
                        help="turn its camera, which looks at the front, around the objects")
     files.add_argument("--picture-size", type=_size, default=(960, 540), metavar="WxH",
                        help="its width and height in pixels (default: 960x540)")
-    _add_parameters(made.add_argument_group("parameters"))
+    add_parameters(made.add_argument_group("parameters"))
     outputs = made.add_argument_group("what is written to the objects")
     for name, prop in (OutputProperties.__annotations__ | OverlayProperties.__annotations__).items():
         words = {"default": prop.keywords.get("default"), "help": prop.keywords["description"].replace("%", "%%")}
@@ -52,27 +50,8 @@ def parser(description: str | None) -> argparse.ArgumentParser:
             words["default"] = words["choices"][0]
         else:
             words |= {"type": _number(prop.keywords["min"], prop.keywords["max"]), "metavar": "N"}
-        outputs.add_argument(f"--{_dashed(name)}", **words)
+        outputs.add_argument(f"--{dashed(name)}", **words)
     return made
-
-
-def _add_parameters(group: argparse._ArgumentGroup) -> None:
-    group.add_argument("--preset", choices=list(PRESETS), help="start from the parameters of a preset")
-    for field in fields(Parameters):
-        meta = field.metadata
-        words = {"dest": field.name, "default": None, "help": meta["description"].replace("%", "%%")}
-        name = f"--{_dashed(field.name)}"
-        if "choices" in meta:
-            group.add_argument(name, choices=meta["choices"], **words)
-        elif "range" in meta:
-            low, high = meta["range"]
-            words["help"] += f" ({low} to {high}; default {field.default})"
-            group.add_argument(name, type=int if field.type == "int" else float, metavar="N", **words)
-        else:
-            group.add_argument(name, action=argparse.BooleanOptionalAction, **words)
-    for old in RENAMED:  # scripts of version 0.1.0
-        kind = {"action": argparse.BooleanOptionalAction} if old == "equalise" else {"type": float}
-        group.add_argument(f"--{old}", help=argparse.SUPPRESS, **kind)
 
 
 def _number(low: float, high: float) -> Callable[[str], float]:
@@ -93,15 +72,3 @@ def _size(text: str) -> tuple[int, int]:
     if not (16 <= width <= 8192 and 16 <= height <= 8192):
         raise ValueError
     return width, height
-
-
-def _dashed(name: str) -> str:
-    return name.replace("_", "-")
-
-
-def chosen_parameters(options: argparse.Namespace) -> tuple[Parameters, tuple[Sentence, ...]]:
-    """The parameters that the options ask for, and a note for each former name; raises ParameterError."""
-    names = (*RENAMED, *(field.name for field in fields(Parameters)))
-    values, notes = present_names(
-        {name: value for name in names if (value := getattr(options, name)) is not None})
-    return replace(PRESETS[options.preset] if options.preset else Parameters(), **values), notes

@@ -13,11 +13,12 @@ import matplotlib as mpl
 mpl.use("svg")
 import matplotlib.pyplot as plt
 import numpy as np
-from pictures_of_parts import like_colors, picture, png
+from like_colors import like_colors
 from report import labels_path
 from scores import MEASURES, mean, typical
 
 from core.surface.mesh import TriMesh
+from core.uses.pictures import picture, png
 
 mpl.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "report", "font.size": 9, "axes.spines.top": False,
                      "axes.spines.right": False, "font.family": "sans-serif"})

@@ -18,7 +18,7 @@ field                                         geodesic distances; the AGD, norma
 graph    ``ReebGraph``, nodes and arcs        level sets, critical points, simplification, contours
 cuts     ``Hierarchy``, order of the merges   the methods of cutting, minimum cuts
 result   ``Decomposition``, ``Parts``         assembly, numbers that last, changes by hand
-uses                                          colors, JSON report, bones, seams to unfold parts
+uses                                          colors, JSON report, pictures, bones, seams
 =======  ===================================  ====================================================================
 """
 

@@ -116,6 +116,12 @@ def lint() -> Environment:
     return any_python("lint", "ruff==0.17.5", "mypy==2.4.1")
 
 
+def package() -> Environment:
+    """What the Python package and its command are built and tested with; reeb_parts itself is built by the tests."""
+    lines = (ROOT / "tests" / "package" / "requirements.txt").read_text(encoding="utf-8").splitlines()
+    return any_python("package", *(line for line in lines if line and not line.startswith("#")), PYTEST, JSONSCHEMA)
+
+
 def benchmarks() -> Environment:
     """What the programs in benchmarks/ import."""
     lines = (ROOT / "benchmarks" / "requirements.txt").read_text(encoding="utf-8").splitlines()

@@ -40,14 +40,25 @@ def ruff(python: str) -> int:
 def mypy(python: str) -> int:
     """Exit status of the check of the types.
 
-    The checkout is a package with relative imports, whatever its folder is called: mypy sees it as ``reeb_parts``.
+    The checkout is a package with relative imports, whatever its folder is called: mypy sees it as ``reeb_parts``. The
+    Python package of that name is seen as it is installed, with core/ in it.
     """
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as installed:
         (Path(folder) / "reeb_parts").symlink_to(ROOT)
-        packages = [word for name in PACKAGES for word in ("-p", f"reeb_parts.{name}")]
-        options = ["--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(Path(python).parents[1] / "mypy")]
-        command = [python, "-m", "mypy", "--no-error-summary", *options, *packages]
-        return subprocess.run(command, cwd=folder, check=False).returncode
+        inside = Path(installed) / "reeb_parts"
+        inside.mkdir()
+        for path in (*(ROOT / "package").iterdir(), ROOT / "core"):
+            (inside / path.name).symlink_to(path)
+        extension = [word for name in PACKAGES for word in ("-p", f"reeb_parts.{name}")]
+        return (_mypy(python, folder, "mypy", extension)
+                or _mypy(python, installed, "mypy-package", ["-p", "reeb_parts"]))
+
+
+def _mypy(python: str, folder: str, cache: str, packages: list[str]) -> int:
+    """Exit status of mypy on packages in a folder."""
+    options = ["--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(Path(python).parents[1] / cache)]
+    command = [python, "-m", "mypy", "--no-error-summary", *options, *packages]
+    return subprocess.run(command, cwd=folder, check=False).returncode
 
 
 CHECKS = {"ruff": ruff, "mypy": mypy}

@@ -39,6 +39,7 @@ from environments import HYPOTHESIS, JSONSCHEMA, PYTEST, ROOT, SCIPY, Environmen
 
 LINT = environments.lint()
 NEWEST = environments.any_python("unit-newest", "numpy", "scipy", PYTEST, JSONSCHEMA)
+PACKAGE = environments.package()
 FUZZ = environments.any_python("fuzz", "numpy", "scipy", PYTEST, HYPOTHESIS)
 OLDEST = Environment("unit-oldest", "3.11", ("numpy==1.24.3", SCIPY, PYTEST, JSONSCHEMA))
 
@@ -57,6 +58,7 @@ SUITES = {
     # Whole runs of the presets "Lavoue 2005" and "Liu 2007" take minutes; unit-newest has them.
     "unit-oldest": Suite(OLDEST, "tests/unit", "not 2005 and not 2007"),
     "unit-newest": Suite(NEWEST, "tests/unit"),
+    "package": Suite(PACKAGE, "tests/package"),
     "documents": Suite(NEWEST, "tests/documents"),
     "fuzz-core": Suite(FUZZ, "tests/fuzz/core"),
     "fuzz-blender": Suite(environments.BLENDER_52, "tests/fuzz/blender"),

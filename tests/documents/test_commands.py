@@ -113,12 +113,3 @@ def test_it_runs(command, tmp_path):
         after = words[words.index("--command"):] if "--command" in words else words
         options = {word for word in after if re.match(r"--?[a-z]", word)} - {"--command"}
         assert {option for option in options if not re.search(rf"{option}\b", done.stdout)} == set()
-
-
-def test_the_example_in_python_runs():
-    (example,) = re.findall(r"^```python\n(.*?)^```", (ROOT / "README.md").read_text(encoding="utf-8"), re.M | re.S)
-    vertices, faces = shapes.tube_tree()
-    names = {"vertices": vertices, "faces": faces}
-    exec(example, names)
-    assert len(names["nine"].labels) == len(faces)
-    assert names["paper"].parts().count > 1

@@ -18,6 +18,7 @@ MAY_IMPORT = {
     "operators": {"core", "scene", "viewport"},
     "ui": {"core", "scene"},
     "batch": {"core", "scene"},
+    "package": {"core"},
 }
 #: The stages of core, in the order in which the method takes them: a stage may import itself and earlier ones.
 STAGES = ("surface", "field", "graph", "cuts", "result", "uses")
@@ -33,7 +34,9 @@ FILES = {path.relative_to(ROOT): ast.parse(path.read_text(encoding="utf-8"))
 def absolute(path: Path, level: int, module: str | None) -> tuple[str, ...]:
     """Where in the product a relative import of a file leads, as folders and a module."""
     package = path.parent.parts
-    return (*package[: len(package) - level + 1], *(module.split(".") if module else ()))
+    found = (*package[: len(package) - level + 1], *(module.split(".") if module else ()))
+    # Installed, core lies in the package.
+    return found[1:] if found[:2] == ("package", "core") else found
 
 
 def imported(path: Path, tree: ast.AST) -> set[tuple[str, ...]]:
@@ -71,6 +74,9 @@ def test_imports_are_resolved():
         ("core", "errors"), ("scene", "store"), ("scene", "outputs", "write"), ("bpy", "types"), ("numpy", "linalg"),
         ("scene", "outputs", "colors"), ("scene", "outputs"),
     }  # fmt: skip
+    tree = ast.parse("from ..core.errors import ReebError\nfrom . import decompose\nfrom ..meshes import face_colors")
+    assert imported(Path("package/command/x.py"), tree) == {
+        ("core", "errors"), ("package", "command", "decompose"), ("package", "meshes")}
 
 
 def test_there_are_files_in_every_folder_and_stage():
@@ -100,6 +106,12 @@ def test_core_knows_no_blender():
     blender = {"bpy", "bmesh", "mathutils", "gpu", "gpu_extras", "bpy_extras"}
     found = {str(path): imported(path, tree) for path, tree in FILES.items() if path.parts[0] == "core"}
     assert [path for path, modules in found.items() if blender & {module[0] for module in modules}] == []
+
+
+def test_only_the_script_that_a_blender_runs_for_the_package_imports_it():
+    paths = [str(path) for path, tree in FILES.items() if path.parts[0] == "package"
+             and "bpy" in {module[0] for module in imported(path, tree)}]
+    assert paths == ["package/blender_export.py"]
 
 
 def is_operator(node: ast.AST) -> bool:

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of a command that set parameters, made from the definitions of the parameters."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import fields, replace
+
+from ..parameters import PRESETS, RENAMED, Parameters, present_names
+from ..sentence import Sentence
+
+
+def add_parameters(group: argparse._ArgumentGroup) -> None:
+    """Add an option for each parameter and one for presets.
+
+    Parameters
+    ----------
+    group : argument group of an ``argparse.ArgumentParser``
+        Names of version 0.1.0 are added, too, and stay out of the help.
+    """
+    group.add_argument("--preset", choices=list(PRESETS), help="start from the parameters of a preset")
+    for field in fields(Parameters):
+        meta = field.metadata
+        words = {"dest": field.name, "default": None, "help": meta["description"].replace("%", "%%")}
+        name = f"--{dashed(field.name)}"
+        if "choices" in meta:
+            group.add_argument(name, choices=meta["choices"], **words)
+        elif "range" in meta:
+            low, high = meta["range"]
+            words["help"] += f" ({low} to {high}; default {field.default})"
+            group.add_argument(name, type=int if field.type == "int" else float, metavar="N", **words)
+        else:
+            group.add_argument(name, action=argparse.BooleanOptionalAction, **words)
+    for old in RENAMED:  # scripts of version 0.1.0
+        kind = {"action": argparse.BooleanOptionalAction} if old == "equalise" else {"type": float}
+        group.add_argument(f"--{old}", help=argparse.SUPPRESS, **kind)
+
+
+def chosen_parameters(options: argparse.Namespace) -> tuple[Parameters, tuple[Sentence, ...]]:
+    """Read the parameters that the options ask for.
+
+    Parameters
+    ----------
+    options : argparse.Namespace
+        Of a parser with ``add_parameters``.
+
+    Returns
+    -------
+    parameters : Parameters
+    notes : tuple of Sentence
+        One for each former name of a parameter.
+
+    Raises
+    ------
+    ParameterError
+        A value is outside its range.
+    """
+    names = (*RENAMED, *(field.name for field in fields(Parameters)))
+    values, notes = present_names(
+        {name: value for name in names if (value := getattr(options, name)) is not None})
+    return replace(PRESETS[options.preset] if options.preset else Parameters(), **values), notes
+
+
+def dashed(name: str) -> str:
+    """Name of the option for a name in Python: dashes for underscores."""
+    return name.replace("_", "-")

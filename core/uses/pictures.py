@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of colored meshes without a renderer, and of the Reeb graph over them: the nearest face of each pixel."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..graph.reeb import ReebGraph
+from ..surface.arrays import expanded
+from ..surface.mesh import TriMesh
+
+CHUNK = 2_000_000  # pixels of faces that are looked at together
+LIGHT = np.array([-0.4, 0.5, 0.76])  # direction to the light, in the picture's axes: right, up, to the viewer
+TILT = np.radians([25.0, 20.0])  # turn around the upright axis, then around the horizontal one
+#: Right, up and towards the viewer of a model that stands upright, by the name of its upward axis.
+UPRIGHT = {"y": np.array([(1.0, 0, 0), (0, 1, 0), (0, 0, 1)]), "z": np.array([(1.0, 0, 0), (0, 0, 1), (0, -1, 0)])}
+ARC_COLOR = (0.1, 0.1, 0.12)
+NODE_COLORS = np.array([(0.1, 0.1, 0.12), (1.0, 0.8, 0.1), (1.0, 1.0, 1.0)])  # minimum, saddle, maximum
+ARC_WIDTH, NODE_WIDTH = 1 / 120, 1 / 45  # in units of the picture's width
+
+
+@dataclass(frozen=True, eq=False)
+class _Camera:
+    """Where points of space are in a picture.
+
+    Attributes
+    ----------
+    axes : (3, 3) float64
+        Right, up and towards the viewer.
+    middle : (3,) float64
+        Along these axes; in the middle of the picture.
+    scale : float
+        Pixels per unit.
+    size : int
+        Width and height in pixels.
+    """
+
+    axes: np.ndarray
+    middle: np.ndarray
+    scale: float
+    size: int
+
+    @classmethod
+    def of(cls, points: np.ndarray, axes: np.ndarray, size: int) -> _Camera:
+        """The camera that sees all points, (k, 3)."""
+        place = points @ axes.T
+        low, high = place.min(axis=0), place.max(axis=0)
+        return cls(axes, (low + high) / 2, 0.94 * size / max(float((high - low)[:2].max()), 1e-300), size)
+
+    def pixels(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Column and row, (k, 2) float64, and nearness, (k,), of points, (k, 3)."""
+        place = (points @ self.axes.T - self.middle) * self.scale
+        return np.stack([place[:, 0] + self.size / 2, self.size - 1 - (place[:, 1] + self.size / 2)], 1), place[:, 2]
+
+
+def picture(
+    mesh: TriMesh, color: np.ndarray, size: int = 112, up: str = "", graph: ReebGraph | None = None, fine: int = 1
+) -> np.ndarray:
+    """Draw a mesh, and the Reeb graph over it.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces.
+    color : (m, 3) float64
+        sRGB, 0..1.
+    size : int
+        Width and height in pixels.
+    up : str
+        "y" or "z", the axis that is up in the picture; the front is then seen from a little to the side. Without it,
+        the model is seen from the side from which it is widest.
+    graph : ReebGraph, optional
+        Drawn over the model.
+    fine : int
+        Pixels along each side of a pixel of the picture, of which it is the mean.
+
+    Returns
+    -------
+    image : (size, size, 3) uint8
+        On white.
+    """
+    axes = _tilted(UPRIGHT[up], -1.0) if up else _tilted(_principal_view(mesh))
+    camera = _Camera.of(mesh.corners.reshape(-1, 3), axes, size * fine)
+    face = _nearest_faces(camera, mesh.corners)
+    light = 0.45 + 0.55 * np.abs(mesh.face_normals @ axes.T @ (LIGHT / np.linalg.norm(LIGHT)))
+    shown = np.vstack([color * light[:, None], np.ones((1, 3))])  # the last is the background
+    image = shown[face].reshape(size * fine, size * fine, 3)
+    if graph is not None:
+        _draw_graph(image, camera, graph)
+    image = image.reshape(size, fine, size, fine, 3).mean(axis=(1, 3))
+    return (255 * image).round().astype(np.uint8)
+
+
+def _nearest_faces(camera: _Camera, corners: np.ndarray) -> np.ndarray:
+    """Face that is seen at each pixel, row by row, (size**2,) int64; -1 for none. corners : (m, 3, 3)."""
+    place, height = (values.reshape(-1, 3, *values.shape[1:]) for values in camera.pixels(corners.reshape(-1, 3)))
+    first = np.ceil(place.min(axis=1)).astype(np.int64).clip(0, camera.size)
+    count = (np.floor(place.max(axis=1)).astype(np.int64) + 1).clip(0, camera.size) - first
+    n_pixels = count.clip(0).prod(axis=1)
+    seen, nearest = np.full(camera.size**2, -1), np.full(camera.size**2, -np.inf)
+    bounds = np.searchsorted(np.cumsum(n_pixels), np.arange(0, n_pixels.sum() + CHUNK, CHUNK))
+    for begin, end in zip(bounds, np.append(bounds[1:], len(corners)), strict=True):
+        face, step = expanded(np.zeros(end - begin, np.int64), n_pixels[begin:end])
+        face = face + begin
+        column, row = first[face, 0] + step % count[face, 0], first[face, 1] + step // count[face, 0]
+        weight = _barycentric(place[face], np.stack([column, row], axis=1))
+        depth = (weight * height[face]).sum(axis=1)
+        pixel = row * camera.size + column
+        there = (weight >= 0).all(axis=1) & (depth > nearest[pixel])
+        order = np.flatnonzero(there)[np.argsort(depth[there], kind="stable")]
+        # NumPy keeps the last: the nearest.
+        seen[pixel[order]], nearest[pixel[order]] = face[order], depth[order]
+    return seen
+
+
+def _barycentric(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates, (k, 3), of points, (k, 2), in triangles, (k, 3, 2); negative in those without area."""
+    (ax, ay), (bx, by), (x, y) = (
+        (vectors[:, 0], vectors[:, 1]) for vectors in
+        (corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], points - corners[:, 0]))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        second, third = np.stack([x * by - y * bx, ax * y - ay * x]) / (ax * by - ay * bx)
+    weight = np.stack([1 - second - third, second, third], axis=1)
+    return np.where(np.isfinite(weight), weight, -1.0)
+
+
+def _principal_view(mesh: TriMesh) -> np.ndarray:
+    """Right, up and towards the viewer, (3, 3), along the principal axes."""
+    middle = mesh.face_area @ mesh.face_centroids / mesh.area
+    offset = mesh.face_centroids - middle
+    _, axes = np.linalg.eigh((mesh.face_area[:, None] * offset).T @ offset)
+    axes = axes.T[::-1]  # the longest first
+    # The side on which there is more of the surface far out is up; it is always the same.
+    axes = axes * np.where((mesh.face_area @ (offset @ axes.T) ** 3) < 0, -1.0, 1.0)[:, None]
+    axes[2] = np.cross(axes[0], axes[1])
+    return axes
+
+
+def _tilted(axes: np.ndarray, side: float = 1.0) -> np.ndarray:
+    """The view a little from above, and from one side or, with -1, from the other."""
+    (c, s), (d, t) = ((np.cos(angle), np.sin(angle)) for angle in (side * TILT[0], TILT[1]))
+    around = np.array([(c, 0, s), (0, 1, 0), (-s, 0, c)])
+    over = np.array([(1, 0, 0), (0, d, -t), (0, t, d)])
+    return over @ around @ axes
+
+
+def _draw_graph(image: np.ndarray, camera: _Camera, graph: ReebGraph) -> None:
+    """Draw arcs as lines and nodes as discs, the nearest last, into the picture."""
+    ends = graph.node_position[graph.arcs]
+    lines = [camera.pixels(np.vstack([
+        ends[arc, :1], graph.point_position[graph.arc_points[arc]:graph.arc_points[arc + 1]], ends[arc, 1:]]))[0]
+        for arc in range(graph.n_arcs)]
+    segments = np.concatenate([np.hstack([line[:-1], line[1:]]) for line in lines] or [np.empty((0, 4))])
+    count = np.ceil(np.linalg.norm(segments[:, 2:] - segments[:, :2], axis=1)).astype(np.int64) + 1
+    which, step = expanded(np.zeros(len(segments), np.int64), count)
+    share = (step / np.maximum(count[which] - 1, 1))[:, None]
+    _draw_discs(image, segments[which, :2] * (1 - share) + segments[which, 2:] * share,
+                np.array(ARC_COLOR), camera.size * ARC_WIDTH / 2)
+    pixel, nearness = camera.pixels(graph.node_position)
+    order = np.argsort(nearness, kind="stable")
+    for place, kind in zip(pixel[order], graph.node_kind[order], strict=True):
+        _draw_discs(image, place[None], np.array(ARC_COLOR), camera.size * NODE_WIDTH / 2)
+        _draw_discs(image, place[None], NODE_COLORS[kind], camera.size * NODE_WIDTH / 3)
+
+
+def _draw_discs(image: np.ndarray, centers: np.ndarray, color: np.ndarray, radius: float) -> None:
+    """Fill discs of one color around centers, (k, 2) in columns and rows."""
+    reach = np.arange(-int(radius) - 1, int(radius) + 2)
+    offset = np.stack(np.meshgrid(reach, reach), -1).reshape(-1, 2)
+    offset = offset[(offset**2).sum(axis=1) <= radius**2]
+    pixel = (np.round(centers).astype(int)[:, None] + offset).reshape(-1, 2)
+    pixel = pixel[((pixel >= 0) & (pixel < len(image))).all(axis=1)]
+    image[pixel[:, 1], pixel[:, 0]] = color
+
+
+def png(image: np.ndarray) -> bytes:
+    """Encode an image, (h, w, 3) uint8, as PNG."""
+    height, width, _ = image.shape
+    rows = np.concatenate([np.zeros((height, 1), np.uint8), image.reshape(height, -1)], axis=1)
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 9)) + chunk(
+        b"IEND", b"")

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reeb Parts: cuts a mesh into the parts a person would name, by the Reeb graph of the average geodesic distance.
+
+>>> import trimesh, reeb_parts
+>>> mesh = trimesh.load_mesh("spot.obj", process=False)
+>>> result = reeb_parts.decompose(mesh)              # or decompose(vertices, faces)
+>>> parts = result.parts()                           # parts.labels: the part of each face
+>>> result.parts(detail=0.2), result.parts(n_parts=9)  # instantly, from the same result
+>>> mesh.visual.face_colors = reeb_parts.face_colors(parts)
+
+``decompose`` takes what is a mesh, or arrays; all other names are those of ``reeb_parts.core``, which the extension for
+Blender runs as well and which has the modules of every stage. ``read_model`` reads a file. The command ``reeb-parts``
+does all of it without Python.
+"""
+
+from .core import (
+    PRESETS,
+    VERSION,
+    Cancelled,
+    Decomposition,
+    EmptyMeshError,
+    Hierarchy,
+    MeshError,
+    ParameterError,
+    Parameters,
+    Parts,
+    ReebError,
+    ReebGraph,
+    TriMesh,
+)
+from .meshes import decompose, face_colors
+from .model_files import Model, ModelFileError, read_model
+
+__version__ = VERSION
+__all__ = [
+    "PRESETS",
+    "VERSION",
+    "Cancelled",
+    "Decomposition",
+    "EmptyMeshError",
+    "Hierarchy",
+    "MeshError",
+    "Model",
+    "ModelFileError",
+    "ParameterError",
+    "Parameters",
+    "Parts",
+    "ReebError",
+    "ReebGraph",
+    "TriMesh",
+    "decompose",
+    "face_colors",
+    "read_model",
+]

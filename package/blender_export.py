@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Run by a Blender: all meshes of a .blend or .fbx file as arrays in one file of NumPy.
+
+    blender --background --factory-startup --python blender_export.py -- MODEL OUT.npz
+
+Meshes are those of the objects themselves, without their modifiers, in the places that the scene gives them.
+"""
+
+import sys
+
+import bpy
+import numpy as np
+
+
+def export(path: str, out: str) -> None:
+    """Read the model and write vertices (n, 3), triangles (m, 3) and the polygon (m,) of each triangle."""
+    if path.lower().endswith(".blend"):
+        bpy.ops.wm.open_mainfile(filepath=path, load_ui=False, use_scripts=False)
+    else:
+        bpy.ops.wm.read_homefile(use_empty=True)
+        bpy.ops.import_scene.fbx(filepath=path)
+    vertices, triangles, polygons = [np.empty((0, 3))], [np.empty((0, 3), np.int64)], [np.empty(0, np.int64)]
+    n_vertices = n_polygons = 0
+    for obj in bpy.context.scene.objects:
+        if obj.type != "MESH":
+            continue
+        mesh = obj.data
+        mesh.calc_loop_triangles()
+        place, corner = np.empty(3 * len(mesh.vertices), np.float32), np.empty(3 * len(mesh.loop_triangles), np.int32)
+        polygon = np.empty(len(mesh.loop_triangles), np.int32)
+        mesh.vertices.foreach_get("co", place)
+        mesh.loop_triangles.foreach_get("vertices", corner)
+        mesh.loop_triangles.foreach_get("polygon_index", polygon)
+        matrix = np.array(obj.matrix_world)
+        vertices.append(place.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3])
+        triangles.append(corner.reshape(-1, 3).astype(np.int64) + n_vertices)
+        polygons.append(polygon.astype(np.int64) + n_polygons)
+        n_vertices += len(mesh.vertices)
+        n_polygons += len(mesh.polygons)
+    if not n_polygons:
+        raise RuntimeError("there is no mesh in it")
+    np.savez(out, vertices=np.concatenate(vertices), triangles=np.concatenate(triangles),
+             polygon=np.concatenate(polygons))
+
+
+export(*sys.argv[sys.argv.index("--") + 1:])

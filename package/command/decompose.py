@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cut one model into parts.
+
+    reeb-parts decompose model.glb --json parts.json --labels labels.npy --colored parts.ply --picture parts.png
+
+One JSON object goes to standard output, the one that Blender's command writes, and progress to standard error. All
+meshes of a model are decomposed together. Files appear when all of them are complete, or not at all.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from ..core.uses.options import add_parameters, chosen_parameters
+from ..meshes import decompose
+from ..model_files import read_model
+from ..outputs import (
+    COLORED,
+    LABELS,
+    PARTS,
+    colored_bytes,
+    json_bytes,
+    labels_bytes,
+    model_document,
+    part_files,
+    picture_bytes,
+)
+from ..whole_files import OutputFileError, write_files
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options to a parser."""
+    parser.add_argument("model", type=Path, help="a model: .obj, .ply, .stl, .glb, .gltf, .off, .npz and what else "
+                        "trimesh reads; .blend and .fbx with --blender")
+    parser.add_argument("--blender", metavar="PATH", help="the Blender that reads .blend and .fbx")
+    files = parser.add_argument_group("files to write")
+    files.add_argument("--json", type=Path, metavar="OUT.json", help="the JSON that also goes to standard output")
+    files.add_argument("--labels", type=_file_of(LABELS), metavar="OUT.npy",
+                       help=f"the part of each face, from 0 ({', '.join(LABELS)})")
+    files.add_argument("--colored", type=_file_of(COLORED), metavar="OUT.ply",
+                       help=f"the model in the colors of its parts ({', '.join(COLORED)})")
+    files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
+    files.add_argument("--parts-format", choices=PARTS, default="obj",
+                       help="format of those files (default: %(default)s)")
+    files.add_argument("--picture", type=_file_of((".png",)), metavar="OUT.png",
+                       help="a picture of the parts with the graph")
+    files.add_argument("--picture-size", type=int, default=640, metavar="N",
+                       help="its width and height in pixels (default: %(default)s)")
+    add_parameters(parser.add_argument_group("parameters"))
+
+
+def run(options: argparse.Namespace) -> int:
+    """Do what the options ask for; returns the exit status. Raises ReebError."""
+    parameters, notes = chosen_parameters(options)
+    for note in notes:
+        _say(note)
+    model = read_model(options.model, options.blender)
+    result = decompose(model, parameters=parameters, progress=_Progress())
+    parts = result.parts()
+    files: dict[Path, bytes] = {}
+
+    def add(kind: str, path: Path | None, data: bytes) -> None:
+        if path is not None:
+            if path in files:
+                raise OutputFileError(f"{path} would be written twice. Give each file a name of its own.")
+            files[path] = data
+            written[kind] = str(path)
+
+    written: dict[str, str | list[str]] = {}
+    if options.labels:
+        add("labels", options.labels, labels_bytes(parts, options.labels.suffix.lower()))
+    if options.colored:
+        add("colored", options.colored, colored_bytes(model, parts, options.colored.suffix.lower()))
+    if options.picture:
+        add("picture", options.picture, picture_bytes(model, result, parts, min(max(options.picture_size, 16), 8192)))
+    if options.parts:
+        made = {options.parts / name: data for name, data in part_files(model, parts, options.parts_format).items()}
+        files |= made
+        written["parts"] = list(map(str, made))
+    if options.json:
+        written["json"] = str(options.json)
+    answer = json_bytes(model_document(model, result, parts, files=written))
+    add("json", options.json, answer)
+    write_files(files, options.model)
+    sys.stdout.write(answer.decode())
+    sys.stdout.flush()
+    return 0
+
+
+class _Progress:
+    """Says how far a run is, twenty times at most."""
+
+    def __init__(self) -> None:
+        self._last = -1
+
+    def __call__(self, stage: str, share: float) -> None:
+        if round(20 * share) > self._last:
+            self._last = round(20 * share)
+            _say(f"{stage} {share:.0%}")
+
+
+def _file_of(kinds: tuple[str, ...]) -> Callable[[str], Path]:
+    """What reads the name of a file of some kinds; argparse turns the error into a sentence."""
+
+    def file(text: str) -> Path:
+        if Path(text).suffix.lower() not in kinds:
+            raise argparse.ArgumentTypeError(f"{text} must end in {' or '.join(kinds)}")
+        return Path(text)
+
+    return file
+
+
+def _say(text: str) -> None:
+    print(f"reeb-parts: {text}", file=sys.stderr, flush=True)

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``decompose`` for what other libraries call a mesh, and colors in the form that they take."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Protocol, overload
+
+import numpy as np
+
+from .core import pipeline
+from .core.errors import MeshError
+from .core.parameters import Parameters
+from .core.progress import Progress
+from .core.result.decomposition import Decomposition, Parts
+from .core.sentence import Sentence
+from .core.uses.colors import part_colors
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+class Mesh(Protocol):
+    """What has vertices, (n, 3), and faces, (p, k): a ``trimesh.Trimesh``, a ``Model``, a ``TriMesh`` and others."""
+
+    @property
+    def vertices(self) -> Any: ...
+
+    @property
+    def faces(self) -> Any: ...
+
+
+@overload
+def decompose(vertices: Mesh, *, parameters: Parameters | Mapping[str, Any] | None = None,
+              progress: Progress | None = None) -> Decomposition: ...
+
+
+@overload
+def decompose(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]],
+              parameters: Parameters | Mapping[str, Any] | None = None, polygon: ArrayLike | None = None,
+              progress: Progress | None = None) -> Decomposition: ...
+
+
+def decompose(vertices: Any, faces: Any = None, parameters: Parameters | Mapping[str, Any] | None = None,
+              polygon: ArrayLike | None = None, progress: Progress | None = None) -> Decomposition:
+    """Cut a mesh into parts.
+
+    Parameters
+    ----------
+    vertices : mesh or (n, 3) array_like of float
+        A mesh is anything with ``vertices`` and ``faces``, such as a ``trimesh.Trimesh``; it is not changed.
+    faces : (p, k) array_like of int, or a sequence of p index sequences
+        Vertices of each face: triangles, quads or polygons. None with a mesh.
+    parameters : Parameters or mapping, optional
+        A mapping has values by the names of parameters. Without it, the preset "Perceptual".
+    polygon : (m,) array_like of int, optional
+        For a caller who has cut polygons into triangles already: ``faces`` are then (m, 3) triangles, and this is the
+        polygon of each. The faces of the result are the polygons. A mesh that has a ``polygon`` brings it along.
+    progress : callable, optional
+        Called as progress(stage, share), share rising from 0 to 1. An exception that it raises ends the run.
+
+    Returns
+    -------
+    decomposition : Decomposition
+        ``decomposition.parts().labels`` is the part of each face, (p,) int64.
+
+    Raises
+    ------
+    ParameterError
+        A parameter is outside its range, or there is none of its name.
+    MeshError
+        There are no faces to the vertices, or a shape, a type, an index or a coordinate is wrong.
+    EmptyMeshError
+        The mesh has too few faces to have parts, or no area.
+    """
+    if faces is None:
+        mesh = vertices
+        if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
+            raise MeshError(Sentence("{type} is no mesh: give vertices and faces.", type=type(mesh).__name__))
+        vertices, faces = np.asarray(mesh.vertices), mesh.faces
+        polygon = getattr(mesh, "polygon", None) if polygon is None else polygon
+    return pipeline.decompose(vertices, faces, parameters, polygon, progress)
+
+
+def face_colors(parts: Parts) -> np.ndarray:
+    """Color each face by its part, as ``trimesh.Trimesh.visual.face_colors`` takes it.
+
+    parts : Parts, of p faces. Returns (p, 4) uint8, sRGB and opacity; color-blind people can tell the colors apart, and
+    parts that touch differ.
+    """
+    color = np.column_stack([part_colors(parts.count, parts.cuts), np.ones(parts.count)])
+    return (255 * color).round().astype(np.uint8)[parts.labels]

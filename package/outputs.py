@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is made of a model and its parts, as the bytes of files: JSON, labels, colored models, parts, pictures."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import unicodedata
+from typing import Any
+
+import numpy as np
+
+from .core.result.decomposition import Decomposition, Parts
+from .core.surface.mesh import TriMesh
+from .core.uses.colors import part_colors
+from .core.uses.pictures import picture, png
+from .core.uses.report import bounding_boxes, document, report
+from .meshes import face_colors
+from .model_files import Model
+
+#: Kinds of files for labels, colored models and parts, by their suffixes.
+LABELS = (".npy", ".txt", ".seg")
+COLORED = (".ply", ".glb", ".obj")
+PARTS = ("obj", "ply", "stl", "glb", "off")
+
+
+def json_bytes(result: dict[str, Any]) -> bytes:
+    """A document as the bytes of a JSON file, the same as Blender's command writes."""
+    return (json.dumps(result, indent=2, allow_nan=False) + "\n").encode()
+
+
+def model_document(model: Model, result: Decomposition, parts: Parts, labels: bool = False,
+                   files: dict[str, Any] | None = None) -> dict[str, Any]:
+    """The JSON document of one model, by the schema of docs/json.md.
+
+    labels : bool, whether it has the part of each face. files : what is written, by kind. Returns a dict.
+    """
+    import trimesh
+
+    corner = np.repeat(parts.labels[model.polygon], 3)
+    boxes = bounding_boxes(corner, model.vertices[model.faces].reshape(-1, 3), parts.count)
+    made = document([report(result, parts, model.name, boxes=boxes, labels=labels)], files=files or {})
+    made["versions"]["trimesh"] = trimesh.__version__
+    return made
+
+
+def labels_bytes(parts: Parts, kind: str) -> bytes:
+    """The part of each face as a file.
+
+    kind : str, of LABELS: NumPy's own, or a line for each face. Returns bytes.
+    """
+    if kind == ".npy":
+        stream = io.BytesIO()
+        np.save(stream, parts.labels)
+        return stream.getvalue()
+    return ("\n".join(map(str, parts.labels.tolist())) + "\n").encode()
+
+
+def colored_bytes(model: Model, parts: Parts, kind: str) -> bytes:
+    """The model in the colors of its parts as a file.
+
+    kind : str, of COLORED. A .ply has a color and the number ``reeb_part``, from 1, on each face; a .glb has an object
+    with a material for each part; an .obj has colors of vertices, and vertices on cuts once for each part. Returns
+    bytes.
+    """
+    import trimesh
+
+    label = parts.labels[model.polygon]
+    if kind == ".glb":
+        scene = trimesh.Scene()
+        colors = part_colors(parts.count, parts.cuts)
+        for part, (vertices, faces) in enumerate(part_arrays(model, parts)):
+            # Colors of materials are linear in this format.
+            linear = np.where(colors[part] <= 0.04045, colors[part] / 12.92, ((colors[part] + 0.055) / 1.055) ** 2.4)
+            material = trimesh.visual.material.PBRMaterial(
+                name=parts.names[part], baseColorFactor=[*linear, 1.0], metallicFactor=0.0, roughnessFactor=0.8)
+            mesh = trimesh.Trimesh(vertices, faces, process=False,
+                                   visual=trimesh.visual.TextureVisuals(material=material))
+            scene.add_geometry(mesh, node_name=parts.names[part], geom_name=parts.names[part])
+        return scene.export(file_type="glb")
+    if kind == ".ply":
+        mesh = trimesh.Trimesh(model.vertices, model.faces, process=False,
+                               face_colors=face_colors(parts)[model.polygon],
+                               face_attributes={"reeb_part": label.astype(np.int32) + 1})
+        return mesh.export(file_type="ply")
+    pairs, corner = np.unique(np.stack([np.repeat(label, 3), model.faces.ravel()], 1), axis=0, return_inverse=True)
+    first = np.unique(label, return_index=True)[1]
+    colors = face_colors(parts)[model.polygon][first][pairs[:, 0]]
+    mesh = trimesh.Trimesh(model.vertices[pairs[:, 1]], corner.reshape(-1, 3), process=False, vertex_colors=colors)
+    return mesh.export(file_type="obj", header=None).encode()
+
+
+def part_arrays(model: Model, parts: Parts) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Vertices, (k, 3), and triangles, (t, 3), of each part."""
+    label = parts.labels[model.polygon]
+    arrays = []
+    for part in range(parts.count):
+        used, faces = np.unique(model.faces[label == part], return_inverse=True)
+        arrays.append((model.vertices[used], faces.reshape(-1, 3)))
+    return arrays
+
+
+def part_files(model: Model, parts: Parts, kind: str) -> dict[str, bytes]:
+    """Each part as a file of its own: name of the file and its bytes.
+
+    kind : str, of PARTS. Returns a dict of str -> bytes.
+    """
+    import trimesh
+
+    files = {}
+    for name, (vertices, faces) in zip(parts.names, part_arrays(model, parts), strict=True):
+        data = trimesh.Trimesh(vertices, faces, process=False).export(file_type=kind)
+        files[f"{file_name(model.name)} {name}.{kind}"] = data.encode() if isinstance(data, str) else data
+    return files
+
+
+def picture_bytes(model: Model, result: Decomposition, parts: Parts, size: int, graph: bool = True) -> bytes:
+    """A PNG of the model in the colors of its parts, with the Reeb graph over it.
+
+    size : int, width and height in pixels. Returns bytes.
+    """
+    colors = part_colors(parts.count, parts.cuts)[parts.labels[model.polygon]]
+    mesh = TriMesh(model.vertices, model.faces)
+    return png(picture(mesh, colors, size, model.up, result.graph if graph else None, fine=2))
+
+
+def file_name(text: str) -> str:
+    """A text without what a file system might not like."""
+    plain = re.sub(r"[^\w .()+-]", "_", unicodedata.normalize("NFC", text))
+    return plain.encode()[:200].decode(errors="ignore").strip(" .") or "model"

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command ``reeb-parts decompose``, as it is installed."""
+
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+import trimesh
+
+from core import decompose
+
+ROOT = Path(__file__).resolve().parents[2]
+SCHEMA = json.loads((ROOT / "docs" / "reeb_parts.schema.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def model(tree, tmp_path_factory):
+    """A file with the small tree."""
+    path = tmp_path_factory.mktemp("models") / "tree.ply"
+    trimesh.Trimesh(*tree, process=False).export(path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def everything(model, reeb_parts_command, tmp_path_factory):
+    """The folder with every kind of output, and what was printed."""
+    out = tmp_path_factory.mktemp("out")
+    done = reeb_parts_command(
+        "decompose", model, "--n-parts", 3, "--json", out / "tree.json", "--labels", out / "tree.npy", "--colored",
+        out / "tree.glb", "--parts", out / "parts", "--parts-format", "ply", "--picture", out / "tree.png")
+    assert done.returncode == 0, done.stderr
+    return out, done
+
+
+@pytest.fixture(scope="module")
+def expected(model):
+    """What core finds."""
+    mesh = trimesh.load_mesh(model, process=False)
+    return mesh, decompose(mesh.vertices, mesh.faces).parts(n_parts=3)
+
+
+def test_the_answer_is_the_json_of_the_schema(everything, expected):
+    out, done = everything
+    result = json.loads(done.stdout)
+    jsonschema.validate(result, SCHEMA)
+    assert (out / "tree.json").read_text() == done.stdout
+    (found,) = result["objects"]
+    mesh, parts = expected
+    assert found["name"] == "tree"
+    assert (found["faces"], len(found["parts"])) == (len(mesh.faces), 3)
+    assert [part["area"] for part in found["parts"]] == pytest.approx(parts.area.tolist())
+    for index, part in enumerate(found["parts"]):
+        corners = mesh.vertices[mesh.faces[parts.labels == index]].reshape(-1, 3)
+        assert np.array(part["bounding_box"]) == pytest.approx(np.array([corners.min(axis=0), corners.max(axis=0)]))
+
+
+def test_files_are_named_in_the_answer_and_nothing_else_is_there(everything):
+    out, done = everything
+    files = json.loads(done.stdout)["files"]
+    named = [files["json"], files["labels"], files["colored"], files["picture"], *files["parts"]]
+    assert sorted(map(str, (path for path in out.rglob("*") if path.is_file()))) == sorted(named)
+
+
+def test_labels_are_those_of_core(everything, expected):
+    assert (np.load(everything[0] / "tree.npy") == expected[1].labels).all()
+
+
+def test_parts_are_the_whole_surface(everything, expected):
+    _, parts = expected
+    pieces = [trimesh.load_mesh(path, process=False) for path in sorted((everything[0] / "parts").iterdir())]
+    assert [piece.area for piece in pieces] == pytest.approx(parts.area.tolist(), rel=1e-5)
+
+
+def test_a_glb_has_an_object_for_each_part(everything, expected):
+    scene = trimesh.load_scene(everything[0] / "tree.glb")
+    area = [scene.geometry[name].area for name in expected[1].names]
+    assert area == pytest.approx(expected[1].area.tolist(), rel=1e-5)
+    colors = {tuple(mesh.visual.material.baseColorFactor) for mesh in scene.geometry.values()}
+    assert len(colors) == 3
+
+
+@pytest.mark.parametrize("kind", ["ply", "obj"])
+def test_colored_models_have_the_surface_and_three_colors(kind, model, reeb_parts_command, expected, tmp_path):
+    done = reeb_parts_command("decompose", model, "--n-parts", 3, "--colored", tmp_path / f"tree.{kind}", "--labels",
+                              tmp_path / "tree.txt")
+    assert done.returncode == 0, done.stderr
+    mesh = trimesh.load_mesh(tmp_path / f"tree.{kind}", process=False)
+    labels = expected[1].labels
+    assert np.loadtxt(tmp_path / "tree.txt").tolist() == labels.tolist()
+    assert mesh.area == pytest.approx(expected[0].area, rel=1e-5)
+    colors = mesh.visual.face_colors
+    assert len(np.unique(np.column_stack([labels, colors]), axis=0)) == 3
+    assert len(np.unique(colors, axis=0)) == 3
+
+
+def test_the_picture_shows_three_colors_on_white(everything):
+    data = (everything[0] / "tree.png").read_bytes()
+    assert data.startswith(b"\x89PNG")
+    assert int.from_bytes(data[16:20], "big") == 640
+
+
+@pytest.mark.parametrize(("arguments", "words"), [
+    (["none.obj"], "There is no file none.obj."),
+    (["MODEL", "--n-parts", "-1"], "n_parts must be a whole number"),
+    (["MODEL", "--json", "MODEL"], "is read, or is no file"),
+    (["MODEL", "--labels", "OUT/x.npy", "--json", "OUT/x.npy"], "would be written twice"),
+    (["MODEL", "--json", "/proc/none/x.json"], "could not be written"),
+])  # fmt: skip
+def test_what_is_wrong_is_one_sentence_and_nothing_is_written(arguments, words, model, reeb_parts_command, tmp_path):
+    before = model.read_bytes()
+    places = {"MODEL": str(model), "OUT/x.npy": str(tmp_path / "x.npy")}
+    done = reeb_parts_command("decompose", *(places.get(word, word) for word in arguments))
+    assert (done.returncode, done.stdout) == (1, "")
+    assert words in done.stderr.splitlines()[-1]
+    assert list(tmp_path.iterdir()) == []
+    assert model.read_bytes() == before
+
+
+def test_ctrl_c_ends_it_with_130_and_nothing_is_written(request, model, tmp_path):
+    command = [sys.executable, request.config.command, "decompose", model, "--json", tmp_path / "x.json"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process.stderr.readline()  # it has begun
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, list(tmp_path.iterdir())) == (130, "", [])
+    assert err.splitlines()[-1] == "reeb-parts: Interrupted."

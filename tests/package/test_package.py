@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The installed package: what is in it, and what it takes."""
+
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+import reeb_parts
+import shapes
+import trimesh
+
+from core import VERSION, decompose
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_the_wheel_has_all_of_core_and_of_the_package_and_nothing_of_blender(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        names = {name for name in archive.namelist() if ".dist-info/" not in name}
+    tree = {path.relative_to(ROOT).as_posix() for folder in ("core", "package") for path in (ROOT / folder).rglob("*")
+            if path.is_file() and "__pycache__" not in path.parts}
+    wanted = {f"reeb_parts/{name}" if name.startswith("core/") else f"reeb_parts/{name.removeprefix('package/')}"
+              for name in tree}
+    assert names == wanted
+    assert "reeb_parts/py.typed" in names
+
+
+def test_it_has_the_version_of_core(wheel):
+    assert reeb_parts.__version__ == VERSION
+    assert wheel.name == f"reeb_parts-{VERSION}-py3-none-any.whl"
+
+
+def test_it_has_every_name_of_core():
+    import core
+
+    assert set(core.__all__) <= set(reeb_parts.__all__)
+    assert reeb_parts.Parameters is reeb_parts.core.Parameters
+    assert Path(reeb_parts.__file__).parents[1] != ROOT
+
+
+@pytest.mark.parametrize("mesh", [
+    lambda shape: (shape.vertices.tolist(), shape.faces.tolist()),
+    lambda shape: (trimesh.Trimesh(*shape, process=False),),
+    lambda shape: (reeb_parts.TriMesh(*shape),),
+], ids=["lists", "trimesh", "TriMesh"])  # fmt: skip
+def test_every_kind_of_mesh_gives_what_core_gives_for_its_arrays(mesh, tree):
+    expected = decompose(*tree)
+    result = reeb_parts.decompose(*mesh(tree))
+    assert (result.candidates == expected.candidates).all()
+    assert (result.hierarchy.merges == expected.hierarchy.merges).all()
+    assert (result.parts(n_parts=3).labels == expected.parts(n_parts=3).labels).all()
+
+
+def test_parameters_reach_core(tree):
+    mesh = trimesh.Trimesh(*tree, process=False)
+    result = reeb_parts.decompose(mesh, parameters={"n_parts": 2})
+    assert result.parts().count == 2
+
+
+def test_what_is_no_mesh_is_refused():
+    with pytest.raises(reeb_parts.MeshError, match="ndarray is no mesh: give vertices and faces"):
+        reeb_parts.decompose(np.zeros((4, 3)))
+
+
+def test_colors_of_faces_are_those_of_their_parts(tree):
+    parts = reeb_parts.decompose(*tree).parts()
+    colors = reeb_parts.face_colors(parts)
+    assert colors.dtype == np.uint8
+    pairs = np.unique(np.column_stack([parts.labels, colors]), axis=0)
+    assert len(pairs) == parts.count == len(np.unique(colors, axis=0))
+    mesh = trimesh.Trimesh(*tree, process=False)
+    mesh.visual.face_colors = colors
+    assert (mesh.visual.face_colors == colors).all()
+
+
+@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "glb", "off"])
+def test_models_are_read_in_the_order_of_the_file(kind, tmp_path):
+    shape = shapes.tube_tree(step=0.2)
+    path = tmp_path / f"tree.{kind}"
+    trimesh.Trimesh(*shape, process=False).export(path)
+    model = reeb_parts.read_model(path)
+    assert model.name == "tree"
+    assert model.up == ("z" if kind in ("stl", "ply") else "y")
+    assert np.allclose(model.vertices[model.faces], shape.vertices[shape.faces], atol=1e-6)
+    assert (model.polygon == np.arange(len(shape.faces))).all()
+
+
+def test_arrays_are_read_as_they_are(tmp_path):
+    shape = shapes.tube_tree(step=0.2)
+    np.savez(tmp_path / "tree.npz", vertices=shape.vertices, faces=shape.faces)
+    model = reeb_parts.read_model(tmp_path / "tree.npz")
+    assert (model.vertices == shape.vertices).all()
+    assert (model.faces == shape.faces).all()
+
+
+def test_an_obj_with_materials_and_texture_seams_keeps_the_order_of_its_faces(tmp_path):
+    vertices, faces = shapes.octahedron()
+    lines = [*(f"v {x} {y} {z}" for x, y, z in vertices), "vt 0 0", "vt 1 0", "vt 0 1"]
+    for number, (a, b, c) in enumerate((faces + 1).tolist()):
+        lines += [f"usemtl {'even' if number % 2 == 0 else 'odd'}", f"f {a}/1 {b}/2 {c}/3"]
+    (tmp_path / "model.obj").write_text("\n".join(lines))
+    model = reeb_parts.read_model(tmp_path / "model.obj")
+    assert (model.vertices[model.faces] == vertices[faces]).all()
+
+
+def test_meshes_of_a_scene_come_in_their_places(tmp_path):
+    scene = trimesh.Scene()
+    for place in (0.0, 5.0):
+        scene.add_geometry(trimesh.Trimesh(*shapes.octahedron(), process=False),
+                           transform=trimesh.transformations.translation_matrix((place, 0, 0)))
+    scene.export(tmp_path / "two.glb")
+    model = reeb_parts.read_model(tmp_path / "two.glb")
+    assert len(model.faces) == 16
+    assert sorted({round(x) for x in model.vertices[:, 0].tolist()}) == [-1, 0, 1, 4, 5, 6]
+
+
+@pytest.mark.parametrize(("name", "text", "words"), [
+    ("there_is_none.obj", None, "There is no file"),
+    ("model.xyzzy", "", "is none of"),
+    ("damaged.ply", "ply\nformat nonsense", "could not be read"),
+    ("empty.obj", "# nothing\n", "empty.obj"),
+    ("scene.blend", "", "Blender only"),
+])  # fmt: skip
+def test_what_cannot_be_read_gets_one_sentence(name, text, words, tmp_path):
+    if text is not None:
+        (tmp_path / name).write_text(text)
+    with pytest.raises(reeb_parts.ModelFileError, match=words) as caught:
+        reeb_parts.read_model(tmp_path / name)
+    assert "\n" not in str(caught.value)

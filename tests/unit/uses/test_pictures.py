@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures: what is in front is seen, nothing is missed, and a shape fills what its outline says."""
+
+import zlib
+
+import numpy as np
+import pytest
+import shapes
+
+from core.surface.mesh import TriMesh
+from core.uses import pictures
+from core.uses.pictures import picture, png
+
+RED, BLUE = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+
+
+def hue(image):
+    """Per pixel 0 for the background, 1 for red, 2 for blue."""
+    red, green, blue = image.astype(int).transpose(2, 0, 1)
+    return np.where(green == 255, 0, np.where(red > blue, 1, 2))
+
+
+def test_a_ball_fills_its_disc_without_holes():
+    mesh = TriMesh(*shapes.icosphere(4))
+    seen = hue(picture(mesh, np.tile(RED, (mesh.n_faces, 1)), 100)) > 0
+    radius = 0.94 * 100 / 2
+    x, y = np.meshgrid(np.arange(100) - 50, np.arange(100) - 49)
+    distance = np.hypot(x, y)
+    assert seen[distance < radius - 1].all()
+    assert not seen[distance > radius + 1].any()
+
+
+@pytest.mark.parametrize("up", ["y", "z"])
+@pytest.mark.parametrize("chunk", [500, pictures.CHUNK])
+def test_of_two_balls_the_one_in_front_is_seen_whole(up, chunk, monkeypatch):
+    monkeypatch.setattr(pictures, "CHUNK", chunk)
+    ball = shapes.icosphere(2)
+    toward = pictures._tilted(pictures.UPRIGHT[up], -1.0)[2]
+    both = TriMesh(*shapes.together(shapes.moved(ball, 5 * toward), ball))
+    color = np.repeat([RED, BLUE], len(ball.faces), axis=0)
+    assert set(hue(picture(both, color, 60, up)).ravel().tolist()) == {0, 1}
+    swapped = TriMesh(*shapes.together(shapes.moved(ball, -5 * toward), ball))
+    assert set(hue(picture(swapped, color, 60, up)).ravel().tolist()) == {0, 2}
+
+
+@pytest.mark.parametrize(("up", "axis"), [("y", 1), ("z", 2)])
+def test_what_is_up_is_up(up, axis):
+    mesh = TriMesh(*shapes.icosphere(3))
+    color = np.where(mesh.face_centroids[:, [axis]] > 0, RED, BLUE)
+    rows = hue(picture(mesh, color, 80, up))
+    assert (rows[:30] != 2).all()
+    assert (rows[:30] == 1).any()
+
+
+def test_the_order_of_the_faces_and_of_the_vertices_is_of_no_account():
+    shape = shapes.tube_tree(step=0.2)
+    mesh = TriMesh(*shape)
+    other, _, face = shapes.shuffled(shape, np.random.default_rng(1))
+    color = np.random.default_rng(2).random((mesh.n_faces, 3))
+    first, second = picture(mesh, color, 60, "y"), picture(TriMesh(*other), color[face], 60, "y")
+    # On an edge between two faces either may be seen.
+    assert (first != second).any(axis=2).mean() < 0.005
+
+
+def test_a_png_holds_the_image():
+    image = np.random.default_rng(0).integers(0, 256, (5, 7, 3)).astype(np.uint8)
+    data = png(image)
+    assert data[16:24] == (7).to_bytes(4, "big") + (5).to_bytes(4, "big")
+    rows = np.frombuffer(zlib.decompress(data[data.index(b"IDAT") + 4:data.index(b"IEND") - 8]), np.uint8)
+    assert (rows.reshape(5, 22)[:, 1:].reshape(5, 7, 3) == image).all()
