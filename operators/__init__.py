@@ -9,6 +9,7 @@ from . import (
     clear,
     cut,
     decompose,
+    detail,
     edit,
     export,
     graph,
@@ -22,8 +23,8 @@ from . import (
     unwrap,
 )
 
-MODULES = (decompose, clear, settings, parts, pick, edit, slide, cut, paint, graph, separate, outputs, unwrap, export,
-           armature)
+MODULES = (decompose, detail, clear, settings, parts, pick, edit, slide, cut, paint, graph, separate, outputs, unwrap,
+           export, armature)
 #: Every operator that one of the modules defines.
 CLASSES = tuple(cls for module in MODULES for cls in vars(module).values()
                 if isinstance(cls, type) and issubclass(cls, bpy.types.Operator))

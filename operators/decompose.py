@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.parameters import Parameters
-from ..scene import bridge, defaults, jobs, redraw, targets
+from ..scene import bridge, defaults, jobs, redraw, results, targets
 from ..scene.bridge import Shape
 from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core, translated
@@ -49,10 +49,11 @@ class REEB_PARTS_OT_decompose(
         """From the panel: with the panel's settings, in a process of its own, so that the window stays alive."""
         self._take_over_former_names()
         defaults.adopt(context.scene)
-        settings = context.scene.reeb_parts
-        for name in (*PARAMETERS, *OUTPUTS, *OVERLAY):
+        values = {name: getattr(context.scene.reeb_parts, name) for name in (*PARAMETERS, *OUTPUTS, *OVERLAY)}
+        values |= results.detail_of(context.view_layer.objects.active)
+        for name, value in values.items():
             if not self.properties.is_property_set(name):
-                setattr(self, name, getattr(settings, name))
+                setattr(self, name, value)
         return self.attempt(self._start, context)
 
     def run(self, context: bpy.types.Context) -> None:
@@ -67,12 +68,13 @@ class REEB_PARTS_OT_decompose(
             self.report({"INFO"}, note)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """The redo panel: what changes the parts first."""
+        """The redo panel: how many parts, and what differs from the defaults."""
         self.layout.use_property_split = True
         for names in (PARAMETERS, OUTPUTS, OVERLAY):
             column = self.layout.column(align=True)
             for name in names:
-                column.prop(self, name)
+                if name in {"detail", "n_parts"} or getattr(self, name) != self.rna_type.properties[name].default:
+                    column.prop(self, name)
 
     def _read(self, context: bpy.types.Context) -> tuple[Parameters, list[tuple[str, Shape]]]:
         """The parameters and the shapes; raises SceneError or ReebError."""

@@ -25,15 +25,16 @@ from .transaction import keep_result
 @reaction
 def show_detail(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The Detail slider was moved."""
-    result.by_number = False
+    result.by_number, result.asked = False, 0
     show(result, context)
 
 
 @reaction
 def show_number(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """A number of parts was typed."""
-    result.by_number = True
+    """A number of parts was typed: Detail goes to where there are so many."""
+    result.by_number, asked = True, result.n_parts
     show(result, context)
+    result.asked = 0 if result.n_parts == asked else asked
 
 
 @reaction
@@ -146,6 +147,9 @@ def show(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
             refresh(context, mesh, stored, numbered)
         with quiet.quiet():
             result.n_parts = numbered.parts.count
+            if result.by_number:
+                result.fewest, result.most = stored.numbering.n_range
+                result.detail = stored.numbering.detail_of(numbered.parts.count)
 
     _with_result(mesh, context, write)
 

@@ -28,6 +28,14 @@ def check_unchanged(digests: dict[str, str]) -> None:
                 rpt_("{name} was changed while its parts were computed. Decompose it again.").format(name=name))
 
 
+def detail_of(obj: bpy.types.Object | None) -> dict[str, float | int]:
+    """The detail and the number of parts that an object shows, as parameters of its next run; none without parts."""
+    if obj is None or not store.has_parts(obj):
+        return {}
+    result = obj.data.reeb_parts
+    return {"detail": result.detail, "n_parts": result.n_parts if result.by_number else 0}
+
+
 def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> None:
     """Write one object's parts and graph; Object Mode.
 
@@ -44,6 +52,7 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
     assert decomposition is not None
     parameters = decomposition.parameters
     transaction.keep_mesh(mesh)
+    _keep_colors(mesh)
     stored = store.succeed(mesh, decomposition)
     numbered = stored.shown_parts()
     result = mesh.reeb_parts
@@ -53,8 +62,9 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
         result.stretch = outcome.shape.stretch.ravel().tolist()
         result.seconds = outcome.seconds
         notes.keep(result, decomposition.notes + outcome.shape.notes)
-        result.detail, result.by_number = parameters.detail, parameters.n_parts > 0
+        result.detail, result.by_number, result.asked = parameters.detail, parameters.n_parts > 0, 0
         outputs.write_outputs(obj, numbered, decomposition.field, settings)
+        outputs.keep_places(mesh, numbered)
     store.mark_pins(mesh, stored)
     # Other objects of the mesh show its parts, and a graph of theirs is that of the result before.
     for user in targets.users(mesh):
@@ -63,6 +73,15 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
             graph_objects.update_parts(user, numbered)
         else:
             graph_objects.remove(user)
+
+
+def _keep_colors(mesh: bpy.types.Mesh) -> None:
+    """Let the parts that take over numbers of the result before have its colours."""
+    if store.has_result(mesh):
+        try:
+            outputs.keep_places(mesh, store.last(mesh).shown_parts())
+        except SceneError:  # it cannot be read any more
+            pass
 
 
 def clear(obj: bpy.types.Object) -> None:

@@ -87,14 +87,18 @@ class ReebPartsResult(bpy.types.PropertyGroup, Settled):
         description="Exactly this many parts, whatever the detail. Nothing is computed again",
     )
     by_number: BoolProperty(description="The number of parts decides, not the detail")
+    asked: IntProperty()  # the number of parts that was asked for and cannot be had; 0 for none
+    fewest: IntProperty()  # parts that there can be, once a number was asked for
+    most: IntProperty()
     parts: CollectionProperty(type=ReebPart)
-    active: IntProperty(name="Active part", update=part_list.on_list_click)
+    active: IntProperty(name="Active part", update=part_list.on_list_click, options=set())  # no keys in its menu
     names: CollectionProperty(type=ReebName)
 
     # What was written, under which name, and what was there before
     face_attribute: StringProperty()
     color_attribute: StringProperty()
     palette: StringProperty()
+    color_places: StringProperty()
     field_attribute: StringProperty()
     has_groups: BoolProperty()
     has_face_sets: BoolProperty()

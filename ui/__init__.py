@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import bpy
 
-from . import menus, panel, preferences, translations, use_panel
+from . import advanced_panel, menus, panel, preferences, translations, use_panel
 
 # Sub-panels stand in the order of their registration: what is used often comes before the settings.
-_PLACE = panel.CLASSES.index(panel.REEB_PARTS_PT_parts) + 1
-CLASSES = (preferences.ReebPartsPreferences, *menus.CLASSES, *panel.CLASSES[:_PLACE], *use_panel.CLASSES,
-           *panel.CLASSES[_PLACE:])
+CLASSES = (preferences.ReebPartsPreferences, *menus.CLASSES, *panel.CLASSES, *use_panel.CLASSES,
+           *advanced_panel.CLASSES)
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 

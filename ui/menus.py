@@ -54,6 +54,8 @@ class REEB_PARTS_MT_main(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         _draw_operators(layout, ("reeb_parts.decompose", "MOD_EXPLODE"), ("reeb_parts.clear", "TRASH"))
+        layout.operator("reeb_parts.step_detail", text="Fewer Parts").more = False
+        layout.operator("reeb_parts.step_detail", text="More Parts").more = True
         layout.separator()
         _draw_operators(layout, ("reeb_parts.pick", "EYEDROPPER"), ("reeb_parts.select", "RESTRICT_SELECT_OFF"))
         layout.operator("reeb_parts.isolate", icon="HIDE_OFF").show_all = False

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sidebar tab "Reeb Parts": draws stored facts, never computes."""
+"""The first level of the sidebar tab "Reeb Parts": draws stored facts, never computes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
-from ..core.parameters import BERRETTI, LAVOUE, LIU
 from ..scene import graph_objects, jobs, notes, part_names, store
 
 
@@ -71,18 +70,10 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
-        settings = context.scene.reeb_parts
-        row = layout.row(align=True)
-        row.prop(settings, "preset", text="")
-        if settings.differs_from_preset():
-            row.operator("reeb_parts.reset_parameters", text="", icon="LOOP_BACK")
-        if jobs.current is not None:
-            _draw_progress(layout, jobs.current)
-        else:
-            row = layout.row()
-            row.scale_y = 1.5
-            row.operator("reeb_parts.decompose", text="Decompose", icon="MOD_EXPLODE")
         result = _result(context)
+        # Letters are about 7 pixels wide, and the icon takes 30.
+        width = max(int((context.region.width / context.preferences.system.ui_scale - 60) / 7), 20)
+        _draw_decompose(layout, result is not None)
         found = graph_objects.part_of(context.object) if result is None else None
         if found is not None:
             source, number = found
@@ -91,40 +82,77 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
             layout.operator("reeb_parts.from_nodes")
             layout.operator("reeb_parts.split_at_node", icon="MOD_EDGESPLIT")
         elif result is None:
-            column = _names_before(layout).column(align=True)
-            column.prop(settings, "detail", slider=True)
-            column.prop(settings, "n_parts")
+            _draw_start(layout, context, width)
         else:
-            # Letters are about 7 pixels wide, and the icon takes 30.
-            width = int((context.region.width / context.preferences.system.ui_scale - 60) / 7)
-            _draw_result(layout, context.object.data, result, max(width, 20))
+            _draw_notes(layout, result, width)
+            _draw_detail(layout, context, result)
+            _draw_parts(layout, result)
 
 
-def _draw_progress(layout: bpy.types.UILayout, job: jobs.Job) -> None:
+def _draw_decompose(layout: bpy.types.UILayout, again: bool) -> None:
+    """The button, or how far its run is; beside it the way back, once there are parts."""
     row = layout.row(align=True)
     row.scale_y = 1.5
-    row.progress(factor=job.share, text=job.text[:1].upper() + job.text[1:])
-    row.operator("reeb_parts.cancel", text="", icon="X")
+    if jobs.current is not None:
+        text = jobs.current.text
+        row.progress(factor=jobs.current.share, text=text[:1].upper() + text[1:])
+        row.operator("reeb_parts.cancel", text="", icon="X")
+        return
+    row.operator("reeb_parts.decompose", text="Decompose", icon="MOD_EXPLODE")
+    if again:
+        row.operator("reeb_parts.clear", text="", icon="TRASH")
 
 
-def _draw_result(layout: bpy.types.UILayout, mesh: bpy.types.Mesh, result: bpy.types.PropertyGroup, width: int) -> None:
-    edited = store.is_edited(mesh)
-    if edited:
-        box = layout.box().column(align=True)
-        box.label(text="The mesh was edited since.", icon="ERROR")
-        box.label(text="Decompose it again.", icon="BLANK1")
+def _draw_start(layout: bpy.types.UILayout, context: bpy.types.Context, width: int) -> None:
+    """What there is to do, while there are no parts."""
+    is_mesh = context.object is not None and context.object.type == "MESH"
+    text = (iface_("Decompose cuts the selected mesh into parts. The mesh itself stays as it is.") if is_mesh
+            else iface_("Select a mesh, then press Decompose."))
+    _wrapped(layout.column(align=True), text, width, "INFO")
+    settings = context.scene.reeb_parts
+    column = _names_before(layout).column(align=True)
+    column.prop(settings, "detail", slider=True)
+    column.prop(settings, "n_parts")
+
+
+def _draw_notes(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup, width: int) -> None:
+    """That the mesh was edited; the notes on it, folded into one line."""
+    if store.is_edited(result.id_data):
+        _wrapped(layout.box().column(align=True), iface_("The mesh was edited since. Decompose it again."), width,
+                 "ERROR")
+    found = notes.spoken(result)
+    if not found:
+        return
+    header, body = layout.panel("REEB_PARTS_notes", default_closed=True)
+    header.label(text=_count(len(found), n_("{n} note on the mesh"), n_("{n} notes on the mesh")))
+    if body is not None:
+        column = body.column(align=True)
+        column.scale_y = 0.8
+        for note in found:
+            _wrapped(column, note, width, "INFO")
+
+
+def _wrapped(column: bpy.types.UILayout, text: str, width: int, icon: str) -> None:
+    """A text in lines of some letters, with an icon before the first one."""
+    for index, line in enumerate(textwrap.wrap(text, width)):
+        column.label(text=line, icon="BLANK1" if index else icon)
+
+
+def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup) -> None:
+    """How many parts there are, by a slider, by a number, and by steps from one clear choice to the next."""
     column = layout.column(align=True)
-    column.scale_y = 0.8
-    for line in facts(result):
-        column.label(text=line)
-    for note in notes.spoken(result):
-        for index, line in enumerate(textwrap.wrap(note, width)):
-            column.label(text=line, icon="BLANK1" if index else "INFO")
-    column = _names_before(layout.column(align=True))
-    column.enabled = not edited
-    column.prop(result, "detail", slider=True)
-    column.prop(result, "n_parts", text="Parts")
-    layout.operator("reeb_parts.clear", icon="TRASH")
+    column.enabled = not store.is_edited(result.id_data)
+    row = column.row(align=True)
+    row.prop(result, "detail", slider=True)
+    row.prop(context.scene.reeb_parts, "graph", text="", icon="HIDE_OFF" if context.scene.reeb_parts.graph
+             else "HIDE_ON")
+    row = column.row(align=True)
+    row.operator("reeb_parts.step_detail", text="Fewer").more = False
+    row.prop(result, "n_parts", text="Parts")
+    row.operator("reeb_parts.step_detail", text="More").more = True
+    if result.asked:
+        text = iface_("{n} parts cannot be had, only {fewest} to {most}")
+        column.label(text=text.format(n=result.asked, fewest=result.fewest, most=result.most), icon="ERROR")
 
 
 def facts(result: bpy.types.PropertyGroup) -> list[str]:
@@ -142,31 +170,26 @@ def _count(number: int, one: str, several: str) -> str:
     return iface_(one if number == 1 else several).format(n=number)
 
 
-class REEB_PARTS_PT_parts(SubPanel, bpy.types.Panel):
-    bl_label = "Parts"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return _result(context) is not None
-
-    def draw(self, context: bpy.types.Context) -> None:
-        layout = self.layout
-        result = _result(context)
-        row = layout.row()
-        row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=6)
-        column = row.column(align=True)
-        column.operator("reeb_parts.merge", text="", icon="AUTOMERGE_ON")
-        column.operator("reeb_parts.split", text="", icon="MOD_EDGESPLIT")
-        column.separator()
-        column.operator("reeb_parts.grow", text="", icon="ADD")
-        column.operator("reeb_parts.shrink", text="", icon="REMOVE")
-        column.separator()
-        column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT")
-        _draw_tools(layout)
-        row = layout.row(align=True)
-        row.operator("reeb_parts.select", text="Select")
-        row.operator("reeb_parts.isolate", text="Isolate").show_all = False
-        row.operator("reeb_parts.isolate", text="Show All").show_all = True
+def _draw_parts(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup) -> None:
+    """The list, what is done with its parts, and the way to objects."""
+    row = layout.row()
+    row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=6)
+    column = row.column(align=True)
+    column.operator("reeb_parts.merge", text="", icon="AUTOMERGE_ON")
+    column.operator("reeb_parts.split", text="", icon="MOD_EDGESPLIT")
+    column.separator()
+    column.operator("reeb_parts.grow", text="", icon="ADD")
+    column.operator("reeb_parts.shrink", text="", icon="REMOVE")
+    column.separator()
+    column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT")
+    _draw_tools(layout)
+    row = layout.row(align=True)
+    row.operator("reeb_parts.select", text="Select")
+    row.operator("reeb_parts.isolate", text="Isolate").show_all = False
+    row.operator("reeb_parts.isolate", text="Show All").show_all = True
+    row = layout.row()
+    row.scale_y = 1.2
+    row.operator("reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
 
 
 def _draw_tools(layout: bpy.types.UILayout) -> None:
@@ -179,69 +202,4 @@ def _draw_tools(layout: bpy.types.UILayout) -> None:
     flow.operator("reeb_parts.paint", text="Paint", text_ctxt="Reeb Parts", icon="BRUSH_DATA")
 
 
-class SettingsPanel(SubPanel):
-    """For closed sub-panels that show settings of the scene, by name, one below the other."""
-
-    bl_options = {"DEFAULT_CLOSED"}
-    names: tuple[str, ...]
-
-    def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
-        for name in self.names:
-            column.prop(settings, name)
-
-
-class REEB_PARTS_PT_field(SettingsPanel, bpy.types.Panel):
-    bl_label = "Field"
-    names = ("base_spacing", "equalize", "n_slabs")
-
-
-class REEB_PARTS_PT_graph(SettingsPanel, bpy.types.Panel):
-    bl_label = "Graph"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
-        own = {LAVOUE: ("n_clusters",), LIU: ("outline_weight",)}.get(settings.method, ("small_region",))
-        for name in ("method", "pieces", "symmetry", *own, "loose_part"):
-            column.prop(settings, name)
-
-
-class REEB_PARTS_PT_boundaries(SettingsPanel, bpy.types.Panel):
-    bl_label = "Boundaries"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
-        of_paper = ("concavity_weight", "sigma") if settings.method == BERRETTI else ()
-        movable = () if settings.method in {LAVOUE, LIU} else ("follow_level_sets", "band_ratio")
-        for name in (*movable, *of_paper, "smoothing"):
-            column.prop(settings, name)
-
-
-class REEB_PARTS_PT_output(SettingsPanel, bpy.types.Panel):
-    bl_label = "Output"
-    names = ("vertex_groups", "face_attribute", "colors", "palette", "face_sets", "materials", "seams", "field")
-
-
-class REEB_PARTS_PT_overlay(SettingsPanel, bpy.types.Panel):
-    bl_label = "Overlay"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
-        column.prop(settings, "graph", text="Show graph")
-        column = column.column()
-        column.enabled = settings.graph
-        for name in ("node_size", "line_thickness", "in_front"):
-            column.prop(settings, name)
-        self.layout.column().prop(settings, "highlight")
-
-
-CLASSES = (
-    REEB_PARTS_UL_parts,
-    REEB_PARTS_PT_main,
-    REEB_PARTS_PT_parts,
-    REEB_PARTS_PT_field,
-    REEB_PARTS_PT_graph,
-    REEB_PARTS_PT_boundaries,
-    REEB_PARTS_PT_output,
-    REEB_PARTS_PT_overlay,
-)
+CLASSES = (REEB_PARTS_UL_parts, REEB_PARTS_PT_main)

@@ -22,9 +22,8 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         column, _ = settings_column(self, context)
         settings = context.scene.reeb_parts_use
-        # Separate stands above its options, so that no one has to scroll for it in a small window.
+        # How the button Separate, which is just above, makes objects.
         column.row().prop(settings, "which", expand=True)
-        column.operator("reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
         for name in ("caps", "center", "modifiers", "seen", "parent", "hide"):
             column.prop(settings, name)
         column.separator()

@@ -18,6 +18,7 @@ import numpy as np
 
 from ..surface.arrays import distinct_pairs, sums_by
 from .decomposition import Decomposition, Parts
+from .levels import detail_between, strong_levels
 from .splits import Splits
 
 # Added to the areas by which candidates vote for numbers, in units of about the whole area: candidates without an area
@@ -233,6 +234,28 @@ class Numbering:
         first_born = np.full(part.max() + 1, len(part))
         np.minimum.at(first_born, part, self.birth_order)
         return self.numbered(self.candidate_number[np.argsort(self.birth_order)][first_born][part])
+
+    @property
+    def salience(self) -> np.ndarray:
+        """(s,) float64, salience of the cut that each split makes, 0..1, never rising."""
+        return self.decomposition.hierarchy.salience[self.splits.merge]
+
+    @property
+    def n_range(self) -> tuple[int, int]:
+        """The fewest and the most parts that there can be around the pinned ones."""
+        return self.splits.n_roots, self.splits.n_roots + len(self.splits.merge)
+
+    def detail_of(self, n_parts: int) -> float:
+        """Find the detail at which there are so many parts.
+
+        n_parts : int, within ``n_range``. Returns the middle of the range of such details, 0..1; if there are only
+        details of more or fewer parts, one between the two.
+        """
+        return detail_between(self.salience, n_parts - self.splits.n_roots)
+
+    def strong_levels(self) -> np.ndarray:
+        """(l,) int64, the numbers of parts that stand out, rising; see levels.strong_levels."""
+        return strong_levels(self.salience, self.splits.n_roots)
 
     def numbered(self, candidate_numbers: np.ndarray) -> NumberedParts:
         """Make parts of numbered candidates.

@@ -11,26 +11,34 @@ from ..result.numbering import NumberedParts, NumberGraph
 from ..surface.arrays import frozen
 
 # The palette of Okabe and Ito without black, then the muted scheme of Paul Tol, in sRGB, 0..1. Both were made to stay
-# distinct under the common kinds of color blindness. Each of Tol's colors is the one that differs most from all before
-# it, so that the first colors, which most models use, differ clearly.
+# distinct under the common kinds of color blindness. Each of the later colors is the one that differs most from all
+# before it, so that the first colors, which most models use, differ clearly. Seven of them are moved a little, so that
+# each two colors of a palette are 25 or more apart in CIELAB, where people just notice 2.3.
 PALETTE = np.array([
     (86, 180, 233), (230, 159, 0), (0, 158, 115), (204, 121, 167), (240, 228, 66),
-    (0, 114, 178), (213, 94, 0), (51, 34, 136), (136, 34, 85), (153, 153, 51), (221, 204, 119),
-    (17, 119, 51), (136, 204, 238), (170, 68, 153), (68, 170, 153), (204, 102, 119),
+    (0, 114, 178), (213, 94, 0), (51, 34, 136), (228, 209, 125), (136, 34, 85), (152, 152, 50),
+    (167, 223, 242), (20, 114, 41), (170, 68, 153), (70, 154, 147), (186, 85, 98),
 ]) / 255.0
 
-# The colors of maximum contrast of [Kelly1965] without black, white and gray, in sRGB, 0..1. Color-blind people cannot
-# tell all of them apart.
+# Light colors, after those above, as far apart from each other as they must be.
+_PASTEL = np.array([
+    (157, 211, 242), (240, 199, 107), (107, 199, 174), (227, 190, 210), (248, 255, 153), (92, 165, 230),
+    (230, 156, 107), (132, 121, 180), (169, 116, 135), (173, 221, 151), (235, 224, 176), (117, 153, 104),
+    (198, 191, 255), (221, 148, 205), (144, 167, 161), (246, 158, 158),
+]) / 255.0
+
+# The colors of maximum contrast of [Kelly1965] without black, white and gray, in sRGB, 0..1, two of them moved a
+# little as above. Color-blind people cannot tell all of them apart.
 _KELLY = np.array([
     (0, 103, 165), (243, 195, 0), (190, 0, 50), (141, 182, 0), (135, 86, 146), (243, 132, 0),
-    (161, 202, 241), (0, 136, 86), (230, 143, 172), (136, 45, 23), (220, 211, 0), (96, 78, 151),
+    (161, 202, 241), (0, 136, 86), (230, 143, 172), (136, 45, 23), (216, 222, 0), (62, 70, 153),
     (249, 147, 121), (179, 68, 108), (101, 69, 34), (194, 178, 128),
 ]) / 255.0
 
 #: Palettes by the name that the user sees; each is (c, 3) float64, sRGB, 0..1.
 PALETTES = {
     "Colour-blind safe": PALETTE,
-    "Pastel": 0.5 + 0.5 * PALETTE,
+    "Pastel": _PASTEL,
     "Bright": _KELLY,
 }
 
@@ -128,7 +136,9 @@ def chosen_colors(
     return chosen
 
 
-def number_colors(numbered: NumberedParts, palette: np.ndarray = PALETTE) -> np.ndarray:
+def number_colors(
+    numbered: NumberedParts, palette: np.ndarray = PALETTE, former: tuple[tuple[int, int], ...] = ()
+) -> np.ndarray:
     """Choose a color for each part by its number, which keeps its color at every level of detail.
 
     Parts that touch at some level have different colors unless the palette is too small. A change by hand changes the
@@ -139,22 +149,36 @@ def number_colors(numbered: NumberedParts, palette: np.ndarray = PALETTE) -> np.
     numbered : NumberedParts
     palette : (c, 3) float64
         Colors to choose from, sRGB, 0..1.
+    former : tuple of (int, int)
+        Numbers of parts, and the place in the palette of the color that each had in an earlier result.
 
     Returns
     -------
     colors : (count, 3) float64
         sRGB, 0..1.
     """
-    chosen = _chosen_by_number(numbered.graph, palette.tobytes())
+    chosen = _chosen_by_number(numbered.graph, palette.tobytes(), former)
     return palette[chosen[np.searchsorted(numbered.graph.numbers, numbered.numbers)]]
 
 
+def number_places(
+    numbered: NumberedParts, palette: np.ndarray = PALETTE, former: tuple[tuple[int, int], ...] = ()
+) -> tuple[tuple[int, int], ...]:
+    """Tell the colors of the parts of all levels of detail, for a later result of the same mesh.
+
+    Returns the numbers of parts, and the place in the palette of each one's color; parameters as of ``number_colors``.
+    """
+    chosen = _chosen_by_number(numbered.graph, palette.tobytes(), former)
+    return tuple(zip(numbered.graph.numbers.tolist(), chosen.tolist(), strict=True))
+
+
 @lru_cache(16)
-def _chosen_by_number(graph: NumberGraph, palette_bytes: bytes) -> np.ndarray:
+def _chosen_by_number(graph: NumberGraph, palette_bytes: bytes, former: tuple[tuple[int, int], ...]) -> np.ndarray:
     """Place in the palette of each number of a graph, (k,) int64; kept, since all levels of detail share one graph."""
     palette = np.frombuffer(palette_bytes).reshape(-1, 3)
-    wanted = None
+    places = dict(former)
+    wanted = np.array([places.get(number, -1) for number in graph.numbers.tolist()], np.int64)
     if graph.unpinned is not None and graph.unpinned_index is not None:
-        before = _chosen_by_number(graph.unpinned, palette_bytes)
-        wanted = np.where(graph.unpinned_index >= 0, before[graph.unpinned_index], -1)
+        before = _chosen_by_number(graph.unpinned, palette_bytes, former)
+        wanted = np.where(graph.unpinned_index >= 0, before[graph.unpinned_index], wanted)
     return frozen(chosen_colors(len(graph.numbers), graph.pairs, palette, wanted), np.int64)

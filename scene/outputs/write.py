@@ -8,13 +8,14 @@ name that Blender gave it, so that nothing of the user's is touched, not even un
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
-from ...core.uses.colors import PALETTE, PALETTES, number_colors
+from ...core.uses.colors import PALETTE, PALETTES, number_colors, number_places
 from .. import part_names, quiet, transaction
 from . import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
 
@@ -131,7 +132,25 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
 
 def palette_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
     """The colour of each part from the mesh's palette, (count, 3) float64 sRGB."""
-    return number_colors(numbered, PALETTES.get(mesh.reeb_parts.palette, PALETTE))
+    return number_colors(numbered, _palette(mesh), _former_places(mesh))
+
+
+def keep_places(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
+    """Remember the colours of the parts, for those of a later result that take over their numbers."""
+    mesh.reeb_parts.color_places = json.dumps(number_places(numbered, _palette(mesh), _former_places(mesh)))
+
+
+def _palette(mesh: bpy.types.Mesh) -> np.ndarray:
+    return PALETTES.get(mesh.reeb_parts.palette, PALETTE)
+
+
+def _former_places(mesh: bpy.types.Mesh) -> tuple[tuple[int, int], ...]:
+    """Numbers of parts, and the place in the palette of the colour that each had in an earlier result."""
+    try:
+        return tuple((int(number), int(place) % len(PALETTE)) for number, place in
+                     json.loads(mesh.reeb_parts.color_places or "[]"))
+    except (ValueError, TypeError):  # not written by us
+        return ()
 
 
 def _part_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:

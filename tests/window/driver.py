@@ -65,7 +65,7 @@ def open_tab():
 
 
 def press_decompose(seen):
-    """Press the large button below the preset menu and wait for the parts."""
+    """Press the large button at the top and wait for the parts."""
     yield from pointer.push("reeb_parts.decompose")
     start = time.monotonic()
     yield from pointer.until(lambda: "reeb_part" in model().data.attributes, pointer.PATIENCE)

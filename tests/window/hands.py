@@ -17,7 +17,7 @@ from snapshot import changes, snapshot
 
 # In pixels, where Blender's own popups have something: from a chip to the field of its popup; from a right
 # click to an entry of the menu.
-HEX, MERGE = (99, -32), (-60, 205)
+HEX, MERGE = (99, 299), (-60, 174)
 
 
 def steps():
@@ -193,10 +193,10 @@ def exploded(seen):
 
 
 def graph_hidden(seen):
-    """The tick box under Overlay, off and on."""
+    """The eye beside Detail, off and on."""
     seen["graph"] = [graph_shown()]
     for _ in range(2):
-        yield from pointer.push("reeb_parts.graph")
+        yield from pointer.push("reeb_parts.graph", "detail")
         yield from pointer.until(lambda: graph_shown() != seen["graph"][-1])
         seen["graph"].append(graph_shown())
 
@@ -213,7 +213,7 @@ def palette_chosen(seen):
     pointer.shot("16_palette.png")
 
 
-PANELS = {exploded: "Use Parts", graph_hidden: "Overlay", palette_chosen: "Output"}  # what is open for them
+PANELS = {exploded: "Use Parts", palette_chosen: "Output"}  # what is open for them
 
 
 def all_undone(seen, name, before):

@@ -18,7 +18,7 @@ from mathutils import Quaternion, Vector
 sys.path.append(os.path.dirname(__file__))
 import pointer
 
-HEX = (99, -32)  # from a chip to the field of its popup
+HEX = (99, 299)  # from a chip to the field of its popup
 BODY, LEG, HEAD, EAR = "Part 01", "Part 02", "Part 06", "Part 04"
 MODEL = (350, 110, 850, 690)  # what is seen of the model
 ALL = (350, 60, 1270, 690)  # and the sidebar
@@ -203,13 +203,15 @@ def face_sets():
 
 
 def changed():
-    """The button that appears beside the preset."""
+    """Advanced, with the button that appears beside the preset."""
     bpy.context.scene.reeb_parts.band_ratio = 0.8
-    pointer.region("UI").tag_redraw()
-    yield 0.5
+    _, y = yield from pointer.fold("Advanced")
+    yield from pointer.rest(*pointer.in_view(0.1, 0.1))
+    yield 0.3
     ui = pointer.region("UI")
-    left, top = pointer.from_top(ui.x, ui.y + ui.height)
-    pointer.shot("reset.png", (left, top, left + ui.width, top + 100))
+    left, _ = pointer.from_top(ui.x, ui.y)
+    pointer.shot("reset.png", (left, y - 12, left + ui.width, y + 210))
+    yield from pointer.fold("Advanced")
     yield from pointer.search("Reset Parameters")
     yield 0.3
 
@@ -254,19 +256,16 @@ def browser():
 
 
 def folded_out():
-    """The panels Output and Overlay, with the list folded away above them."""
-    above = "reeb_parts.clear"
-    yield from pointer.fold("Parts", above)
+    """The panels Output and Overlay."""
     ui = pointer.region("UI")
     left, _ = pointer.from_top(ui.x, ui.y)
-    for label, rows in (("Output", 10.5), ("Overlay", 7.5)):
-        _, y = yield from pointer.fold(label, above)
+    for label, rows in (("Output", 10.5), ("Overlay", 6.5)):
+        _, y = yield from pointer.fold(label)
         yield from pointer.rest(*pointer.in_view(0.1, 0.1))
         yield 0.3
         top = y - 0.7 * pointer.unit()
         pointer.shot(f"{label.lower()}.png", (left + 9, top, left + 0.88 * ui.width, top + rows * pointer.unit()))
-        yield from pointer.fold(label, above)
-    yield from pointer.fold("Parts", above)
+        yield from pointer.fold(label)
 
 
 def seamed():

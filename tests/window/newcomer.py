@@ -38,19 +38,14 @@ def steps():
     yield from pointer.until(lambda: "reeb_part" in suzanne().data.attributes, pointer.PATIENCE)
     yield 0.5
     seen["decomposed"] = facts()
-    place = yield from pointer.title("Use Parts")
-    yield from pointer.rest(*place)
-    pointer.shot("4_decomposed.png", (300, 60, 1050, 700))
-    yield from click_on("Use Parts", place)
-    yield 0.3
     place = yield from pointer.find("reeb_parts.separate")
     yield 0.1
-    pointer.shot("5_use.png", (300, 60, 1050, 720))
+    pointer.shot("4_decomposed.png", (300, 60, 1050, 700))
     yield from click_on("Separate", place)
     yield from pointer.rest(*pointer.in_view(0.3, 0.75))
     seen["separated"] = facts()
     seen["clicks"] = CLICKS
-    pointer.shot("6_separated.png", (300, 60, 1280, 560))
+    pointer.shot("5_separated.png", (300, 60, 1280, 560))
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
 

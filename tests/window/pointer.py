@@ -320,28 +320,38 @@ def entry(index, key):
     return place
 
 
-def title(label, below="reeb_parts.isolate"):
-    """Where the title of a sub-panel is; the panels between it and the last button above them are closed.
+def title(label):
+    """Where the title of a sub-panel is; the panels above it on its level are closed.
 
     Blender tells nothing about titles. In its layout each is a row and a quarter high, and the middle of the first
-    is a row below that button. below : of the panel "Parts", or one above that panel where it is closed, too.
+    is a row below the last thing above them: the button Separate, or, in Advanced, the two lines below the preset.
     """
-    x, y = yield from find(below)
+    inner = label in INNER_TITLES
+    x, y = yield from find(below := "preset" if inner else "reeb_parts.separate")
     while (yield from _shows((x, y + 2), below)):
         y += 2
-    closed = TITLES[1 if below == "reeb_parts.isolate" else 0 :].index(label)
-    return x, round(y + (1.0 + 1.25 * closed) * unit())
+    closed = (INNER_TITLES if inner else TITLES).index(label)
+    return x, round(y + ((2.9 if inner else 1.0) + 1.25 * closed) * unit())
 
 
-def fold(label, below="reeb_parts.isolate"):
-    """Open or close a sub-panel by its title(); where that is."""
-    place = yield from title(label, below)
+def fold(label):
+    """Open or close a sub-panel by its title(); where that is. Those in Advanced are open together with it."""
+    if label in INNER_TITLES and label not in OPEN:
+        yield from press(*(yield from title("Advanced")))
+        yield 0.4
+    place = yield from title(label)
     yield from press(*place)
     yield 0.4  # panels slide open and shut
+    OPEN.symmetric_difference_update({label})
+    if label in INNER_TITLES and label not in OPEN:
+        yield from press(*(yield from title("Advanced")))
+        yield 0.4
     return place
 
 
-TITLES = ("Parts", "Use Parts", "Field", "Graph", "Boundaries", "Output", "Overlay")
+TITLES = ("Use Parts", "Advanced")
+INNER_TITLES = ("Field", "Graph", "Boundaries", "Output", "Overlay")
+OPEN = set()  # by fold()
 
 
 def open_tab():

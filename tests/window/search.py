@@ -189,6 +189,7 @@ COMMANDS = (
     Command("Show Original of Part", separated),
     Command("Use Preferences in This Scene", other_overlay),
     Command("Reset Parameters to Preset", other_parameters),
+    Command("More Parts"),
     Command("Clear Parts"),
     *(Command("Decompose into Parts", mode(name, no_parts)) for name in MODES),
     Command("Cut Part at Point", mode("EDIT")),

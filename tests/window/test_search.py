@@ -37,6 +37,7 @@ DOES = {
     "Show Original of Part, OBJECT": "/objects/spot/hidden",
     "Use Preferences in This Scene, OBJECT": "/settings",
     "Reset Parameters to Preset, OBJECT": "/settings",
+    "More Parts, OBJECT": "/attributes/reeb_part",
     "Clear Parts, OBJECT": "/data/collections",
     "Decompose into Parts, EDIT_MESH": "INFO: [0-9]+ parts in ",
     "Decompose into Parts, SCULPT": "INFO: [0-9]+ parts in ",

@@ -12,6 +12,11 @@ OPERATORS = {
     "Decompose into Parts": "In Teile zerlegen",
     "Cancel": "Abbrechen",
     "Clear Parts": "Zerlegung entfernen",
+    "Fewer": "Weniger",
+    "More": "Mehr",
+    "Fewer Parts": "Weniger Teile",
+    "More Parts": "Mehr Teile",
+    "Fewer or More Parts": "Weniger oder mehr Teile",
     "Reset Parameters to Preset": "Parameter auf Vorgabe zurücksetzen",
     "Use Preferences in This Scene": "Einstellungen in dieser Szene verwenden",
     # Die Liste der Teile
@@ -86,8 +91,20 @@ TEXTS = {
     "{n} arcs": "{n} Bögen",
     "{n} loop": "{n} Schleife",
     "{n} loops": "{n} Schleifen",
-    "The mesh was edited since.": "Das Mesh wurde seither bearbeitet.",
-    "Decompose it again.": "Bitte erneut zerlegen.",
+    "Advanced": "Erweitert",
+    "Decompose cuts the selected mesh into parts. The mesh itself stays as it is.":
+        "„Zerlegen“ zerschneidet das ausgewählte Mesh in Teile. Das Mesh selbst bleibt, wie es ist.",
+    "Select a mesh, then press Decompose.": "Bitte ein Mesh auswählen, dann „Zerlegen“ drücken.",
+    "The mesh was edited since. Decompose it again.": "Das Mesh wurde seither bearbeitet. Bitte erneut zerlegen.",
+    "{n} note on the mesh": "{n} Hinweis zum Mesh",
+    "{n} notes on the mesh": "{n} Hinweise zum Mesh",
+    "{n} parts cannot be had, only {fewest} to {most}": "{n} Teile gibt es nicht, nur {fewest} bis {most}",
+    "Go to the next number of parts that stands out, such as all limbs, or all fingers":
+        "Zur nächsten Zahl von Teilen, die heraussticht, etwa mit allen Gliedern oder allen Fingern",
+    "More": "Mehr",
+    "More parts; without it, fewer": "Mehr Teile, sonst weniger",
+    "There are no more parts than these.": "Mehr Teile als diese gibt es nicht.",
+    "There are no fewer parts than these.": "Weniger Teile als diese gibt es nicht.",
     "{part} of {name}": "{part} von {name}",
     "A part of {name}": "Ein Teil von {name}",
     "Show {name}": "{name} zeigen",
@@ -221,7 +238,6 @@ TEXTS = {
     "The Reeb graph as objects: an empty for each node, a curve for the arcs":
         "Der Reeb-Graph als Objekte: ein Leerobjekt für jeden Knoten, eine Kurve für die Bögen",
     # Überlagerung
-    "Show graph": "Graph zeigen",
     "Node size": "Knotengröße",
     "Size of the empties, as a share of the object's": "Größe der Leerobjekte, als Anteil der Größe des Objekts",
     "Line thickness": "Linienstärke",

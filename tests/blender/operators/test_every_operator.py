@@ -139,6 +139,7 @@ CASES = {
     "clear": Case(changes=("/active color", "/render color")),
     "use_preferences": Case(parts=False, changes=("/settings",), refuses={}),
     "reset_parameters": Case(parts=False, prepare=other_parameters, changes=("/settings",), refuses={}),
+    "step_detail": Case(prepare=few_parts),
     "select": Case(prepare=choose(1), changes=("/flags/.* select", "/attributes/.select_.*")),
     "isolate": Case(prepare=choose(1), changes=("/flags/.* hide", "/attributes/.hide_.*")),
     "mark": Case({"action": "FACES"}),

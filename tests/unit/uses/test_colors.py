@@ -28,6 +28,28 @@ def test_neighbors_differ(count, seed, name):
         assert len(np.unique(colors, axis=0)) == count
 
 
+@pytest.mark.parametrize("name", PALETTES)
+def test_any_two_colors_of_a_palette_differ_visibly(name):
+    """Colors of touching parts are never equal, see above: so they are this far apart."""
+    lab = cielab(PALETTES[name])
+    distance = np.linalg.norm(lab[:, None] - lab[None], axis=2)
+    assert distance[np.triu_indices(len(lab), 1)].min() >= 25.0
+
+
+def cielab(colors):
+    """CIELAB of 1976 with the white point D65; colors: (c, 3), sRGB."""
+    linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
+    xyz = linear @ np.array([[0.4124564, 0.2126729, 0.0193339], [0.3575761, 0.7151522, 0.1191920],
+                             [0.1804375, 0.0721750, 0.9503041]]) / [0.95047, 1.0, 1.08883]
+    f = np.where(xyz > (6 / 29) ** 3, np.cbrt(xyz), xyz / (3 * (6 / 29) ** 2) + 4 / 29)
+    return np.stack([116 * f[:, 1] - 16, 500 * (f[:, 0] - f[:, 1]), 200 * (f[:, 1] - f[:, 2])], axis=1)
+
+
+def test_cielab_of_known_colors():
+    known = {(1.0, 1.0, 1.0): (100, 0, 0), (0.0, 0.0, 0.0): (0, 0, 0), (1.0, 0.0, 0.0): (53.24, 80.09, 67.20)}
+    np.testing.assert_allclose(cielab(np.array(list(known))), list(known.values()), atol=0.02)
+
+
 def test_neighbors_are_told_apart_by_color_blind_people():
     # A star: the center against fifteen others, all in the distance of the palette itself.
     apart = distance_matrix()

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fewer or more parts, in steps from one number of parts that stands out to the next."""
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from ..scene import quiet, reactions
+from ..scene.errors import SceneError
+from ..scene.reporting import PartOperator
+from ..scene.store import Stored
+
+
+class REEB_PARTS_OT_step_detail(PartOperator, bpy.types.Operator):
+    """Go to the next number of parts that stands out, such as all limbs, or all fingers"""
+
+    bl_idname = "reeb_parts.step_detail"
+    bl_label = "Fewer or More Parts"
+
+    more: bpy.props.BoolProperty(name="More", default=True, description="More parts; without it, fewer")
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
+        result = obj.data.reeb_parts
+        count = len(result.parts)
+        levels = stored.numbering.strong_levels()
+        beyond = levels[levels > count] if self.more else levels[levels < count][::-1]
+        if not len(beyond):
+            raise SceneError(rpt_("There are no more parts than these.") if self.more
+                             else rpt_("There are no fewer parts than these."))
+        with quiet.quiet():
+            result.by_number, result.asked, result.n_parts = True, 0, int(beyond[0])
+        reactions.show(result, context)

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Detail and the number of parts are one thing; both, and all that was given to parts, outlast an edit of the mesh."""
+
+import importlib
+
+import bpy
+import numpy as np
+import pytest
+
+
+@pytest.fixture
+def result(obj):
+    bpy.ops.reeb_parts.decompose()
+    return obj.data.reeb_parts
+
+
+def levels(obj, package):
+    store = importlib.import_module(f"{package}.scene.store")
+    return store.load(obj.data).numbering.strong_levels().tolist()
+
+
+def test_a_number_of_parts_moves_the_detail_to_where_it_is(obj, result):
+    for count in (5, 1):  # between them, two branches at a time are cut off as clearly as each other
+        result.n_parts = count
+        assert len(result.parts) == count
+        shown = [part.number for part in result.parts]
+        # A nudge that is smaller than the way to the next cut changes nothing.
+        result.detail = result.detail + 1e-5
+        assert [part.number for part in result.parts] == shown
+
+
+def test_more_detail_after_a_number_adds_to_these_parts(result):
+    result.n_parts = 2
+    faces = [part.number for part in result.parts]
+    while len(result.parts) == 2:
+        result.detail += 0.01
+    assert len(result.parts) in {3, 4, 5}  # the branches are alike
+    assert set(faces) <= {part.number for part in result.parts}
+
+
+def test_a_number_that_cannot_be_had_is_told(result):
+    result.n_parts = 3
+    assert result.asked == 0
+    result.n_parts = 1_000_000
+    assert (result.asked, result.fewest, result.n_parts) == (1_000_000, 1, result.most)
+    assert len(result.parts) == result.most
+    result.detail = 0.5
+    assert result.asked == 0
+
+
+def test_steps_go_from_one_clear_choice_to_the_next_and_back(obj, result, package):
+    result.n_parts = 1
+    there = [1]
+    while len(there) < 5:
+        bpy.ops.reeb_parts.step_detail(more=True)
+        there.append(len(result.parts))
+    assert there == levels(obj, package)[:5]
+    assert 5 in there  # the trunk and its four branches
+    for count in reversed(there[:-1]):
+        bpy.ops.reeb_parts.step_detail(more=False)
+        assert len(result.parts) == count
+    with pytest.raises(RuntimeError, match="no fewer parts"):
+        bpy.ops.reeb_parts.step_detail(more=False)
+    result.n_parts = 1_000_000
+    with pytest.raises(RuntimeError, match="no more parts"):
+        bpy.ops.reeb_parts.step_detail(more=True)
+
+
+def test_the_panel_decomposes_an_edited_mesh_at_the_detail_that_it_shows(obj, result, package):
+    results = importlib.import_module(f"{package}.scene.results")
+    assert results.detail_of(obj) == {"detail": pytest.approx(0.5), "n_parts": 0}
+    result.n_parts = 4
+    assert results.detail_of(obj)["n_parts"] == 4
+    result.detail = 0.7
+    assert results.detail_of(obj) == {"detail": pytest.approx(0.7), "n_parts": 0}
+    bpy.ops.reeb_parts.clear()
+    assert results.detail_of(obj) == {}
+    assert results.detail_of(None) == {}
+
+
+def looks(result):
+    return {part.number: (part.name, tuple(np.round(part.color, 5)), part.locked, part.pinned)
+            for part in result.parts}
+
+
+def edit(mesh):
+    """Half of the faces are cut in two by another edge, and all points move a little."""
+    import bmesh
+
+    work = bmesh.new()
+    work.from_mesh(mesh)
+    bmesh.ops.subdivide_edges(work, edges=[edge for edge in work.edges if edge.index % 7 == 0], cuts=1)
+    bmesh.ops.triangulate(work, faces=work.faces[:])
+    work.to_mesh(mesh)
+    work.free()
+    mesh.update()
+
+
+def test_what_was_given_to_parts_outlasts_an_edit(obj, result, package):
+    results = importlib.import_module(f"{package}.scene.results")
+    result.detail = 0.6
+    parts = result.parts
+    parts[1].name = "Arm"
+    parts[2].color = (1.0, 0.0, 1.0)
+    parts[3].locked = True
+    before = looks(result)
+    edit(obj.data)
+    bpy.ops.reeb_parts.decompose(**results.detail_of(obj))
+    after = looks(result)
+    same = before.keys() & after.keys()
+    assert len(same) >= 5
+    assert {number: after[number] for number in same} == {number: before[number] for number in same}

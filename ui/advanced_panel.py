@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel "Advanced": the method and its parameters, what is written, how the graph is drawn."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..core.parameters import BERRETTI, LAVOUE, LIU
+from ..scene import store
+from .panel import ReebPanel, SubPanel, facts, settings_column
+
+
+class REEB_PARTS_PT_advanced(SubPanel, bpy.types.Panel):
+    bl_idname = "REEB_PARTS_PT_advanced"
+    bl_label = "Advanced"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.reeb_parts
+        row = self.layout.row(align=True)
+        row.prop(settings, "preset", text="")
+        if settings.differs_from_preset():
+            row.operator("reeb_parts.reset_parameters", text="", icon="LOOP_BACK")
+        if store.has_parts(context.object):
+            column = self.layout.column(align=True)
+            column.scale_y = 0.8
+            for line in facts(context.object.data.reeb_parts):
+                column.label(text=line)
+
+
+class SettingsPanel(ReebPanel):
+    """For closed panels below Advanced that show settings of the scene, by name, one below the other."""
+
+    bl_parent_id = "REEB_PARTS_PT_advanced"
+    bl_options = {"DEFAULT_CLOSED"}
+    names: tuple[str, ...]
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
+        for name in self.names:
+            column.prop(settings, name)
+
+
+class REEB_PARTS_PT_field(SettingsPanel, bpy.types.Panel):
+    bl_label = "Field"
+    names = ("base_spacing", "equalize", "n_slabs")
+
+
+class REEB_PARTS_PT_graph(SettingsPanel, bpy.types.Panel):
+    bl_label = "Graph"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
+        own = {LAVOUE: ("n_clusters",), LIU: ("outline_weight",)}.get(settings.method, ("small_region",))
+        for name in ("method", "pieces", "symmetry", *own, "loose_part"):
+            column.prop(settings, name)
+
+
+class REEB_PARTS_PT_boundaries(SettingsPanel, bpy.types.Panel):
+    bl_label = "Boundaries"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
+        of_paper = ("concavity_weight", "sigma") if settings.method == BERRETTI else ()
+        movable = () if settings.method in {LAVOUE, LIU} else ("follow_level_sets", "band_ratio")
+        for name in (*movable, *of_paper, "smoothing"):
+            column.prop(settings, name)
+
+
+class REEB_PARTS_PT_output(SettingsPanel, bpy.types.Panel):
+    bl_label = "Output"
+    names = ("vertex_groups", "face_attribute", "colors", "palette", "face_sets", "materials", "seams", "field")
+
+
+class REEB_PARTS_PT_overlay(SettingsPanel, bpy.types.Panel):
+    bl_label = "Overlay"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column, settings = settings_column(self, context)
+        for name in ("node_size", "line_thickness", "in_front"):
+            column.prop(settings, name)
+        self.layout.column().prop(settings, "highlight")
+
+
+CLASSES = (
+    REEB_PARTS_PT_advanced,
+    REEB_PARTS_PT_field,
+    REEB_PARTS_PT_graph,
+    REEB_PARTS_PT_boundaries,
+    REEB_PARTS_PT_output,
+    REEB_PARTS_PT_overlay,
+)
