@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 import bpy
@@ -78,10 +79,8 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
 def _keep_colors(mesh: bpy.types.Mesh) -> None:
     """Let the parts that take over numbers of the result before have its colours."""
     if store.has_result(mesh):
-        try:
+        with suppress(SceneError):  # it cannot be read any more
             outputs.keep_places(mesh, store.last(mesh).shown_parts())
-        except SceneError:  # it cannot be read any more
-            pass
 
 
 def clear(obj: bpy.types.Object) -> None:

@@ -2,7 +2,11 @@
 
 import numpy as np
 import pytest
+import shapes
+
+from core import decompose
 from core.result.levels import RATIO, detail_between, strong_levels
+from core.result.numbering import Numbering
 
 
 def test_by_hand():
@@ -22,7 +26,9 @@ def test_no_number_nearby_has_a_larger_fall(seed):
     levels = strong_levels(salience, 2)
     fall = np.append(0.0, salience[:-1] - salience[1:])
     fall = dict(zip(range(2, 82), fall, strict=True)) | {82: salience[-1]}
-    assert levels[0] == 2 and levels[-1] == 82 and (np.diff(levels) > 0).all()
+    assert levels[0] == 2
+    assert levels[-1] == 82
+    assert (np.diff(levels) > 0).all()
     for level in levels[1:-1].tolist():
         near = [number for number in fall if level / RATIO < number < level * RATIO]
         assert fall[level] == max(fall[number] for number in near)
@@ -51,10 +57,6 @@ def test_halfway():
 
 @pytest.fixture
 def decomposed():
-    import shapes
-    from core import decompose
-    from core.result.numbering import Numbering
-
     result = decompose(*shapes.tube_tree())
     none = np.zeros(result.n_candidates, np.int64)
     return Numbering.of(result, none, none)
