@@ -55,6 +55,21 @@ class REEB_PARTS_OT_merge_neighbour(ChosenPartsOperator, bpy.types.Operator):
     edit = staticmethod(edits.merged_into_neighbor)
 
 
+class REEB_PARTS_OT_merge_small(PartOperator, bpy.types.Operator):
+    """Merge each of the small parts into the neighbor that it is least clearly cut from"""
+
+    bl_idname = "reeb_parts.merge_small"
+    bl_label = "Merge Small Parts"
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
+        small = sorted(part_list.small_parts(obj.data), key=lambda part: part.share)
+        after, count = edits.small_merged(obj.data, stored, [part.number for part in small])
+        if not count:
+            raise SceneError(rpt_("There are no small parts to merge."))
+        edits.write(context, obj.data, stored, after)
+        return rpt_("{n} small parts are merged").format(n=count)
+
+
 class REEB_PARTS_OT_split(ChosenPartsOperator, bpy.types.Operator):
     """Split each chosen part in two, where its own best cut is"""
 

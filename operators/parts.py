@@ -5,12 +5,13 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import part_list, selection, store
+from ..scene import part_list, part_places, selection, store
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.store import Stored
+from ..viewport import framing
 
 
 class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
@@ -58,6 +59,18 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
         numbers = stored.face_numbers
         shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(mesh))
         selection.hide_faces(mesh, ~shown)
+
+
+class REEB_PARTS_OT_frame(PartOperator, bpy.types.Operator):
+    """Look at the chosen parts from near"""
+
+    bl_idname = "reeb_parts.frame"
+    bl_label = "Frame Parts"
+    bl_options = {"REGISTER"}
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
+        mask = np.isin(stored.face_numbers, chosen_numbers(obj.data))
+        framing.look_at(context, *part_places.box(obj, mask))
 
 
 class REEB_PARTS_OT_mark(ReportingOperator, bpy.types.Operator):

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from . import compute, defaults, mesh_arrays, schema, store, watch
+from . import compute, defaults, mesh_arrays, part_places, schema, store, watch
 from .outputs import vertex_groups
 
 
@@ -17,5 +17,5 @@ def unregister() -> None:
     watch.unregister()
     defaults.unregister()
     schema.unregister()
-    for module in (mesh_arrays, vertex_groups, compute, store):
+    for module in (mesh_arrays, vertex_groups, part_places, compute, store):
         module.forget()

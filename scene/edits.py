@@ -81,6 +81,31 @@ def merged_into_neighbor(mesh: bpy.types.Mesh, stored: Stored, number: int) -> S
     return merged(mesh, stored, [number, neighbor], neighbor)
 
 
+def small_merged(mesh: bpy.types.Mesh, stored: Stored, small: Iterable[int]) -> tuple[Stored, int]:
+    """The result with small parts merged into their neighbors, each beyond its least salient cut, and how many were.
+
+    Parts that touch nothing, that are locked, or that touch only locked parts stay. small : numbers, smallest first.
+    """
+    decomposition, numbers = stored.decomposition, stored.shown.copy()
+    pairs, length, salience = (decomposition.candidate_pairs, decomposition.candidate_pair_length,
+                               decomposition.pair_salience)
+    locked = locked_others(mesh, 0)
+    changed: set[int] = set()
+    for number in [number for number in small if number not in locked]:
+        ends = numbers[pairs]
+        beside = ((ends == number).sum(axis=1) == 1) & ~np.isin(ends, locked).any(axis=1)
+        if not beside.any():
+            continue
+        other = np.where(ends[beside, 0] == number, ends[beside, 1], ends[beside, 0])
+        neighbors, place = np.unique(other, return_inverse=True)
+        strongest, total = np.zeros(len(neighbors)), np.bincount(place, length[beside])
+        np.maximum.at(strongest, place, salience[beside])
+        into = int(neighbors[np.lexsort((-total, strongest))[0]])
+        numbers[numbers == number] = into
+        changed = changed - {number} | {into}
+    return _pinned(mesh, stored, numbers, changed), len(np.unique(stored.shown)) - len(np.unique(numbers))
+
+
 def halved(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
     """The result with a part split in two at the most salient cut inside it."""
     from ..core.result.editing import best_split

@@ -9,10 +9,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import bpy
-from bpy.app.translations import pgettext_rpt as rpt_
 
 from . import complete, part_names, store
-from .errors import SceneError
 from .part_meshes import part_meshes
 from .selection import nothing_selected
 from .temporary import removed
@@ -50,7 +48,7 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
     Raises
     ------
     SceneError
-        The parts are out of date, two parts of an object have the same name, or a file cannot be written.
+        The parts are out of date, or a file cannot be written.
     """
     files.folder(folder)
     names = FileNames()
@@ -58,14 +56,10 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
     for obj, wanted in objects:
         face_numbers = store.load(obj.data).face_numbers
         numbers = sorted(set(face_numbers.tolist()) if wanted is None else wanted)
-        called = [part_names.part_name(obj.data, number) for number in numbers]
-        if len(set(called)) < len(called):
-            raise SceneError(
-                rpt_("Two parts have the same name; give them different ones to write them as files."))
         meshes, _ = part_meshes(obj.data, face_numbers, numbers, close)
         with removed(bpy.data.meshes, *meshes.values()), nothing_selected(bpy.context.view_layer):
-            for number, name in zip(numbers, called, strict=True):
-                path = folder / f"{names.free(f'{obj.name} {name}')}.{kind}"
+            for number in numbers:
+                path = folder / f"{names.free(part_names.piece_name(obj, number))}.{kind}"
                 with files.writing(path, complete.model(meshes[number], kind), alone=True) as place:
                     _export(obj, meshes[number], place, kind)
                 paths.append(path)

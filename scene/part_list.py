@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
+import re
+from collections.abc import Callable, Container, Sequence
+from typing import Any
 
 import bmesh
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
+from mathutils import Matrix, Vector
 
 from . import quiet, store, targets, transaction
 from .errors import SceneError
@@ -72,6 +75,47 @@ def toggle(mesh: bpy.types.Mesh, number: int) -> None:
             if part.number == number:
                 part.selected = not part.selected
                 result.active = index
+
+
+# Up to so many parts there is no need to fold the small ones.
+_SHORT = 12
+
+
+def small_parts(mesh: bpy.types.Mesh) -> list[bpy.types.PropertyGroup]:
+    """The small parts that are folded into one row; none of a short list."""
+    parts, share = mesh.reeb_parts.parts, bpy.context.scene.reeb_parts.small / 100
+    return [part for part in parts if part.share < share] if len(parts) > _SHORT else []
+
+
+def folded(mesh: bpy.types.Mesh) -> set[int]:
+    """Numbers of the parts that the list leaves out: small ones, but for those that are ticked or the active one."""
+    if bpy.context.scene.reeb_parts.show_small:
+        return set()
+    active = mesh.reeb_parts.active
+    shown = {part.number for part in mesh.reeb_parts.parts[active : active + 1]}
+    return {part.number for part in small_parts(mesh) if not part.selected} - shown
+
+
+def ordered(parts: Sequence[bpy.types.PropertyGroup], by: str, matrix: Matrix) -> list[int]:
+    """The places of parts in another order.
+
+    by : "NUMBER", "SIZE", "NAME" or "PLACE". matrix : of the object, in the world. Returns the place that each part,
+    in the order given, has in the list.
+    """
+    keys: dict[str, Callable[[int], Any]] = {
+        "NUMBER": lambda index: index, "SIZE": lambda index: -parts[index].share,
+        "NAME": lambda index: _natural(parts[index].name),
+        "PLACE": lambda index: -(matrix @ Vector(parts[index].middle)).z,
+    }
+    places = [0] * len(parts)
+    for place, index in enumerate(sorted(range(len(parts)), key=keys[by])):
+        places[index] = place
+    return places
+
+
+def _natural(name: str) -> list[tuple[int, str]]:
+    """A key by which Part 9 comes before Part 10."""
+    return [(int(word), "") if word.isdecimal() else (-1, word.casefold()) for word in re.split(r"(\d+)", name)]
 
 
 def mark(mesh: bpy.types.Mesh, action: str, with_faces: Container[int] = ()) -> None:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
+
 import bpy
 import numpy as np
 
@@ -23,6 +25,29 @@ def own_name(mesh: bpy.types.Mesh, number: int) -> str:
     """The name of a part until the user gives it another; mirror images end in .L and .R while they are shown."""
     shown = next((part.own_name for part in mesh.reeb_parts.parts if part.number == number), "")
     return shown or default_name(number)
+
+
+def free_name(mesh: bpy.types.Mesh, number: int, name: str) -> str:
+    """A name for a part that no other part of the mesh has: with .001 and so on behind it if one has it."""
+    others = {part.name for part in mesh.reeb_parts.parts if part.number != number}
+    others |= {entry.name for entry in mesh.reeb_parts.names if entry.number != number}
+    return distinct(name, others)
+
+
+def distinct(name: str, others: Container[str]) -> str:
+    """A name that is none of some others, with .001 and so on behind it if needed; at most 63 bytes, as in Blender."""
+    count, free = 0, name
+    while free in others:
+        count += 1
+        ending = f".{count:03d}"
+        free = name.encode()[: 63 - len(ending)].decode(errors="ignore") + ending
+    return free
+
+
+def piece_name(obj: bpy.types.Object, number: int) -> str:
+    """The name of a part as an object or a file of its own: with the object's name before it."""
+    name = part_name(obj.data, number)
+    return name if name.startswith(f"{obj.name} ") else f"{obj.name} {name}"
 
 
 def keep_name(mesh: bpy.types.Mesh, number: int, name: str) -> None:

@@ -90,7 +90,7 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
     colors = {part.number: part.color[:] for part in obj.data.reeb_parts.parts}
     made = []
     for number, mesh in meshes.items():
-        piece = _piece(obj, mesh, part_names.part_name(obj.data, number), style)
+        piece = _piece(obj, mesh, part_names.piece_name(obj, number), style)
         piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER] = number
         collection.objects.link(piece)

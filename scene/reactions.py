@@ -44,10 +44,11 @@ def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     with quiet.quiet():
         if not part.name.strip():
             part.name = part_names.part_name(mesh, part.number)
+        part.name = part_names.free_name(mesh, part.number, part.name)
         _take_name(part)
         twin = part_names.unnamed_twin(part)
         if twin is not None and context.scene.reeb_parts.symmetry:
-            twin.name = bpy.utils.flip_name(part.name)
+            twin.name = part_names.free_name(mesh, twin.number, bpy.utils.flip_name(part.name))
             _take_name(twin)
 
 

@@ -14,6 +14,11 @@ def _viewports() -> Iterator[bpy.types.Area]:
         yield from (area for area in window.screen.areas if area.type == "VIEW_3D")
 
 
+def view_spaces() -> Iterator[bpy.types.SpaceView3D]:
+    """What the 3D viewports of all windows show."""
+    yield from (area.spaces.active for area in _viewports())
+
+
 def viewports() -> None:
     """Draw all 3D viewports again, with their sidebars."""
     for area in _viewports():

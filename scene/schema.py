@@ -35,6 +35,7 @@ class ReebPart(bpy.types.PropertyGroup):
         description="Colour of the part; one that you choose stays with it",
     )
     share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")
+    middle: FloatVectorProperty(size=3)  # of its surface, in the coordinates of the mesh
     own_name: StringProperty(description="The name of the part until the user gives it another")
     locked: BoolProperty(
         name="Locked", update=reactions.lock,

@@ -263,6 +263,20 @@ class ReebPartsSettings(
         names = ("preset", "palette", *OVERLAY)
         return {"graph": self.graph, **{name: getattr(self, name) for name in names}}
 
+    sort: EnumProperty(
+        name="Sort", default="NUMBER",
+        items=[("NUMBER", "Number", "In the order of their numbers: those of fewer parts first"),
+               ("SIZE", "Size", "Largest first"), ("NAME", "Name", "By name"), ("PLACE", "Place", "Highest first")],
+        description="The order of the parts in the list",
+    )
+    show_small: BoolProperty(
+        name="Show Small Parts", default=False,
+        description="List the parts, too, that are smaller than the share set under Advanced, Overlay",
+    )
+    small: FloatProperty(
+        name="Small below", default=1.0, min=0.0, max=100.0, subtype="PERCENTAGE",
+        description="Parts of a smaller share of the surface are folded into one row where the list is long",
+    )
     highlight: BoolProperty(
         name="Outline chosen parts", default=True,
         description="Draw a line around the parts that are chosen in the list",

@@ -79,7 +79,9 @@ class REEB_PARTS_PT_overlay(SettingsPanel, bpy.types.Panel):
         column, settings = settings_column(self, context)
         for name in ("node_size", "line_thickness", "in_front"):
             column.prop(settings, name)
-        self.layout.column().prop(settings, "highlight")
+        column = self.layout.column()
+        column.prop(settings, "highlight")
+        column.prop(settings, "small")
 
 
 CLASSES = (

@@ -23,9 +23,11 @@ def _draw_operators(layout: bpy.types.UILayout, *entries: tuple[str, str]) -> No
 def draw_part_menu(layout: bpy.types.UILayout) -> None:
     """All that can be done with the chosen parts; also in the list's context menu."""
     layout.operator_menu_enum("reeb_parts.mark", "action", icon="CHECKBOX_HLT")
+    layout.operator("reeb_parts.frame", icon="VIEWZOOM")
     layout.separator()
     _draw_operators(
         layout, ("reeb_parts.merge", "AUTOMERGE_ON"), ("reeb_parts.merge_neighbour", "NONE"),
+        ("reeb_parts.merge_small", "NONE"),
         ("reeb_parts.split", "MOD_EDGESPLIT"), ("reeb_parts.cut", "MOD_BOOLEAN"), ("reeb_parts.grow", "ADD"),
         ("reeb_parts.shrink", "REMOVE"), ("reeb_parts.slide", "ARROW_LEFTRIGHT"), ("reeb_parts.paint", "BRUSH_DATA"))
     layout.separator()

@@ -8,8 +8,11 @@ import textwrap
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
+from mathutils import Matrix
 
-from ..scene import graph_objects, jobs, notes, part_names, store
+from ..scene import graph_objects, jobs, notes, part_list, part_names, store
+
+NARROW = 215  # width of a sidebar, in pixels of a screen without scaling, that has no room for shares
 
 
 def _result(context: bpy.types.Context) -> bpy.types.PropertyGroup | None:
@@ -45,7 +48,7 @@ def _names_before(layout: bpy.types.UILayout) -> bpy.types.UILayout:
 
 
 class REEB_PARTS_UL_parts(bpy.types.UIList):
-    """Parts with colour, name, share of the area, lock and mark."""
+    """Parts with color, name, share of the area, lock and mark; small ones are left out of a long list."""
 
     def draw_item(self, context: bpy.types.Context, layout: bpy.types.UILayout, data: bpy.types.PropertyGroup,
                   item: bpy.types.PropertyGroup, icon: int, active_data: bpy.types.PropertyGroup, active_property: str,
@@ -55,13 +58,31 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
         chip.ui_units_x = 1.0
         chip.prop(item, "color", text="")
         row.prop(item, "name", text="", emboss=False)
-        share = row.row()
-        share.alignment = "RIGHT"
-        share.label(text=f"{100 * item.share:.1f} %")
+        if context.region.width / context.preferences.system.ui_scale > NARROW:
+            share = row.row()
+            share.alignment = "RIGHT"
+            share.label(text=f"{100 * item.share:.1f} %")
         unlocked = "PINNED" if item.pinned else "UNLOCKED"
         row.prop(item, "locked", text="", emboss=False, icon="LOCKED" if item.locked else unlocked)
         row.prop(item, "selected", text="", emboss=False,
                  icon="CHECKBOX_HLT" if item.selected else "CHECKBOX_DEHLT")
+
+    def draw_filter(self, context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
+        row = layout.row(align=True)
+        row.prop(self, "filter_name", text="", icon="VIEWZOOM")
+        row.prop(context.scene.reeb_parts, "sort", text="")
+
+    def filter_items(self, context: bpy.types.Context, data: bpy.types.PropertyGroup, property: str
+                     ) -> tuple[list[int], list[int]]:
+        parts, settings = getattr(data, property), context.scene.reeb_parts
+        flags = [self.bitflag_filter_item] * len(parts)
+        if self.filter_name:  # a small part that is looked for by its name is shown
+            flags = bpy.types.UI_UL_list.filter_items_by_name(
+                self.filter_name, self.bitflag_filter_item, parts, "name")
+        elif left_out := part_list.folded(data.id_data):
+            flags = [0 if part.number in left_out else self.bitflag_filter_item for part in parts]
+        matrix = context.object.matrix_world if context.object is not None else Matrix()
+        return flags, part_list.ordered(parts, settings.sort, matrix)
 
 
 class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
@@ -86,7 +107,7 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
         else:
             _draw_notes(layout, result, width)
             _draw_detail(layout, context, result)
-            _draw_parts(layout, result)
+            _draw_parts(layout, context, result)
 
 
 def _draw_decompose(layout: bpy.types.UILayout, again: bool) -> None:
@@ -170,10 +191,10 @@ def _count(number: int, one: str, several: str) -> str:
     return iface_(one if number == 1 else several).format(n=number)
 
 
-def _draw_parts(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup) -> None:
+def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup) -> None:
     """The list, what is done with its parts, and the way to objects."""
     row = layout.row()
-    row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=6)
+    row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=7)
     column = row.column(align=True)
     column.operator("reeb_parts.merge", text="", icon="AUTOMERGE_ON")
     column.operator("reeb_parts.split", text="", icon="MOD_EDGESPLIT")
@@ -181,7 +202,9 @@ def _draw_parts(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup) -> 
     column.operator("reeb_parts.grow", text="", icon="ADD")
     column.operator("reeb_parts.shrink", text="", icon="REMOVE")
     column.separator()
+    column.operator("reeb_parts.frame", text="", icon="VIEWZOOM")
     column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT")
+    _draw_small(layout, context, result)
     _draw_tools(layout)
     row = layout.row(align=True)
     row.operator("reeb_parts.select", text="Select")
@@ -190,6 +213,18 @@ def _draw_parts(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup) -> 
     row = layout.row()
     row.scale_y = 1.2
     row.operator("reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
+
+
+def _draw_small(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup) -> None:
+    """One row for all small parts of a long list."""
+    small = part_list.small_parts(result.id_data)
+    if not small:
+        return
+    settings = context.scene.reeb_parts
+    row = layout.row(align=True)
+    row.prop(settings, "show_small", text=_count(len(small), n_("{n} Small Part"), n_("{n} Small Parts")),
+             icon="DOWNARROW_HLT" if settings.show_small else "RIGHTARROW", toggle=True)
+    row.operator("reeb_parts.merge_small", text="Merge Small")
 
 
 def _draw_tools(layout: bpy.types.UILayout) -> None:

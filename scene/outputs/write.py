@@ -16,7 +16,7 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import PALETTE, PALETTES, number_colors, number_places
-from .. import part_names, quiet, transaction
+from .. import part_names, part_places, quiet, transaction
 from . import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
 
 #: The outputs by the names of their switches, see settings.OutputProperties.
@@ -114,15 +114,17 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
     wanted = numbered.numbers.tolist()
     shades = _part_colors(mesh, numbered)
     own_names, kept_names = numbered.names, part_names.kept_names(mesh)
+    middles = part_places.middles(mesh, numbered)
     with quiet.quiet():
         result.parts.clear()
         for label, number in enumerate(wanted):
             part = result.parts.add()
             part.number = number
             part.own_name = own_names[label]
-            part.name = kept_names.get(number) or own_names[label]
+            part.name = kept_names.get(number) or part_names.distinct(own_names[label], kept_names.values())
             part.color = shades[label]
             part.share = numbered.parts.share[label]
+            part.middle = middles[label]
             for key, value in zip(keys, known.get(number, ()), strict=False):
                 setattr(part, key, value)
         result.active = wanted.index(active) if active in wanted else 0

@@ -31,6 +31,9 @@ OPERATORS = {
     # Teile von Hand
     "Merge Parts": "Teile zusammenführen",
     "Merge into Neighbour": "Mit Nachbarn zusammenführen",
+    "Merge Small": "Zusammenführen",
+    "Merge Small Parts": "Kleine Teile zusammenführen",
+    "Frame Parts": "Teile heranholen",
     "Split Parts": "Teile teilen",
     "Split at Graph Node": "Am Graphknoten teilen",
     "Cut Part at Point": "Teil am Punkt schneiden",
@@ -92,6 +95,27 @@ TEXTS = {
     "{n} loop": "{n} Schleife",
     "{n} loops": "{n} Schleifen",
     "Advanced": "Erweitert",
+    "{n} Small Part": "{n} kleines Teil",
+    "{n} Small Parts": "{n} kleine Teile",
+    "Sort": "Sortieren",
+    "Size": "Größe",
+    "Place": "Lage",
+    "In the order of their numbers: those of fewer parts first": "Nach ihren Nummern, die von weniger Teilen zuerst",
+    "Largest first": "Die größten zuerst",
+    "By name": "Nach Namen",
+    "Highest first": "Die obersten zuerst",
+    "The order of the parts in the list": "Die Reihenfolge der Teile in der Liste",
+    "Show Small Parts": "Kleine Teile zeigen",
+    "List the parts, too, that are smaller than the share set under Advanced, Overlay":
+        "Auch die Teile nennen, die kleiner sind als der Anteil unter „Erweitert“, „Überlagerung“",
+    "Small below": "Klein unter",
+    "Parts of a smaller share of the surface are folded into one row where the list is long":
+        "Teile mit einem kleineren Anteil an der Oberfläche stehen in langen Listen zusammen in einer Zeile",
+    "Merge each of the small parts into the neighbor that it is least clearly cut from":
+        "Jedes der kleinen Teile mit dem Nachbarn zusammenführen, von dem es am undeutlichsten getrennt ist",
+    "There are no small parts to merge.": "Es gibt keine kleinen Teile zum Zusammenführen.",
+    "{n} small parts are merged": "{n} kleine Teile sind zusammengeführt",
+    "Look at the chosen parts from near": "Die gewählten Teile aus der Nähe zeigen",
     "Decompose cuts the selected mesh into parts. The mesh itself stays as it is.":
         "„Zerlegen“ zerschneidet das ausgewählte Mesh in Teile. Das Mesh selbst bleibt, wie es ist.",
     "Select a mesh, then press Decompose.": "Bitte ein Mesh auswählen, dann „Zerlegen“ drücken.",
@@ -644,8 +668,6 @@ TEXTS = {
     "Unwrapped into the UV map {name}": "In die UV-Map {name} abgewickelt",
     "There is no folder to write to. Choose one and try again.":
         "Es ist kein Ordner angegeben. Bitte einen wählen und erneut versuchen.",
-    "Two parts have the same name; give them different ones to write them as files.":
-        "Zwei Teile haben denselben Namen; als Dateien brauchen sie verschiedene.",
     "{path} could not be written: {reason}": "{path} konnte nicht geschrieben werden: {reason}",
     "{path} could not be written whole. Is the disk full?":
         "{path} konnte nicht vollständig geschrieben werden. Ist der Datenträger voll?",

@@ -86,6 +86,12 @@ def few_parts(obj):
     choose(0)(obj)
 
 
+def many_small(obj):
+    """So many parts that the list folds those under 10 %."""
+    obj.data.reeb_parts.n_parts = 20
+    bpy.context.scene.reeb_parts.small = 10.0
+
+
 def small_part(obj):
     """The part with the smallest share is the active one."""
     shares = [part.share for part in obj.data.reeb_parts.parts]
@@ -146,6 +152,8 @@ CASES = {
     "release": Case(prepare=pinned),
     "merge": Case(prepare=choose_neighbours),
     "merge_neighbour": Case(prepare=small_part),
+    "merge_small": Case(prepare=many_small),
+    "frame": Case(prepare=choose(1)),
     "split": Case(prepare=few_parts),
     "grow": Case(prepare=few_parts),
     "shrink": Case(prepare=few_parts),
@@ -253,7 +261,7 @@ def flag(mesh, name, vertices, rule):
         items.foreach_set(name, [rule(vertices[i] for i in item.vertices) for item in items])
 
 
-OURS = re.compile(r"\.?reeb_|Reeb |Parts? \d|Parts of ")
+OURS = re.compile(r"\.?reeb_|Reeb |(\w+ )?Parts? \d|Parts of ")
 RESULT = ("result", "made", "users")  # what an operator writes by rights, and what counts its pieces
 FLAGS = re.compile(r"\.select_|\.hide_|\.?uv_seam|\.uv_select|sharp_|material_index")
 
@@ -282,7 +290,7 @@ def set_up(package, name, situation, make, tree, tmp_path):
         bpy.ops.reeb_parts.decompose()
     case.prepare(obj)
     arguments = case.arguments(obj) if callable(case.arguments) else case.arguments
-    active = {"mesh": obj.name, "node": "Reeb saddle", "arcs": "Reeb arcs", "piece": "Part 02"}[case.active]
+    active = {"mesh": obj.name, "node": "Reeb saddle", "arcs": "Reeb arcs", "piece": "Tree Part 02"}[case.active]
     if situation == "linked from a file":
         link_from_file(tmp_path / "library.blend", active)
     elif case.active == "piece" or situation not in OTHER_MODES:

@@ -79,13 +79,13 @@ def test_a_folder_that_cannot_be_made_is_refused_in_a_sentence(obj, tmp_path):
         bpy.ops.reeb_parts.export(directory=str(tmp_path / "file" / "folder"))
 
 
-def test_parts_of_one_name_are_refused_and_nothing_written(obj, tmp_path):
+def test_parts_that_are_given_one_name_have_two(obj, tmp_path):
     bpy.ops.reeb_parts.decompose()
     for part in obj.data.reeb_parts.parts[:2]:
         part.name = "Arm"
-    with pytest.raises(RuntimeError, match="same name"):
-        bpy.ops.reeb_parts.export(directory=str(tmp_path))
-    assert list(tmp_path.iterdir()) == []
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format="stl")
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["Tree Arm.001.stl", "Tree Arm.stl", "Tree Part 03.stl", "Tree Part 04.stl", "Tree Part 05.stl"]
 
 
 def test_objects_whose_names_differ_by_what_files_cannot_have(make, tree, tmp_path):

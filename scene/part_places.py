@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where parts are: the middle of each, and the box around it, in the coordinates of the mesh."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ..core.result.numbering import NumberedParts
+from . import mesh_arrays
+
+_middles: list[tuple[tuple, np.ndarray]] = []  # the last ones, with what they are of
+
+
+def forget() -> None:
+    """Free what is kept in memory."""
+    _middles.clear()
+
+
+def middles(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
+    """The middle of the surface of each part, (count, 3) float64; Object Mode."""
+    candidate, part = _candidate_middles(mesh, numbered.candidates), numbered.parts.candidate_part
+    weight = numbered.parts.decomposition.candidate_area + 1e-300
+    total = np.bincount(part, weight)
+    return np.stack([np.bincount(part, weight * axis) for axis in candidate.T], axis=1) / total[:, None]
+
+
+def _candidate_middles(mesh: bpy.types.Mesh, candidates: np.ndarray) -> np.ndarray:
+    """The middle of the surface of each candidate, (c, 3) float64; kept for the next step of a drag."""
+    key = mesh.session_uid, mesh.reeb_parts.fingerprint, id(candidates)
+    if not _middles or _middles[0][0] != key:
+        center = mesh_arrays.read(mesh.polygons, "center", np.float32, 3).astype(np.float64)
+        area = mesh_arrays.read(mesh.polygons, "area", np.float32).astype(np.float64) + 1e-300
+        total = np.bincount(candidates, area)
+        found = np.stack([np.bincount(candidates, area * axis) for axis in center.T], axis=1) / total[:, None]
+        _middles[:] = [(key, found)]
+    return _middles[0][1]
+
+
+def box(obj: bpy.types.Object, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The corners, least and largest, of the box around some faces of an object as it is shown, in the world.
+
+    mask : (p,) bool, at least one.
+    """
+    vertex, face = mesh_arrays.face_corners(obj.data)
+    world = np.array(obj.matrix_world, np.float64)
+    points = mesh_arrays.shown_points(obj)[np.unique(vertex[mask[face]])] @ world[:3, :3].T + world[:3, 3]
+    return points.min(axis=0), points.max(axis=0)

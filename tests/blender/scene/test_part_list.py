@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The list: its order, what is folded in it, names that differ, and small parts merged."""
+
+import importlib
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Euler
+
+
+@pytest.fixture
+def result(obj):
+    bpy.ops.reeb_parts.decompose()
+    return obj.data.reeb_parts
+
+
+@pytest.fixture
+def listed(package):
+    return importlib.import_module(f"{package}.scene.part_list")
+
+
+def order(listed, obj, by):
+    """Names in the order of the list."""
+    parts = obj.data.reeb_parts.parts
+    places = listed.ordered(parts, by, obj.matrix_world)
+    return [parts[places.index(place)].name for place in range(len(parts))]
+
+
+def test_no_two_parts_have_one_name(obj, result):
+    parts = result.parts
+    parts[1].name = parts[2].name = parts[3].name = "Arm"
+    assert [part.name for part in parts] == ["Part 01", "Arm", "Arm.001", "Arm.002", "Part 05"]
+    parts[1].name = "Part 05"
+    assert parts[1].name == "Part 05.001"
+    parts[2].name = "Arm"  # free again
+    assert parts[2].name == "Arm"
+    assert sorted(group.name for group in obj.vertex_groups) == sorted(part.name for part in parts)
+
+
+def test_a_name_that_a_hidden_part_would_have(result):
+    result.parts[0].name = "Part 06"  # there are five
+    result.n_parts = 6
+    assert sorted(part.name for part in result.parts)[-3:] == ["Part 05", "Part 06", "Part 06.001"]
+
+
+def test_long_names_stay_within_what_blender_keeps(result):
+    for part in result.parts:
+        part.name = 40 * "ä"
+    assert len({part.name for part in result.parts}) == 5
+    assert max(len(part.name.encode()) for part in result.parts) <= 63
+
+
+def test_orders(obj, result, listed):
+    assert order(listed, obj, "NUMBER") == [f"Part 0{n}" for n in range(1, 6)]
+    shares = {part.name: part.share for part in result.parts}
+    assert order(listed, obj, "SIZE") == sorted(shares, key=lambda name: -shares[name])
+    for part, name in zip(result.parts, ("leg 10", "Leg 9", "arm", "Body", "x"), strict=True):
+        part.name = name
+    assert order(listed, obj, "NAME") == ["arm", "Body", "Leg 9", "leg 10", "x"]
+
+
+@pytest.mark.parametrize("turn", [(0, 0, 0), (2.0, 0.3, 1.0)])
+def test_the_order_by_place_is_from_the_top_of_the_world(obj, result, listed, turn):
+    obj.rotation_euler, obj.scale = Euler(turn), (1.0, 2.0, 0.5)
+    bpy.context.view_layer.update()
+    faces = np.zeros(len(obj.data.polygons), np.int32)
+    obj.data.attributes["reeb_part"].data.foreach_get("value", faces)
+    area = np.array([face.area for face in obj.data.polygons])
+    center = np.array([face.center[:] for face in obj.data.polygons])
+    height = {}
+    for part in result.parts:
+        middle = np.average(center[faces == part.number], axis=0, weights=area[faces == part.number])
+        np.testing.assert_allclose(part.middle, middle, atol=1e-5)
+        height[part.name] = (np.array(obj.matrix_world)[2] @ [*middle, 1.0]).item()
+    assert order(listed, obj, "PLACE") == sorted(height, key=lambda name: -height[name])
+
+
+def test_small_parts_of_a_long_list_are_folded(obj, result, listed):
+    settings = bpy.context.scene.reeb_parts
+    settings.small = 5.0
+    result.n_parts = 12
+    assert listed.small_parts(obj.data) == []
+    result.n_parts = 30
+    small = {part.number for part in result.parts if part.share < 0.05}
+    assert small
+    assert {part.number for part in listed.small_parts(obj.data)} == small
+    assert listed.folded(obj.data) == small - {result.parts[result.active].number}
+    some = next(part for part in result.parts if part.number in small)
+    some.selected = True
+    assert some.number not in listed.folded(obj.data)
+    settings.show_small = True
+    assert listed.folded(obj.data) == set()
+
+
+def test_small_parts_are_merged_into_what_they_touch(obj, result):
+    bpy.context.scene.reeb_parts.small = 2.0
+    result.n_parts = 30
+    shares = {part.number: part.share for part in result.parts}
+    small = [number for number, share in shares.items() if share < 0.02]
+    kept = next(part for part in result.parts if part.number == small[0])
+    kept.locked = True
+    bpy.ops.reeb_parts.merge_small()
+    after = {part.number: part.share for part in result.parts}
+    assert set(after) == set(shares) - set(small[1:])
+    assert sum(after.values()) == pytest.approx(1.0)
+    assert after[kept.number] == pytest.approx(shares[kept.number])
+    assert all(after[number] >= shares[number] - 1e-6 for number in after)
+    with pytest.raises(RuntimeError, match="no small parts"):
+        bpy.ops.reeb_parts.merge_small()
+
+
+def test_pieces_have_the_name_of_their_model(obj, result):
+    result.parts[0].name = "Tree trunk"
+    result.parts[1].name = "arm"
+    bpy.ops.reeb_parts.separate()
+    names = sorted(item.name for item in bpy.data.objects if "reeb_parts_number" in item)
+    assert names == ["Tree Part 03", "Tree Part 04", "Tree Part 05", "Tree arm", "Tree trunk"]
+
+
+def test_the_view_goes_to_a_part(obj, result):
+    result.active = 2
+    views = [area.spaces.active.region_3d for screen in bpy.data.screens for area in screen.areas
+             if area.type == "VIEW_3D" and screen == bpy.context.window_manager.windows[0].screen]
+    bpy.ops.reeb_parts.frame()
+    faces = np.zeros(len(obj.data.polygons), np.int32)
+    obj.data.attributes["reeb_part"].data.foreach_get("value", faces)
+    vertices = {v for p in obj.data.polygons if faces[p.index] == result.parts[2].number for v in p.vertices}
+    points = np.array([obj.matrix_world @ obj.data.vertices[v].co for v in vertices])
+    for view in views:
+        np.testing.assert_allclose(view.view_location, (points.min(0) + points.max(0)) / 2, atol=1e-5)
