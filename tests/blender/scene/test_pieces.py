@@ -318,7 +318,7 @@ def test_names_colours_and_materials_of_the_parts(obj):
     bpy.ops.reeb_parts.separate(**KEEP)
     listed = obj.data.reeb_parts.parts
     assert [piece.name for piece in pieces()] == [f"Tree {part.name}" for part in listed]
-    assert [piece.data.name for piece in pieces()] == [part.name for part in listed]
+    assert [piece.data.name for piece in pieces()] == [f"Tree {part.name}" for part in listed]
     for piece, part in zip(pieces(), listed, strict=True):
         srgb = np.array(part.color)  # Blender draws what objects are coloured with as linear
         linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
