@@ -77,7 +77,7 @@ def write_folder(folder: Path, files: dict[str, bytes]) -> None:
         place.chmod(0o777 & ~_UMASK)
         for name, data in files.items():
             (place / name).parent.mkdir(parents=True, exist_ok=True)
-            _write(place / name, data)
+            (place / name).write_bytes(data)
         if folder.exists():
             former = Path(tempfile.mkdtemp(prefix=HIDDEN, dir=folder.parent))
             folder.replace(former / folder.name)
@@ -102,7 +102,7 @@ def remove_leftovers(folder: Path) -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Write a file through to the disk, so that a full disk shows."""
+    """Write a file through to the disk."""
     with path.open("wb") as file:
         file.write(data)
         file.flush()

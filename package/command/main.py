@@ -12,9 +12,9 @@ import sys
 
 from ..core.errors import ReebError
 from ..core.result.decomposition import VERSION
-from . import decompose
+from . import batch, decompose
 
-COMMANDS = {"decompose": decompose}
+COMMANDS = {"decompose": decompose, "batch": batch}
 FAILED, INTERRUPTED = 1, 130
 
 

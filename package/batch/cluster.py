@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Work spread over the workers of a Dask cluster: the one that is there, or one that is made on this machine."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import signal
+import threading
+import time
+from collections.abc import Callable, Generator, Iterable, Iterator
+from itertools import islice
+from typing import Any
+
+import dask
+from distributed import Client, LocalCluster, as_completed
+
+from ..core.errors import ReebError
+from ..core.sentence import Sentence
+from .model_process import ModelProcess
+
+#: Jobs that are with the scheduler per thread of the workers. The rest wait here: the scheduler knows of no more jobs,
+#: however many there are.
+AHEAD = 4
+PATIENCE = 20.0  # seconds that a scheduler may take to answer
+LOOK = 5.0  # seconds between two looks at how many workers there are
+
+_own = threading.local()
+
+
+class ClusterError(ReebError):
+    """There is no cluster at an address."""
+
+
+@contextlib.contextmanager
+def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[Client]:
+    """Connect to a cluster.
+
+    Parameters
+    ----------
+    scheduler : str or None
+        Address of one that is there; None makes one on this machine, which ends with the block.
+    workers : int
+        Processes of that one.
+    dashboard : str
+        Address of its dashboard.
+
+    Yields
+    ------
+    client : distributed.Client
+
+    Raises
+    ------
+    ClusterError
+        Nobody answers at the address.
+    """
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    if scheduler is not None:
+        try:
+            client = Client(scheduler, timeout=PATIENCE)
+        except (OSError, ValueError) as error:
+            raise ClusterError(Sentence("No scheduler answers at {address}: {reason}", address=scheduler,
+                                        reason=error)) from error
+        with client:
+            yield client
+        return
+    # The workers inherit that they do not hear Ctrl+C: it is for this process, which ends them.
+    former = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        # What needs memory are the processes of the models, which have limits of their own.
+        with dask.config.set({"distributed.worker.memory.terminate": False}):
+            cluster = LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
+                                   dashboard_address=dashboard, silence_logs=logging.CRITICAL)
+            client = Client(cluster)
+    finally:
+        signal.signal(signal.SIGINT, former)
+    with cluster, client:
+        yield client
+
+
+def spread(client: Client, function: Callable[[Any], Any], jobs: Iterable[Any]) -> Generator[tuple[Any, Any]]:
+    """Have the workers do jobs, a bounded number at a time.
+
+    Parameters
+    ----------
+    client : distributed.Client
+    function : callable(job) -> answer
+        Can be imported by the workers.
+    jobs : iterable
+        Taken when there is room for them.
+
+    Yields
+    ------
+    job, answer : object
+        As they end. The answer is the exception if the worker that had the job ended, again and again.
+
+    Notes
+    -----
+    What the scheduler and this process hold is in proportion to the number of workers, not to that of jobs.
+    """
+    waiting = iter(jobs)
+    running: dict[Any, Any] = {}
+    ended = as_completed(with_results=True, raise_errors=False)
+    room, looked = 0, float("-inf")
+    while True:
+        if time.monotonic() > looked + LOOK:
+            room, looked = AHEAD * max(sum(client.nthreads().values()), 1), time.monotonic()
+        for job in islice(waiting, max(room - len(running), 0)):
+            future = client.submit(function, job, pure=False)
+            running[future.key] = job
+            ended.add(future)
+        if not running:
+            return
+        future, answer = next(ended)
+        yield running.pop(future.key), _failure(answer) if future.status != "finished" else answer
+
+
+def _failure(answer: Any) -> BaseException:
+    """The exception of a job that did not end well."""
+    return answer[1] if isinstance(answer, tuple) else answer if isinstance(answer, BaseException) else RuntimeError(
+        str(answer))
+
+
+def do_job(job: dict[str, Any]) -> dict[str, Any]:
+    """What a worker does with a model: have it done by the process that belongs to this thread.
+
+    job : dict, see ``work.do_model``, with ``memory_limit`` in bytes and ``time_limit`` in seconds. Returns the answer
+    of ``ModelProcess.run``.
+    """
+    process = getattr(_own, "process", None)
+    if process is None or process.memory_limit != job["memory_limit"]:
+        if process is not None:
+            process.close()
+        process = _own.process = ModelProcess(job["memory_limit"])
+    return process.run(job, job["time_limit"])

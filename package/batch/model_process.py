@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A process that does one model after the other, with a limit of memory and of time.
+
+What goes wrong there - a crash, an endless loop, all memory taken - ends that process and costs the model that it
+was at; the next model gets a new one. It ends, too, when the process that started it has ended, however that did.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import queue
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import IO, Any
+
+from .records import CRASH, MEMORY, TIME, Settings, digest_of, failure
+
+LOOK = 0.1  # seconds between two looks at the memory of the process
+START = 120.0  # seconds that the process may take to import everything, on a busy machine
+ENDED: dict[str, Any] = {}  # in place of a message: there will be none any more
+
+
+class ModelProcess:
+    """The process, as the one that asks sees it. Not to be used by two threads at a time.
+
+    Parameters
+    ----------
+    memory_limit : int
+        Bytes; 0 for no limit.
+    """
+
+    def __init__(self, memory_limit: int = 0) -> None:
+        self.memory_limit = memory_limit
+        self._process: subprocess.Popen[bytes] | None = None
+        self._messages: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
+        self._errors: IO[bytes] | None = None
+
+    def run(self, job: dict[str, Any], seconds: float) -> dict[str, Any]:
+        """Have a model done.
+
+        Parameters
+        ----------
+        job : dict
+            As ``work.do_model`` takes it.
+        seconds : float
+            Limit of time; 0 for none.
+
+        Returns
+        -------
+        answer : dict
+            As ``work.do_model`` returns it. If the process had to be ended or ended itself, the record in the folder of
+            the model says why.
+        """
+        start = time.monotonic()
+        status, reason = self._attempt(job, seconds)
+        if not status:
+            return self._answer
+        self.close()
+        with suppress(OSError):  # such as a full disk: it is open then, and will be tried again
+            _write_failure(job, status, reason)
+        return {"status": status, "reason": reason, "seconds": round(time.monotonic() - start, 4)}
+
+    def _attempt(self, job: dict[str, Any], seconds: float) -> tuple[str, str]:
+        """Wait for the answer; what went wrong otherwise and why, two empty words if nothing did."""
+        if self._process is None and not self._start():
+            return CRASH, f"The process could not start: {self._last_words()}"
+        assert self._process is not None
+        assert self._process.stdin is not None
+        with suppress(BrokenPipeError):  # it has ended meanwhile, as the next message says
+            self._process.stdin.write(json.dumps(job).encode() + b"\n")
+            self._process.stdin.flush()
+        until = time.monotonic() + seconds
+        while True:
+            try:
+                self._answer = self._messages.get(timeout=LOOK)
+                break
+            except queue.Empty:
+                if seconds and time.monotonic() > until:
+                    return TIME, f"It took longer than {seconds:g} s."
+                if self.memory_limit and self._memory() > self.memory_limit:
+                    return MEMORY, self._too_much()
+        if self._answer is ENDED:
+            return self._end_of_process()
+        if self._answer.get("memory"):
+            return MEMORY, self._too_much()
+        return "", ""
+
+    def _start(self) -> bool:
+        """Start the process; whether it is ready."""
+        variables = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "PYTHONUNBUFFERED": "1"}
+        self._messages = queue.SimpleQueue()
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - it is closed with the process
+        package = __package__.removesuffix(".batch")
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", f"{package}.batch.model_process", str(self.memory_limit)], stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE, stderr=self._errors, env=variables, start_new_session=True)
+        threading.Thread(target=_listen, args=(self._process.stdout, self._messages), daemon=True).start()
+        try:
+            return bool(self._messages.get(timeout=START).get("ready"))
+        except queue.Empty:
+            return False
+
+    def _memory(self) -> int:
+        """Bytes that the process and those that it started have in memory."""
+        import psutil
+
+        assert self._process is not None
+        total = 0
+        with suppress(psutil.Error):
+            own = psutil.Process(self._process.pid)
+            for process in (own, *own.children(recursive=True)):
+                with suppress(psutil.Error):
+                    total += process.memory_info().rss
+        return total
+
+    def _too_much(self) -> str:
+        limit = f" than {self.memory_limit / 2**30:.3g} GiB" if self.memory_limit else " than there is"
+        return f"It needed more memory{limit}."
+
+    def _end_of_process(self) -> tuple[str, str]:
+        """What an end that nobody asked for means."""
+        assert self._process is not None
+        status = self._process.wait()
+        if status == -9:
+            return CRASH, "The process was killed, perhaps for lack of memory."
+        cause = signal.Signals(-status).name if status < 0 else f"exit status {status}"
+        return CRASH, f"The process crashed ({cause}): {self._last_words()}"
+
+    def _last_words(self) -> str:
+        """The first line of what the process printed last."""
+        if self._errors is None:
+            return ""
+        self._errors.seek(0)
+        lines = [line for line in self._errors.read().decode(errors="replace").splitlines() if line.strip()]
+        fatal = [line for line in lines if line.startswith("Fatal Python error")]
+        return (fatal or lines[-1:] or ["it said nothing"])[0][:300]
+
+    def close(self) -> None:
+        """End the process, and all that it started."""
+        if self._process is None:
+            return
+        with suppress(OSError):
+            if hasattr(os, "killpg"):
+                os.killpg(self._process.pid, signal.SIGKILL)
+            else:
+                self._process.kill()
+        self._process.wait()
+        assert self._process.stdin is not None
+        with suppress(OSError):
+            self._process.stdin.close()
+        if self._errors is not None:
+            self._errors.close()
+        self._process = None
+
+
+def _write_failure(job: dict[str, Any], status: str, reason: str) -> None:
+    """Write the record of a model that the process ended at; raises OSError."""
+    from ..whole_files import write_folder
+    from .records import RECORD
+
+    record = failure(job["name"], status, reason, Settings.from_dict(job["settings"]).digest,
+                     digest_of(Path(job["path"])))
+    write_folder(Path(job["folder"]), {RECORD: json.dumps(record).encode()})
+
+
+def _listen(pipe: IO[bytes], messages: queue.SimpleQueue[dict[str, Any]]) -> None:
+    """Put each line of JSON of a pipe into a queue, and in the end ENDED."""
+    with pipe:
+        for line in pipe:
+            messages.put(json.loads(line))
+    messages.put(ENDED)
+
+
+# In the process itself -----------------------------------------------------------------------
+
+
+def main(memory_limit: int) -> None:
+    """Do what comes in, a job a line, and answer a line for each."""
+    import faulthandler
+
+    # Whatever a reader prints goes to the errors; only answers go out.
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    faulthandler.enable()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # it is for the process that asked
+    _limit_memory(memory_limit)
+    jobs: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
+    threading.Thread(target=_read_jobs, args=(jobs,), daemon=True).start()
+    from .work import do_model
+
+    def say(**message: Any) -> None:
+        answers.write(json.dumps(message) + "\n")
+        answers.flush()
+
+    say(ready=True)
+    for job in iter(jobs.get, None):
+        try:
+            say(**do_model(job))
+        except MemoryError:
+            say(memory=True)
+
+
+def _read_jobs(jobs: queue.SimpleQueue[dict[str, Any]]) -> None:
+    """Put what comes in into a queue; end the process at once, whatever it does, when the one that asked has ended."""
+    for line in _lines(0):
+        jobs.put(json.loads(line))
+    os._exit(1)
+
+
+def _lines(descriptor: int) -> Iterator[bytes]:
+    """Lines of a pipe as they come."""
+    with os.fdopen(descriptor, "rb", closefd=False) as stream:
+        yield from stream
+
+
+def _limit_memory(limit: int) -> None:
+    """Have the system refuse more memory than this, where it can: that is an error, not an end."""
+    if limit and sys.platform == "linux":
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

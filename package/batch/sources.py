@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The models of a batch: files in folders, by patterns or in lists, each with a name by which its results are found."""
+
+from __future__ import annotations
+
+import glob
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..core.errors import ReebError
+from ..core.sentence import Sentence
+
+
+class SourceError(ReebError):
+    """There are no models where the user said; the message says where."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """A model of a batch.
+
+    Attributes
+    ----------
+    path : Path
+        Absolute.
+    name : str
+        Its path below the root of the batch, with slashes: what its results are called.
+    """
+
+    path: Path
+    name: str
+
+
+def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root: Path | None = None) -> list[Source]:
+    """Find all models.
+
+    Parameters
+    ----------
+    places : iterable of str
+        Folders, which are searched with all that is in them, patterns such as ``"*.obj"`` and ``"**/*.ply"``, files.
+    kinds : tuple of str
+        Suffixes of models in folders, small letters. A file that is named or fits a pattern may have any.
+    out : Path
+        Folder of the results, which are no models.
+    root : Path, optional
+        What names begin below; the innermost folder that holds all models without.
+
+    Returns
+    -------
+    sources : list of Source
+        Each file once, sorted by name.
+
+    Raises
+    ------
+    SourceError
+        A place is none, there is no model anywhere, or a model lies outside the root.
+    """
+    out = Path(os.path.abspath(out))
+    paths = {path for place in places for path in _paths(place, kinds) if out not in path.parents}
+    if not paths:
+        raise SourceError(Sentence("There is no model to decompose."))
+    if root is None:
+        root = Path(os.path.commonpath([path.parent for path in paths]))
+    root = Path(os.path.abspath(root))
+    outside = sorted(path for path in paths if not path.is_relative_to(root))
+    if outside:
+        raise SourceError(Sentence("{n} models are not in {root} (first: {first}).", n=len(outside), root=root,
+                                   first=outside[0]))
+    return sorted((Source(path, path.relative_to(root).as_posix()) for path in paths), key=lambda source: source.name)
+
+
+def _paths(place: str, kinds: tuple[str, ...]) -> Iterator[Path]:
+    """Absolute paths of the models of one place."""
+    path = Path(place)
+    if path.is_dir():
+        for base, folders, files in os.walk(path):
+            folders[:] = [name for name in folders if not name.startswith(".")]
+            for name in files:
+                if os.path.splitext(name)[1].lower() in kinds and not name.startswith("."):
+                    yield Path(os.path.abspath(os.path.join(base, name)))
+    elif path.is_file():
+        yield Path(os.path.abspath(path))
+    elif glob.has_magic(place):
+        for found in glob.iglob(place, recursive=True):
+            if os.path.isfile(found):
+                yield Path(os.path.abspath(found))
+    else:
+        raise SourceError(Sentence("There is no file and no folder {place}.", place=place))
+
+
+def read_list(path: Path) -> list[str]:
+    """Places of a list, one a line; empty lines and those that begin with # are none. Raises SourceError."""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise SourceError(Sentence("{path} could not be read: {reason}", path=path, reason=error)) from error
+    return [line.strip() for line in lines if line.strip() and not line.startswith("#")]

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of all models and of all parts, as Parquet."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+from pyarrow import parquet
+
+from ..whole_files import HIDDEN
+from .records import RECORD
+
+ROWS = 5_000  # rows that are kept in memory before they are written
+
+MODELS = pa.schema([
+    ("name", pa.string()), ("path", pa.string()), ("folder", pa.string()), ("status", pa.string()),
+    ("reason", pa.string()), ("vertices", pa.int64()), ("faces", pa.int64()), ("n_parts", pa.int64()),
+    ("area", pa.float64()), ("nodes", pa.int64()), ("arcs", pa.int64()), ("loops", pa.int64()),
+    ("components", pa.int64()), ("up", pa.string()), ("seconds", pa.float64()), ("notes", pa.list_(pa.string())),
+    ("files", pa.list_(pa.string())), ("digest", pa.string()), ("settings", pa.string()),
+])  # fmt: skip
+PARTS = pa.schema([
+    ("model", pa.string()), ("index", pa.int64()), ("number", pa.int64()), ("name", pa.string()),
+    ("faces", pa.int64()), ("area", pa.float64()), ("share", pa.float64()), ("color", pa.list_(pa.float64())),
+    ("bounding_box", pa.list_(pa.list_(pa.float64()))), ("neighbours", pa.list_(pa.int64())), ("twin", pa.int64()),
+])  # fmt: skip
+
+
+def write_tables(out: Path, rows: Iterable[tuple[dict[str, Any], Path, Path]]) -> tuple[Path, Path]:
+    """Write models.parquet and parts.parquet, both or none.
+
+    Parameters
+    ----------
+    out : Path
+        Where.
+    rows : iterable of (record, path, folder)
+        Of each model: its record, its file and the folder of its results. Taken one after the other.
+
+    Returns
+    -------
+    models, parts : Path
+    """
+    targets = [out / "models.parquet", out / "parts.parquet"]
+    places = [path.with_name(f"{HIDDEN}{os.getpid()}_{path.name}") for path in targets]
+    with ExitStack() as stack:
+        for place in places:
+            stack.callback(place.unlink, missing_ok=True)
+        with (_Table(places[0], MODELS) as models, _Table(places[1], PARTS) as parts):
+            for record, path, folder in rows:
+                models.add(_model_row(record, path, folder))
+                for part in record["parts"]:
+                    parts.add({"model": record["name"], **part})
+        for place, target in zip(places, targets, strict=True):
+            place.replace(target)
+    return targets[0], targets[1]
+
+
+def _model_row(record: dict[str, Any], path: Path, folder: Path) -> dict[str, Any]:
+    """The row of a model."""
+    return {**record["model"], "name": record["name"], "path": str(path), "folder": str(folder),
+            "status": record["status"], "reason": record["reason"],
+            "files": [name for name in record["files"] if name != RECORD], "digest": record["digest"],
+            "settings": record["settings"]}
+
+
+class _Table:
+    """A file that takes rows one by one."""
+
+    def __init__(self, path: Path, schema: pa.Schema) -> None:
+        self._schema, self._rows = schema, list[dict[str, Any]]()
+        self._writer = parquet.ParquetWriter(path, schema, compression="zstd")
+
+    def add(self, row: dict[str, Any]) -> None:
+        """Add a row; a column that it lacks is empty."""
+        self._rows.append(row)
+        if len(self._rows) >= ROWS:
+            self._flush()
+
+    def _flush(self) -> None:
+        self._writer.write_table(pa.Table.from_pylist(self._rows, self._schema))
+        self._rows.clear()
+
+    def __enter__(self) -> _Table:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._flush()
+        self._writer.close()
+
+
+def read_rows(path: Path, columns: list[str] | None = None) -> Iterator[dict[str, Any]]:
+    """Rows of a table, as dicts."""
+    with parquet.ParquetFile(path) as file:
+        for batch in file.iter_batches(columns=columns):
+            yield from batch.to_pylist()

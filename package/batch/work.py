@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One model of a batch, from its file to the folder of its results."""
+
+from __future__ import annotations
+
+import json
+import time
+import traceback
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import ReebError
+from ..core.result.decomposition import Decomposition, Parts
+from ..meshes import decompose
+from ..model_files import Model, ModelFileError, read_model
+from ..outputs import colored_bytes, json_bytes, labels_bytes, model_document, part_files, picture_bytes
+from ..whole_files import write_folder
+from .records import DONE, ERROR, FORMAT, RECORD, REFUSED, UNREADABLE, Settings, digest_of, failure
+
+
+def do_model(job: dict[str, Any]) -> dict[str, Any]:
+    """Decompose a model and write its folder.
+
+    Parameters
+    ----------
+    job : dict
+        ``path`` of the model, its ``name``, the ``folder`` of its results, the ``settings``, and ``blender``, the path
+        of one or None.
+
+    Returns
+    -------
+    answer : dict
+        ``status``, ``reason`` and ``seconds``.
+
+    Raises
+    ------
+    MemoryError
+        There is not enough memory.
+    """
+    start = time.perf_counter()
+    settings = Settings.from_dict(job["settings"])
+    path, name = Path(job["path"]), job["name"]
+    digest = ""
+    try:
+        digest = digest_of(path)
+        record, files = _results(path, name, settings, job["blender"], start)
+    except MemoryError:
+        raise
+    except ModelFileError as error:
+        record, files = failure(name, UNREADABLE, str(error), settings.digest), {}
+    except ReebError as error:
+        record, files = failure(name, REFUSED, str(error), settings.digest), {}
+    except Exception as error:  # noqa: BLE001 - it costs this model only, and its record says where it happened
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        words = f"{type(error).__name__}: {error} ({Path(place.filename).name}, line {place.lineno})"
+        record, files = failure(name, ERROR, words, settings.digest), {}
+    record["digest"] = digest
+    seconds = round(time.perf_counter() - start, 4)
+    record["model"]["seconds"] = seconds
+    write_folder(Path(job["folder"]), {**files, RECORD: json.dumps(record, allow_nan=False).encode()})
+    return {"status": record["status"], "reason": record["reason"], "seconds": seconds}
+
+
+def _results(path: Path, name: str, settings: Settings, blender: str | None,
+             start: float) -> tuple[dict[str, Any], dict[str, bytes]]:
+    """The record of a model, and the files of its folder by name."""
+    model = read_model(path, blender)
+    result = decompose(model, parameters=settings.parameters)
+    parts = result.parts()
+    files = {"thumbnail.png": picture_bytes(model, result, parts, settings.thumbnail, graph=False)}
+    if settings.labels:
+        files[f"labels{settings.labels}"] = labels_bytes(parts, settings.labels)
+    if settings.colored:
+        files[f"colored{settings.colored}"] = colored_bytes(model, parts, settings.colored)
+    if settings.parts:
+        files |= {f"parts/{file}": data for file, data in part_files(model, parts, settings.parts).items()}
+    document = model_document(model, result, parts)
+    if settings.json:
+        files["model.json"] = json_bytes(document)
+    (entry,) = document["objects"]
+    record = {"format": FORMAT, "name": name, "status": DONE, "reason": "", "settings": settings.digest,
+              "files": {file: len(files[file]) for file in sorted(files)},
+              "model": _model_row(model, result, parts), "parts": entry["parts"]}
+    return record, files
+
+
+def _model_row(model: Model, result: Decomposition, parts: Parts) -> dict[str, Any]:
+    """What the table of models has of one."""
+    return {"vertices": result.n_vertices, "faces": result.n_faces, "n_parts": parts.count,
+            "area": float(parts.area.sum()), "nodes": result.graph.n_nodes, "arcs": result.graph.n_arcs,
+            "loops": int(result.graph.n_loops), "components": result.graph.n_components, "up": model.up,
+            "notes": [str(note) for note in result.notes]}

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cut many models into parts, on all processors of this machine or on a cluster.
+
+    reeb-parts batch archive "more/**/*.glb" --out results --colored ply --parts glb
+
+Each model gets a folder below OUT/models with what is asked for; OUT/models.parquet and OUT/parts.parquet have a row
+for each model and for each part, and OUT/index.html shows all of them. A model that cannot be read, needs too much
+memory or time, or ends the process that computes it costs only itself, and its row says why. What is done - the same
+bytes, the same parameters, the same version - is not done again: a run that was interrupted goes on where it was.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import closing
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from ..batch.records import CRASH, DONE, OPEN, RECORD, Settings, failure, is_done, records
+from ..batch.sources import Source, find_sources, read_list
+from ..core.errors import ReebError
+from ..core.sentence import Sentence
+from ..core.uses.options import add_parameters, chosen_parameters
+from ..model_files import BY_BLENDER, formats
+from ..outputs import COLORED, LABELS, PARTS
+from ..whole_files import remove_leftovers, write_folder
+
+NEEDED = ("distributed", "pyarrow", "tqdm", "psutil")
+INTERRUPTED = 130
+
+
+class MissingPackageError(ReebError):
+    """A package of the extra "batch" is not there."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options to a parser."""
+    parser.add_argument("models", nargs="*", metavar="MODELS", help="folders, which are searched with all that is in "
+                        'them, patterns such as "*.obj" and "**/*.ply", and files')
+    parser.add_argument("--list", type=Path, action="append", default=[], metavar="FILE",
+                        help="a file that lists more of them, one a line")
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the results")
+    parser.add_argument("--root", type=Path, metavar="DIR", help="folder below which models have their names; the "
+                        "innermost one that holds all of them without")
+    parser.add_argument("--blender", metavar="PATH", help="the Blender that reads .blend and .fbx")
+    files = parser.add_argument_group("files for each model")
+    files.add_argument("--json", action=argparse.BooleanOptionalAction, default=True, help="the JSON document")
+    files.add_argument("--labels", choices=_kinds(LABELS), default="npy",
+                       help="the part of each face (default: %(default)s)")
+    files.add_argument("--colored", choices=_kinds(COLORED), help="the model in the colors of its parts")
+    files.add_argument("--parts", choices=PARTS, help="a file for each part")
+    files.add_argument("--thumbnail", type=int, choices=(64, 96, 128, 192, 256), default=128,
+                       help="pixels along a side of the pictures (default: %(default)s)")
+    run = parser.add_argument_group("how to run")
+    run.add_argument("--workers", type=int, default=os.cpu_count() or 1, metavar="N",
+                     help="processes on this machine (default: one for each processor, %(default)s)")
+    run.add_argument("--scheduler", metavar="ADDRESS", help="use the Dask cluster that is there instead, such as "
+                     "tcp://host:8786; its workers have this package and see the same folders")
+    run.add_argument("--dashboard", default="127.0.0.1:8787", metavar="ADDRESS",
+                     help="where Dask's dashboard is shown (default: %(default)s)")
+    run.add_argument("--memory-limit", type=float, metavar="GIB", help="memory of one model (default: this machine's, "
+                     "divided by the number of workers)")
+    run.add_argument("--time-limit", type=float, default=600.0, metavar="SECONDS",
+                     help="time of one model, 0 for any (default: %(default)g)")
+    run.add_argument("--retry", action="store_true", help="also try models again that were refused before")
+    add_parameters(parser.add_argument_group("parameters"))
+
+
+def run(options: argparse.Namespace) -> int:
+    """Do what the options ask for; returns the exit status. Raises ReebError."""
+    missing = [name for name in NEEDED if find_spec(name) is None]
+    if missing:
+        raise MissingPackageError(Sentence('Install {names} first: pip install "reeb-parts[batch]".',
+                                           names=", ".join(missing)))
+    start = time.perf_counter()
+    batch = _Batch(options)
+    batch.out.mkdir(parents=True, exist_ok=True)
+    remove_leftovers(batch.out)
+    interrupted = False
+    try:
+        batch.run()
+    except KeyboardInterrupt:
+        interrupted = True
+        _say("Interrupted; what is done is kept.")
+    answer = batch.finish()
+    answer["seconds"] = round(time.perf_counter() - start, 3)
+    sys.stdout.write(json.dumps(answer, indent=2) + "\n")
+    sys.stdout.flush()
+    return INTERRUPTED if interrupted else int(any(status != DONE for status in answer["models"]))
+
+
+class _Batch:
+    """A run over many models.
+
+    options : as ``add_options`` has them. Raises ReebError where they make no sense.
+    """
+
+    def __init__(self, options: argparse.Namespace) -> None:
+        parameters, notes = chosen_parameters(options)
+        for note in notes:
+            _say(note)
+        self.options = options
+        self.out = Path(os.path.abspath(options.out))
+        places = [*options.models, *(place for path in options.list for place in read_list(path))]
+        kinds = formats() + (BY_BLENDER if options.blender else ())
+        self.sources = find_sources(places, kinds, self.out, options.root)
+        self.settings = Settings(parameters, options.json, _suffix(options.labels), _suffix(options.colored),
+                                 options.parts or "", options.thumbnail)
+        self.kept = 0
+
+    def folder(self, source: Source) -> Path:
+        """Where the results of a model are."""
+        return self.out / "models" / source.name
+
+    def run(self) -> None:
+        """Do all models that are not done yet; raises KeyboardInterrupt after Ctrl+C."""
+        from tqdm import tqdm
+
+        with tqdm(self.sources, desc="looking", unit="model", disable=None, leave=False) as looking:
+            waiting = [source for source in looking
+                       if not is_done(source.path, self.folder(source), self.settings, self.options.retry)]
+        self.kept = len(self.sources) - len(waiting)
+        if self.kept:
+            _say(f"{self.kept} of {len(self.sources)} models are done already.")
+        if not waiting:
+            return
+        # Dask takes long to import, and a look at what is done needs none of it.
+        from ..batch import cluster
+
+        with cluster.connected(self.options.scheduler, self.options.workers, self.options.dashboard) as client:
+            _say(f"Dask's dashboard: {client.dashboard_link}")
+            failed: Counter[str] = Counter()
+            with (tqdm(total=len(waiting), desc="models", unit="model", smoothing=0.1, mininterval=0.5) as progress,
+                  closing(cluster.spread(client, cluster.do_job, map(self._job, waiting))) as answers):
+                for job, answer in answers:
+                    if isinstance(answer, BaseException):
+                        answer = self._lost(job, answer)
+                    if answer["status"] != DONE:
+                        failed[answer["status"]] += 1
+                        progress.set_postfix(failed, refresh=False)
+                        tqdm.write(f"reeb-parts: {job['name']}: {answer['status']}: {answer['reason']}",
+                                   file=sys.stderr)
+                    progress.update()
+
+    def _job(self, source: Source) -> dict[str, Any]:
+        """What a worker is given."""
+        limit = self.options.memory_limit
+        memory = int(limit * 2**30) if limit else _memory() // max(self.options.workers, 1)
+        return {"path": str(source.path), "name": source.name, "folder": str(self.folder(source)),
+                "settings": self.settings.to_dict(), "blender": self.options.blender, "memory_limit": memory,
+                "time_limit": self.options.time_limit}
+
+    def _lost(self, job: dict[str, Any], error: BaseException) -> dict[str, Any]:
+        """Record a model whose workers ended one after the other."""
+        reason = f"The workers that had it ended: {error}"
+        record = failure(job["name"], CRASH, reason, self.settings.digest)
+        write_folder(Path(job["folder"]), {RECORD: json.dumps(record).encode()})
+        return {"status": CRASH, "reason": reason}
+
+    def finish(self) -> dict[str, Any]:
+        """Write the tables and the page; returns what the command answers."""
+        from ..batch.page import write_page
+        from ..batch.tables import write_tables
+
+        folders = [(source.name, self.folder(source)) for source in self.sources]
+
+        def rows() -> Iterator[tuple[dict[str, Any], Path, Path]]:
+            for record, source in zip(records(folders), self.sources, strict=True):
+                if record["settings"] != self.settings.digest:  # of a run before, with other settings
+                    record = failure(source.name, OPEN, "It was not reached.", self.settings.digest)
+                statuses[record["status"]] += 1
+                yield record, source.path, self.folder(source)
+
+        statuses: Counter[str] = Counter()
+        models, parts = write_tables(self.out, rows())
+        counted = dict(statuses)
+        page = write_page(self.out, f"{len(self.sources)} models", rows(), len(self.sources), self.sources[0].path)
+        return {"models": counted, "kept": self.kept, "files": {
+            "models": str(models), "parts": str(parts), "page": str(page), "folders": str(self.out / "models")}}
+
+
+def _memory() -> int:
+    """Bytes of memory of this machine."""
+    import psutil
+
+    return psutil.virtual_memory().total
+
+
+def _kinds(suffixes: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(suffix.lstrip(".") for suffix in suffixes)
+
+
+def _suffix(kind: str | None) -> str:
+    return f".{kind}" if kind else ""
+
+
+def _say(text: str) -> None:
+    print(f"reeb-parts: {text}", file=sys.stderr, flush=True)

@@ -1,0 +1,374 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``reeb-parts batch``: what it writes, what one bad model costs, and what is lost when something is killed."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import psutil
+import pytest
+import shapes
+import trimesh
+from distributed import Client, LocalCluster
+from pyarrow import parquet
+from reeb_parts.batch import cluster
+from reeb_parts.batch.model_process import ModelProcess
+from reeb_parts.batch.records import RECORD, Settings, is_done, read_record
+from reeb_parts.batch.sources import SourceError, find_sources
+
+from core import Parameters, decompose
+
+ROOT = Path(__file__).resolve().parents[2]
+SCHEMA = json.loads((ROOT / "docs" / "reeb_parts.schema.json").read_text(encoding="utf-8"))
+LOCAL = ("--workers", 2, "--dashboard", "127.0.0.1:0")
+
+
+def save(shape, path):
+    """A model file."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    trimesh.Trimesh(*shape, process=False).export(path)
+    return path
+
+
+def many(folder, count):
+    """So many models, each a little different."""
+    shape = shapes.tube_tree(step=0.2)
+    return [save((shape.vertices * (1 + 0.01 * n), shape.faces), folder / f"tree_{n:03d}.ply") for n in range(count)]
+
+
+def rows(path):
+    """A table as a list of dicts."""
+    return parquet.read_table(path).to_pylist()
+
+
+@pytest.fixture(scope="module")
+def models(tmp_path_factory):
+    """A folder with two models, one too small, one damaged, and what is no model."""
+    folder = tmp_path_factory.mktemp("archive")
+    save(shapes.tube_tree(step=0.2), folder / "tree.ply")
+    save(shapes.dumbbell(20, 8), folder / "deep" / "dumb bell.obj")
+    save((np.eye(3), np.array([[0, 1, 2]])), folder / "tiny.stl")
+    (folder / "damaged.ply").write_text("ply\nnonsense")
+    (folder / "notes.txt").write_text("no model")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def batch(models, reeb_parts_command, tmp_path_factory):
+    """The folder of results of a whole run, and what it answered."""
+    out = tmp_path_factory.mktemp("batch") / "out"
+    done = reeb_parts_command("batch", models, "--out", out, "--colored", "ply", "--parts", "glb", *LOCAL)
+    assert done.returncode == 1, done.stderr  # two of the models are none
+    return out, json.loads(done.stdout), done.stderr
+
+
+def test_each_model_has_its_folder_and_nothing_else_is_there(batch, models):
+    out, answer, _ = batch
+    assert answer["models"] == {"done": 2, "refused": 1, "unreadable": 1}
+    folders = {path.parent.relative_to(out / "models").as_posix() for path in out.rglob(RECORD)}
+    assert folders == {"tree.ply", "deep/dumb bell.obj", "tiny.stl", "damaged.ply"}
+    assert {path.name for path in out.iterdir()} == {"models", "models.parquet", "parts.parquet", "index.html"}
+    parts = sorted(path.name for path in (out / "models/tree.ply/parts").iterdir())
+    count = len(parts)
+    assert parts == [f"tree Part {n + 1:02d}.glb" for n in range(count)]
+    files = {path.name for path in (out / "models" / "tree.ply").iterdir()}
+    assert files == {"model.json", "labels.npy", "colored.ply", "parts", "thumbnail.png", RECORD}
+    assert {path.name for path in (out / "models" / "tiny.stl").iterdir()} == {RECORD}
+
+
+def test_the_results_are_those_of_core(batch, models):
+    out, _, _ = batch
+    mesh = trimesh.load_mesh(models / "tree.ply", process=False)
+    expected = decompose(mesh.vertices, mesh.faces).parts()
+    assert (np.load(out / "models/tree.ply/labels.npy") == expected.labels).all()
+    document = json.loads((out / "models/tree.ply/model.json").read_text())
+    jsonschema.validate(document, SCHEMA)
+    (entry,) = document["objects"]
+    found = [row for row in rows(out / "parts.parquet") if row.pop("model") == "tree.ply"]
+    assert [{key: row[key] for key in entry["parts"][0]} for row in found] == entry["parts"]
+
+
+def test_the_table_of_models_has_each_with_its_reason(batch, models):
+    table = {row["name"]: row for row in rows(batch[0] / "models.parquet")}
+    assert {name: row["status"] for name, row in table.items()} == {
+        "damaged.ply": "unreadable", "deep/dumb bell.obj": "done", "tiny.stl": "refused", "tree.ply": "done"}
+    assert "only 1 of the 4 faces" in table["tiny.stl"]["reason"]
+    assert table["tree.ply"]["path"] == str(models / "tree.ply")
+    assert table["tree.ply"]["n_parts"] == sum(row["model"] == "tree.ply" for row in rows(batch[0] / "parts.parquet"))
+    assert table["damaged.ply"]["n_parts"] is None
+
+
+def test_the_page_needs_no_other_file_and_shows_every_model(batch):
+    text = (batch[0] / "index.html").read_text(encoding="utf-8")
+    shown = json.loads(text.split('id="models">')[1].split("</script>")[0])
+    assert [model["name"] for model in shown] == ["damaged.ply", "deep/dumb bell.obj", "tiny.stl", "tree.ply"]
+    assert [model["image"][:22] for model in shown if model["status"] == "done"] == ["data:image/png;base64,"] * 2
+    assert "http" not in text
+    assert "src=" not in text.split("<script", 1)[0]
+    assert (batch[0] / shown[3]["link"] / "model.json").is_file()
+
+
+def test_progress_has_the_rate_and_the_time_left_and_the_dashboard_is_named(batch):
+    assert "4/4" in batch[2]
+    assert "model/s" in batch[2] or "s/model" in batch[2]
+    assert "Dask's dashboard: http://127.0.0.1:" in batch[2]
+
+
+def test_what_is_done_is_not_done_again(batch, models, reeb_parts_command):
+    before = {path: path.stat().st_mtime_ns for path in (batch[0] / "models").rglob("*")}
+    done = reeb_parts_command("batch", models, "--out", batch[0], "--colored", "ply", "--parts", "glb", *LOCAL)
+    assert json.loads(done.stdout)["kept"] == 4
+    assert {path: path.stat().st_mtime_ns for path in (batch[0] / "models").rglob("*")} == before
+    assert "dashboard" not in done.stderr
+
+
+def test_other_bytes_parameters_or_missing_files_are_not_done(batch, models, tmp_path):
+    settings = Settings(Parameters(), colored=".ply", parts="glb")
+    folder = tmp_path / "tree.ply"
+    shutil.copytree(batch[0] / "models" / "tree.ply", folder)
+    model = tmp_path / "model.ply"
+    model.write_bytes((models / "tree.ply").read_bytes())
+    assert is_done(model, folder, settings)
+    assert not is_done(model, folder, Settings(Parameters(n_parts=3), colored=".ply", parts="glb"))
+    assert not is_done(model, folder, Settings(Parameters(), colored=".glb", parts="glb"))
+    (folder / "colored.ply").write_bytes(b"")
+    assert not is_done(model, folder, settings)
+    shutil.copy(batch[0] / "models" / "tree.ply" / "colored.ply", folder)
+    assert is_done(model, folder, settings)
+    model.write_bytes(model.read_bytes() + b"\n")
+    assert not is_done(model, folder, settings)
+
+
+# One model that goes wrong ---------------------------------------------------------------------
+
+
+def job(path, folder, **settings):
+    """What a worker is given for a model."""
+    return {"path": str(path), "name": path.name, "folder": str(folder), "blender": None,
+            "settings": Settings(Parameters(**settings)).to_dict()}
+
+
+@pytest.fixture(scope="module")
+def process():
+    """A process for models."""
+    made = ModelProcess(2**30)
+    yield made
+    made.close()
+
+
+@pytest.fixture(scope="module")
+def large(tmp_path_factory):
+    """A model that takes seconds and hundreds of megabytes."""
+    shape = shapes.surface_of_genus(3, 0.1)
+    for _ in range(3):
+        shape = shapes.subdivide(shape)
+    return save(shape, tmp_path_factory.mktemp("large") / "large.ply")
+
+
+def test_a_model_that_takes_too_long_is_ended_and_the_next_one_is_done(process, large, models, tmp_path):
+    answer = process.run(job(large, tmp_path / "large"), 0.5)
+    assert (answer["status"], answer["reason"]) == ("time", "It took longer than 0.5 s.")
+    assert read_record(tmp_path / "large")["status"] == "time"
+    assert process.run(job(models / "tree.ply", tmp_path / "tree"), 60.0)["status"] == "done"
+
+
+def test_a_model_that_needs_too_much_memory_costs_only_itself(large, models, tmp_path):
+    small = ModelProcess(320 * 2**20)
+    try:
+        answer = small.run(job(large, tmp_path / "large"), 60.0)
+        assert (answer["status"], answer["reason"]) == ("memory", "It needed more memory than 0.312 GiB.")
+        assert small.run(job(models / "tree.ply", tmp_path / "tree"), 60.0)["status"] == "done"
+    finally:
+        small.close()
+
+
+@pytest.mark.parametrize(("number", "words"), [
+    (signal.SIGSEGV, "crashed (SIGSEGV): Fatal Python error: Segmentation fault"),
+    (signal.SIGKILL, "was killed, perhaps for lack of memory"),
+])  # fmt: skip
+def test_a_crash_is_recorded_with_its_reason(number, words, process, large, tmp_path):
+    process.run(job(large, tmp_path / "first"), 0.01)  # a new process next time
+
+    def crash():
+        time.sleep(0.3)
+        os.kill(process._process.pid, number)
+
+    assert process._start()
+    thread = threading.Thread(target=crash)
+    thread.start()
+    answer = process.run(job(large, tmp_path / "large"), 60.0)
+    thread.join()
+    assert answer["status"] == "crash"
+    assert words in answer["reason"]
+    assert not is_done(large, tmp_path / "large", Settings(Parameters()))  # it will be tried again
+
+
+def test_nothing_is_left_of_a_process_when_the_one_that_asked_is_killed(large, tmp_path):
+    code = ("import sys, json; from reeb_parts.batch.model_process import ModelProcess; p = ModelProcess(); p._start();"
+            "print(p._process.pid, flush=True); p.run(json.loads(sys.argv[1]), 0)")
+    with subprocess.Popen([sys.executable, "-c", code, json.dumps(job(large, tmp_path / "x"))],
+                          stdout=subprocess.PIPE) as asking:
+        child = psutil.Process(int(asking.stdout.readline()))
+        asking.kill()
+    child.wait(timeout=20)
+
+
+# What is killed --------------------------------------------------------------------------------
+
+
+def start(request, *arguments):
+    """Start a batch in a session of its own."""
+    return subprocess.Popen([sys.executable, request.config.command, "batch", *map(str, arguments)],
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+
+
+def wait_for(condition, process):
+    """Wait until something holds."""
+    until = time.monotonic() + 120
+    while not condition():
+        assert process.poll() is None, process.communicate()[1]
+        assert time.monotonic() < until
+        time.sleep(0.02)
+
+
+def alive(process):
+    """Whether a process still runs; one that nobody has taken note of yet does not."""
+    try:
+        return process.status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return False
+
+
+def finished(out):
+    """Names of the models whose results are there."""
+    return {path.parent.name for path in (out / "models").glob("*/" + RECORD)}
+
+
+def test_a_killed_worker_a_killed_run_and_ctrl_c_lose_nothing(request, reeb_parts_command, tmp_path):
+    many(tmp_path / "in", 24)
+    out = tmp_path / "out"
+    arguments = (tmp_path / "in", "--out", out, *LOCAL)
+    run = start(request, *arguments)
+    wait_for(lambda: len(finished(out)) >= 4, run)
+    # One of the processes that has one for models is a worker.
+    models = [process for process in psutil.Process(run.pid).children(recursive=True)
+              if "reeb_parts.batch.model_process" in process.cmdline()]
+    worker = models[0].parent()
+    worker.kill()
+    known = finished(out)
+    wait_for(lambda: len(finished(out)) >= len(known) + 4, run)
+    children = psutil.Process(run.pid).children(recursive=True)
+    os.killpg(run.pid, signal.SIGKILL)
+    run.communicate()
+    until = time.monotonic() + 30
+    while any(map(alive, children)):
+        assert time.monotonic() < until
+        time.sleep(0.05)
+    known = {name: (out / "models" / name / RECORD).stat().st_mtime_ns for name in finished(out)}
+    assert 8 <= len(known) < 24
+
+    run = start(request, *arguments)
+    wait_for(lambda: len(finished(out)) >= len(known) + 4, run)
+    os.killpg(run.pid, signal.SIGINT)  # as a terminal sends it: to all processes
+    stdout, stderr = run.communicate(timeout=60)
+    assert run.returncode == 130, stderr
+    assert "Traceback" not in stderr
+    answer = json.loads(stdout)
+    assert answer["kept"] == len(known)
+    assert answer["models"]["done"] + answer["models"]["open"] == 24
+    assert len(rows(out / "models.parquet")) == 24
+
+    done = reeb_parts_command("batch", *arguments)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["models"] == {"done": 24}
+    assert finished(out) == {f"tree_{n:03d}.ply" for n in range(24)}
+    # What was done before is as it was, and nothing half done is left.
+    assert {name: (out / "models" / name / RECORD).stat().st_mtime_ns for name in known} == known
+    assert {path.name for path in (out / "models").iterdir()} == finished(out)
+
+
+# A cluster that is there -----------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def address():
+    """The address of a cluster of two workers."""
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, memory_limit=0) as there:
+        yield there.scheduler_address
+
+
+def test_a_cluster_that_is_there_is_used_and_left_as_it_was(address, reeb_parts_command, tmp_path):
+    many(tmp_path / "in", 3)
+    done = reeb_parts_command("batch", tmp_path / "in", "--out", tmp_path / "out", "--scheduler", address)
+    assert done.returncode == 0, done.stderr
+    assert len(finished(tmp_path / "out")) == 3
+    with Client(address) as client:
+        assert len(client.nthreads()) == 2
+        assert client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)) == 0
+
+
+def test_an_address_where_nobody_answers_is_said_to_be_one(reeb_parts_command, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster, "PATIENCE", 0.5)
+    with pytest.raises(cluster.ClusterError, match="No scheduler answers at tcp://127.0.0.1:1"):
+        cluster.connected("tcp://127.0.0.1:1", 1, "").__enter__()
+
+
+def double(number):
+    """A job."""
+    return 2 * number
+
+
+def test_the_scheduler_holds_a_bounded_number_of_jobs(address):
+    taken = ended = most = 0
+
+    def jobs():
+        nonlocal taken, most
+        for number in range(300):
+            taken += 1
+            most = max(most, taken - ended)
+            yield number
+
+    with Client(address) as client:
+        answers = {}
+        for number, answer in cluster.spread(client, double, jobs()):
+            ended += 1
+            answers[number] = answer
+    assert answers == {number: 2 * number for number in range(300)}
+    assert most <= 2 * cluster.AHEAD + 1
+
+
+def test_a_job_that_raises_gives_its_exception(address):
+    with Client(address) as client:
+        ((_, answer),) = cluster.spread(client, double, [None])
+    assert isinstance(answer, TypeError)
+
+
+# Sources ---------------------------------------------------------------------------------------
+
+
+def test_folders_patterns_lists_and_files_are_found_once_each(models, tmp_path, monkeypatch):
+    monkeypatch.chdir(models)
+    kinds = (".ply", ".obj")
+    names = [source.name for source in find_sources([".", "*.ply", "deep/dumb bell.obj"], kinds, tmp_path)]
+    assert names == ["damaged.ply", "deep/dumb bell.obj", "tree.ply"]
+    assert [source.name for source in find_sources(["deep"], kinds, tmp_path)] == ["dumb bell.obj"]
+    assert [source.name for source in find_sources(["deep"], kinds, tmp_path, models)] == ["deep/dumb bell.obj"]
+    assert [source.name for source in find_sources(["**/*.obj"], kinds, tmp_path)] == ["dumb bell.obj"]
+    assert [source.name for source in find_sources(["."], kinds, models / "deep")] == ["damaged.ply", "tree.ply"]
+
+
+@pytest.mark.parametrize(("places", "root", "words"), [
+    (["none"], None, "no file and no folder none"), (["*.xyz"], None, "no model"), (["tree.ply"], "deep", "1 models"),
+])  # fmt: skip
+def test_places_without_models_are_refused(places, root, words, models, tmp_path, monkeypatch):
+    monkeypatch.chdir(models)
+    with pytest.raises(SourceError, match=words):
+        find_sources(places, (".ply",), tmp_path, root and models / root)
