@@ -29,13 +29,13 @@ class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProp
         objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
         with object_mode(context):
             found = [(obj, store.load(obj.data)) for obj in objects]
-            made = [(obj, *piece_objects.separate(context, obj, stored, wanted_numbers(obj.data, self.which), self))
+            made = [(obj, piece_objects.separate(context, obj, stored, wanted_numbers(obj.data, self.which), self))
                     for obj, stored in found]
         if self.hide:
-            self._hide(context, [obj for obj, *_ in made])
-        self._show(context, [piece for _, pieces, *_ in made for piece in pieces], made[0][1])
-        for obj, pieces, left_open, kept in made:
-            self._report(obj, pieces, left_open, kept)
+            self._hide(context, [obj for obj, _ in made])
+        self._show(context, [piece for _, separated in made for piece in separated.pieces], made[0][1].pieces)
+        for obj, separated in made:
+            self._report(obj, separated)
 
     def _hide(self, context: bpy.types.Context, originals: list[bpy.types.Object]) -> None:
         """Hide the originals, which only Object Mode allows."""
@@ -55,14 +55,18 @@ class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProp
         if context.mode == "OBJECT":
             select_objects(context, pieces, active=of_active[0] if self.hide and of_active else None)
 
-    def _report(self, obj: bpy.types.Object, pieces: list[bpy.types.Object], left_open: int, kept: int) -> None:
-        self.report({"INFO"}, rpt_("{name}: {n} parts are objects now").format(name=obj.name, n=len(pieces)))
-        if kept:
-            self.report(
-                {"INFO"}, rpt_("{n} earlier pieces that were edited since are left as they are").format(n=kept))
-        if left_open:
-            self.report(
-                {"WARNING"}, rpt_("{n} edges stay open: more than two faces meet beside them").format(n=left_open))
+    def _report(self, obj: bpy.types.Object, separated: piece_objects.Separated) -> None:
+        self.report({"INFO"}, rpt_("{name}: {n} parts are objects now").format(
+            name=obj.name, n=len(separated.pieces)))
+        if separated.kept:
+            self.report({"INFO"}, rpt_("{n} earlier pieces that were edited since are left as they are").format(
+                n=separated.kept))
+        if separated.along_faces:
+            self.report({"INFO"}, rpt_("{n} borders run along faces: a smooth cut would tear a part there").format(
+                n=separated.along_faces))
+        if separated.left_open:
+            self.report({"WARNING"}, rpt_("{n} edges stay open: more than two faces meet beside them").format(
+                n=separated.left_open))
 
 
 class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):

@@ -8,6 +8,7 @@ these were asked for.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 import bmesh
 import bpy
@@ -16,6 +17,8 @@ import numpy as np
 from . import caps, mesh_arrays, outputs, quiet
 from .outputs import kept_aside, materials
 from .temporary import freed, removed
+
+_NORMAL = "reeb_parts_normal"  # corner attribute: the user's normals, while faces are taken apart
 
 
 def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
@@ -36,8 +39,34 @@ def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
     return copy
 
 
+@dataclass(frozen=True, eq=False)
+class PieceMeshes:
+    """Meshes of parts.
+
+    Attributes
+    ----------
+    meshes : dict of int -> bpy.types.Mesh
+        By the number of the part. UVs, colours, vertex groups, shape keys, normals and materials are kept.
+    left_open : int
+        Edges of holes that could not be filled.
+    along_faces : int
+        Borders that were to be smooth and still run along faces.
+    """
+
+    meshes: dict[int, bpy.types.Mesh]
+    left_open: int
+    along_faces: int
+
+
 def part_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int],
                 close: bool = False) -> tuple[dict[int, bpy.types.Mesh], int]:
+    """What ``piece_meshes`` makes along faces: meshes, and edges left open."""
+    made = piece_meshes(mesh, face_numbers, wanted, close)
+    return made.meshes, made.left_open
+
+
+def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int], close: bool = False,
+                 smooth: np.ndarray | None = None) -> PieceMeshes:
     """A mesh for each of some parts, with all that its faces carry.
 
     Parameters
@@ -50,35 +79,40 @@ def part_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable
         Numbers of the parts; loose edges and vertices belong to none.
     close : bool
         Fill the holes that the cuts leave.
+    smooth : (3, 3) float64, optional
+        What the object does to its mesh, see bridge.world_stretch: faces are divided where smooth cuts run. Without
+        it, cuts run along the edges of faces.
 
     Returns
     -------
-    meshes : dict of int -> bpy.types.Mesh
-        UVs, colours, vertex groups, shape keys, normals and materials are kept.
-    left_open : int
-        Edges of holes that could not be filled.
+    made : PieceMeshes
     """
     plain = plain_copy(mesh)
-    normals = _custom_normals(plain)
-    edge, (vertex, face) = mesh_arrays.corner_edges(plain), mesh_arrays.face_corners(plain)
-    cut = mesh_arrays.cut_edges(plain, face_numbers)
-    meeting, joined = _around_cuts(plain, cut)
-    wanted = [number for number in wanted if (face_numbers == number).any()]
-    made, left_open = {}, 0
-    for number, piece in _divide(plain, face_numbers, wanted, _has_loose(plain)):
-        corner = (face_numbers == number)[face]
-        if close:
-            # Elements keep their order, so that those of the piece are those of its faces, rising.
-            mine = np.unique(vertex[corner])
-            here = np.searchsorted(mine, joined[np.isin(joined, mine).all(axis=1)])
-            left_open += caps.close_cuts(piece, cut[np.unique(edge[corner])], meeting[mine], here)[1]
-        if normals is not None:
-            _set_normals(piece, normals[corner])
-        others = [part for part in mesh.reeb_parts.parts if part.number != number]
-        materials.drop_slots(piece, [part.material for part in others if part.material is not None])
-        made[number] = piece
-    bpy.data.meshes.remove(plain)
-    return made, left_open
+    with removed(bpy.data.meshes, plain):
+        _keep_normals(plain)
+        along_faces = 0
+        if smooth is not None:
+            from .smooth_faces import divide_faces  # imports SciPy
+
+            face_numbers, cuts = divide_faces(plain, face_numbers, smooth)
+            along_faces = cuts.kept
+        edge, (vertex, face) = mesh_arrays.corner_edges(plain), mesh_arrays.face_corners(plain)
+        cut = mesh_arrays.cut_edges(plain, face_numbers)
+        meeting, joined = _around_cuts(plain, cut)
+        wanted = [number for number in wanted if (face_numbers == number).any()]
+        made, left_open = {}, 0
+        for number, piece in _divide(plain, face_numbers, wanted, _has_loose(plain)):
+            corner = (face_numbers == number)[face]
+            if close:
+                # Elements keep their order, so that those of the piece are those of its faces, rising.
+                mine = np.unique(vertex[corner])
+                here = np.searchsorted(mine, joined[np.isin(joined, mine).all(axis=1)])
+                left_open += caps.close_cuts(piece, cut[np.unique(edge[corner])], meeting[mine], here)[1]
+            _set_normals(piece)
+            others = [part for part in mesh.reeb_parts.parts if part.number != number]
+            materials.drop_slots(piece, [part.material for part in others if part.material is not None])
+            made[number] = piece
+    return PieceMeshes(made, left_open, along_faces)
 
 
 def _around_cuts(mesh: bpy.types.Mesh, cut: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -132,21 +166,28 @@ def _has_loose(mesh: bpy.types.Mesh) -> bool:
     )
 
 
-def _custom_normals(mesh: bpy.types.Mesh) -> np.ndarray | None:
-    """The normal of each corner, (c, 3) float32, where the user has set them; None otherwise.
+def _keep_normals(mesh: bpy.types.Mesh) -> None:
+    """Keep the normal of each corner where the user has set them.
 
     Blender keeps them relative to the faces around the vertex, of which a cut takes some away.
     """
     if not mesh.has_custom_normals:
-        return None
+        return
     kept = mesh.attributes.get("custom_normal")
     if kept is not None and kept.data_type == "FLOAT_VECTOR":
-        return None  # Blender 4.5 and later can keep them as they are
-    return mesh_arrays.read(mesh.corner_normals, "vector", np.float32, 3)
+        return  # Blender 4.5 and later can keep them as they are
+    normals = mesh_arrays.read(mesh.corner_normals, "vector", np.float32, 3)
+    mesh.attributes.new(_NORMAL, "FLOAT_VECTOR", "CORNER").data.foreach_set("vector", normals.ravel())
 
 
-def _set_normals(mesh: bpy.types.Mesh, normals: np.ndarray) -> None:
-    """Set custom normals; corners of caps, which come last, keep those of their faces."""
-    every = np.zeros((len(mesh.loops), 3), np.float32)
-    every[: len(normals)] = normals
-    mesh.normals_split_custom_set(every)
+def _set_normals(mesh: bpy.types.Mesh) -> None:
+    """Set the normals that were kept; corners of caps, which have none, keep those of their faces."""
+    kept = mesh.attributes.get(_NORMAL)
+    if kept is None:
+        return
+    normals = mesh_arrays.read(kept.data, "vector", np.float32, 3)
+    if caps.CAP in mesh.attributes:
+        cap = mesh_arrays.read(mesh.attributes[caps.CAP].data, "value", np.int32) == 1
+        normals[np.repeat(cap, mesh_arrays.read(mesh.polygons, "loop_total", np.int32))] = 0
+    mesh.attributes.remove(kept)
+    mesh.normals_split_custom_set(normals)

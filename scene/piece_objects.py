@@ -7,13 +7,15 @@ constraints and parent.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from . import explode, graph_objects, mesh_arrays, modified, part_names, transaction
+from . import bridge, explode, graph_objects, mesh_arrays, modified, part_names, transaction
 from .outputs.colors import linear
-from .part_meshes import part_meshes
+from .part_meshes import piece_meshes
 from .settings import SeparateProperties
 from .store import Stored
 from .temporary import remove_object, removed
@@ -56,8 +58,29 @@ def original(piece: bpy.types.Object) -> bpy.types.Object | None:
     return None
 
 
+@dataclass(frozen=True, eq=False)
+class Separated:
+    """What was made of an object.
+
+    Attributes
+    ----------
+    pieces : list of bpy.types.Object
+    left_open : int
+        Edges of holes that could not be filled.
+    along_faces : int
+        Borders that were to be smooth and still run along faces.
+    kept : int
+        Earlier pieces that were left alone.
+    """
+
+    pieces: list[bpy.types.Object]
+    left_open: int
+    along_faces: int
+    kept: int
+
+
 def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: list[int],
-             style: SeparateProperties) -> tuple[list[bpy.types.Object], int, int]:
+             style: SeparateProperties) -> Separated:
     """Make an object of each of some parts; Object Mode.
 
     Pieces that an earlier run made of these parts are replaced. A piece that the user has edited, moved or
@@ -74,22 +97,19 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
 
     Returns
     -------
-    made : list of bpy.types.Object
-    left_open : int
-        Edges of holes that could not be filled.
-    kept : int
-        Earlier pieces that were left alone.
+    separated : Separated
     """
     kept = _remove_earlier(obj, numbers)
     face_numbers = stored.shown_parts().face_numbers
     seen = modified.seen_mesh(context, obj, face_numbers) if style.seen and modified.has_modifiers(obj) else None
     mesh, face_numbers = seen or (obj.data, face_numbers)
     with removed(bpy.data.meshes, *([mesh] if seen else [])):
-        meshes, left_open = part_meshes(mesh, face_numbers, numbers, style.caps)
+        stretch = bridge.world_stretch(obj) if style.cut == "SMOOTH" else None
+        found = piece_meshes(mesh, face_numbers, numbers, style.caps, stretch)
     collection = make_collection(context, obj)
     colors = {part.number: part.color[:] for part in obj.data.reeb_parts.parts}
     made = []
-    for number, mesh in meshes.items():
+    for number, mesh in found.meshes.items():
         piece = _piece(obj, mesh, part_names.piece_name(obj, number), style)
         piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER] = number
@@ -97,7 +117,7 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
         made.append(piece)
     for piece in made:
         piece[MADE] = _looks(piece)
-    return made, left_open, kept
+    return Separated(made, found.left_open, found.along_faces, kept)
 
 
 def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Collection:

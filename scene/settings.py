@@ -172,6 +172,13 @@ class WhichProperties:
 class SeparateProperties(WhichProperties):
     """How parts become objects."""
 
+    cut: EnumProperty(
+        name="Cuts", default="SMOOTH",
+        items=[("SMOOTH", "Smooth", "Along a smooth curve, which lies in a plane where one fits: the faces there are "
+                "divided in the pieces. Borders that are smooth already stay as they are"),
+               ("FACES", "Along Faces", "Along the edges of faces, all of which stay whole")],
+        description="Where the pieces are cut from each other; the mesh itself stays as it is",
+    )
     caps: BoolProperty(
         name="Close holes", default=False,
         description="Close the holes where parts were joined, so that each piece is closed; borders that "

@@ -24,7 +24,7 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         settings = context.scene.reeb_parts_use
         # How the button Separate, which is just above, makes objects.
         column.row().prop(settings, "which", expand=True)
-        for name in ("caps", "center", "modifiers", "seen", "parent", "hide"):
+        for name in ("cut", "caps", "center", "modifiers", "seen", "parent", "hide"):
             column.prop(settings, name)
         column.separator()
         column.prop(context.object.reeb_parts_made, "explode", slider=True)

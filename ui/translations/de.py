@@ -307,6 +307,16 @@ TEXTS = {
     "Chosen": "Gewählte",
     "The parts ticked in the list, or else the active one":
         "Die in der Liste angekreuzten Teile, sonst das aktive",
+    "Cuts": "Schnitte",
+    "Where the pieces are cut from each other; the mesh itself stays as it is":
+        "Wo die Stücke voneinander getrennt werden; das Mesh selbst bleibt, wie es ist",
+    "Smooth": "Glatt",
+    "Along a smooth curve, which lies in a plane where one fits: the faces there are divided in the pieces. Borders "
+    "that are smooth already stay as they are":
+        "An einer glatten Kurve, die in einer Ebene liegt, wo eine passt: die Flächen dort werden in den Stücken "
+        "geteilt. Grenzen, die schon glatt sind, bleiben, wie sie sind",
+    "Along Faces": "An Flächen",
+    "Along the edges of faces, all of which stay whole": "An den Kanten von Flächen, die alle ganz bleiben",
     "Close holes": "Löcher schließen",
     "Close the holes where parts were joined, so that each piece is closed; borders that the mesh had before stay "
     "open. The faces are marked by the attribute reeb_cap":
@@ -653,6 +663,8 @@ TEXTS = {
     "{name}: {n} parts are objects now": "{name}: {n} Teile sind jetzt Objekte",
     "{n} earlier pieces that were edited since are left as they are":
         "{n} frühere Stücke, die seither bearbeitet wurden, bleiben, wie sie sind",
+    "{n} borders run along faces: a smooth cut would tear a part there":
+        "{n} Grenzen verlaufen an Flächen: ein glatter Schnitt würde dort ein Teil zerreißen",
     "{n} edges stay open: more than two faces meet beside them":
         "{n} Kanten bleiben offen: neben ihnen treffen mehr als zwei Flächen zusammen",
     "The active object is not a part that was separated from another one":

@@ -16,6 +16,7 @@ from snapshot import activate, changes, check_undo, snapshot
 
 SPOT = Path(__file__).resolve().parents[3] / "models" / "spot.obj"
 KEEP = {"hide": False, "center": False}
+WHOLE = {"cut": "FACES"}  # faces stay whole, so that those of the pieces can be compared with those of the object
 WIDTH = {"FLOAT_VECTOR": ("vector", 3), "FLOAT2": ("vector", 2), "FLOAT_COLOR": ("color", 4),
          "BYTE_COLOR": ("color", 4), "INT32_2D": ("value", 2), "INT16_2D": ("value", 2)}  # fmt: skip
 SHAPES = {
@@ -133,7 +134,7 @@ def shape(request, make):
 
 def test_faces_and_area_are_conserved(shape):
     bpy.ops.reeb_parts.decompose()
-    assert bpy.ops.reeb_parts.separate(**KEEP) == {"FINISHED"}
+    assert bpy.ops.reeb_parts.separate(**KEEP, **WHOLE) == {"FINISHED"}
     numbers = numbers_of(shape)
     assert [len(p.data.polygons) for p in pieces()] == np.bincount(numbers)[1:].tolist()
     area = sum(polygon.area for piece in pieces() for polygon in piece.data.polygons)
@@ -147,7 +148,7 @@ def test_all_that_the_faces_carry_is_carried_on(rich, caps):
     normals = read(rich.data.corner_normals, "vector", np.float32, 3)
     bpy.ops.reeb_parts.decompose(face_sets=True, seams=True, field=True)
     numbers = numbers_of(rich)
-    bpy.ops.reeb_parts.separate(caps=caps, **KEEP)
+    bpy.ops.reeb_parts.separate(caps=caps, **KEEP, **WHOLE)
     fat = read(rich.data.shape_keys.key_blocks["Fat"].data, "co", np.float32, 3)
     for piece in pieces():
         mesh = piece.data
@@ -275,7 +276,7 @@ def test_caps_are_marked_and_have_the_part_material(rich):
     slots = read(rich.data.polygons, "material_index", np.int32)
     bpy.ops.reeb_parts.decompose()
     numbers = numbers_of(rich)
-    bpy.ops.reeb_parts.separate(caps=True, **KEEP)
+    bpy.ops.reeb_parts.separate(caps=True, **KEEP, **WHOLE)
     for piece in pieces():
         mine = numbers == piece["reeb_parts_number"]
         cap = caps_of(piece.data)
@@ -337,7 +338,7 @@ def test_pieces_lie_where_their_faces_lay(obj, center, parent):
     obj.delta_location = (0.5, 0, 0)
     bpy.ops.reeb_parts.decompose()
     numbers, points = numbers_of(obj), world_points(obj)
-    bpy.ops.reeb_parts.separate(center=center, parent=parent)
+    bpy.ops.reeb_parts.separate(center=center, parent=parent, **WHOLE)
     for piece in pieces():
         here = elements(obj.data, numbers == piece["reeb_parts_number"])["POINT"]
         assert world_points(piece) == pytest.approx(points[here], abs=1e-4)
@@ -478,7 +479,7 @@ def test_models_in_closed_pieces_lose_nothing(model, parts, make):
     obj = bpy.context.object
     carried.furnish(obj)
     bpy.ops.reeb_parts.decompose(**parts)
-    bpy.ops.reeb_parts.separate(caps=True, **KEEP)
+    bpy.ops.reeb_parts.separate(caps=True, **KEEP, **WHOLE)
     found = carried.compare(obj, pieces(obj.name))
     assert found.caps > (100 if parts else 50)  # the eyes of Suzanne and their sockets are parts together
     assert (found.lost, found.new_borders, found.new_branches) == (0, 0, 0)
@@ -521,7 +522,7 @@ def test_with_a_mirror_modifier_pieces_stay_where_they_were(obj, style):
     mirrored(obj)
     bpy.ops.reeb_parts.decompose()
     before = seen_faces(obj)
-    bpy.ops.reeb_parts.separate(**style)
+    bpy.ops.reeb_parts.separate(**style, **WHOLE)
     assert same_places(seen_faces(*pieces()), before)
     assert all(bool(piece.modifiers) != style.get("seen", False) for piece in pieces())
 
@@ -533,7 +534,7 @@ def test_about_another_object_pieces_have_origins_of_their_own(obj):
     mirrored(obj, mirror_object=empty)
     bpy.ops.reeb_parts.decompose()
     before = seen_faces(obj)
-    bpy.ops.reeb_parts.separate()
+    bpy.ops.reeb_parts.separate(**WHOLE)
     assert same_places(seen_faces(*pieces()), before)
     assert len({tuple(piece.location) for piece in pieces()}) == len(pieces())
 
@@ -544,7 +545,7 @@ def test_what_is_seen_is_cut_with_all_that_modifiers_make(obj, materials):
     obj.modifiers.new("Subdivision", "SUBSURF").levels = 1
     bpy.ops.reeb_parts.decompose(materials=materials)
     before, stored = seen_faces(obj), snapshot()["meshes"]["Tree"]
-    bpy.ops.reeb_parts.separate(seen=True, caps=True, hide=False)
+    bpy.ops.reeb_parts.separate(seen=True, caps=True, hide=False, **WHOLE)
     assert snapshot()["meshes"]["Tree"] == stored
     corners = read(obj.data.polygons, "loop_total", np.int32)
     expected = np.bincount(numbers_of(obj), corners)[1:].astype(int).tolist()
@@ -553,7 +554,7 @@ def test_what_is_seen_is_cut_with_all_that_modifiers_make(obj, materials):
     assert not any(a.name.startswith(("reeb", "Reeb")) and a.name != "reeb_cap"
                    for piece in pieces() for a in piece.data.attributes)
     assert not any(piece.vertex_groups for piece in pieces())
-    bpy.ops.reeb_parts.separate(seen=True, hide=False)
+    bpy.ops.reeb_parts.separate(seen=True, hide=False, **WHOLE)
     assert same_places(seen_faces(*pieces()), before)
 
 
@@ -580,3 +581,105 @@ def test_groups_of_a_cage_survive_subdivision(obj):
         inside = np.logical_and.reduceat(corner, read(obj.data.polygons, "loop_start", np.int32))
         assert inside[numbers == number].all()
         assert inside.sum() < 1.1 * (numbers == number).sum()
+
+
+@pytest.fixture
+def linear(shape):
+    """A shape whose every value is a linear function of the place, which interpolation has to leave true."""
+    mesh = shape.data
+    points = read(mesh.vertices, "co", np.float32, 3)
+    corner = read(mesh.loops, "vertex_index", np.int32)
+    mesh.uv_layers.new(name="Map").data.foreach_set("uv", points[corner, :2].ravel())
+    dust = mesh.attributes.new("Dust", "FLOAT_COLOR", "POINT")
+    dust.data.foreach_set("color", np.column_stack([points, np.ones(len(points))]).astype(np.float32).ravel())
+    group = shape.vertex_groups.new(name="Arm")
+    for index, height in enumerate(height_of(points).tolist()):
+        group.add([index], height, "REPLACE")
+    shape.shape_key_add(name="Basis")
+    key = shape.shape_key_add(name="Fat")
+    key.data.foreach_set("co", (points * np.float32(1.5)).ravel())
+    return shape
+
+
+def height_of(points):
+    """A weight that grows with height, never 0."""
+    return 0.5 + points[:, 2] / 100
+
+
+@pytest.mark.parametrize("caps", [False, True])
+def test_smooth_cuts_interpolate_all_that_is_carried(linear, caps):
+    bpy.ops.reeb_parts.decompose()
+    before = snapshot()["meshes"]["Tree"]
+    bpy.ops.reeb_parts.separate(caps=caps, **KEEP)
+    assert snapshot()["meshes"]["Tree"] == before
+    faces = 0
+    for piece in pieces():
+        mesh = piece.data
+        cap = caps_of(mesh) == 1
+        own = ~np.repeat(cap, read(mesh.polygons, "loop_total", np.int32))
+        corner = read(mesh.loops, "vertex_index", np.int32)
+        points = read(mesh.vertices, "co", np.float32, 3)
+        used = np.unique(corner[own])
+        assert read(mesh.uv_layers["Map"].data, "uv", np.float32, 2)[own] == pytest.approx(points[corner[own], :2],
+                                                                                         abs=1e-4)
+        dust = read(mesh.attributes["Dust"].data, "color", np.float32, 4)[used, :3]
+        assert dust == pytest.approx(points[used], abs=1e-4)
+        weights = np.array([v.groups[0].weight for v in mesh.vertices])
+        assert weights[used] == pytest.approx(height_of(points)[used], abs=1e-5)
+        fat = read(mesh.shape_keys.key_blocks["Fat"].data, "co", np.float32, 3)
+        assert fat[used] == pytest.approx(1.5 * points[used], abs=1e-4)
+        faces += int((~cap).sum())
+    area = sum(f.area for p in pieces() for f, c in zip(p.data.polygons, caps_of(p.data), strict=True) if not c)
+    assert area == pytest.approx(sum(polygon.area for polygon in linear.data.polygons), rel=1e-5)
+    assert faces >= len(linear.data.polygons)
+
+
+def test_smooth_cuts_divide_what_faces_leave_ragged(obj):
+    """What rims turn besides going round is at most a quarter of what it is along faces; pieces are still closed."""
+    bpy.ops.reeb_parts.decompose()
+    turned = {}
+    for cut in ("FACES", "SMOOTH"):
+        activate(obj)
+        bpy.ops.reeb_parts.separate(cut=cut, caps=False, **KEEP)
+        turned[cut] = sum(map(turning, pieces()))
+    round_ = 2 * np.pi * 2 * (len(pieces()) - 1)
+    assert turned["SMOOTH"] - round_ < 0.25 * (turned["FACES"] - round_)
+    activate(obj)
+    bpy.ops.reeb_parts.separate(caps=True, **KEEP)
+    assert [borders(piece.data) for piece in pieces()] == [(set(), 0)] * len(pieces())
+    assert sum(volume(piece.data) for piece in pieces()) == pytest.approx(volume(obj.data), rel=1e-5)
+
+
+def turning(piece):
+    """By how much the rims of a piece turn, in radians."""
+    bm = bmesh.new()
+    bm.from_mesh(piece.data)
+    angle = 0.0
+    for vertex in bm.verts:
+        ends = [edge.other_vert(vertex).co for edge in vertex.link_edges if edge.is_boundary]
+        if len(ends) == 2:
+            angle += (vertex.co - ends[0]).angle(ends[1] - vertex.co)
+    bm.free()
+    return angle
+
+
+def test_smooth_cuts_through_quads_and_larger_faces(make, separate):
+    """Quads, a grid bent to a tube, and faces with a corner turned in, which are made triangles where cut."""
+    vertices, faces = shapes.cylinder(24, 16)
+    obj = make((vertices, faces))
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.tris_convert_to_quads()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    centers = read(obj.data.polygons, "center", np.float32, 3)
+    size = np.ptp(centers, axis=0)
+    along = np.argmax(size)
+    wave = centers[:, along] + 0.1 * size[along] * np.sign(np.sin(1e4 * centers[:, (along + 1) % 3]))
+    numbers = 1 + (wave > wave.mean())
+    made = separate.piece_meshes(obj.data, numbers, (1, 2), smooth=np.eye(3))
+    area = sum(polygon.area for mesh in made.meshes.values() for polygon in mesh.polygons)
+    assert area == pytest.approx(sum(polygon.area for polygon in obj.data.polygons), rel=1e-4)
+    before = {frozenset(edge) for edge in borders(obj.data)[0]}
+    joint = [borders(mesh)[0] for mesh in made.meshes.values()]
+    assert joint[0] - before == joint[1] - before  # both sides have the same rim
+    assert len(made.meshes[1].polygons) + len(made.meshes[2].polygons) > len(obj.data.polygons)
