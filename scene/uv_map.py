@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -11,10 +13,22 @@ from . import mesh_arrays, part_meshes, store, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
 from .selection import nothing_selected
+from .store import Stored
 from .temporary import removed
+
+if TYPE_CHECKING:
+    from ..core.surface.corners import CornerTable
+    from ..core.uses.distortion import Distortion
 
 UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
+
+# How many UV maps Blender allows.
+_LAYERS = 8
+# Between islands, as a share of the map.
+_MARGIN = 0.005
+# Blender's method of least stretch goes step by step; meshes of few, long faces need more steps, and have more time.
+_FEWEST, _MOST, _FACES = 10, 100, 100_000
 
 
 def find(mesh: bpy.types.Mesh) -> bpy.types.MeshUVLoopLayer | None:
@@ -33,73 +47,119 @@ def remove(mesh: bpy.types.Mesh) -> None:
         del mesh[MADE]
 
 
-def unwrap(context: bpy.types.Context, obj: bpy.types.Object, face_numbers: np.ndarray, open_parts: bool,
-           method: str) -> str:
-    """Unwrap an object into our UV map, which becomes the active one; Object Mode. Returns the name of the map.
+def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, open_parts: bool, method: str,
+           stack: bool) -> tuple[str, Distortion]:
+    """Unwrap an object into our UV map, which becomes the active one; Object Mode.
 
     Parameters
     ----------
     context : bpy.types.Context
     obj : bpy.types.Object
-    face_numbers : (p,) int64
-        Number of each face's part.
+    stored : Stored
     open_parts : bool
-        Cut tubes and closed parts open, so that they can be laid flat.
+        Cut parts open where they would not lie flat.
     method : str
-        Of bpy.ops.uv.unwrap.
+        "MINIMUM_STRETCH", or another of bpy.ops.uv.unwrap.
+    stack : bool
+        Lay parts that are exact mirror images of others over these.
+
+    Returns
+    -------
+    name : str
+        Of the map.
+    distortion : Distortion
     """
     mesh = obj.data
-    coordinates = _unwrapped(context, obj, _seams(obj, face_numbers, open_parts), method)
+    if find(mesh) is None and len(mesh.uv_layers) >= _LAYERS:
+        raise SceneError(
+            rpt_("{name} has as many UV maps as Blender allows. Remove one and try again.").format(name=mesh.name))
+    table = mesh_arrays.corner_table(mesh, mesh_arrays.shown_points(obj) @ store.stretch_of(mesh).T)
+    image = _images(table, stored) if stack else np.full(len(mesh.loops), -1)
+    seams = mesh_arrays.read(mesh.edges, "use_seam", bool) | mesh_arrays.cut_edges(mesh, stored.face_numbers)
+    if open_parts:
+        from ..core.uses.unfold import unfolding_seams  # imports SciPy
+
+        seams |= unfolding_seams(table, seams)
+    flat = _unwrapped(context, obj, table, seams, method, image)
+    flat = np.where(image[:, None] >= 0, flat[image], flat)
+    return _write(mesh, flat), _distortion(table, flat, image)
+
+
+def _images(table: CornerTable, stored: Stored) -> np.ndarray:
+    """The corner that each corner of a part is the exact mirror image of, (c,), -1 for none."""
+    from ..core.surface.symmetry import MirrorPlane
+    from ..core.uses.stacking import image_corners
+
+    decomposition, parts = stored.decomposition, stored.shown_parts().parts
+    if not len(decomposition.mirror):
+        return np.full(len(table.corner_vertex), -1)
+    plane = MirrorPlane(decomposition.mirror[:3], float(decomposition.mirror[3]))
+    return image_corners(table, parts.labels, parts.side, plane, decomposition.face_twin)
+
+
+def _distortion(table: CornerTable, flat: np.ndarray, image: np.ndarray) -> Distortion:
+    """What the map does, without parts that lie over their twins."""
+    from ..core.uses.distortion import distortion
+
+    alone = np.ones(table.n_faces, bool)
+    alone[table.corner_face[image >= 0]] = False
+    return distortion(table.within(alone), flat[alone[table.corner_face]].astype(np.float64))
+
+
+def _write(mesh: bpy.types.Mesh, flat: np.ndarray) -> str:
+    """Write our map, which becomes the active one, and return its name. flat : (c, 2)."""
     transaction.keep_mesh(mesh)
     transaction.keep_keys(mesh, MADE)
     layer = find(mesh)
     if layer is None:
         layer = mesh.uv_layers.new(name=UV_MAP, do_init=False)
-        if layer is None:
-            raise SceneError(
-                rpt_("{name} has as many UV maps as Blender allows. Remove one and try again.").format(name=mesh.name))
         mesh[MADE] = layer.name
         mesh.uv_layers.active = layer
-    layer.uv.foreach_set("vector", coordinates)
+    layer.uv.foreach_set("vector", flat.ravel())
     mesh.update()
     return layer.name
 
 
-def _seams(obj: bpy.types.Object, face_numbers: np.ndarray, open_parts: bool) -> np.ndarray:
-    """The user's seams, the cuts between parts and, if asked for, what opens parts; (e,) bool."""
-    mesh = obj.data
-    seams = mesh_arrays.read(mesh.edges, "use_seam", bool) | mesh_arrays.cut_edges(mesh, face_numbers)
-    if open_parts:
-        from ..core.uses.unfold import opening_seams  # imports SciPy
+def _unwrapped(context: bpy.types.Context, obj: bpy.types.Object, table: CornerTable, seams: np.ndarray, method: str,
+               image: np.ndarray) -> np.ndarray:
+    """The UV coordinates of each corner, (c, 2) float32; unwrapped on a copy, so that no selection is touched.
 
-        points = mesh_arrays.shown_points(obj) @ store.stretch_of(mesh).T
-        seams |= opening_seams(mesh_arrays.corner_table(mesh, points), seams)
-    return seams
-
-
-def _unwrapped(context: bpy.types.Context, obj: bpy.types.Object, seams: np.ndarray, method: str) -> np.ndarray:
-    """The UV coordinates of each corner, flat float32; unwrapped on a copy, so that no selection is touched."""
+    Faces whose corners are images of others, (c,), are left out.
+    """
     copy = part_meshes.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
     with removed(bpy.data.meshes, copy), removed(bpy.data.objects, twin):
-        _prepare(twin, mesh_arrays.shown_points(obj) @ store.stretch_of(obj.data).T, seams)
+        left_out = np.zeros(table.n_faces, bool)
+        left_out[table.corner_face[image >= 0]] = True
+        _prepare(twin, table.vertices, seams, left_out)
         context.scene.collection.objects.link(twin)
         with nothing_selected(context.view_layer):
             _unwrap_all(context, twin, method)
-        return mesh_arrays.read(copy.uv_layers.active.uv, "vector", np.float32, 2).ravel()
+        return mesh_arrays.read(copy.uv_layers.active.uv, "vector", np.float32, 2)
 
 
 def _unwrap_all(context: bpy.types.Context, twin: bpy.types.Object, method: str) -> None:
-    """Unwrap all faces of an object with Blender's operator, which works on the active object in Edit Mode."""
+    """Unwrap all faces of an object with Blender's operators, which work on the active object in Edit Mode."""
     twin.select_set(True)
     context.view_layer.objects.active = twin
+    steps = int(np.clip(_FACES // max(len(twin.data.polygons), 1), _FEWEST, _MOST))
     set_mode(twin, "EDIT")
-    call_with(bpy.ops.uv.unwrap, twin, method=method, margin=0.005)
+    known = bpy.ops.uv.unwrap.get_rna_type().properties["method"].enum_items.keys()
+    if method != "MINIMUM_STRETCH":
+        call_with(bpy.ops.uv.unwrap, twin, method=method, fill_holes=False, margin=_MARGIN)
+    elif method in known:
+        call_with(bpy.ops.uv.unwrap, twin, method=method, fill_holes=False, margin=_MARGIN, no_flip=True,
+                  iterations=steps)
+    else:  # before Blender 4.3
+        call_with(bpy.ops.uv.unwrap, twin, method="ANGLE_BASED", fill_holes=False, margin=_MARGIN)
+        call_with(bpy.ops.uv.minimize_stretch, twin, fill_holes=False, iterations=steps)
+    call_with(bpy.ops.uv.average_islands_scale, twin)
+    call_with(bpy.ops.uv.pack_islands, twin, margin=_MARGIN)
     set_mode(twin, "OBJECT")
 
 
-def _prepare(twin: bpy.types.Object, points: np.ndarray, seams: np.ndarray) -> None:
-    """Give a copy the shape that is seen, our seams, one UV map, and all selected."""
+def _prepare(twin: bpy.types.Object, points: np.ndarray, seams: np.ndarray, left_out: np.ndarray) -> None:
+    """Give a copy the shape that is seen, our seams, one UV map, and all selected but some faces, (p,) bool."""
     mesh = twin.data
     if mesh.shape_keys:
         name = mesh.shape_keys.name
@@ -111,6 +171,7 @@ def _prepare(twin: bpy.types.Object, points: np.ndarray, seams: np.ndarray) -> N
     for items in (mesh.vertices, mesh.edges, mesh.polygons):
         items.foreach_set("hide", np.zeros(len(items), bool))
         items.foreach_set("select", np.ones(len(items), bool))
+    mesh.polygons.foreach_set("hide", left_out)
     for name in mesh.uv_layers.keys():  # noqa: SIM118
         mesh.uv_layers.remove(mesh.uv_layers[name])
     mesh.uv_layers.new(name=UV_MAP)

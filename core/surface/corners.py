@@ -85,6 +85,36 @@ class CornerTable:
         start, end = self.vertices[self.edges[edge]].transpose(1, 0, 2)
         return np.linalg.norm(end - start, axis=1)
 
+    def fans(self) -> tuple[np.ndarray, np.ndarray]:
+        """Divide each face into triangles that share its first corner.
+
+        Returns
+        -------
+        triangles : (t, 3) int64
+            Vertices; a face of k corners gives k - 2.
+        face : (t,) int64
+            Face of each triangle, rising.
+        """
+        new = np.append(True, np.diff(self.corner_face) != 0)[: len(self.corner_face)]
+        start = np.flatnonzero(new)[np.cumsum(new) - 1]
+        middle = np.flatnonzero(~new & ~np.append(new[1:], True)[: len(new)])
+        corners = np.stack([start[middle], middle, middle + 1], axis=1)
+        return self.corner_vertex[corners], self.corner_face[middle]
+
+    @property
+    def next_corner(self) -> np.ndarray:
+        """Corner that follows each corner in its face, (c,) int64."""
+        new = np.append(True, np.diff(self.corner_face) != 0)[: len(self.corner_face)]
+        following = np.arange(1, len(new) + 1)
+        following[np.append(new[1:], True)[: len(new)]] = np.flatnonzero(new)
+        return following
+
+    def face_vectors(self) -> np.ndarray:
+        """Vector area of each face, (p, 3) float64: along its normal, as long as its area, 0 without corners."""
+        triangles, face = self.fans()
+        a, b, c = self.vertices[triangles].transpose(1, 0, 2)
+        return sums_by(face, 0.5 * np.cross(b - a, c - a), self.n_faces)
+
     def face_means(self, values: np.ndarray) -> np.ndarray:
         """Average values of vertices over the corners of each face.
 

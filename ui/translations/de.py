@@ -453,15 +453,22 @@ TEXTS = {
     "Unwrap the mesh along the cuts between parts and your own seams, into a UV map of its own":
         "Das Mesh entlang der Schnitte zwischen Teilen und der eigenen Nähte in eine eigene UV-Map abwickeln",
     "Open tubes": "Röhren öffnen",
-    "Also cut tubes along and closed parts open, by the shortest way, so that they lie flat; these seams are not "
-    "marked on the mesh":
-        "Auch Röhren der Länge nach und geschlossene Teile auf kürzestem Weg aufschneiden, sodass sie flach liegen; "
-        "diese Nähte werden im Mesh nicht markiert",
+    "Also cut parts open where they would not lie flat: tubes along, and toward tips. These seams run on inner sides "
+    "and along creases, and are not marked on the mesh":
+        "Auch Teile aufschneiden, wo sie nicht flach lägen: Röhren der Länge nach, und zu Spitzen hin. Diese Nähte "
+        "laufen auf den Innenseiten und entlang von Falten und werden auf dem Netz nicht markiert",
+    "Stack twins": "Zwillinge stapeln",
+    "Lay parts whose meshes are mirror images of each other over each other, so that both share one place in the "
+    "texture":
+        "Teile, deren Netze Spiegelbilder voneinander sind, übereinander legen, sodass beide einen Platz in der "
+        "Textur teilen",
+    "Minimum stretch": "Geringste Dehnung",
+    "Areas and angles as even as can be": "Flächen und Winkel so gleichmäßig wie möglich",
+    "Angles even, areas less; faster": "Winkel gleichmäßig, Flächen weniger; schneller",
+    "The fastest, and the least even": "Am schnellsten und am wenigsten gleichmäßig",
     "How faces are laid flat": "Wie Flächen flach gelegt werden",
     "Angle based": "Winkelbasiert",
-    "Good for organic shapes": "Gut für organische Formen",
     "Conformal": "Konform",
-    "Faster, less even": "Schneller, weniger gleichmäßig",
     "Write each part to a file of its own, in a folder; files of the same names are replaced":
         "Jedes Teil in eine eigene Datei in einem Ordner schreiben; Dateien gleichen Namens werden ersetzt",
     "Folder": "Ordner",
@@ -677,7 +684,10 @@ TEXTS = {
     "The materials are yours alone again": "Es sind wieder nur die eigenen Materialien da",
     "{name} has as many UV maps as Blender allows. Remove one and try again.":
         "{name} hat so viele UV-Maps, wie Blender erlaubt. Bitte eine entfernen und erneut versuchen.",
-    "Unwrapped into the UV map {name}": "In die UV-Map {name} abgewickelt",
+    "Unwrapped into the UV map {name}: areas {low:.1f} to {high:.1f} times their size, {share:.0%} of the faces within "
+    "0.3 to 3; angles {angle:.0f}° off on average":
+        "In die UV-Map {name} abgewickelt: Flächen auf das {low:.1f}- bis {high:.1f}-Fache, {share:.0%} davon "
+        "zwischen 0,3 und 3; Winkel im Mittel um {angle:.0f}° verändert",
     "There is no folder to write to. Choose one and try again.":
         "Es ist kein Ordner angegeben. Bitte einen wählen und erneut versuchen.",
     "{path} could not be written: {reason}": "{path} konnte nicht geschrieben werden: {reason}",

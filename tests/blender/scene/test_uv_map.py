@@ -72,13 +72,45 @@ def test_every_face_lies_flat_and_no_face_is_turned_over(make, name):
     assert 0.2 < area.sum() < 1.0
 
 
-def test_stretch_is_moderate(obj):
-    """Areas in the map are like those of the faces, up to one factor, for nearly all faces."""
-    bpy.ops.reeb_parts.decompose()
+@pytest.mark.parametrize("n_parts", [1, 0])
+def test_areas_are_even(obj, n_parts):
+    """Areas in the map are like those of the faces, up to one factor, also where a whole tree is one part."""
+    bpy.ops.reeb_parts.decompose(n_parts=n_parts)
     bpy.ops.reeb_parts.unwrap()
     ratio = face_areas(obj.data) / read(obj.data.polygons, "area")
-    ratio /= np.median(ratio)
-    assert np.mean((ratio > 1 / 3) & (ratio < 3)) > 0.9
+    ratio /= face_areas(obj.data).sum() / read(obj.data.polygons, "area").sum()
+    assert np.mean((ratio > 0.3) & (ratio < 3)) > 0.99
+
+
+@pytest.mark.parametrize("method", ["ANGLE_BASED", "CONFORMAL"])
+def test_the_report_says_how_even_the_map_is(obj, method, capfd):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.unwrap(method=method)
+    ratio = face_areas(obj.data) / read(obj.data.polygons, "area")
+    ratio /= np.abs(face_areas(obj.data)).sum() / read(obj.data.polygons, "area").sum()
+    low, high = np.quantile(ratio, (0.01, 0.99))
+    even = np.mean((ratio > 0.3) & (ratio < 3))
+    assert f"areas {low:.1f} to {high:.1f} times their size, {even:.0%} of the faces" in capfd.readouterr().out
+
+
+def test_twins_lie_over_each_other(make):
+    """Left and right parts that are mirror images share their place; all else has more of the map than before."""
+    obj = make(shapes.mirrored_figure(), "Figure")
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.unwrap()
+    apart = face_areas(obj.data)
+    bpy.ops.reeb_parts.unwrap(stack=True)
+    stacked, numbers = face_areas(obj.data), read(obj.data.attributes["reeb_part"].data, "value", np.int32)
+    uv = read(obj.data.uv_layers[MAP].uv, "vector", np.float32, 2).reshape(-1, 3, 2)
+    named = {part.name: numbers == part.number for part in obj.data.reeb_parts.parts}
+    pairs = [(named[name], named[name[:-1] + "R"]) for name in named if name.endswith(".L")]
+    assert pairs
+    for left, right in pairs:
+        islands = [{tuple(sorted(map(tuple, face.tolist()))) for face in uv[side]} for side in (left, right)]
+        assert islands[0] == islands[1]
+        assert np.sign(stacked[left]).mean() == pytest.approx(-np.sign(stacked[right]).mean())
+    alone = ~np.any(pairs, axis=(0, 1))
+    assert np.abs(stacked[alone]).sum() > np.abs(apart[alone]).sum()
 
 
 def test_nothing_else_is_touched(obj):
