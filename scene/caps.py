@@ -4,14 +4,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
 import numpy as np
 from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
+from mathutils import Vector
 from mathutils.geometry import tessellate_polygon
 
 from .temporary import freed
+
+if TYPE_CHECKING:
+    from .discs import Disc, Discs
 
 #: Face attribute: 1 on a cap.
 CAP = "reeb_cap"
@@ -23,12 +28,13 @@ Triple = tuple[int, int, int]  # corners of a triangle, by their place around th
 _FLAT = 1e-3
 
 
-def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray) -> tuple[int, int]:
+def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray,
+               middles: np.ndarray, discs: Discs) -> tuple[int, int]:
     """Fill the holes that a cut has left; borders that were there before stay open.
 
     A cut that ends on a border makes one hole together with a stretch of it: that is filled as a whole.
-    Where several cuts meet, each stretch between two such places is filled by itself, up to the straight line
-    between its ends, so that the part on its other side can be filled alike.
+    Where several cuts meet, each stretch between two such places is filled by itself, up to the middle of all that
+    meet, so that the part on its other side can be filled alike.
 
     Parameters
     ----------
@@ -40,6 +46,10 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, jo
         Vertices where more than two cuts meet.
     joined : (k, 2) int64
         Vertices that an edge joined before the cut, whether it is in this piece or in another.
+    middles : (v, 3) float64
+        For each vertex where more than two cuts meet the middle of all that are connected with it by cuts.
+    discs : Discs
+        Surfaces across closed curves, the same for both sides of a cut.
 
     Returns
     -------
@@ -51,14 +61,14 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, jo
         bm.edges.ensure_lookup_table()
         edges = [edge for i in np.flatnonzero(opened).tolist() if (edge := bm.edges[i]).is_boundary]
         bm.verts.ensure_lookup_table()
-        meets = {bm.verts[i] for i in np.flatnonzero(meeting).tolist()}
+        meets = {bm.verts[i]: middles[i] for i in np.flatnonzero(meeting).tolist()}
         pairs = _both_ways((bm.verts[a], bm.verts[b]) for a, b in joined.tolist())
         holes, left = _holes(edges)
         if not holes:
             return 0, left
         layer = bm.faces.layers.int.get(CAP) or bm.faces.layers.int.new(CAP)
         sheets = [sheet for hole in holes for sheet in _sheets(bm, hole, meets, set(edges))]
-        made = [face for sheet in sheets for face in _fill(bm, sheet, pairs)]
+        made = [face for sheet in sheets for face in _fill(bm, sheet, pairs, discs)]
         for face in made:
             face[layer] = 1
         bm.to_mesh(mesh)
@@ -134,8 +144,9 @@ def _simple(vertices: list[BMVert]) -> list[list[BMVert]]:
     return [walk for walk in [*walks, path] if len(walk) > 2]
 
 
-def _sheets(bm: BMesh, hole: list[BMVert], meeting: set[BMVert], opened: set[BMEdge]) -> list[list[BMVert]]:
-    """Take a hole apart where cuts meet: a closed walk for each stretch, and one for what is between them."""
+def _sheets(bm: BMesh, hole: list[BMVert], meeting: dict[BMVert, np.ndarray],
+            opened: set[BMEdge]) -> list[list[BMVert]]:
+    """Take a hole apart where cuts meet: a closed walk for each stretch between two such places."""
     at = [i for i, vertex in enumerate(hole) if vertex in meeting]
     if len(at) < 2 or _has_border(hole, opened):
         return [hole]
@@ -143,7 +154,7 @@ def _sheets(bm: BMesh, hole: list[BMVert], meeting: set[BMVert], opened: set[BME
     around = hole[at[0] :] + hole[: at[0] + 1]
     at = [i - at[0] for i in at] + [len(hole)]
     stretches = [around[i : j + 1] for i, j in zip(at, at[1:], strict=False)]
-    return _two_sheets(bm, stretches) if len(stretches) == 2 else _many_sheets(bm, stretches)
+    return _to_the_middle(bm, stretches, meeting[around[0]])
 
 
 def _has_border(hole: list[BMVert], opened: set[BMEdge]) -> bool:
@@ -151,52 +162,33 @@ def _has_border(hole: list[BMVert], opened: set[BMEdge]) -> bool:
     return any(_edge(a, b) not in opened for a, b in zip(hole, [*hole[1:], hole[0]], strict=True))
 
 
-def _two_sheets(bm: BMesh, stretches: list[list[BMVert]]) -> list[list[BMVert]]:
-    """One closed walk for each of two stretches; for both together if one of them is the straight line."""
-    if any(_is_straight(stretch) for stretch in stretches):
-        return [[vertex for stretch in stretches for vertex in stretch[:-1]]]
-    middle = _half_way(bm, stretches[0])
+def _to_the_middle(bm: BMesh, stretches: list[list[BMVert]], place: np.ndarray) -> list[list[BMVert]]:
+    """A closed walk for each stretch, by a new vertex at a place that is the same for all parts that meet.
+
+    So each stretch is closed alike on both sides, and nothing is left out between the parts.
+    """
+    middle = _between(bm, [stretch[0] for stretch in stretches], np.full(len(stretches), 1 / len(stretches)))
+    moved = Vector(place) - middle.co
+    middle.co = place
+    for layer in bm.verts.layers.shape.values():
+        middle[layer] += moved
     return [[*stretch, middle] for stretch in stretches]
-
-
-def _many_sheets(bm: BMesh, stretches: list[list[BMVert]]) -> list[list[BMVert]]:
-    """A closed walk for each stretch that is not straight, and one along the straight lines between all ends."""
-    sheets, inner = [], []
-    for stretch in stretches:
-        if _is_straight(stretch):
-            inner += stretch[:-1]
-        else:
-            middle = _half_way(bm, stretch)
-            sheets.append([*stretch, middle])
-            inner += [stretch[0], middle]
-    return [*sheets, inner]
-
-
-def _half_way(bm: BMesh, stretch: list[BMVert]) -> BMVert:
-    """A new vertex half way between the ends of a stretch, so that no second edge joins the ends."""
-    return _between(bm, (stretch[0], stretch[-1]), np.array([0.5, 0.5]))
-
-
-def _is_straight(stretch: list[BMVert]) -> bool:
-    points = np.array([vertex.co[:] for vertex in stretch], np.float64) - stretch[0].co
-    way = points[-1]
-    aside = np.cross(points[1:-1], way)
-    return bool((np.linalg.norm(aside, axis=1) <= _FLAT * (way @ way)).all())
 
 
 def _edge(vertex: BMVert, other: BMVert) -> BMEdge:
     return next(edge for edge in vertex.link_edges if edge.other_vert(vertex) == other)
 
 
-def _fill(bm: BMesh, hole: list[BMVert], joined: Pairs) -> list[BMFace]:
+def _fill(bm: BMesh, hole: list[BMVert], joined: Pairs, discs: Discs) -> list[BMFace]:
     """Faces on a hole; never an edge with three faces.
 
-    One face if the hole is flat; a fan around its middle if that can be seen from all of the rim; else
-    triangles between its corners. The other side of the cut is filled alike, so that pieces fit together.
+    One face if the hole is flat; else a smooth surface of triangles over its plane. Where the hole as seen from there
+    crosses itself, a fan around its middle if that can be seen from all of the rim, else triangles between its corners.
+    The other side of the cut is filled alike, so that pieces fit together.
     """
     beside = _edge(hole[0], hole[1]).link_loops[0]
     corners = {vertex: _border_corner(vertex, beside) for vertex in hole}
-    faces = [bm.faces.new(polygon) for polygon in _polygons(bm, hole, joined)]
+    faces = [bm.faces.new(polygon) for polygon in _polygons(bm, hole, joined, discs)]
     layers = [*bm.loops.layers.color.values(), *bm.loops.layers.float_color.values()]
     for face in faces:
         face.material_index = beside.face.material_index
@@ -206,13 +198,69 @@ def _fill(bm: BMesh, hole: list[BMVert], joined: Pairs) -> list[BMFace]:
     return faces
 
 
-def _polygons(bm: BMesh, hole: list[BMVert], joined: Pairs) -> list[tuple[BMVert, ...]]:
+def _polygons(bm: BMesh, hole: list[BMVert], joined: Pairs, discs: Discs) -> list[tuple[BMVert, ...]]:
     """The corners of the faces that fill a hole."""
     points = np.array([vertex.co[:] for vertex in hole], np.float64)
     if _is_flat(points) and bm.faces.get(hole) is None:
         return [tuple(hole)]
+    surface = _surface(bm, hole, points, discs)
+    if surface:
+        return surface
     triangles = None if _is_star(points) else _triangles(hole, points, joined)
     return triangles or _fan(bm, hole)
+
+
+def _surface(bm: BMesh, hole: list[BMVert], points: np.ndarray, discs: Discs) -> list[tuple[BMVert, ...]] | None:
+    """Triangles of a smooth surface, with new vertices inside; None if there is none over the plane of the hole."""
+    order = _common_order(points)
+    disc = discs.across(points[order])
+    if disc is None:
+        return None
+    rim = [hole[i] for i in order]
+    corners = [*rim, *_inner(bm, rim, disc)]
+    # The triangles go round as the points do in the common order, which may be against the hole.
+    step = -1 if order[1] != (order[0] + 1) % len(order) else 1
+    return [tuple(corners[i] for i in triangle[::step]) for triangle in disc.triangles.tolist()]
+
+
+def _inner(bm: BMesh, rim: list[BMVert], disc: Disc) -> list[BMVert]:
+    """New vertices inside a surface, which have what those of its rim have, smoothly."""
+    made = [bm.verts.new(place) for place in disc.places.tolist()]
+    if not made:
+        return made
+    moved = disc.places - disc.spread(_values(rim, "co"))
+    for layer in bm.verts.layers.shape.values():
+        _set(made, layer, disc.spread(_values(rim, layer)) + moved)
+    for kind in ("float_vector", "float_color", "color"):
+        for layer in getattr(bm.verts.layers, kind).values():
+            _set(made, layer, disc.spread(_values(rim, layer)))
+    for layer in bm.verts.layers.float.values():
+        _set(made, layer, disc.spread(np.array([[vertex[layer]] for vertex in rim]))[:, 0])
+    if deform := bm.verts.layers.deform.active:
+        _spread_weights(made, rim, disc, deform)
+    return made
+
+
+def _values(rim: list[BMVert], layer: bmesh.types.BMLayerItem | str) -> np.ndarray:
+    """What the vertices of a rim have in a layer of several numbers, (k, c) float64."""
+    return np.array([vertex.co[:] if layer == "co" else vertex[layer][:] for vertex in rim], np.float64)
+
+
+def _set(vertices: list[BMVert], layer: bmesh.types.BMLayerItem, values: np.ndarray) -> None:
+    for vertex, value in zip(vertices, values.tolist(), strict=True):
+        vertex[layer] = value
+
+
+def _spread_weights(made: list[BMVert], rim: list[BMVert], disc: Disc, deform: bmesh.types.BMLayerItem) -> None:
+    """Give the vertices inside a surface weights between those of its rim."""
+    groups = sorted({group for v in rim for group in v[deform].keys()})  # noqa: SIM118
+    if not groups:
+        return
+    weights = disc.spread(np.array([[v[deform].get(group, 0.0) for group in groups] for v in rim]))
+    for vertex, values in zip(made, weights.tolist(), strict=True):
+        for group, weight in zip(groups, values, strict=True):
+            if weight > 0:
+                vertex[deform][group] = min(weight, 1.0)
 
 
 def _border_corner(vertex: BMVert, otherwise: BMLoop) -> BMLoop:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
@@ -17,6 +18,9 @@ import numpy as np
 from . import caps, mesh_arrays, outputs, quiet
 from .outputs import kept_aside, materials
 from .temporary import freed, removed
+
+if TYPE_CHECKING:
+    from .discs import Discs
 
 _NORMAL = "reeb_parts_normal"  # corner attribute: the user's normals, while faces are taken apart
 
@@ -98,16 +102,17 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
             along_faces = cuts.kept
         edge, (vertex, face) = mesh_arrays.corner_edges(plain), mesh_arrays.face_corners(plain)
         cut = mesh_arrays.cut_edges(plain, face_numbers)
-        meeting, joined = _around_cuts(plain, cut)
+        meeting, joined, middles = _around_cuts(plain, cut)
         wanted = [number for number in wanted if (face_numbers == number).any()]
-        made, left_open = {}, 0
+        made, left_open, discs = {}, 0, _discs(plain) if close else None
         for number, piece in _divide(plain, face_numbers, wanted, _has_loose(plain)):
             corner = (face_numbers == number)[face]
-            if close:
+            if discs is not None:
                 # Elements keep their order, so that those of the piece are those of its faces, rising.
                 mine = np.unique(vertex[corner])
                 here = np.searchsorted(mine, joined[np.isin(joined, mine).all(axis=1)])
-                left_open += caps.close_cuts(piece, cut[np.unique(edge[corner])], meeting[mine], here)[1]
+                opened = cut[np.unique(edge[corner])]
+                left_open += caps.close_cuts(piece, opened, meeting[mine], here, middles[mine], discs)[1]
             _set_normals(piece)
             others = [part for part in mesh.reeb_parts.parts if part.number != number]
             materials.drop_slots(piece, [part.material for part in others if part.material is not None])
@@ -115,14 +120,32 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
     return PieceMeshes(made, left_open, along_faces)
 
 
-def _around_cuts(mesh: bpy.types.Mesh, cut: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices where more than two edges of cuts meet, (v,) bool, and edges from cut to cut, (k, 2).
+def _discs(mesh: bpy.types.Mesh) -> Discs:
+    """Surfaces across the cuts of a mesh."""
+    from .discs import Discs  # imports SciPy
 
-    cut : (e,) bool.
+    return Discs(mesh_arrays.basis_points(mesh).astype(np.float64), mesh_arrays.triangles(mesh)[0])
+
+
+def _around_cuts(mesh: bpy.types.Mesh, cut: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices where more than two edges of cuts meet, (v,) bool; edges from cut to cut, (k, 2); and middles, (v, 3).
+
+    cut : (e,) bool. A middle is that of all such vertices that cuts connect with a vertex.
     """
     ends = mesh_arrays.edge_ends(mesh)
     count = np.bincount(ends[cut].ravel(), minlength=len(mesh.vertices))
-    return count > 2, ends[(count[ends] > 0).all(axis=1)]
+    meeting = count > 2
+    middles = mesh_arrays.basis_points(mesh).astype(np.float64)
+    if meeting.any():
+        from ..core.surface.arrays import components, renumbered, sums_by
+
+        used, place = renumbered(ends[cut])
+        n_networks, network = components(len(used), *place.T)
+        here = meeting[used]
+        total = sums_by(network[here], middles[used[here]], n_networks)
+        total /= np.maximum(np.bincount(network[here], minlength=n_networks), 1)[:, None]
+        middles[used[here]] = total[network[here]]
+    return meeting, ends[(count[ends] > 0).all(axis=1)], middles
 
 
 def _divide(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: list[int],

@@ -6,7 +6,7 @@ neighborhood is in which part. A vertex then is in the part with the largest sha
 where their shares are equal: across faces, and through a point inside a face where three parts meet. Diffusing an
 indicator and taking its middle level straightens a curve [Merriman1992]; the shares are shifted by what makes the
 level pass through the middle of the border as it was, so that no part grows at the cost of another. Where a plane
-fits the curve, the curve is the section with the plane.
+fits the curve, the curve is the section with the plane. A curve goes through creases that the border follows.
 
 A border that is smooth already stays along the edges of faces, and so does one whose curve would take a part away.
 """
@@ -16,7 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array, eye_array
+from scipy.sparse import coo_array, csr_array, diags_array, eye_array
 
 from ..surface.arrays import components, distinct_pairs, last_of_each, renumbered, sums_by
 from ..surface.corners import CornerTable
@@ -28,6 +28,9 @@ STEPS = (10, 4, 2)
 SNAP, SNAP_IN_PLANE = 0.15, 0.02
 # A plane fits if no point of a curve is farther from it than so many edges and such a share of the curve's radius.
 PLANE_EDGES, PLANE_RADIUS = 0.25, 0.04
+# Along a crease faces turn by such an angle or more, and the crease itself by less than the second from edge to edge. A
+# border that follows it may leave it for twice so many edges.
+CREASE, STRAIGHT, GAP = np.radians(30), np.radians(45), 2
 # A curve is used if it turns at most such a share of what the border along edges turns.
 WORTH = 0.85
 
@@ -95,8 +98,9 @@ def clean_cuts(table: CornerTable, labels: np.ndarray) -> CleanCuts:
         return CleanCuts(*(np.empty(0, kind) for kind in (np.int64, float, np.int64, np.int64, np.int64, np.int64)))
     taken = np.zeros(len(band.vertices), bool)
     found: list[CleanCuts] = []
+    pins = _Pins.of(band)
     for steps in STEPS:
-        sides = _sides(band, steps)
+        sides = _sides(band, pins, steps)
         division = _divide(band, sides)
         group, good, broken = _judged(band, sides, division)
         # What is chosen must not come near a curve that has been chosen before.
@@ -228,9 +232,65 @@ class _Sides:
     plane: np.ndarray
 
 
-def _sides(band: _Band, steps: int) -> _Sides:
+@dataclass(frozen=True, eq=False)
+class _Pins:
+    """Vertices that curves go through, because borders follow a crease there.
+
+    Attributes
+    ----------
+    vertex : (k,) int64
+    pair : (k, 2) int64
+        The two labels that meet there, the lower first.
+    """
+
+    vertex: np.ndarray
+    pair: np.ndarray
+
+    @classmethod
+    def of(cls, band: _Band) -> _Pins:
+        """The vertices of creases that borders follow, also where they leave one for a few edges."""
+        low, high = band.edge_labels()
+        sharp = _sharp(band)
+        both = np.flatnonzero(sharp & (low < high))
+        point, angle = turning(band.points, band.ends[both])
+        ends = band.ends[both].ravel()
+        pair = np.full((2, len(band.vertices)), -1)
+        other = pair.copy()
+        for pairs, order in ((pair, slice(None)), (other, slice(None, None, -1))):
+            pairs[:, ends[order]] = np.repeat(np.stack([low[both], high[both]]), 2, axis=1)[:, order]
+        sure = np.zeros(len(band.vertices), bool)
+        sure[point[angle < STRAIGHT]] = True
+        sure &= (pair == other).all(axis=0)
+        pair[:, ~sure] = -1
+        member = sure.copy()
+        a, b = np.concatenate([band.ends[sharp], band.ends[sharp][:, ::-1]]).T
+        for _ in range(GAP):
+            reached = member[a] & ~member[b]
+            pair[:, b[reached]] = pair[:, a[reached]]
+            member[b[reached]] = True
+        for _ in range(GAP):
+            outside = np.zeros(len(member), bool)
+            outside[a[~member[b]]] = True
+            member &= sure | ~outside
+        vertex = np.flatnonzero(member)
+        return cls(vertex, pair[:, vertex].T)
+
+
+def _sharp(band: _Band) -> np.ndarray:
+    """Whether the two faces at each edge turn by the angle of a crease, (e,) bool."""
+    normal = band.normals()
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    order = np.argsort(band.corner_edge, kind="stable")
+    edge, face = band.corner_edge[order], band.corner_face[order]
+    two = np.flatnonzero((edge[1:] == edge[:-1]) & (np.bincount(edge)[edge[1:]] == 2))
+    sharp = np.zeros(len(band.edges), bool)
+    sharp[edge[two]] = (normal[face[two]] * normal[face[two + 1]]).sum(axis=1) < np.cos(CREASE)
+    return sharp
+
+
+def _sides(band: _Band, pins: _Pins, steps: int) -> _Sides:
     """The sides of smooth curves after so many steps of diffusion."""
-    shares = _diffused(band, steps)
+    shares = _diffused(band, pins, steps)
     top = shares.top
     a, b = band.ends.T
     share = np.full(len(a), np.nan)
@@ -242,7 +302,7 @@ def _sides(band: _Band, steps: int) -> _Sides:
     gap = planes.height[a] - planes.height[b]
     along = np.divide(planes.height[a], gap, out=np.full(len(a), 0.5), where=gap != 0)
     share = np.where(top[a] != top[b], np.where(flat, along, share), np.nan)
-    return _snapped(band, top, share, np.where(flat, SNAP_IN_PLANE, SNAP), planes.number)
+    return _snapped(band, pins, top, share, np.where(flat, SNAP_IN_PLANE, SNAP), planes.number)
 
 
 @dataclass(frozen=True, eq=False)
@@ -285,7 +345,7 @@ class _Shares:
         return np.divide(first, total, out=np.full(len(ends), 0.5), where=total > 0).clip(0.0, 1.0)
 
 
-def _diffused(band: _Band, steps: int) -> _Shares:
+def _diffused(band: _Band, pins: _Pins, steps: int) -> _Shares:
     """Shares after so many steps, with the middle of each border where it was."""
     triangles, face = band.triangles()
     a, b, c = band.points[triangles].transpose(1, 0, 2)
@@ -295,9 +355,16 @@ def _diffused(band: _Band, steps: int) -> _Shares:
     label = np.repeat(band.labels[face], 3)
     shares = coo_array((np.repeat(area, 3), (triangles.ravel(), label)), shape=shape).tocsr()
     shares = _rows_to_one(shares)
-    walk = _walk(band, triangles)
+    # What is pinned stays half and half, and nothing diffuses across it.
+    moving = np.ones(shape[0])
+    moving[pins.vertex] = 0.0
+    held = np.repeat(pins.vertex, 2), pins.pair.ravel()
+    halves = coo_array((np.full(len(held[0]), 0.5), held), shape=shape).tocsr()
+    moving = diags_array(moving).tocsr()
+    walk = moving @ _walk(band, triangles)
+    shares = moving @ shares + halves
     for _ in range(steps):
-        shares = walk @ shares
+        shares = walk @ shares + halves
     shares.sort_indices()
     vertex = np.repeat(np.arange(shape[0]), np.diff(shares.indptr))
     key = vertex * shape[1] + shares.indices
@@ -453,7 +520,8 @@ def _valid(band: _Band, top: np.ndarray, crossed: np.ndarray, curve: np.ndarray,
     return replace(planes, number=number, height=height)
 
 
-def _snapped(band: _Band, top: np.ndarray, share: np.ndarray, near: np.ndarray, plane: np.ndarray) -> _Sides:
+def _snapped(band: _Band, pins: _Pins, top: np.ndarray, share: np.ndarray, near: np.ndarray,
+             plane: np.ndarray) -> _Sides:
     """Let a curve go through the vertices that it passes closely, if only two parts are there.
 
     near : (e,) float64, how closely.
@@ -472,10 +540,24 @@ def _snapped(band: _Band, top: np.ndarray, share: np.ndarray, near: np.ndarray, 
     through = close & (least == most)
     low = np.where(through, np.minimum(top, least), top)
     high = np.where(through, np.maximum(top, most), top)
+    low[pins.vertex], high[pins.vertex] = np.where(_between(band, pins, top)[:, None], pins.pair,
+                                                   top[pins.vertex][:, None]).T
     meet = (low[a] == low[b]) | (low[a] == high[b]) | (high[a] == low[b]) | (high[a] == high[b])
     # Where the curve could not be let through the vertex, it stays away from it by a little.
     share = np.where(meet, np.nan, share.clip(0.02, 0.98))
     return _Sides(low, high, share, plane)
+
+
+def _between(band: _Band, pins: _Pins, top: np.ndarray) -> np.ndarray:
+    """Whether all neighbors of each pinned vertex are in one of its two parts, (k,) bool."""
+    place = np.full(len(band.vertices), -1)
+    place[pins.vertex] = np.arange(len(pins.vertex))
+    start, end = np.concatenate([band.ends, band.ends[:, ::-1]]).T
+    start, end = start[place[start] >= 0], end[place[start] >= 0]
+    strange = (pins.pair[place[start]] != top[end][:, None]).all(axis=1)
+    fine = np.ones(len(pins.vertex), bool)
+    fine[place[start[strange]]] = False
+    return fine
 
 
 @dataclass(frozen=True, eq=False)

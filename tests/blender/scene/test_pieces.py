@@ -11,6 +11,7 @@ import pieces as carried
 import pytest
 import shapes
 from mathutils import Matrix
+from mathutils.bvhtree import BVHTree
 from scipy.spatial import cKDTree
 from snapshot import activate, changes, check_undo, snapshot
 
@@ -683,3 +684,66 @@ def test_smooth_cuts_through_quads_and_larger_faces(make, separate):
     joint = [borders(mesh)[0] for mesh in made.meshes.values()]
     assert joint[0] - before == joint[1] - before  # both sides have the same rim
     assert len(made.meshes[1].polygons) + len(made.meshes[2].polygons) > len(obj.data.polygons)
+
+
+def crossings(mesh):
+    """How many pairs of triangles without a common corner cross."""
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    bmesh.ops.triangulate(bm, faces=bm.faces[:])
+    bm.faces.ensure_lookup_table()
+    tree = BVHTree.FromBMesh(bm)
+    corners = [{vertex.index for vertex in face.verts} for face in bm.faces]
+    bm.free()
+    return sum(a < b and not corners[a] & corners[b] for a, b in tree.overlap(tree))
+
+
+@pytest.mark.parametrize("smooth", [None, np.eye(3)])
+@pytest.mark.parametrize("wave", [0.35, 0.7])
+def test_bent_rims_are_closed_by_smooth_surfaces_inside(make, separate, wave, smooth):
+    """Cuts up and down around a ball: no cap leaves it or crosses itself, and both sides have the same."""
+    vertices, faces = shapes.icosphere(4)
+    obj = make((vertices, faces))
+    obj.shape_key_add(name="Basis")
+    obj.shape_key_add(name="Fat").data.foreach_set("co", (1.5 * vertices).astype(np.float32).ravel())
+    x, y, z = vertices[faces].mean(axis=1).T
+    numbers = 1 + (z > wave * np.cos(2 * np.arctan2(y, x)))
+    made = separate.piece_meshes(obj.data, numbers, (1, 2), True, smooth)
+    caps = []
+    for mesh in made.meshes.values():
+        assert borders(mesh) == (set(), 0)
+        assert crossings(mesh) == 0
+        assert volume(mesh) > 0
+        points = read(mesh.vertices, "co", np.float32, 3)
+        fat = read(mesh.shape_keys.key_blocks["Fat"].data, "co", np.float32, 3)
+        assert np.abs(fat - 1.5 * points).max() < 0.5
+        cap = caps_of(mesh) == 1
+        middles = read(mesh.polygons, "center", np.float32, 3)[cap]
+        caps.append(middles[np.lexsort(middles.T)])
+        assert 30 < cap.sum() < 1000
+        angle = [edge.calc_face_angle() for edge in cap_edges(mesh)]
+        assert np.mean(angle) < np.radians(25 if smooth is None else 15)
+    assert same_places(*caps)
+    assert sum(map(volume, made.meshes.values())) == pytest.approx(volume(obj.data), rel=1e-6)
+
+
+def cap_edges(mesh):
+    """The edges between two faces of caps."""
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    layer = bm.faces.layers.int["reeb_cap"]
+    yield from [edge for edge in bm.edges if all(face[layer] for face in edge.link_faces)]
+    bm.free()
+
+
+def test_parts_that_meet_in_many_places_leave_nothing_between_them(make, separate):
+    """The eight octants of a bent ball: six places where four of them meet."""
+    vertices, faces = shapes.icosphere(4)
+    obj = make((vertices + 0.15 * np.sin(3 * vertices[:, [1, 2, 0]]), faces))
+    numbers = 1 + ((vertices[faces].mean(axis=1) > 0) @ [1, 2, 4])
+    made = separate.piece_meshes(obj.data, numbers, range(1, 9), True, np.eye(3))
+    volumes = [volume(mesh) for mesh in made.meshes.values()]
+    assert [borders(mesh) for mesh in made.meshes.values()] == [(set(), 0)] * 8
+    assert min(volumes) > 0
+    assert sum(volumes) == pytest.approx(volume(obj.data), rel=1e-5)
+    assert sum(map(crossings, made.meshes.values())) == 0
