@@ -280,8 +280,15 @@ def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray
     last : (count,) int64
         Index of that element; of elements equal in all keys the highest index. -1 for a group without elements.
     """
-    exact = [rounded(key) if key.dtype == np.float64 else key for key in keys]
-    order = np.lexsort((*reversed(exact), group))
+    # Those that come last by the first key, of them those that do by the second: several times faster than sorting.
+    rows = np.arange(len(group))
+    for key in keys:
+        values, of = (rounded(key) if key.dtype == np.float64 else key)[rows], group[rows]
+        if not len(rows):
+            break
+        largest = np.full(count, values.min(), values.dtype)
+        np.maximum.at(largest, of, values)
+        rows = rows[values == largest[of]]
     last = np.full(count, -1, np.int64)
-    last[group[order]] = order  # NumPy keeps the last of the values written to one place
+    last[group[rows]] = rows  # NumPy keeps the last of the values written to one place
     return last
