@@ -33,6 +33,11 @@ EQUAL = 0.05  # planes whose shares differ by less are equal: the first of them 
 LIKELY = 0.5  # share of the area that the best plane must match already when few points are looked at
 # Number of faces from which on their centers alone are compared: faces are then much smaller than walls are thick.
 DENSE = 100_000
+# Number of points from which on it takes longer to search for their nearest than to start threads for it.
+WORTH_THREADS = 5_000
+# By how little a plane moves in a step, in its normal and its offset, when it is found, and when it is only to be told
+# from others.
+STILL, ROUGH = 1e-7, 3e-3
 STEPS, KEPT = 30, 0.8  # how often a plane is improved, and by which share of the probes, the best ones
 # Number of faces from which on they are small enough to be mirrored where the tessellation is not; share of the area
 # that must have exact twins on a mesh of fewer.
@@ -120,7 +125,8 @@ class _Elements:
         """
         if len(self.position) > DENSE:
             return self.tree.query(image.position, workers=-1)
-        distance, nearest = self.tree.query(image.place, k=[1, 2, 3, 4], workers=-1)
+        workers = -1 if len(image.position) > WORTH_THREADS else 1
+        distance, nearest = self.tree.query(image.place, k=[1, 2, 3, 4], workers=workers)
         equal = distance <= distance[:, :1] + SAME
         return distance[:, 0], np.where(equal, nearest, len(self.position)).min(axis=1)
 
@@ -147,7 +153,7 @@ def mirror_plane(mesh: TriMesh) -> MirrorPlane | None:
     elements, middle, size = _Elements.of(mesh)
     few, probes = elements.some(COARSE[0]), elements.some(COARSE[1])
     start = [_oriented(normal, 0.0) for normal in _directions(elements)]
-    tried = [_improved(plane, few, probes) for plane in start]
+    tried = [_improved(plane, few, probes, ROUGH) for plane in start]
     share = max(plane.share for plane in tried)
     if share < LIKELY:
         return None
@@ -173,17 +179,17 @@ def _directions(elements: _Elements) -> np.ndarray:
     return np.array(tried)
 
 
-def _improved(plane: MirrorPlane, surface: _Elements, probes: _Elements) -> MirrorPlane:
-    """The plane of symmetry near a given one, and its share."""
+def _improved(plane: MirrorPlane, surface: _Elements, probes: _Elements, still: float = STILL) -> MirrorPlane:
+    """The plane of symmetry near a given one, and its share; still : by how little a plane moves that is found."""
     for _ in range(STEPS):
         image = probes.mirrored(plane)
         distance, nearest = surface.nearest(image)
-        used = distance <= np.quantile(distance, KEPT)
+        used = distance <= np.partition(distance, int(KEPT * len(distance)))[int(KEPT * len(distance))]
         before, after = probes.position[used], surface.position[nearest[used]]
         better = _halfway(before, after)
         moved = np.abs(better.normal - plane.normal).max() + abs(better.offset - plane.offset)
         plane = better
-        if moved < 1e-7:
+        if moved < still:
             break
     return _judged(plane, surface, probes)
 
