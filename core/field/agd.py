@@ -14,9 +14,9 @@ from ..surface.mesh import TriMesh
 from .geodesic import GeodesicSolver
 
 HISTOGRAM_BINS = 100  # number of bins of ``equalize``: each 0.01 wide, as in [Berretti2009]
-# Largest number of vertices on which paths are searched. At this number, five or more vertices lie on the radius of a
+# Largest number of vertices on which paths are searched. At this number, nearly five edges lie on the radius of a
 # base vertex's disc, and the field is smooth at that scale.
-FIELD_VERTICES = 20_000
+FIELD_VERTICES = 5_000
 # There are at most so many times as many base vertices as the area asks for: of 93 ordinary meshes none has 1.15, but
 # the discs of a ribbon a thousand times as long as wide cover little each, and there would be thousands of them.
 MOST_BASE_VERTICES = 2.0
