@@ -177,7 +177,7 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
     if outcome.decomposition is None:
         raise SceneError(f"{obj.name}: {outcome.problem}")
     results.write_result(bpy.context, obj, outcome, options)
-    return object_report(obj, options.labels)
+    return object_report(obj, options.labels, options.check)
 
 
 def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bpy.types.Object], reports: list[dict],

@@ -31,6 +31,8 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     files.add_argument("--save", type=Path, metavar="OUT.blend", help="the scene with the parts in it")
     files.add_argument("--json", type=Path, metavar="OUT.json", help="the JSON that also goes to standard output")
     files.add_argument("--labels", action="store_true", help="also list the part of every face in the JSON")
+    files.add_argument("--check", action="store_true",
+                       help="also say of each part in the JSON whether its piece, with holes closed, is sound")
     files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
     files.add_argument("--parts-format", choices=("obj", "ply", "stl", "glb"), default="obj",
                        help="format of those files (default: %(default)s)")

@@ -6,6 +6,7 @@ import bpy
 from ..scene import jobs
 from . import (
     armature,
+    checks,
     clear,
     cut,
     decompose,
@@ -23,8 +24,8 @@ from . import (
     unwrap,
 )
 
-MODULES = (decompose, detail, clear, settings, parts, pick, edit, slide, cut, paint, graph, separate, outputs, unwrap,
-           export, armature)
+MODULES = (decompose, detail, clear, settings, parts, pick, edit, slide, cut, paint, graph, separate, checks, outputs,
+           unwrap, export, armature)
 #: Every operator that one of the modules defines.
 CLASSES = tuple(cls for module in MODULES for cls in vars(module).values()
                 if isinstance(cls, type) and issubclass(cls, bpy.types.Operator))

@@ -13,6 +13,7 @@ from ..scene.reporting import ReportingOperator
 from ..scene.selection import select_objects
 from ..scene.settings import SeparateProperties
 from ..viewport import shading
+from .checks import report_unsound
 
 
 class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProperties):
@@ -64,6 +65,8 @@ class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProp
         if separated.along_faces:
             self.report({"INFO"}, rpt_("{n} borders run along faces: a smooth cut would tear a part there").format(
                 n=separated.along_faces))
+        if self.caps:
+            report_unsound(self, separated.pieces)
         if separated.left_open:
             self.report({"WARNING"}, rpt_("{n} edges stay open: more than two faces meet beside them").format(
                 n=separated.left_open))

@@ -7,11 +7,14 @@ import bpy
 import numpy as np
 
 from ..core.uses.report import bounding_boxes, report
-from . import bridge, mesh_arrays, part_names, store
+from . import bridge, mesh_arrays, part_meshes, part_names, piece_checks, store
+from .temporary import removed
 
 
-def object_report(obj: bpy.types.Object, labels: bool = False) -> dict:
+def object_report(obj: bpy.types.Object, labels: bool = False, check: bool = False) -> dict:
     """The JSON of an object's stored result, in coordinates of the world; Object Mode.
+
+    labels : bool, whether the part of every face is in it. check : bool, whether closed pieces are made and checked.
 
     Raises
     ------
@@ -33,4 +36,15 @@ def object_report(obj: bpy.types.Object, labels: bool = False) -> dict:
     result = report(stored.decomposition, numbered.parts, obj.name, numbers=numbered.numbers, names=names,
                     colors=np.round(colors, 6), boxes=boxes, transform=from_result, labels=labels)
     result["notes"] = mesh.reeb_parts.notes.splitlines()
+    if check:
+        for part, found in zip(result["parts"], _checks(obj, stored.face_numbers, numbered.numbers), strict=True):
+            part["check"] = found
     return result
+
+
+def _checks(obj: bpy.types.Object, face_numbers: np.ndarray, numbers: np.ndarray) -> list[dict]:
+    """What is wrong with the closed piece of each part; nothing stays of the pieces."""
+    stretch = bridge.world_stretch(obj)
+    made = part_meshes.piece_meshes(obj.data, face_numbers, numbers.tolist(), close=True, smooth=stretch)
+    with removed(bpy.data.meshes, *made.meshes.values()):
+        return [piece_checks.check(made.meshes[number], stretch)[0].as_dict() for number in numbers.tolist()]

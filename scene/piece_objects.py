@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from . import bridge, explode, graph_objects, mesh_arrays, modified, part_names, transaction
+from . import bridge, explode, graph_objects, mesh_arrays, modified, part_names, piece_checks, transaction
 from .outputs.colors import linear
 from .part_meshes import piece_meshes
 from .settings import SeparateProperties
@@ -116,8 +116,21 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
         collection.objects.link(piece)
         made.append(piece)
     for piece in made:
-        piece[MADE] = _looks(piece)
+        piece[MADE] = looks(piece)
+    if style.caps:
+        check_pieces(made, bridge.world_stretch(obj))
     return Separated(made, found.left_open, found.along_faces, kept)
+
+
+def check_pieces(pieces: list[bpy.types.Object], stretch: np.ndarray | None = None) -> None:
+    """Check pieces and keep with each what was found; Object Mode.
+
+    stretch : (3, 3) float64, what the objects do to their meshes, see bridge.world_stretch; found out without it.
+    """
+    for piece in pieces:
+        transaction.keep_keys(piece, piece_checks.CHECK)
+        own = bridge.world_stretch(piece) if stretch is None else stretch
+        piece_checks.keep(piece, piece_checks.check(piece.data, own)[0])
 
 
 def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Collection:
@@ -141,7 +154,7 @@ def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
     for piece in piece_objects(obj):
         if piece[NUMBER] not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
             continue
-        if piece.mode == "OBJECT" and not piece.children and _looks(piece) == piece[MADE]:
+        if piece.mode == "OBJECT" and not piece.children and looks(piece) == piece[MADE]:
             remove_object(piece)
             continue
         transaction.keep_keys(piece, NUMBER, MADE)
@@ -150,7 +163,7 @@ def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
     return kept
 
 
-def _looks(piece: bpy.types.Object) -> str:
+def looks(piece: bpy.types.Object) -> str:
     """A text that differs once the user has edited, moved or renamed the piece, or given it something."""
     place = [round(value, 6) for row in piece.matrix_basis for value in row]
     materials = [slot.material.name if slot.material else "" for slot in piece.material_slots]

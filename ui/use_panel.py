@@ -7,7 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
-from ..scene import piece_objects, store
+from ..scene import piece_checks, piece_objects, store
 from .panel import SubPanel, settings_column
 
 
@@ -57,6 +57,31 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
         self.layout.label(text=iface_("A part of {name}").format(name=obj.name), icon="MESH_DATA")
         show = iface_("Show {name}").format(name=obj.name)
         self.layout.operator("reeb_parts.show_original", text=show, icon="HIDE_OFF")
+        self._draw_check(context.object)
+
+    def _draw_check(self, piece: bpy.types.Object) -> None:
+        """What a check has found; a click on a line selects it."""
+        found = piece_checks.kept(piece)
+        column = self.layout.column(align=True)
+        if found is not None and found.sound:
+            column.label(text=iface_("Closed, crosses nothing"), icon="CHECKMARK")
+        elif found is not None:
+            for kind, count, words in (
+                ("OPEN", found.open_edges, iface_("{n} open edges")),
+                ("BRANCHING", found.branching_edges, iface_("{n} edges of three faces")),
+                ("CROSSING", found.crossing_faces, iface_("{n} faces cross others")),
+            ):
+                if count:
+                    column.operator("reeb_parts.select_faults", text=words.format(n=count), icon="ERROR").kind = kind
+            if found.inside_out:
+                column.label(text=iface_("Inside out"), icon="ERROR")
+        if found is not None and found.thinnest is not None:
+            words = iface_("Thinnest place: {width}").format(width=f"{found.thinnest:.4g}")
+            column.operator("reeb_parts.select_faults", text=words, icon="DRIVER_DISTANCE").kind = "THIN"
+        row = self.layout.row(align=True)
+        row.operator("reeb_parts.check_pieces", text="Check")
+        if found is not None and not found.sound:
+            row.operator("reeb_parts.repair_piece", text="Repair")
 
 
 CLASSES = (REEB_PARTS_PT_use, REEB_PARTS_PT_piece)

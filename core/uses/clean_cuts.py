@@ -97,9 +97,14 @@ def clean_cuts(table: CornerTable, labels: np.ndarray) -> CleanCuts:
     if band is None:
         return CleanCuts(*(np.empty(0, kind) for kind in (np.int64, float, np.int64, np.int64, np.int64, np.int64)))
     taken = np.zeros(len(band.vertices), bool)
+    failed = taken
     found: list[CleanCuts] = []
     pins = _Pins.of(band)
+    low, high = band.edge_labels()
+    borders = np.unique(band.ends[low < high])
     for steps in STEPS:
+        if taken[borders].all():
+            break
         sides = _sides(band, pins, steps)
         division = _divide(band, sides)
         group, good, broken = _judged(band, sides, division)
@@ -108,7 +113,7 @@ def clean_cuts(table: CornerTable, labels: np.ndarray) -> CleanCuts:
         used = (group >= 0) & good[group]
         found.append(_chosen(band, sides, division, used))
         taken |= used
-    failed = (group >= 0) & broken[group] & ~taken
+        failed = (group >= 0) & broken[group] & ~taken
     return _together(band, found, failed)
 
 
@@ -667,6 +672,8 @@ def _most(band: _Band, face: np.ndarray, label: np.ndarray, n_faces: int) -> np.
 
 def _convex(band: _Band) -> np.ndarray:
     """Whether each face has no corner that is turned in, (f,) bool."""
+    if (band.n_corners == 3).all():
+        return np.ones(len(band.faces), bool)
     ahead = band.points[band.corner_vertex[band.following]] - band.points[band.corner_vertex]
     behind = np.empty_like(ahead)
     behind[band.following] = ahead

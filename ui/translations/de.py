@@ -17,6 +17,11 @@ OPERATORS = {
     "Fewer Parts": "Weniger Teile",
     "More Parts": "Mehr Teile",
     "Fewer or More Parts": "Weniger oder mehr Teile",
+    "Check Parts": "Teile prüfen",
+    "Check": "Prüfen",
+    "Repair Part": "Teil reparieren",
+    "Repair": "Reparieren",
+    "Select What Is Wrong": "Fehlerhaftes auswählen",
     "Reset Parameters to Preset": "Parameter auf Vorgabe zurücksetzen",
     "Use Preferences in This Scene": "Einstellungen in dieser Szene verwenden",
     # Die Liste der Teile
@@ -307,6 +312,29 @@ TEXTS = {
     "Chosen": "Gewählte",
     "The parts ticked in the list, or else the active one":
         "Die in der Liste angekreuzten Teile, sonst das aktive",
+    "Closed, crosses nothing": "Geschlossen, durchdringt nichts",
+    "{n} open edges": "{n} offene Kanten",
+    "{n} edges of three faces": "{n} Kanten mit drei Flächen",
+    "{n} faces cross others": "{n} Flächen durchdringen andere",
+    "Inside out": "Von innen nach außen gekehrt",
+    "Thinnest place: {width}": "Dünnste Stelle: {width}",
+    "Check the selected separated parts: whether they are closed, cross themselves or are inside out":
+        "Die ausgewählten abgetrennten Teile prüfen: ob sie geschlossen sind, sich durchdringen oder umgestülpt sind",
+    "Select, in Edit Mode, the faces of the part where something is wrong":
+        "Im Bearbeitungsmodus die Flächen des Teils auswählen, an denen etwas nicht stimmt",
+    "Kind": "Art",
+    "What to select": "Was ausgewählt wird",
+    "Open Edges": "Offene Kanten",
+    "Faces at edges of one face": "Flächen an Kanten mit nur einer Fläche",
+    "Branching Edges": "Verzweigte Kanten",
+    "Faces at edges of three faces or more": "Flächen an Kanten mit drei oder mehr Flächen",
+    "Crossing Faces": "Durchdringungen",
+    "Faces that cross others": "Flächen, die andere durchdringen",
+    "Thinnest Place": "Dünnste Stelle",
+    "The face where the part is thinnest": "Die Fläche, an der das Teil am dünnsten ist",
+    "Turn faces that look inwards, close holes, and make caps anew that cross something, where that helps":
+        "Flächen umdrehen, die nach innen zeigen, Löcher schließen und Deckel neu machen, die etwas durchdringen, wo "
+        "das hilft",
     "Cuts": "Schnitte",
     "Where the pieces are cut from each other; the mesh itself stays as it is":
         "Wo die Stücke voneinander getrennt werden; das Mesh selbst bleibt, wie es ist",
@@ -670,6 +698,13 @@ TEXTS = {
     "{name}: {n} parts are objects now": "{name}: {n} Teile sind jetzt Objekte",
     "{n} earlier pieces that were edited since are left as they are":
         "{n} frühere Stücke, die seither bearbeitet wurden, bleiben, wie sie sind",
+    "{n} of {total} parts are not closed or cross themselves: {names}":
+        "{n} von {total} Teilen sind nicht geschlossen oder durchdringen sich: {names}",
+    "{n} parts are closed and do not cross themselves": "{n} Teile sind geschlossen und durchdringen sich nicht",
+    "{name} has nothing of the kind": "{name} hat nichts dergleichen",
+    "{n} faces selected": "{n} Flächen ausgewählt",
+    "Other objects share the mesh of {name}": "Andere Objekte teilen sich das Mesh von {name}",
+    "Nothing of {name} can be repaired": "An {name} lässt sich nichts reparieren",
     "{n} borders run along faces: a smooth cut would tear a part there":
         "{n} Grenzen verlaufen an Flächen: ein glatter Schnitt würde dort ein Teil zerreißen",
     "{n} edges stay open: more than two faces meet beside them":

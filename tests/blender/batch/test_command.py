@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command when something goes wrong: what it leaves, what it says, how it ends."""
 
+import json
 import os
 import signal
 import time
 from pathlib import Path
 
+import bmesh
 import bpy
 import process
 import pytest
@@ -28,6 +30,22 @@ def test_standard_output_is_one_json_object(run, model, tmp_path):
     names = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
     parts = {str(Path(name).relative_to(tmp_path)) for name in ended.answer["files"]["parts"]}
     assert names == {"own.obj", "out.json", "x.blend", *parts, *(part.replace(".obj", ".mtl") for part in parts)}
+
+
+def test_the_answer_says_of_each_part_whether_its_piece_is_sound(run, model, tmp_path):
+    """The pieces enclose together what the model encloses, and none of them stays in the file."""
+    ended = run(model, "--check", "--save", tmp_path / "x.blend")
+    checks = [part["check"] for part in ended.answer["objects"][0]["parts"]]
+    schema = json.loads((Path(__file__).resolve().parents[3] / "docs" / "reeb_parts.schema.json").read_text())
+    wanted = schema["$defs"]["check"]
+    assert all(set(found) == set(wanted["required"]) == set(wanted["properties"]) for found in checks)
+    assert all(found["sound"] and found["all_tried"] and found["thinnest"] > 0 for found in checks)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "x.blend"))
+    (mesh,) = bpy.data.meshes
+    edited = bmesh.new()
+    edited.from_mesh(mesh)
+    assert sum(found["volume"] for found in checks) == pytest.approx(edited.calc_volume(), rel=1e-4)
+    edited.free()
 
 
 def test_an_object_that_cannot_be_cut_costs_only_itself(run, two, tmp_path):

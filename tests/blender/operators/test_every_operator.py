@@ -172,6 +172,10 @@ CASES = {
                                             "/data/shape_keys")),
     "show_original": Case(prepare=separated, active="piece", changes=("/active", "/selected", "/Tree.*/hidden"),
                           refuses={**LINKED, **OUTSIDE}),
+    "check_pieces": Case(prepare=separated, active="piece", refuses={**LINKED, **OUTSIDE}),
+    "select_faults": Case({"kind": "THIN"}, prepare=separated, active="piece", refuses={**LINKED, **OUTSIDE}),
+    "repair_piece": Case(prepare=separated, active="piece", changes=("/data/shape_keys",),
+                         refuses={**LINKED, **OUTSIDE}),
     "seams": Case(changes=("/seams", "/attributes/.?uv_seam")),
     "face_sets": Case(changes=("/attributes/.sculpt_face_set",)),
     "materials": Case(changes=SLOTS),
@@ -290,7 +294,7 @@ def set_up(package, name, situation, make, tree, tmp_path):
         bpy.ops.reeb_parts.decompose()
     case.prepare(obj)
     arguments = case.arguments(obj) if callable(case.arguments) else case.arguments
-    active = {"mesh": obj.name, "node": "Reeb saddle", "arcs": "Reeb arcs", "piece": "Tree Part 02"}[case.active]
+    active = {"mesh": obj.name, "node": "Reeb saddle", "arcs": "Reeb arcs", "piece": f"{obj.name} Part 02"}[case.active]
     if situation == "linked from a file":
         link_from_file(tmp_path / "library.blend", active)
     elif case.active == "piece" or situation not in OTHER_MODES:

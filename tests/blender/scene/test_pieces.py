@@ -747,3 +747,63 @@ def test_parts_that_meet_in_many_places_leave_nothing_between_them(make, separat
     assert min(volumes) > 0
     assert sum(volumes) == pytest.approx(volume(obj.data), rel=1e-5)
     assert sum(map(crossings, made.meshes.values())) == 0
+
+
+@pytest.fixture
+def checks(package):
+    """The module that checks pieces."""
+    return importlib.import_module(f"{package}.scene.piece_checks")
+
+
+def test_a_check_tells_what_is_wrong_with_a_mesh(make, checks):
+    """Two octahedra of volume 4/3 that run into each other, a face taken off, a fin, and all of it turned round."""
+    octahedron = shapes.octahedron()
+    sound = make(octahedron)
+    found, faults = checks.check(sound.data, np.eye(3))
+    assert (found.sound, found.open_edges, found.branching_edges, found.crossing_faces) == (True, 0, 0, 0)
+    assert found.volume == pytest.approx(4 / 3)
+    assert found.thinnest == pytest.approx(2 / np.sqrt(3), rel=1e-4)  # between opposite faces
+    assert faults.thin.sum() == 1
+    assert checks.check(sound.data, 10 * np.eye(3))[0].volume == pytest.approx(4000 / 3)
+    sound.data.flip_normals()
+    assert checks.check(sound.data, np.eye(3))[0].inside_out
+    crossed = make(shapes.together(octahedron, shapes.moved(octahedron, (0.4, 0.3, 0.2))), "Crossed")
+    found, faults = checks.check(crossed.data, np.eye(3))
+    assert found.crossing_faces == faults.crossing.sum() > 4
+    opened = make((octahedron[0], octahedron[1][1:]), "Opened")
+    found, faults = checks.check(opened.data, np.eye(3))
+    assert (found.open_edges, found.volume, found.sound, faults.open.sum()) == (3, None, False, 3)
+    finned = make(shapes.with_fin(octahedron), "Finned")
+    found, faults = checks.check(finned.data, np.eye(3))
+    assert (found.branching_edges, faults.branching.sum(), found.open_edges) == (1, 3, 2)
+
+
+def test_pieces_are_checked_and_what_is_wrong_can_be_selected_and_repaired(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(caps=False)
+    piece = pieces()[0]
+    activate(piece)
+    assert "reeb_parts_check" not in piece
+    bpy.ops.reeb_parts.check_pieces()
+    rim = sum(count == 1 for count in np.bincount(read(piece.data.loops, "edge_index", np.int32)))
+    bpy.ops.reeb_parts.select_faults(kind="OPEN")
+    assert bpy.context.mode == "EDIT_MESH"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert 0 < read(piece.data.polygons, "select", bool).sum() <= rim
+    with pytest.raises(RuntimeError, match="nothing of the kind"):
+        bpy.ops.reeb_parts.select_faults(kind="CROSSING")
+    check_undo(bpy.ops.reeb_parts.repair_piece)
+    piece = pieces()[0]
+    assert borders(piece.data) == (set(), 0)
+    with pytest.raises(RuntimeError, match="can be repaired"):
+        bpy.ops.reeb_parts.repair_piece()
+    piece.data.flip_normals()
+    bpy.ops.reeb_parts.repair_piece()
+    assert volume(piece.data) > 0
+
+
+def test_with_holes_closed_the_report_tells_the_truth(obj, capfd):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(caps=True)
+    count = len(pieces())
+    assert f"{count} parts are closed and do not cross themselves" in capfd.readouterr().out

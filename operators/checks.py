@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is wrong with separated parts: found, shown and repaired."""
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from ..scene import bridge, piece_checks, piece_objects, piece_repairs, targets, transaction
+from ..scene.errors import SceneError
+from ..scene.reporting import ReportingOperator
+from ..scene.selection import select_faces
+
+
+class PieceOperator(ReportingOperator):
+    """For operators on a separated part that is the active object, in Object Mode."""
+
+    @classmethod
+    def check_context(cls, context: bpy.types.Context) -> None:
+        piece = context.view_layer.objects.active
+        if piece is None or piece_objects.original(piece) is None:
+            raise SceneError(rpt_("The active object is not a part that was separated from another one"))
+        if context.mode != "OBJECT":
+            raise SceneError(rpt_("Go to Object Mode first"))
+        targets.check_object(piece)
+
+
+class REEB_PARTS_OT_check_pieces(PieceOperator, bpy.types.Operator):
+    """Check the selected separated parts: whether they are closed, cross themselves or are inside out"""
+
+    bl_idname = "reeb_parts.check_pieces"
+    bl_label = "Check Parts"
+
+    def run(self, context: bpy.types.Context) -> None:
+        chosen = [context.view_layer.objects.active, *context.view_layer.objects.selected]
+        pieces = list(dict.fromkeys(obj for obj in chosen if piece_objects.original(obj) is not None))
+        piece_objects.check_pieces(pieces)
+        report_unsound(self, pieces)
+
+
+class REEB_PARTS_OT_select_faults(PieceOperator, bpy.types.Operator):
+    """Select, in Edit Mode, the faces of the part where something is wrong"""
+
+    bl_idname = "reeb_parts.select_faults"
+    bl_label = "Select What Is Wrong"
+
+    kind: bpy.props.EnumProperty(
+        name="Kind",
+        items=[("OPEN", "Open Edges", "Faces at edges of one face"),
+               ("BRANCHING", "Branching Edges", "Faces at edges of three faces or more"),
+               ("CROSSING", "Crossing Faces", "Faces that cross others"),
+               ("THIN", "Thinnest Place", "The face where the part is thinnest")],
+        description="What to select",
+    )
+
+    def run(self, context: bpy.types.Context) -> None:
+        piece = context.view_layer.objects.active
+        found, faults = piece_checks.check(piece.data, bridge.world_stretch(piece))
+        transaction.keep_keys(piece, piece_checks.CHECK)
+        piece_checks.keep(piece, found)
+        mask = getattr(faults, self.kind.lower())
+        if not mask.any():
+            raise SceneError(rpt_("{name} has nothing of the kind").format(name=piece.name))
+        select_faces(piece.data, mask)
+        transaction.keep(context.tool_settings, "mesh_select_mode")
+        context.tool_settings.mesh_select_mode = (False, False, True)
+        bpy.ops.object.mode_set(mode="EDIT")
+        self.report({"INFO"}, rpt_("{n} faces selected").format(n=int(mask.sum())))
+
+
+class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
+    """Turn faces that look inwards, close holes, and make caps anew that cross something, where that helps"""
+
+    bl_idname = "reeb_parts.repair_piece"
+    bl_label = "Repair Part"
+
+    def run(self, context: bpy.types.Context) -> None:
+        piece = context.view_layer.objects.active
+        if piece.data.users > 1:
+            raise SceneError(rpt_("Other objects share the mesh of {name}").format(name=piece.name))
+        before, after = piece_repairs.repair(piece, bridge.world_stretch(piece))
+        if after == before:
+            raise SceneError(rpt_("Nothing of {name} can be repaired").format(name=piece.name))
+        report_unsound(self, [piece])
+
+
+def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object]) -> None:
+    """Say which of some pieces that were checked are not sound."""
+    wrong = [piece.name for piece in pieces if (found := piece_checks.kept(piece)) is None or not found.sound]
+    if wrong:
+        operator.report({"WARNING"}, rpt_("{n} of {total} parts are not closed or cross themselves: {names}").format(
+            n=len(wrong), total=len(pieces), names=", ".join(wrong)))
+    else:
+        operator.report({"INFO"}, rpt_("{n} parts are closed and do not cross themselves").format(n=len(pieces)))

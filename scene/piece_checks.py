@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The truth about a piece: whether it is closed, crosses itself or is inside out, and where it is thinnest."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, fields
+
+import bpy
+import numpy as np
+from mathutils.bvhtree import BVHTree
+
+from . import caps, mesh_arrays
+
+CHECK = "reeb_parts_check"  # on a piece: what was found, as JSON
+
+# Of a mesh with more triangles only the caps are tried for crossings: all would take many seconds.
+_MANY = 150_000
+# At so many faces the thickness is measured.
+_PLACES = 400
+
+
+@dataclass(frozen=True)
+class Check:
+    """What is wrong with a mesh, as it is said in JSON.
+
+    Attributes
+    ----------
+    open_edges : int
+        Edges of one face only.
+    branching_edges : int
+        Edges of three faces or more.
+    crossing_faces : int
+        Faces that cross another one with which they have no corner in common.
+    all_tried : bool
+        Whether all faces were tried for crossings; of large pieces it is those of caps only.
+    inside_out : bool
+        Whether a closed piece encloses less than nothing: its faces look inwards.
+    volume : float or None
+        In cubed units of the world; None unless the piece is closed.
+    thinnest : float or None
+        The smallest thickness that was measured, in units of the world; None if none was.
+    """
+
+    open_edges: int = 0
+    branching_edges: int = 0
+    crossing_faces: int = 0
+    all_tried: bool = True
+    inside_out: bool = False
+    volume: float | None = None
+    thinnest: float | None = None
+
+    @property
+    def sound(self) -> bool:
+        """Whether a printer can use it."""
+        return not (self.open_edges or self.branching_edges or self.crossing_faces or self.inside_out)
+
+    def as_dict(self) -> dict:
+        """For JSON."""
+        return {"sound": self.sound, **asdict(self)}
+
+
+@dataclass(frozen=True, eq=False)
+class Faults:
+    """Where something is wrong: masks of the faces of a mesh, (p,) bool each.
+
+    Attributes
+    ----------
+    open, branching, crossing, thin : (p,) bool
+        Faces at such edges, faces that cross others, and the face where the mesh is thinnest.
+    """
+
+    open: np.ndarray
+    branching: np.ndarray
+    crossing: np.ndarray
+    thin: np.ndarray
+
+
+def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
+    """Look for what is wrong with a mesh; not in Edit Mode.
+
+    stretch : (3, 3), what the object does to its mesh, see bridge.world_stretch. Numbers are in units of the world.
+    """
+    points = mesh_arrays.read(mesh.vertices, "co", np.float32, 3).astype(np.float64) @ stretch.T
+    triangles, face = mesh_arrays.triangles(mesh)
+    n_faces = len(mesh.polygons)
+    open_, branching = _edge_faults(mesh)
+    none = np.zeros(n_faces, bool)
+    if not len(triangles):
+        return Check(), Faults(none, none, none, none)
+    tree = BVHTree.FromPolygons(points.tolist(), triangles.tolist(), all_triangles=True)
+    tried = _tried(mesh, face)
+    crossing = _marked(n_faces, face[_crossing(tree, points, triangles, tried)])
+    thinnest, where = _thinnest(tree, points, triangles)
+    volume = None if open_[1].any() or branching[1].any() else _volume(points, triangles)
+    found = Check(int(open_[0]), int(branching[0]), int(crossing.sum()), bool(tried.all()),
+                  volume is not None and volume < 0, volume, thinnest)
+    thin = _marked(n_faces, face[[where]] if thinnest is not None else np.empty(0, np.int64))
+    return found, Faults(open_[1], branching[1], crossing, thin)
+
+
+def keep(piece: bpy.types.Object, found: Check) -> None:
+    """Keep with a piece what was found."""
+    piece[CHECK] = json.dumps(asdict(found))
+
+
+def kept(piece: bpy.types.Object) -> Check | None:
+    """What was found, or None; None, too, if it was not written by us."""
+    try:
+        values = json.loads(piece[CHECK])
+        return Check(**{field.name: values[field.name] for field in fields(Check)})
+    except (KeyError, ValueError, TypeError):
+        return None
+
+
+def _marked(count: int, indices: np.ndarray) -> np.ndarray:
+    mask = np.zeros(count, bool)
+    mask[indices] = True
+    return mask
+
+
+def _edge_faults(mesh: bpy.types.Mesh) -> tuple[tuple[int, np.ndarray], tuple[int, np.ndarray]]:
+    """Edges of one face, and of more than two: how many, and which faces are there."""
+    edge, (_, face) = mesh_arrays.corner_edges(mesh), mesh_arrays.face_corners(mesh)
+    count = np.bincount(edge, minlength=len(mesh.edges))
+    found = []
+    for wrong in (count == 1, count > 2):
+        found.append((int(wrong.sum()), _marked(len(mesh.polygons), face[wrong[edge]])))
+    return found[0], found[1]
+
+
+def _tried(mesh: bpy.types.Mesh, face: np.ndarray) -> np.ndarray:
+    """Which triangles are tried for crossings, (t,) bool."""
+    if len(face) <= _MANY:
+        return np.ones(len(face), bool)
+    cap = mesh.attributes.get(caps.CAP)
+    if cap is None:
+        return np.zeros(len(face), bool)
+    return mesh_arrays.read(cap.data, "value", np.int32)[face] == 1
+
+
+def _crossing(tree: BVHTree, points: np.ndarray, triangles: np.ndarray, tried: np.ndarray) -> np.ndarray:
+    """Triangles that cross another one, one of the two being tried; (k,) int64."""
+    index = np.flatnonzero(tried)
+    if not len(index):
+        return index
+    some = tree if tried.all() else BVHTree.FromPolygons(points.tolist(), triangles[index].tolist(),
+                                                         all_triangles=True)
+    pairs = np.array(some.overlap(tree), np.int64).reshape(-1, 2)
+    pairs = np.stack([index[pairs[:, 0]], pairs[:, 1]], axis=1)
+    apart = (triangles[pairs[:, 0]][:, :, None] != triangles[pairs[:, 1]][:, None]).all(axis=(1, 2))
+    return np.unique(pairs[apart])
+
+
+def _volume(points: np.ndarray, triangles: np.ndarray) -> float:
+    """What a closed surface encloses."""
+    a, b, c = (points - points.mean(axis=0))[triangles].transpose(1, 0, 2)
+    return float((a * np.cross(b, c)).sum() / 6)
+
+
+def _thinnest(tree: BVHTree, points: np.ndarray, triangles: np.ndarray) -> tuple[float | None, int]:
+    """The smallest distance from the middle of a triangle straight through to the other side, and that triangle.
+
+    Only where the other side looks away: across an edge there is no thickness to measure.
+    """
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    normal = np.cross(b - a, c - a)
+    area = np.linalg.norm(normal, axis=1)
+    # Large triangles first: what is thin is thin over some area.
+    some = np.sort(np.argsort(-area, kind="stable")[:: max(len(area) // _PLACES, 1)][:_PLACES])
+    some = some[area[some] > 0]
+    normal = normal[some] / area[some, None]
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    start = points[triangles[some]].mean(axis=1) - 1e-5 * size * normal
+    thinnest, where = None, -1
+    for index, place, out in zip(some.tolist(), start.tolist(), normal.tolist(), strict=True):
+        _, other, _, distance = tree.ray_cast(place, [-x for x in out])
+        if other is None or -sum(x * y for x, y in zip(out, other, strict=True)) < 0.7:
+            continue
+        if thinnest is None or distance < thinnest:
+            thinnest, where = distance + 1e-5 * size, index
+    return thinnest, where

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What can be repaired of a piece: faces that look inwards, holes, caps that cross something."""
+
+from __future__ import annotations
+
+import bmesh
+import bpy
+import numpy as np
+from bmesh.types import BMesh, BMFace
+
+from . import caps, piece_checks, piece_objects, transaction
+from .piece_checks import Check
+from .temporary import freed
+
+
+def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
+    """Give a piece a mesh that is repaired as far as that is possible; Object Mode.
+
+    Faces that look inwards are turned, holes are closed, and caps that cross something are made anew of flat
+    triangles; what does not make the piece better is left. The old mesh is removed.
+
+    Parameters
+    ----------
+    piece : bpy.types.Object
+        Its mesh is its own.
+    stretch : (3, 3) float64
+        What the object does to its mesh, see bridge.world_stretch.
+
+    Returns
+    -------
+    before, after : Check
+    """
+    old = piece.data
+    before, _ = found = piece_checks.check(old, stretch)
+    mesh, now = old, before
+    for step in (_turned, _closed, _without_crossing_caps):
+        candidate = mesh.copy()
+        step(candidate, found[1])
+        checked = piece_checks.check(candidate, stretch)
+        if _faults(checked[0]) < _faults(now):
+            mesh, now, found = _replaced(mesh, candidate, old), checked[0], checked
+        else:
+            bpy.data.meshes.remove(candidate)
+    if mesh != old:
+        ours = piece.get(piece_objects.MADE) == piece_objects.looks(piece)
+        transaction.keep(piece, "data")
+        piece.data = mesh
+        name = old.name
+        transaction.discard(old)
+        mesh.name = name
+        if ours:
+            transaction.keep_keys(piece, piece_objects.MADE)
+            piece[piece_objects.MADE] = piece_objects.looks(piece)
+    transaction.keep_keys(piece, piece_checks.CHECK)
+    piece_checks.keep(piece, now)
+    return before, now
+
+
+def _faults(found: Check) -> int:
+    return found.open_edges + found.branching_edges + found.crossing_faces + found.inside_out
+
+
+def _replaced(mesh: bpy.types.Mesh, better: bpy.types.Mesh, old: bpy.types.Mesh) -> bpy.types.Mesh:
+    """The better mesh; the other one is removed unless it is what there was before."""
+    if mesh != old:
+        bpy.data.meshes.remove(mesh)
+    return better
+
+
+def _turned(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:
+    """Turn all faces round."""
+    mesh.flip_normals()
+
+
+def _closed(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:
+    """Close all holes."""
+    with freed(bmesh.new()) as bm:
+        bm.from_mesh(mesh)
+        _fill_holes(bm)
+        bm.to_mesh(mesh)
+
+
+def _without_crossing_caps(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:
+    """Remove the caps with faces that cross others, and close the holes that they leave."""
+    with freed(bmesh.new()) as bm:
+        bm.from_mesh(mesh)
+        layer = bm.faces.layers.int.get(caps.CAP)
+        if layer is None:
+            return
+        bm.faces.ensure_lookup_table()
+        wrong = {face for i in np.flatnonzero(faults.crossing).tolist() if (face := bm.faces[i])[layer]}
+        reached = list(wrong)
+        while reached:
+            beside = {face for edge in reached.pop().edges for face in edge.link_faces if face[layer]} - wrong
+            wrong |= beside
+            reached += beside
+        bmesh.ops.delete(bm, geom=list(wrong), context="FACES")
+        _fill_holes(bm)
+        bm.to_mesh(mesh)
+
+
+def _fill_holes(bm: BMesh) -> list[BMFace]:
+    """Close holes by triangles, which are caps."""
+    layer = bm.faces.layers.int.get(caps.CAP) or bm.faces.layers.int.new(caps.CAP)
+    before = set(bm.faces)
+    bmesh.ops.holes_fill(bm, edges=[edge for edge in bm.edges if edge.is_boundary], sides=0)
+    made = [face for face in bm.faces if face not in before]
+    made = bmesh.ops.triangulate(bm, faces=made, ngon_method="BEAUTY")["faces"] if made else []
+    for face in made:
+        face[layer] = 1
+    return made
