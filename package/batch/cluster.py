@@ -67,8 +67,10 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
     # The workers inherit that they do not hear Ctrl+C: it is for this process, which ends them.
     former = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        # What needs memory are the processes of the models, which have limits of their own.
-        with dask.config.set({"distributed.worker.memory.terminate": False}):
+        # What needs memory are the processes of the models, which have limits of their own. Dask's profile would only
+        # show how its threads wait for them.
+        with dask.config.set({"distributed.worker.profile.enabled": False,
+                              "distributed.admin.system-monitor.interval": "2s"}):
             cluster = LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
                                    dashboard_address=dashboard, silence_logs=logging.CRITICAL)
             client = Client(cluster)

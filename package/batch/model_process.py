@@ -23,7 +23,7 @@ from typing import IO, Any
 
 from .records import CRASH, MEMORY, TIME, Settings, digest_of, failure
 
-LOOK = 0.1  # seconds between two looks at the memory of the process
+LOOK = 0.5  # seconds between two looks at the memory of the process
 START = 120.0  # seconds that the process may take to import everything, on a busy machine
 ENDED: dict[str, Any] = {}  # in place of a message: there will be none any more
 
@@ -80,12 +80,13 @@ class ModelProcess:
         until = time.monotonic() + seconds
         while True:
             try:
-                self._answer = self._messages.get(timeout=LOOK)
+                self._answer = self._messages.get(timeout=min(LOOK, max(until - time.monotonic(), 0.01))
+                                                  if seconds else LOOK)
                 break
             except queue.Empty:
                 if seconds and time.monotonic() > until:
                     return TIME, f"It took longer than {seconds:g} s."
-                if self.memory_limit and self._memory() > self.memory_limit:
+                if self.memory_limit and self._memory(job["blender"] is not None) > self.memory_limit:
                     return MEMORY, self._too_much()
         if self._answer is ENDED:
             return self._end_of_process()
@@ -108,15 +109,16 @@ class ModelProcess:
         except queue.Empty:
             return False
 
-    def _memory(self) -> int:
-        """Bytes that the process and those that it started have in memory."""
+    def _memory(self, with_children: bool) -> int:
+        """Bytes that the process, and a Blender that it started, have in memory."""
         import psutil
 
         assert self._process is not None
         total = 0
         with suppress(psutil.Error):
             own = psutil.Process(self._process.pid)
-            for process in (own, *own.children(recursive=True)):
+            # A look for children is one at all processes of the machine.
+            for process in (own, *(own.children(recursive=True) if with_children else ())):
                 with suppress(psutil.Error):
                     total += process.memory_info().rss
         return total

@@ -28,6 +28,7 @@ PARTS = pa.schema([
     ("model", pa.string()), ("index", pa.int64()), ("number", pa.int64()), ("name", pa.string()),
     ("faces", pa.int64()), ("area", pa.float64()), ("share", pa.float64()), ("color", pa.list_(pa.float64())),
     ("bounding_box", pa.list_(pa.list_(pa.float64()))), ("neighbours", pa.list_(pa.int64())), ("twin", pa.int64()),
+    ("descriptor", pa.list_(pa.float64())),
 ])  # fmt: skip
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from ..core.errors import ReebError
 from ..core.result.decomposition import Decomposition, Parts
+from ..core.uses.descriptors import part_descriptors
 from ..meshes import decompose
 from ..model_files import Model, ModelFileError, read_model
 from ..outputs import colored_bytes, json_bytes, labels_bytes, model_document, part_files, picture_bytes
@@ -81,6 +82,9 @@ def _results(path: Path, name: str, settings: Settings, blender: str | None,
     record = {"format": FORMAT, "name": name, "status": DONE, "reason": "", "settings": settings.digest,
               "files": {file: len(files[file]) for file in sorted(files)},
               "model": _model_row(model, result, parts), "parts": entry["parts"]}
+    described = part_descriptors(model.vertices, model.faces, parts, model.polygon)
+    for part, row in zip(record["parts"], described.round(6).tolist(), strict=True):
+        part["descriptor"] = row
     return record, files
 
 

@@ -12,9 +12,9 @@ import sys
 
 from ..core.errors import ReebError
 from ..core.result.decomposition import VERSION
-from . import batch, decompose
+from . import batch, decompose, similar
 
-COMMANDS = {"decompose": decompose, "batch": batch}
+COMMANDS = {"decompose": decompose, "batch": batch, "similar": similar}
 FAILED, INTERRUPTED = 1, 130
 
 

@@ -25,6 +25,7 @@ from reeb_parts.batch.records import RECORD, Settings, is_done, read_record
 from reeb_parts.batch.sources import SourceError, find_sources
 
 from core import Parameters, decompose
+from core.uses.descriptors import distances, part_descriptors
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = json.loads((ROOT / "docs" / "reeb_parts.schema.json").read_text(encoding="utf-8"))
@@ -94,6 +95,33 @@ def test_the_results_are_those_of_core(batch, models):
     (entry,) = document["objects"]
     found = [row for row in rows(out / "parts.parquet") if row.pop("model") == "tree.ply"]
     assert [{key: row[key] for key in entry["parts"][0]} for row in found] == entry["parts"]
+    described = part_descriptors(mesh.vertices, mesh.faces, expected)
+    assert np.array([row["descriptor"] for row in found]) == pytest.approx(described, abs=1e-6)
+
+
+def test_parts_like_a_part_are_found_with_pictures(batch, reeb_parts_command, tmp_path):
+    done = reeb_parts_command("similar", batch[0], "tree.ply:2", "--count", 4, "--page", tmp_path / "page.html")
+    assert done.returncode == 0, done.stderr
+    answer = json.loads(done.stdout)
+    table = {(row["model"], row["number"]): np.array(row["descriptor"]) for row in rows(batch[0] / "parts.parquet")}
+    one = table.pop(("tree.ply", 2))
+    nearest = sorted((float(distances(one, other[None])[0]), *part) for part, other in table.items())[:4]
+    assert [(row["distance"], row["model"], row["number"]) for row in answer["similar"]] == [
+        (pytest.approx(distance), model, number) for distance, model, number in nearest]
+    assert (answer["part"]["model"], answer["part"]["number"]) == ("tree.ply", 2)
+    page = (tmp_path / "page.html").read_text()
+    assert page.count("data:image/png;base64,") == page.count("<figure>") == 5
+    elsewhere = json.loads(reeb_parts_command("similar", batch[0], "tree.ply:2", "--other-models").stdout)
+    assert {row["model"] for row in elsewhere["similar"]} == {"deep/dumb bell.obj"}
+
+
+@pytest.mark.parametrize(("part", "status", "words"), [
+    ("tree.ply:99", 1, "There is no part 99 of a model tree.ply"), ("tree.ply", 2, "must be the name of a model"),
+])  # fmt: skip
+def test_a_part_that_is_not_there_is_said_not_to_be(part, status, words, batch, reeb_parts_command):
+    done = reeb_parts_command("similar", batch[0], part)
+    assert done.returncode == status
+    assert words in done.stderr
 
 
 def test_the_table_of_models_has_each_with_its_reason(batch, models):

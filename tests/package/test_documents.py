@@ -36,6 +36,10 @@ def test_there_are_examples():
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_commands_run(command, folder, reeb_parts_command):
+    if "similar" in command:  # of what a batch has left
+        (folder / "archive").mkdir()
+        trimesh.Trimesh(*shapes.tube_tree(step=0.2), process=False).export(folder / "archive" / "cow.obj")
+        reeb_parts_command("batch", "archive", "--out", "results", "--workers", 1, cwd=folder)
     done = reeb_parts_command(*shlex.split(command)[1:], cwd=folder)
     assert done.returncode == 0, done.stderr
 

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which place of one surface is which place of another: of the same kind of body, in another pose or level of detail.
+
+Both surfaces are represented by samples spread evenly over them, with the geodesic distances between all samples, which
+are nearly the same in every pose. A plan says how much of each sample's area goes to which sample of the other surface;
+it is sought so that distances are kept as well as possible, and so that samples go to such as have the same
+distribution of distances to the whole surface: the fused Gromov-Wasserstein problem [Vayer2019], solved by proximal
+steps [Xu2019] from several starts. Mirror images have the same distances; of plans that are equally good, the one is
+taken whose places lie nearer to each other in space.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..field.agd import spread_base_vertices
+from ..field.geodesic import GeodesicSolver
+from ..surface.arrays import inverse, sums_by
+from ..surface.coarsening import Pyramid
+from ..surface.labels import majority
+from ..surface.ordering import sorted_by_place
+from ..surface.polygons import PolygonMesh
+from ..surface.preparation import Component, repair
+
+SPACING = 0.006  # squared radius of the disc of a sample over the area: some 90 to 150 samples
+VERTICES = 3_000  # upper bound of the number of vertices on which paths are searched
+# Shares of the area, sorted by distance from a sample, at which these distances are compared.
+QUANTILES = (0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0)
+PROFILE = 2.0  # weight of the difference of these distances, in units of the square root of the area
+DISTANCE = 2.0  # weight of the change of distances, in units of the largest one
+# Weights of positions from which the search starts, before it goes on without them; and the weight by which plans are
+# judged that it leads to.
+STARTS, TIE = (0.0, 0.3, 1.0, 3.0, 10.0, 30.0), 0.1
+STEP = 0.01  # size of a proximal step: entropy of the change, in units of the costs
+FIRST, LAST, ROUNDS = 15, 40, 60  # steps with and without positions; rounds that balance a plan in each of them
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Points that represent a surface.
+
+    With k samples and p faces of the caller:
+
+    Attributes
+    ----------
+    distances : (k, k) float64
+        Geodesic, in units of the largest one.
+    weight : (k,) float64
+        Share of the area that each sample stands for; the sum is 1.
+    profile : (k, len(QUANTILES)) float64
+        Quantiles of the distances from each sample to the surface, in units of the square root of the area.
+    position : (k, 3) float64
+        From the middle of the surface, in the same unit.
+    face_sample : (p,) int64
+        Sample that stands for each face; -1 for a face without area.
+    face_area : (p,) float64
+        Share of the area; the sum is 1.
+    """
+
+    distances: np.ndarray
+    weight: np.ndarray
+    profile: np.ndarray
+    position: np.ndarray
+    face_sample: np.ndarray
+    face_area: np.ndarray
+
+
+def sample_surface(vertices: np.ndarray, faces: np.ndarray, polygon: np.ndarray | None = None) -> Samples:
+    """Spread samples over a surface.
+
+    Parameters
+    ----------
+    vertices, faces, polygon
+        As ``decompose`` takes them.
+
+    Returns
+    -------
+    samples : Samples
+
+    Raises
+    ------
+    MeshError
+        As ``decompose`` raises it.
+
+    Notes
+    -----
+    A search for shortest paths per sample, on at most VERTICES vertices. Pieces that do not touch are linked where they
+    are nearest.
+    """
+    given, ordering = sorted_by_place(PolygonMesh.of(vertices, faces, polygon))
+    working = repair(given)
+    body = Component.of(working, np.arange(working.mesh.n_faces))
+    pyramid = Pyramid(body.mesh, body.bridges.vertices)
+    steps = pyramid.until(lambda mesh: mesh.n_vertices <= VERTICES)
+    mesh, area, links = body.mesh, body.mesh.vertex_area, pyramid.bridges
+    if steps:
+        mesh, area, links = steps[-1].mesh, steps[-1].area, steps[-1].links
+    unit = np.sqrt(area.sum())
+    base = spread_base_vertices(mesh, GeodesicSolver(mesh, links), area, np.sqrt(SPACING) * unit)
+    owner = base.distances.argmin(axis=0)
+    for step in reversed(steps):
+        owner = owner[step.owner]
+    triangle = body.mesh.faces
+    sample = majority(np.repeat(body.polygon, 3), owner[triangle].ravel(),
+                      np.repeat(body.mesh.face_area, 3), given.n_polygons)
+    face_area = np.bincount(body.polygon, body.mesh.face_area, given.n_polygons)
+    sample = np.where(face_area > 0, sample, -1)
+    face = inverse(ordering.polygon)
+    distances = base.distances[:, base.indices].astype(np.float64)
+    distances = (distances + distances.T) / (2 * unit)
+    weight = base.areas / base.areas.sum()
+    position = mesh.vertices[base.indices] / unit
+    return Samples(distances / max(distances.max(), 1e-300), weight, _profiles(distances, weight),
+                   position - weight @ position, sample[face], (face_area / face_area.sum())[face])
+
+
+def _profiles(distances: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Quantiles of each row of distances, (k, len(QUANTILES)), by the weight of the columns."""
+    order = np.argsort(distances, axis=1, kind="stable")
+    share = np.cumsum(weight[order], axis=1)
+    rows = np.take_along_axis(distances, order, axis=1)
+    return np.stack([np.interp(QUANTILES, share[i], rows[i]) for i in range(len(rows))])
+
+
+def correspond(source: Samples, target: Samples) -> np.ndarray:
+    """Find which samples of one surface are which of another.
+
+    Parameters
+    ----------
+    source, target : Samples
+        Of k and l samples.
+
+    Returns
+    -------
+    plan : (k, l) float64
+        Area, as a share of the whole, that goes from each sample of the source to each of the target; rows sum to the
+        weights of the one, columns to those of the other.
+    """
+    profile = PROFILE * ((source.profile[:, None] - target.profile[None]) ** 2).mean(axis=2)
+    place = ((source.position[:, None] - target.position[None]) ** 2).sum(axis=2)
+    start = np.outer(source.weight, target.weight)
+    plans = []
+    for weight in STARTS:
+        plan = _descend(source, target, profile + weight * place, start, FIRST)
+        plans.append(_descend(source, target, profile, plan, LAST))
+    cost = [float(((profile + TIE * place + DISTANCE * _change(source, target, plan)) * plan).sum()) for plan in plans]
+    return plans[int(np.argmin(cost))]
+
+
+def _change(source: Samples, target: Samples, plan: np.ndarray) -> np.ndarray:
+    """Change of squared distances that a plan makes, for each pair of samples, (k, l)."""
+    return ((source.distances**2 @ source.weight)[:, None] + (target.distances**2 @ target.weight)[None]
+            - 2 * source.distances @ plan @ target.distances.T)
+
+
+def _descend(source: Samples, target: Samples, cost: np.ndarray, plan: np.ndarray, steps: int) -> np.ndarray:
+    """Improve a plan by so many proximal steps. cost : (k, l), of each pair of samples."""
+    for _ in range(steps):
+        gradient = cost + DISTANCE * _change(source, target, plan)
+        plan = _balanced(plan * np.exp((gradient.min() - gradient) / STEP), source.weight, target.weight)
+    return plan
+
+
+def _balanced(plan: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """Scale rows and columns until they have the sums that they are to have [Cuturi2013]."""
+    left = np.ones(len(rows))
+    for _ in range(ROUNDS):
+        right = columns / np.maximum(plan.T @ left, 1e-300)
+        left = rows / np.maximum(plan @ right, 1e-300)
+    plan = left[:, None] * plan * right
+    return plan / plan.sum()
+
+
+def carried_labels(
+    source: Samples, source_labels: np.ndarray, target: Samples, target_labels: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Find the part of one surface that each part of another corresponds to.
+
+    Parameters
+    ----------
+    source, target : Samples
+    source_labels, target_labels : (p,) and (q,) int64
+        Part of each face of the two surfaces, from 0, all in use.
+
+    Returns
+    -------
+    label : (count of target,) int64
+        Part of the source from which most of the area of each part of the target comes.
+    share : (count of target,) float64
+        How much of it, 0..1.
+    """
+    plan = correspond(source, target)
+    from_source = _of_samples(source, source_labels, len(source.weight))
+    mixture = (plan / np.maximum(plan.sum(axis=0), 1e-300)).T @ from_source  # what each sample of the target is
+    to_target = _of_samples(target, target_labels, len(target.weight)) * target.weight[:, None]
+    score = to_target.T @ mixture
+    return score.argmax(axis=1), score.max(axis=1) / np.maximum(score.sum(axis=1), 1e-300)
+
+
+def _of_samples(samples: Samples, labels: np.ndarray, count: int) -> np.ndarray:
+    """Share of the area of each sample that has each label, (k, n labels)."""
+    kept = samples.face_sample >= 0
+    one = np.eye(int(labels.max()) + 1)[labels[kept]] * samples.face_area[kept, None]
+    share = sums_by(samples.face_sample[kept], one, count)
+    return share / np.maximum(share.sum(axis=1, keepdims=True), 1e-300)

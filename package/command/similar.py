@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Find the parts of a batch that are most like one of them.
+
+    reeb-parts similar results "cow.obj:3" --count 20 --page similar.html
+
+PART is the name of a model in the tables and the number of a part. The answer on standard output is JSON; the page has
+a picture of each part. Parts are compared by size, shape and place in the Reeb graph, which change little with pose.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+from ..core.sentence import Sentence
+from ..whole_files import write_files
+from .batch import MissingPackageError
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options to a parser."""
+    parser.add_argument("results", type=Path, help="folder of the results of reeb-parts batch")
+    parser.add_argument("part", type=_part, metavar="PART", help="such as cow.obj:3")
+    parser.add_argument("--count", type=int, default=20, metavar="N", help="how many (default: %(default)s)")
+    parser.add_argument("--other-models", action="store_true", help="leave out the parts of the same model")
+    parser.add_argument("--page", type=Path, metavar="OUT.html", help="a page with a picture of each")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Do what the options ask for; returns the exit status. Raises ReebError."""
+    if find_spec("pyarrow") is None:
+        raise MissingPackageError(Sentence('Install {names} first: pip install "reeb-parts[batch]".', names="pyarrow"))
+    from ..batch.similar import page, similar_parts
+
+    model, number = options.part
+    parts = similar_parts(options.results, model, number, max(options.count, 1), options.other_models)
+    if options.page:
+        write_files({options.page: page(options.results, parts).encode()}, options.results / "parts.parquet")
+    sys.stdout.write(json.dumps({"part": parts[0], "similar": parts[1:]}, indent=2) + "\n")
+    sys.stdout.flush()
+    return 0
+
+
+def _part(text: str) -> tuple[str, int]:
+    """The model and the number of a part; argparse turns the error into a sentence."""
+    model, colon, number = text.rpartition(":")
+    if not (colon and number.isdigit()):
+        raise argparse.ArgumentTypeError(f"{text} must be the name of a model, a colon and a number")
+    return model, int(number)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Descriptors of parts: invariant, worked out by hand where that is possible, alike for parts of one kind."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import Parameters, decompose
+from core.uses.descriptors import NAMES, SCALE, distances, part_descriptors
+
+
+@pytest.fixture(scope="module")
+def tree():
+    """A body with four arms of two lengths, and its parts."""
+    shape = shapes.tube_tree(step=0.15)
+    return shape, decompose(*shape).parts()
+
+
+def column(descriptors, name):
+    return descriptors[:, NAMES.index(name)]
+
+
+def test_there_is_a_scale_for_each_column():
+    assert SCALE.shape == (len(NAMES),)
+    assert (SCALE > 0).all()
+
+
+def test_they_do_not_depend_on_place_size_and_order(tree):
+    shape, parts = tree
+    expected = part_descriptors(*shape, parts)
+    assert expected.shape == (parts.count, len(NAMES))
+    rng = np.random.default_rng(0)
+    turn = shapes.rotation(rng)
+    turned = 7.0 * shape.vertices @ turn.T + 3.0
+    moved = decompose(turned, shape.faces).parts()
+    assert np.allclose(part_descriptors(turned, shape.faces, moved), expected, atol=1e-4)
+    other, _, face = shapes.shuffled(shape, rng)
+    mixed = decompose(*other).parts()
+    to = [int(np.bincount(mixed.labels[parts.labels[face] == part]).argmax()) for part in range(parts.count)]
+    assert np.allclose(part_descriptors(*other, mixed)[to], expected, atol=1e-9)
+
+
+def test_what_can_be_counted_is_right(tree):
+    shape, parts = tree
+    found = part_descriptors(*shape, parts)
+    assert np.exp(column(found, "log_share")) == pytest.approx(parts.share)
+    beside = np.bincount(parts.cuts.ravel(), minlength=parts.count)
+    assert np.expm1(column(found, "n_neighbors")) == pytest.approx(beside)
+    assert np.expm1(column(found, "n_leaves")).sum() == pytest.approx((parts.decomposition.graph.node_kind == 2).sum())
+    assert np.expm1(column(found, "n_arcs")).sum() == pytest.approx(parts.decomposition.graph.n_arcs)
+    assert column(found, "hops")[0] == 0
+    cuts = column(found, "cut_length") * np.sqrt(parts.area)
+    assert cuts.sum() == pytest.approx(2 * parts.cut_length.sum())
+
+
+def test_a_ball_alone_is_what_it_is():
+    ball = shapes.icosphere(3)
+    parts = decompose(*ball, Parameters(n_parts=1)).parts()
+    (found,) = part_descriptors(*ball, parts)
+    row = dict(zip(NAMES, found, strict=True))
+    spread = np.log(np.sqrt(1 / 3) / np.sqrt(4 * np.pi))  # second moment of a sphere along any axis
+    assert [row[name] for name in ("log_length", "log_width", "log_height")] == pytest.approx([spread] * 3, abs=0.02)
+    alone = ("log_share", "cut_length", "n_neighbors", "depth_100", "hops", "has_twin")
+    assert [row[name] for name in alone] == [0] * 6
+    # Two points of a sphere are farther apart than sqrt(2) of its radius half of the time.
+    assert row["apart_50"] == pytest.approx(np.sqrt(2) / np.sqrt(4 * np.pi), abs=0.02)
+
+
+def test_every_part_has_one_like_it_in_another_tessellation(tree):
+    shape, parts = tree
+    coarse = shapes.tube_tree(step=0.2)
+    others = decompose(*coarse).parts()
+    found, more = part_descriptors(*shape, parts), part_descriptors(*coarse, others)
+    for part in range(others.count):
+        to = distances(more[part], found)
+        assert to.min() < 0.8
+        # Arms are like each other, but not like what is much smaller or larger.
+        unlike = np.abs(np.log(parts.share / others.share[part])) > 1
+        assert (to[unlike] > 1.5).all()
+
+
+def test_the_distance_is_the_mean_of_scaled_differences():
+    one = np.zeros(len(NAMES))
+    assert distances(one, np.stack([one, SCALE, -2 * SCALE])).tolist() == pytest.approx([0, 1, 2])
