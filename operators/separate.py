@@ -63,8 +63,8 @@ class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProp
             self.report({"INFO"}, rpt_("{n} earlier pieces that were edited since are left as they are").format(
                 n=separated.kept))
         if separated.along_faces:
-            self.report({"INFO"}, rpt_("{n} borders run along faces: a smooth cut would tear a part there").format(
-                n=separated.along_faces))
+            message = rpt_("{n} borders run along faces: a smooth cut would tear or cross a part there")
+            self.report({"INFO"}, message.format(n=separated.along_faces))
         if self.caps:
             report_unsound(self, separated.pieces)
         if separated.left_open:

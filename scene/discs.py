@@ -57,6 +57,9 @@ class Discs:
         corners = points[triangles]
         self._low, self._high = corners.min(axis=1), corners.max(axis=1)
         self._found: dict[bytes, Disc | None] = {}
+        #: Vertices of the curves across which the surface crosses the mesh or itself, and how often all of them do.
+        self.crossing: list[np.ndarray] = []
+        self.n_crossings = 0
 
     def across(self, curve: np.ndarray) -> Disc | None:
         """The surface across a curve, (k, 3) float64, or None where there is none; the same for the same points."""
@@ -67,7 +70,7 @@ class Discs:
 
     def _best(self, curve: np.ndarray) -> Disc | None:
         """The first surface that stays inside, of those over a plane and in a circle, else the one that nearly does."""
-        best, least = None, np.inf
+        best, least = None, 1 << 30
         body = self._around(curve)
         for flat in (over_a_plane(curve), in_a_circle(curve)):
             found = _disc(curve, flat) if flat is not None and len(curve) > 3 else None
@@ -79,6 +82,9 @@ class Discs:
                     best, least = candidate, count
                 if not count:
                     return best
+        if best is not None and body is not None:
+            self.crossing.append(body.vertices[body.own[body.own >= 0]])
+            self.n_crossings += least
         return best
 
     def _around(self, curve: np.ndarray) -> _Body | None:
@@ -94,16 +100,28 @@ class Discs:
         triangles = triangles.reshape(-1, 3)
         tree = BVHTree.FromPolygons(points.tolist(), triangles.tolist(), all_triangles=True)
         own = np.array([place.get(bytes(point), -1) for point in np.ascontiguousarray(curve)])
-        return _Body(tree, triangles, own)
+        return _Body(tree, triangles, own, used)
 
 
 @dataclass(frozen=True, eq=False)
 class _Body:
-    """The surface around a curve: as a tree, its triangles, (t, 3), and the place of each point of the curve, (k,)."""
+    """The surface around a curve.
+
+    Attributes
+    ----------
+    tree : BVHTree
+    triangles : (t, 3) int64
+        With numbers of their own for the vertices.
+    own : (k,) int64
+        That of each point of the curve; -1 for one that is no vertex of the mesh.
+    vertices : (v,) int64
+        The vertex of the mesh for each of these numbers.
+    """
 
     tree: BVHTree
     triangles: np.ndarray
     own: np.ndarray
+    vertices: np.ndarray
 
 
 def _disc(curve: np.ndarray, flat: np.ndarray) -> Disc | None:

@@ -15,6 +15,7 @@ import bmesh
 import bpy
 import numpy as np
 
+from ..core.surface.corners import edge_labels
 from . import caps, mesh_arrays, outputs, quiet
 from .outputs import kept_aside, materials
 from .temporary import freed, removed
@@ -55,11 +56,17 @@ class PieceMeshes:
         Edges of holes that could not be filled.
     along_faces : int
         Borders that were to be smooth and still run along faces.
+    crossing : (k, 2) int64
+        Numbers of parts between which caps cross the mesh or themselves.
+    n_crossings : int
+        How often.
     """
 
     meshes: dict[int, bpy.types.Mesh]
     left_open: int
     along_faces: int
+    crossing: np.ndarray
+    n_crossings: int
 
 
 def part_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int],
@@ -92,32 +99,78 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
     made : PieceMeshes
     """
     plain = plain_copy(mesh)
+    others = [(part.number, part.material) for part in mesh.reeb_parts.parts if part.material is not None]
+    wanted = [number for number in wanted if (face_numbers == number).any()]
     with removed(bpy.data.meshes, plain):
         _keep_normals(plain)
-        along_faces = 0
+        made = _made(plain, face_numbers, wanted, close, smooth, np.empty((0, 2), np.int64))
+        if smooth is not None and len(made.crossing):
+            made = _with_whole_faces(plain, face_numbers, wanted, smooth, made)
+    for number, piece in made.meshes.items():
+        materials.drop_slots(piece, [material for other, material in others if other != number])
+    return made
+
+
+def _with_whole_faces(plain: bpy.types.Mesh, face_numbers: np.ndarray, wanted: list[int], smooth: np.ndarray,
+                      made: PieceMeshes) -> PieceMeshes:
+    """The pieces with some borders along faces, if fewer of their caps cross something then; else those given."""
+    along = made.crossing
+    for _ in range(2):
+        other = _made(plain, face_numbers, wanted, True, smooth, along)
+        better = other.n_crossings < made.n_crossings
+        worse = made if better else other
+        bpy.data.batch_remove(list(worse.meshes.values()))
+        made = other if better else made
+        # Where it does not help to leave faces whole, the smooth cut is the better one.
+        helped = along[~_rows_in(along, other.crossing)]
+        if not len(helped) or len(helped) == len(along):
+            break
+        along = helped
+    return made
+
+
+def _rows_in(rows: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Whether each row of two numbers is among others, (k,) bool."""
+    return (rows[:, None] == others[None]).all(axis=2).any(axis=1)
+
+
+def _made(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: list[int], close: bool, smooth: np.ndarray | None,
+          along: np.ndarray) -> PieceMeshes:
+    """The pieces of a mesh without anything of ours; along : (k, 2), parts whose border stays along faces."""
+    plain, along_faces = mesh.copy(), 0
+    with removed(bpy.data.meshes, plain):
         if smooth is not None:
             from .smooth_faces import divide_faces  # imports SciPy
 
-            face_numbers, cuts = divide_faces(plain, face_numbers, smooth)
+            face_numbers, cuts = divide_faces(plain, face_numbers, smooth, along)
             along_faces = cuts.kept
         edge, (vertex, face) = mesh_arrays.corner_edges(plain), mesh_arrays.face_corners(plain)
         cut = mesh_arrays.cut_edges(plain, face_numbers)
         meeting, joined, middles = _around_cuts(plain, cut)
-        wanted = [number for number in wanted if (face_numbers == number).any()]
         made, left_open, discs = {}, 0, _discs(plain) if close else None
         for number, piece in _divide(plain, face_numbers, wanted, _has_loose(plain)):
-            corner = (face_numbers == number)[face]
             if discs is not None:
                 # Elements keep their order, so that those of the piece are those of its faces, rising.
+                corner = (face_numbers == number)[face]
                 mine = np.unique(vertex[corner])
                 here = np.searchsorted(mine, joined[np.isin(joined, mine).all(axis=1)])
                 opened = cut[np.unique(edge[corner])]
                 left_open += caps.close_cuts(piece, opened, meeting[mine], here, middles[mine], discs)[1]
             _set_normals(piece)
-            others = [part for part in mesh.reeb_parts.parts if part.number != number]
-            materials.drop_slots(piece, [part.material for part in others if part.material is not None])
             made[number] = piece
-    return PieceMeshes(made, left_open, along_faces)
+        crossing = _pairs(plain, face_numbers, discs.crossing) if discs is not None else np.empty((0, 2), np.int64)
+    return PieceMeshes(made, left_open, along_faces, crossing, discs.n_crossings if discs is not None else 0)
+
+
+def _pairs(mesh: bpy.types.Mesh, face_numbers: np.ndarray, curves: list[np.ndarray]) -> np.ndarray:
+    """The parts on both sides of some curves, vertices each, the lower number first; (k, 2) int64, each pair once."""
+    low, high = edge_labels(mesh_arrays.corner_edges(mesh), mesh_arrays.face_corners(mesh)[1], face_numbers,
+                            len(mesh.edges))
+    on = np.zeros(len(mesh.vertices), bool)
+    for curve in curves:
+        on[curve] = True
+    here = on[mesh_arrays.edge_ends(mesh)].all(axis=1) & (low < high)
+    return np.unique(np.stack([low[here], high[here]], axis=1), axis=0)
 
 
 def _discs(mesh: bpy.types.Mesh) -> Discs:

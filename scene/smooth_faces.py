@@ -21,7 +21,8 @@ from .temporary import freed
 _NUMBER = "reeb_parts_face_number"
 
 
-def divide_faces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray) -> tuple[np.ndarray, CleanCuts]:
+def divide_faces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray,
+                 along: np.ndarray) -> tuple[np.ndarray, CleanCuts]:
     """Divide the faces of a mesh where smooth cuts between its parts run; Object Mode.
 
     Parameters
@@ -32,6 +33,8 @@ def divide_faces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.nda
         Number of each face's part.
     stretch : (3, 3) float64
         What the object does to the mesh, see bridge.world_stretch.
+    along : (k, 2) int64
+        Numbers of parts, the lower first, between which the cut is to run along the edges of faces.
 
     Returns
     -------
@@ -39,13 +42,13 @@ def divide_faces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.nda
         Number of each face's part, of the faces that there are now.
     cuts : CleanCuts
     """
-    cuts = _cuts(mesh, face_numbers, stretch)
+    cuts = _cuts(mesh, face_numbers, stretch, along)
     if not (len(cuts.face) or len(cuts.odd)):
         return face_numbers, cuts
     mesh.attributes.new(_NUMBER, "INT", "FACE").data.foreach_set("value", face_numbers.astype(np.int32))
     if len(cuts.odd):
         _with_bmesh(mesh, lambda bm: _triangulate(bm, cuts.odd))
-        cuts = _cuts(mesh, _numbers(mesh), stretch)
+        cuts = _cuts(mesh, _numbers(mesh), stretch, along)
         assert not len(cuts.odd)
     _with_bmesh(mesh, lambda bm: _divide(bm, cuts))
     numbers = _numbers(mesh)
@@ -53,9 +56,11 @@ def divide_faces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.nda
     return numbers, cuts
 
 
-def _cuts(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray) -> CleanCuts:
-    points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
-    return clean_cuts(mesh_arrays.corner_table(mesh, points), face_numbers)
+def _cuts(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> CleanCuts:
+    table = mesh_arrays.corner_table(mesh, mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T)
+    sides = np.stack(table.edge_labels(face_numbers), axis=1)
+    whole = (sides[:, None] == along[None]).all(axis=2).any(axis=1) if len(along) else None
+    return clean_cuts(table, face_numbers, whole)
 
 
 def _numbers(mesh: bpy.types.Mesh) -> np.ndarray:

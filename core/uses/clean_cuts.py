@@ -61,7 +61,7 @@ class CleanCuts:
         Curves that lie in a plane.
     kept : int
         Groups of borders that stay along the edges of faces although they are not smooth, because a part would be
-        lost or torn, or because more than two faces meet at one of their edges.
+        lost or torn, because more than two faces meet at one of their edges, or because it was asked for.
     """
 
     edge: np.ndarray
@@ -74,7 +74,7 @@ class CleanCuts:
     kept: int = 0
 
 
-def clean_cuts(table: CornerTable, labels: np.ndarray) -> CleanCuts:
+def clean_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | None = None) -> CleanCuts:
     """Find smooth curves along the borders between parts.
 
     Parameters
@@ -83,6 +83,8 @@ def clean_cuts(table: CornerTable, labels: np.ndarray) -> CleanCuts:
         n vertices, p faces. Any topology; borders where more than two faces meet at an edge are left alone.
     labels : (p,) int64
         Part of each face, 0 or more.
+    whole : (e,) bool, optional
+        Edges at which borders are to stay along edges, with all the borders that are connected with them.
 
     Returns
     -------
@@ -108,6 +110,9 @@ def clean_cuts(table: CornerTable, labels: np.ndarray) -> CleanCuts:
         sides = _sides(band, pins, steps)
         division = _divide(band, sides)
         group, good, broken = _judged(band, sides, division)
+        if whole is not None:
+            asked = group[band.ends[(low < high) & whole[band.edges]]]
+            broken[asked], good[asked] = True, False
         # What is chosen must not come near a curve that has been chosen before.
         good[np.unique(group[taken & (group >= 0)])] = False
         used = (group >= 0) & good[group]

@@ -705,8 +705,8 @@ TEXTS = {
     "{n} faces selected": "{n} Flächen ausgewählt",
     "Other objects share the mesh of {name}": "Andere Objekte teilen sich das Mesh von {name}",
     "Nothing of {name} can be repaired": "An {name} lässt sich nichts reparieren",
-    "{n} borders run along faces: a smooth cut would tear a part there":
-        "{n} Grenzen verlaufen an Flächen: ein glatter Schnitt würde dort ein Teil zerreißen",
+    "{n} borders run along faces: a smooth cut would tear or cross a part there":
+        "{n} Grenzen verlaufen an Flächen: ein glatter Schnitt würde dort ein Teil zerreißen oder durchdringen",
     "{n} edges stay open: more than two faces meet beside them":
         "{n} Kanten bleiben offen: neben ihnen treffen mehr als zwei Flächen zusammen",
     "The active object is not a part that was separated from another one":

@@ -807,3 +807,19 @@ def test_with_holes_closed_the_report_tells_the_truth(obj, capfd):
     bpy.ops.reeb_parts.separate(caps=True)
     count = len(pieces())
     assert f"{count} parts are closed and do not cross themselves" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_where_a_smooth_cut_goes_wrong_faces_stay_whole(make, separate, seed):
+    """Ragged parts, some of whose caps cross something: with some borders along faces, fewer do."""
+    obj = make(shapes.tube_tree())
+    rng = np.random.default_rng(seed)
+    centers = read(obj.data.polygons, "center", np.float32, 3)
+    seeds = centers[rng.choice(len(centers), 30, replace=False)]
+    numbers = 1 + np.linalg.norm(centers[:, None] - seeds[None], axis=2).argmin(axis=1)
+    made = separate.piece_meshes(obj.data, numbers, range(1, 31), True, np.eye(3))
+    plain = separate.plain_copy(obj.data)
+    smooth = separate._made(plain, numbers, list(range(1, 31)), True, np.eye(3), np.empty((0, 2), np.int64))
+    assert made.n_crossings < smooth.n_crossings
+    assert made.along_faces > smooth.along_faces
+    assert all(borders(mesh) == (set(), 0) for mesh in made.meshes.values())

@@ -147,3 +147,15 @@ def test_a_border_where_three_faces_meet_stays():
     cuts = clean_cuts(table, labels)
     assert cuts.kept == 1
     assert branch not in cuts.edge
+
+
+def test_a_border_stays_along_edges_where_that_is_asked_for():
+    """Two caps of a ball: the border of one of them stays."""
+    table = table_of(shapes.icosphere(4))
+    height = centers(table) @ NORMAL
+    labels = (height > 0.5) + 2 * (height < -0.5)
+    low, high = table.edge_labels(labels)
+    cuts = clean_cuts(table, labels, (low == 0) & (high == 1))
+    assert cuts.kept == 1
+    assert (points_of(table, cuts) @ NORMAL < 0).all()
+    assert len(cuts.edge) > 50
