@@ -28,7 +28,7 @@ import bpy
 from ..core.errors import ReebError
 from ..core.parameters import Parameters
 from ..core.uses.options import chosen_parameters
-from ..scene import bridge, complete, export, graph_objects, results, targets
+from ..scene import bridge, complete, export, graph_objects, results, store, targets, uv_map
 from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
 from ..scene.whole_files import WholeFiles, reason, scene_files, together
@@ -108,7 +108,7 @@ def _claim(options: argparse.Namespace, files: WholeFiles) -> None:
         files.claim(options.json)
         # Who reads an old one would take it for the answer of this run.
         files.withdraw_on_failure(options.json)
-    for path in (options.save, options.picture):
+    for path in (options.save, options.picture, options.threemf):
         if path is not None:
             files.claim(path)
     if options.parts is not None:
@@ -177,7 +177,14 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
     if outcome.decomposition is None:
         raise SceneError(f"{obj.name}: {outcome.problem}")
     results.write_result(bpy.context, obj, outcome, options)
+    make_uses(obj, options)
     return object_report(obj, options.labels, options.check)
+
+
+def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> None:
+    """Make of the parts of an object what the options ask for."""
+    if options.unwrap:
+        uv_map.unwrap(bpy.context, obj, store.load(obj.data), open_parts=True, method="MINIMUM_STRETCH", stack=False)
 
 
 def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bpy.types.Object], reports: list[dict],
@@ -189,6 +196,9 @@ def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bp
     if options.parts:
         paths = export.export_parts(files, [(obj, None) for obj in objects], options.parts, options.parts_format)
         written["parts"] = [str(path) for path in paths]
+    if options.threemf:
+        export.write_assemblies(files, objects, options.threemf)
+        written["threemf"] = str(options.threemf)
     if options.save:
         with files.writing(options.save, complete.blend) as path:
             bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)

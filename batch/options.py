@@ -34,13 +34,17 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     files.add_argument("--check", action="store_true",
                        help="also say of each part in the JSON whether its piece, with holes closed, is sound")
     files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
-    files.add_argument("--parts-format", choices=("obj", "ply", "stl", "glb"), default="obj",
+    files.add_argument("--parts-format", choices=("obj", "ply", "stl", "glb", "3mf"), default="obj",
                        help="format of those files (default: %(default)s)")
+    files.add_argument("--threemf", type=Path, metavar="OUT.3mf",
+                       help="all parts, closed, for slicers: one assembly for each object, with names and colors")
     files.add_argument("--picture", type=Path, metavar="OUT.png", help="a picture of the parts with the graph")
     files.add_argument("--picture-turn", type=_number(-36000.0, 36000.0), default=0.0, metavar="DEGREES",
                        help="turn its camera, which looks at the front, around the objects")
     files.add_argument("--picture-size", type=_size, default=(960, 540), metavar="WxH",
                        help="its width and height in pixels (default: 960x540)")
+    uses = made.add_argument_group("what is made of the parts")
+    uses.add_argument("--unwrap", action="store_true", help="a UV map with an island for each part")
     add_parameters(made.add_argument_group("parameters"))
     outputs = made.add_argument_group("what is written to the objects")
     for name, prop in (OutputProperties.__annotations__ | OverlayProperties.__annotations__).items():

@@ -18,7 +18,7 @@ from ..scene.whole_files import together
 
 
 class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichProperties):
-    """Write each part to a file of its own, in a folder; files of the same names are replaced"""
+    """Write each part to a file of its own, or all to one, in a folder; files of the same names are replaced"""
 
     bl_idname = "reeb_parts.export"
     bl_label = "Export Parts to Files"
@@ -31,8 +31,14 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
     format: bpy.props.EnumProperty(
         name="Format", default="obj",
         items=[("obj", "OBJ", "Wavefront, with materials"), ("ply", "PLY", "Stanford, with colours"),
-               ("stl", "STL", "For 3D printing"), ("glb", "glTF Binary", "With materials and textures")],
+               ("stl", "STL", "For 3D printing"), ("glb", "glTF Binary", "With materials and textures"),
+               ("3mf", "3MF", "For slicers: all parts of an object as one assembly, with names and colours")],
         description="Kind of the files",
+    )
+    one_file: bpy.props.BoolProperty(
+        name="One file", default=False,
+        description="Write all parts of an object to one file, as objects of their own where the format knows objects; "
+        "3MF always does",
     )
     caps: bpy.props.BoolProperty(
         name="Close holes", default=False,
@@ -53,5 +59,5 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
         with object_mode(context), together() as files:
             paths = export_parts(files, [(obj, wanted_numbers(obj.data, self.which)) for obj in objects], folder,
-                                 self.format, self.caps)
+                                 self.format, self.caps, self.one_file)
         self.report({"INFO"}, rpt_("{n} files in {folder}").format(n=len(paths), folder=folder))

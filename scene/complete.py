@@ -12,10 +12,12 @@ import json
 import mmap
 import re
 import struct
+import zipfile
 import zlib
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
+from typing import NamedTuple
 
 import bpy
 
@@ -87,25 +89,34 @@ def png(path: Path) -> bool:
     return at == len(data)
 
 
-def model(mesh: bpy.types.Mesh, kind: str) -> Callable[[Path], bool]:
-    """The function for a file that holds a mesh. kind : obj, ply, stl or glb."""
-    return lambda path: {"obj": _obj, "ply": _ply, "stl": _stl, "glb": _glb}[kind](path, mesh)
+class Counts(NamedTuple):
+    """How many vertices, faces and corners some meshes have together."""
+
+    vertices: int
+    faces: int
+    corners: int
+
+
+def model(meshes: list[bpy.types.Mesh], kind: str) -> Callable[[Path], bool]:
+    """The function for a file that holds some meshes. kind : obj, ply, stl, glb or 3mf."""
+    counts = Counts(*(sum(len(getattr(mesh, items)) for mesh in meshes) for items in ("vertices", "polygons", "loops")))
+    return lambda path: {"obj": _obj, "ply": _ply, "stl": _stl, "glb": _glb, "3mf": _3mf}[kind](path, counts)
 
 
 @_following
-def _obj(path: Path, mesh: bpy.types.Mesh) -> bool:
+def _obj(path: Path, counts: Counts) -> bool:
     """All vertices and faces, and in the library beside it all materials that are named."""
     text = path.read_bytes()
-    counts = {word: len(re.findall(rb"^%b " % word, text, re.M)) for word in (b"v", b"vt", b"vn", b"f")}
+    found = {word: len(re.findall(rb"^%b " % word, text, re.M)) for word in (b"v", b"vt", b"vn", b"f")}
     corners = b" ".join(re.findall(rb"^f (.*)$", text, re.M)).split()
-    if counts[b"v"] != len(mesh.vertices) or counts[b"f"] != len(mesh.polygons) or not text.endswith(b"\n"):
+    if found[b"v"] != counts.vertices or found[b"f"] != counts.faces or not text.endswith(b"\n"):
         return False
     # A corner is v, v/vt, v//vn or v/vt/vn; each of these is of some corner.
     for place, word in ((1, b"vt"), (2, b"vn")):
         used = {corner.split(b"/")[place] for corner in corners if corner.count(b"/") >= place} - {b""}
-        if len(used) != counts[word]:
+        if len(used) != found[word]:
             return False
-    if len(corners) != len(mesh.loops):
+    if len(corners) != counts.corners:
         return False
     named = set(re.findall(rb"^usemtl (.*)$", text, re.M))
     library = path.with_suffix(".mtl")
@@ -116,7 +127,7 @@ def _obj(path: Path, mesh: bpy.types.Mesh) -> bool:
 
 
 @_following
-def _ply(path: Path, mesh: bpy.types.Mesh) -> bool:
+def _ply(path: Path, counts: Counts) -> bool:
     """As many bytes as its header says."""
     data = path.read_bytes()
     end = data.index(b"end_header\n") + len(b"end_header\n")
@@ -129,20 +140,20 @@ def _ply(path: Path, mesh: bpy.types.Mesh) -> bool:
             faces = int(count)
         # The list of a face is its number of corners, then the corners.
         expected += int(count) * sum(_PLY_BYTES[kind[1] if kind[0] == "list" else kind[0]] for kind in kinds)
-        expected += len(mesh.loops) * sum(_PLY_BYTES[kind[2]] for kind in kinds if kind[0] == "list")
-    return faces == len(mesh.polygons) and expected == len(data)
+        expected += counts.corners * sum(_PLY_BYTES[kind[2]] for kind in kinds if kind[0] == "list")
+    return faces == counts.faces and expected == len(data)
 
 
 @_following
-def _stl(path: Path, mesh: bpy.types.Mesh) -> bool:
+def _stl(path: Path, counts: Counts) -> bool:
     """80 bytes of text, the number of triangles, 50 bytes each."""
     data = path.read_bytes()
     (count,) = struct.unpack_from("<I", data, 80)
-    return count == len(mesh.loops) - 2 * len(mesh.polygons) and len(data) == 84 + 50 * count
+    return count == counts.corners - 2 * counts.faces and len(data) == 84 + 50 * count
 
 
 @_following
-def _glb(path: Path, mesh: bpy.types.Mesh) -> bool:
+def _glb(path: Path, counts: Counts) -> bool:
     """As many bytes as it says, its description whole, and as many numbers as that counts."""
     data = path.read_bytes()
     magic, _, total, words = struct.unpack_from("<4s3I", data, 0)
@@ -150,8 +161,19 @@ def _glb(path: Path, mesh: bpy.types.Mesh) -> bool:
     numbers = struct.unpack_from("<I", data, 20 + words)[0] if head.get("buffers") else 0
     binary = 8 + numbers if head.get("buffers") else 0
     counted = sum(buffer["byteLength"] for buffer in head.get("buffers", ()))
-    there = bool(head.get("meshes")) == bool(len(mesh.polygons)) and counted <= numbers
+    there = bool(head.get("meshes")) == bool(counts.faces) and counted <= numbers
     return magic == b"glTF" and there and 20 + words + binary == total == len(data)
+
+
+@_following
+def _3mf(path: Path, counts: Counts) -> bool:
+    """A zip whose entries have their checksums, and after whose directory nothing comes; its model is whole."""
+    ends = path.read_bytes()[-22:-18] == b"PK\5\6"
+    try:
+        with zipfile.ZipFile(path) as package:
+            return ends and package.testzip() is None and package.read("3D/3dmodel.model").endswith(b"</model>\n")
+    except (zipfile.BadZipFile, zlib.error, OSError):
+        return False
 
 
 def text(written: str) -> Callable[[Path], bool]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts as files, by Blender's own exporters."""
+"""Parts as files, by Blender's own exporters; as 3MF by ours."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import bpy
+import numpy as np
 
-from . import complete, part_names, store
+from ..core.uses.threemf import Assembly, Body, write_3mf
+from . import complete, mesh_arrays, part_names, store
 from .part_meshes import part_meshes
 from .selection import nothing_selected
 from .temporary import removed
@@ -22,11 +24,13 @@ EXPORTERS = {
     "stl": lambda path: bpy.ops.wm.stl_export(filepath=path, export_selected_objects=True),
     "glb": lambda path: bpy.ops.export_scene.gltf(filepath=path, use_selection=True, export_format="GLB"),
 }
+#: What can be written.
+FORMATS = (*EXPORTERS, "3mf")
 
 
 def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, Iterable[int] | None]], folder: Path,
-                 kind: str, close: bool = False) -> list[Path]:
-    """Write each part of some objects as a file of its own; the scene stays as it is.
+                 kind: str, close: bool = False, one_file: bool = False) -> list[Path]:
+    """Write each part of some objects as a file of its own, or each object as one; the scene stays as it is.
 
     Parameters
     ----------
@@ -37,9 +41,11 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
     folder : Path
         Made if it is not there.
     kind : str
-        Of EXPORTERS.
+        Of FORMATS.
     close : bool
         Close the holes that the cuts leave.
+    one_file : bool
+        All parts of an object in one file, as 3MF always has them.
 
     Returns
     -------
@@ -58,22 +64,73 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
         numbers = sorted(set(face_numbers.tolist()) if wanted is None else wanted)
         meshes, _ = part_meshes(obj.data, face_numbers, numbers, close)
         with removed(bpy.data.meshes, *meshes.values()), nothing_selected(bpy.context.view_layer):
-            for number in numbers:
-                path = folder / f"{names.free(part_names.piece_name(obj, number))}.{kind}"
-                with files.writing(path, complete.model(meshes[number], kind), alone=True) as place:
-                    _export(obj, meshes[number], place, kind)
-                paths.append(path)
+            pieces = {part_names.piece_name(obj, number): meshes[number] for number in numbers}
+            if kind == "3mf" or one_file:
+                paths.append(_write(files, folder / f"{names.free(obj.name)}.{kind}", obj, pieces, kind))
+                continue
+            for name, mesh in pieces.items():
+                paths.append(_write(files, folder / f"{names.free(name)}.{kind}", obj, {name: mesh}, kind))
     return paths
 
 
-def _export(obj: bpy.types.Object, mesh: bpy.types.Mesh, path: Path, kind: str) -> None:
-    """Write a mesh in the place of an object as a file."""
-    piece = bpy.data.objects.new(path.stem, mesh)
-    with removed(bpy.data.objects, piece):
-        bpy.context.scene.collection.objects.link(piece)
-        piece.matrix_world = obj.matrix_world
-        piece.select_set(True)
-        bpy.context.view_layer.objects.active = piece
+def _write(files: WholeFiles, path: Path, obj: bpy.types.Object, pieces: dict[str, bpy.types.Mesh],
+           kind: str) -> Path:
+    """Write meshes, by their names, as one file; returns its path."""
+    with files.writing(path, complete.model(list(pieces.values()), kind), alone=True) as place:
+        if kind == "3mf":
+            write_3mf(place, [Assembly(obj.name, _bodies(obj, pieces))])
+        else:
+            _export(obj, pieces, place, kind)
+    return path
+
+
+def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Mesh]) -> tuple[Body, ...]:
+    """Meshes in the place of an object as bodies of a 3MF file, in the colors of their parts."""
+    world = np.array(obj.matrix_world, np.float64)
+    mirrored = np.linalg.det(world[:3, :3]) < 0
+    colors = {part_names.piece_name(obj, part.number): part.color[:] for part in obj.data.reeb_parts.parts}
+    bodies = []
+    for name, mesh in pieces.items():
+        points = mesh_arrays.basis_points(mesh).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
+        triangles = mesh_arrays.triangles(mesh)[0].astype(np.int64)
+        bodies.append(Body(name, colors[name], points * millimeters(), triangles[:, ::-1] if mirrored else triangles))
+    return tuple(bodies)
+
+
+def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], path: Path) -> None:
+    """Write the parts of some objects, closed, as one 3MF file with an assembly for each object.
+
+    Raises
+    ------
+    SceneError
+        The parts are out of date, or the file cannot be written.
+    """
+    assemblies = []
+    for obj in objects:
+        face_numbers = store.load(obj.data).face_numbers
+        meshes, _ = part_meshes(obj.data, face_numbers, sorted(set(face_numbers.tolist())), close=True)
+        with removed(bpy.data.meshes, *meshes.values()):
+            pieces = {part_names.piece_name(obj, number): mesh for number, mesh in meshes.items()}
+            assemblies.append(Assembly(obj.name, _bodies(obj, pieces)))
+    with files.writing(path, complete.model([], "3mf")) as place:
+        write_3mf(place, assemblies)
+
+
+def millimeters() -> float:
+    """Length of a unit of the scene in millimeters; 1 in scenes without units."""
+    units = bpy.context.scene.unit_settings
+    return 1.0 if units.system == "NONE" else 1000.0 * units.scale_length
+
+
+def _export(obj: bpy.types.Object, meshes: dict[str, bpy.types.Mesh], path: Path, kind: str) -> None:
+    """Write meshes, by their names, in the place of an object as a file."""
+    pieces = [bpy.data.objects.new(name, mesh) for name, mesh in meshes.items()]
+    with removed(bpy.data.objects, *pieces):
+        for piece in pieces:
+            bpy.context.scene.collection.objects.link(piece)
+            piece.matrix_world = obj.matrix_world
+            piece.select_set(True)
+            bpy.context.view_layer.objects.active = piece
         EXPORTERS[kind](str(path))
 
 

@@ -497,8 +497,15 @@ TEXTS = {
     "How faces are laid flat": "Wie Flächen flach gelegt werden",
     "Angle based": "Winkelbasiert",
     "Conformal": "Konform",
-    "Write each part to a file of its own, in a folder; files of the same names are replaced":
-        "Jedes Teil in eine eigene Datei in einem Ordner schreiben; Dateien gleichen Namens werden ersetzt",
+    "Write each part to a file of its own, or all to one, in a folder; files of the same names are replaced":
+        "Jedes Teil in eine eigene Datei schreiben, oder alle in eine, in einem Ordner; Dateien gleichen Namens werden "
+        "ersetzt",
+    "One file": "Eine Datei",
+    "Write all parts of an object to one file, as objects of their own where the format knows objects; 3MF always does":
+        "Alle Teile eines Objekts in eine Datei schreiben, als eigene Objekte, wo das Format Objekte kennt; 3MF "
+        "immer",
+    "For slicers: all parts of an object as one assembly, with names and colours":
+        "Für Slicer: alle Teile eines Objekts als eine Baugruppe, mit Namen und Farben",
     "Folder": "Ordner",
     "Where the files go; made if it is not there": "Wohin die Dateien kommen; wird bei Bedarf angelegt",
     "Format": "Format",
@@ -509,6 +516,7 @@ TEXTS = {
     "Stanford, with colours": "Stanford, mit Farben",
     "STL": "STL",
     "For 3D printing": "Für den 3D-Druck",
+    "3MF": "3MF",
     "glTF Binary": "glTF Binär",
     "With materials and textures": "Mit Materialien und Texturen",
     "Make an armature with a bone for each part, along the part's centre line, as a start for a rig":

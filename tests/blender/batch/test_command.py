@@ -11,6 +11,7 @@ import bmesh
 import bpy
 import process
 import pytest
+from threemf_reader import read_3mf
 
 
 @pytest.fixture
@@ -46,6 +47,18 @@ def test_the_answer_says_of_each_part_whether_its_piece_is_sound(run, model, tmp
     edited.from_mesh(mesh)
     assert sum(found["volume"] for found in checks) == pytest.approx(edited.calc_volume(), rel=1e-4)
     edited.free()
+
+
+def test_what_is_made_of_the_parts(run, model, tmp_path):
+    """An UV map in the scene, and an assembly of the parts, all whole."""
+    ended = run(model, "--unwrap", "--threemf", tmp_path / "out.3mf", "--save", tmp_path / "out.blend")
+    assert ended.status == 0
+    assert ended.answer["files"]["threemf"] == str(tmp_path / "out.3mf")
+    bodies, places = read_3mf(tmp_path / "out.3mf")
+    assert [body.name for body in bodies] == [f"Tree {part['name']}" for part in ended.answer["objects"][0]["parts"]]
+    assert len(places) == 1
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert "Reeb Parts UV" in bpy.data.objects["Tree"].data.uv_layers
 
 
 def test_an_object_that_cannot_be_cut_costs_only_itself(run, two, tmp_path):

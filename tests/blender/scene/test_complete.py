@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from snapshot import activate
 
-CASES = ["blend", "packed.blend", "png", "obj", "ply", "stl", "glb"]
+CASES = ["blend", "packed.blend", "png", "obj", "ply", "stl", "glb", "3mf"]
 
 
 @pytest.fixture
@@ -35,6 +35,11 @@ def write(obj, path, kind):
         image.pixels = np.linspace(0, 1, 64 * 64 * 4).tolist()
         image.filepath_raw, image.file_format = str(path), "PNG"
         image.save()
+    elif kind == "3mf":
+        if not obj.data.reeb_parts.parts:
+            bpy.ops.reeb_parts.decompose(n_parts=2)
+        bpy.ops.reeb_parts.export(directory=str(path.parent), format="3mf")
+        (path.parent / f"{obj.name}.3mf").rename(path)
     elif kind == "glb":
         bpy.ops.export_scene.gltf(filepath=str(path), use_selection=True, export_format="GLB")
     else:
@@ -51,7 +56,7 @@ def test_only_the_whole_file_is_complete(complete, obj, tmp_path, kind, dressed)
     path = tmp_path / f"it.{kind.split('.')[-1]}"
     write(obj, path, kind)
     own = getattr(complete, kind.split(".")[-1], None)
-    check = own if own and kind not in ("obj", "ply", "stl", "glb") else complete.model(obj.data, kind)
+    check = own if own and kind not in ("obj", "ply", "stl", "glb", "3mf") else complete.model([obj.data], kind)
     assert check(path)
     whole = path.read_bytes()
     for length in {0, 1, 10, 100, len(whole) // 3, len(whole) - 4096, len(whole) - 30, len(whole) - 1}:
@@ -71,7 +76,7 @@ def test_another_mesh_is_not_complete(complete, obj, make, tmp_path, kind):
     write(obj, tmp_path / "it", kind) if kind == "glb" else write(obj, tmp_path / f"it.{kind}", kind)
     path = next(path for path in tmp_path.iterdir() if path.suffix != ".mtl")
     other = make(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)] if kind != "glb" else []), "Other")
-    assert not complete.model(other.data, kind)(path)
+    assert not complete.model([other.data], kind)(path)
 
 
 def test_materials_that_are_cut_off(complete, obj, tmp_path):
@@ -82,6 +87,6 @@ def test_materials_that_are_cut_off(complete, obj, tmp_path):
     whole = library.read_bytes()
     for kept in (b"", whole[:20], whole[: whole.rindex(b"newmtl")], whole[: whole.rindex(b"illum")]):
         library.write_bytes(kept)
-        assert not complete.model(obj.data, "obj")(tmp_path / "it.obj")
+        assert not complete.model([obj.data], "obj")(tmp_path / "it.obj")
     library.write_bytes(whole)
-    assert complete.model(obj.data, "obj")(tmp_path / "it.obj")
+    assert complete.model([obj.data], "obj")(tmp_path / "it.obj")

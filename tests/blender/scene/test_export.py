@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from snapshot import snapshot
+from threemf_reader import read_3mf
 
 IMPORT = {
     "obj": lambda path: bpy.ops.wm.obj_import(filepath=path, forward_axis="Y", up_axis="Z"),
@@ -36,6 +37,53 @@ def test_each_file_holds_its_part(obj, tmp_path, kind):
         IMPORT[kind](str(file))
         (piece,) = [o for o in bpy.data.objects if o.type == "MESH"]
         assert area(piece) == pytest.approx(share * total, rel=1e-3)
+
+
+@pytest.mark.parametrize("kind", IMPORT)
+def test_one_file_holds_all_parts(obj, tmp_path, kind):
+    bpy.ops.reeb_parts.decompose()
+    names, total = {f"Tree {part.name}" for part in obj.data.reeb_parts.parts}, area(obj)
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format=kind, one_file=True)
+    assert [file.name for file in tmp_path.iterdir() if file.suffix != ".mtl"] == [f"Tree.{kind}"]
+    bpy.ops.wm.read_homefile(use_empty=True)
+    IMPORT[kind](str(tmp_path / f"Tree.{kind}"))
+    pieces = [o for o in bpy.data.objects if o.type == "MESH"]
+    assert sum(area(piece) for piece in pieces) == pytest.approx(total, rel=1e-3)
+    if kind in ("obj", "glb"):
+        # Blender's .obj has no spaces in names.
+        assert {piece.name.replace("_", " ") for piece in pieces} == names
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_3mf_is_one_assembly_in_millimeters(obj, tmp_path, mirrored):
+    """Closed bodies in their places; their volumes add up to that of the tree, and none is inside out."""
+    obj.scale, obj.location = (-2 if mirrored else 2, 2, 2), (5, 6, 7)
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    bpy.ops.reeb_parts.decompose()
+    parts = [(part.name, part.color[:]) for part in obj.data.reeb_parts.parts]
+    assert bpy.ops.reeb_parts.export(directory=str(tmp_path), format="3mf", caps=True) == {"FINISHED"}
+    (file,) = tmp_path.iterdir()
+    assert file.name == "Tree.3mf"
+    bodies, (item,) = read_3mf(file)
+    assert [body.name for body in bodies] == [f"Tree {name}" for name, _ in parts]
+    assert [body.color for body in bodies] == [
+        "#" + "".join(f"{round(255 * value):02X}" for value in color) for _, color in parts]
+    bpy.context.view_layer.update()
+    matrix = np.array(obj.matrix_world)
+    points = np.array([vertex.co for vertex in obj.data.vertices]) @ matrix[:3, :3].T + matrix[:3, 3]
+    written = np.concatenate([body.vertices for body in bodies])
+    assert np.ptp(written, axis=0) == pytest.approx(10 * np.ptp(points, axis=0), rel=1e-5)
+    assert written.min(axis=0) + item == pytest.approx(0, abs=1e-4)
+    volumes = [volume(body.vertices, body.triangles) for body in bodies]
+    assert min(volumes) > 0
+    faces = np.array([polygon.vertices[:] for polygon in obj.data.polygons])[:, :: -1 if mirrored else 1]
+    assert sum(volumes) == pytest.approx(1000 * volume(points, faces), rel=2e-3)
+
+
+def volume(vertices, triangles):
+    """What a closed surface holds."""
+    a, b, c = (vertices - vertices.mean(axis=0))[triangles].transpose(1, 0, 2)
+    return (a * np.cross(b, c)).sum() / 6
 
 
 def test_closed_files_have_no_border(obj, tmp_path):
