@@ -5,13 +5,28 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits, graph_objects, part_names
+from ..scene import edits, graph_objects, part_names, quiet, reactions, transaction
 from ..scene.errors import SceneError
 from ..scene.graph_objects import part_of, source_of_arcs
 from ..scene.part_list import check_parts, choose, chosen_numbers
-from ..scene.reporting import ReportingOperator
+from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.selection import select_objects
+from ..scene.store import Stored
 from ..viewport import pointing
+
+
+class REEB_PARTS_OT_show_graph(PartOperator, bpy.types.Operator):
+    """Show the Reeb graph over the model, or hide it"""
+
+    bl_idname = "reeb_parts.show_graph"
+    bl_label = "Show or Hide Graph"
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
+        shown = not graph_objects.is_shown(context, obj)
+        transaction.keep_group(context.scene, "reeb_parts")
+        with quiet.quiet():  # what other models are shown with from now on
+            context.scene.reeb_parts.graph = shown
+        reactions.show_graph(obj, shown, context)
 
 
 class REEB_PARTS_OT_from_nodes(ReportingOperator, bpy.types.Operator):

@@ -11,7 +11,7 @@ from ..scene.modes import object_mode
 from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.store import Stored
-from ..viewport import framing
+from ..viewport import framing, shading
 
 
 class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
@@ -71,6 +71,19 @@ class REEB_PARTS_OT_frame(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         mask = np.isin(stored.face_numbers, chosen_numbers(obj.data))
         framing.look_at(context, *part_places.box(obj, mask))
+
+
+class REEB_PARTS_OT_show_colors(PartOperator, bpy.types.Operator):
+    """Show the parts' colors in this viewport: Solid, colored by attribute"""
+
+    bl_idname = "reeb_parts.show_colors"
+    bl_label = "Show Colors of Parts"
+    bl_options = {"REGISTER"}
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
+        if not obj.data.reeb_parts.color_attribute:
+            raise SceneError(rpt_("The parts have no colors. Switch these on under Advanced, Output; decompose again."))
+        shading.turn_to_colors(context)
 
 
 class REEB_PARTS_OT_mark(ReportingOperator, bpy.types.Operator):

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ..core.result.numbering import NumberedParts
-from . import graph_objects, outputs, part_names, quiet, store, targets
+from . import graph_objects, outputs, part_names, quiet, store, targets, transaction
 from .errors import SceneError
 from .modes import object_mode
 from .outputs import vertex_groups
@@ -27,6 +27,10 @@ def show_detail(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> 
     """The Detail slider was moved."""
     result.by_number, result.asked = False, 0
     show(result, context)
+    for other in _other_results(result, context):
+        with quiet.quiet():
+            other.by_number, other.asked, other.detail = False, 0, result.detail
+        show(other, context)
 
 
 @reaction
@@ -35,6 +39,22 @@ def show_number(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> 
     result.by_number, asked = True, result.n_parts
     show(result, context)
     result.asked = 0 if result.n_parts == asked else asked
+    for other in _other_results(result, context):
+        with quiet.quiet():
+            other.by_number, other.asked, other.n_parts = True, 0, asked
+        show(other, context)
+
+
+def _other_results(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> list[bpy.types.PropertyGroup]:
+    """The results of other selected meshes, if that of the active one was changed; what cannot be written stays out."""
+    active = context.view_layer.objects.active
+    if active is None or active.data != result.id_data:
+        return []
+    meshes = dict.fromkeys(obj.data for obj in context.view_layer.objects.selected if store.has_parts(obj))
+    others = [mesh for mesh in meshes if mesh != result.id_data and mesh.is_editable and not mesh.is_editmode]
+    for mesh in others:
+        transaction.keep_result(mesh)
+    return [mesh.reeb_parts for mesh in others]
 
 
 @reaction
@@ -50,6 +70,8 @@ def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
         if twin is not None and context.scene.reeb_parts.symmetry:
             twin.name = part_names.free_name(mesh, twin.number, bpy.utils.flip_name(part.name))
             _take_name(twin)
+    for obj in targets.users(mesh):
+        graph_objects.update_names(obj)
 
 
 def _take_name(part: bpy.types.PropertyGroup) -> None:

@@ -9,6 +9,8 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.graph.fold import unfolded
+from ..core.result.numbering import NumberedParts
 from . import armature, bridge, explode, graph_objects, notes, outputs, quiet, store, targets, transaction, uv_map
 from .compute import Outcome
 from .errors import SceneError
@@ -72,8 +74,15 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
         if settings.graph and (user == obj or graph_objects.find(user)):
             graph_objects.draw_graph(context, user, decomposition.graph, outcome.shape.stretch, settings)
             graph_objects.update_parts(user, numbered)
+            graph_objects.set_hidden(context, user, shows_clutter(numbered))
         else:
             graph_objects.remove(user)
+
+
+def shows_clutter(numbered: NumberedParts) -> bool:
+    """Whether the graph of some parts would cover the model rather than show anything; it is hidden at first then."""
+    graph, parts = numbered.parts.decomposition.graph, numbered.parts
+    return graph_objects.is_crowded(graph, unfolded(graph, parts.node_part, parts.point_part)[0])
 
 
 def _keep_colors(mesh: bpy.types.Mesh) -> None:

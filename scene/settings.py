@@ -142,12 +142,12 @@ class OverlayProperties:
     """How the graph is drawn."""
 
     node_size: FloatProperty(
-        name="Node size", default=0.01, min=0.001, max=0.5, precision=3, step=0.1, update=_redraw_graph,
+        name="Node size", default=0.005, min=0.001, max=0.5, precision=3, step=0.1, update=_redraw_graph,
         description="Size of the empties, as a share of the object's",
     )
     line_thickness: FloatProperty(
-        name="Line thickness", default=0.04, min=0.0, max=1.0, precision=3, step=1, update=_redraw_graph,
-        description="Thickness of the arcs, as a share of the radius of the body around them",
+        name="Line thickness", default=0.0, min=0.0, max=1.0, precision=3, step=1, update=_redraw_graph,
+        description="Thickness of the curve under the lines, as a share of the radius of the body around it",
     )
     in_front: BoolProperty(
         name="In front", default=True, update=_redraw_graph,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Notice that a decomposed mesh was edited, so that the panel can say so.
+"""Notice that a decomposed mesh was edited, so that the panel can say so, or deleted, so that its graph goes, too.
 
 A mesh is looked at once it has been left alone for a moment: while it is sculpted, nothing is computed.
 """
@@ -11,7 +11,7 @@ import time
 import bpy
 from bpy.app.handlers import persistent
 
-from . import mesh_arrays, redraw, store
+from . import graph_objects, mesh_arrays, redraw, store, transaction
 
 REST = 0.3  # seconds
 
@@ -31,6 +31,10 @@ def check(mesh: bpy.types.Mesh) -> None:
 @persistent
 def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     global _last
+    deleted = depsgraph.id_type_updated("COLLECTION") or depsgraph.id_type_updated("SCENE")
+    if deleted and any(graph_objects.left_behind()) and not bpy.app.timers.is_registered(_tidy):
+        # Not within Blender's own deletion, which has yet to become a step of undo.
+        bpy.app.timers.register(_tidy, first_interval=0.0)
     found = {
         update.id.original.data.session_uid
         for update in depsgraph.updates
@@ -57,6 +61,13 @@ def _look() -> float | None:
     return None
 
 
+def _tidy() -> None:
+    """Remove the graphs of objects that were deleted."""
+    with transaction.transaction():
+        for obj in list(graph_objects.left_behind()):
+            graph_objects.remove(obj)
+
+
 def register() -> None:
     bpy.app.handlers.depsgraph_update_post.append(_changed)
 
@@ -65,4 +76,6 @@ def unregister() -> None:
     bpy.app.handlers.depsgraph_update_post.remove(_changed)
     if bpy.app.timers.is_registered(_look):
         bpy.app.timers.unregister(_look)
+    if bpy.app.timers.is_registered(_tidy):
+        bpy.app.timers.unregister(_tidy)
     _waiting.clear()

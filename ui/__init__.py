@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import advanced_panel, menus, panel, preferences, translations, use_panel
+from . import advanced_panel, menus, panel, preferences, shortcut, translations, use_panel
 
 # Sub-panels stand in the order of their registration: what is used often comes before the settings.
 CLASSES = (preferences.ReebPartsPreferences, *menus.CLASSES, *panel.CLASSES, *use_panel.CLASSES,
@@ -18,9 +18,11 @@ def register() -> None:
     translations.register()
     _register_classes()
     menus.register()
+    shortcut.register()
 
 
 def unregister() -> None:
+    shortcut.unregister()
     menus.unregister()
     _unregister_classes()
     translations.unregister()

@@ -69,7 +69,8 @@ class REEB_PARTS_PT_boundaries(SettingsPanel, bpy.types.Panel):
 
 class REEB_PARTS_PT_output(SettingsPanel, bpy.types.Panel):
     bl_label = "Output"
-    names = ("vertex_groups", "face_attribute", "colors", "palette", "face_sets", "materials", "seams", "field")
+    names = ("vertex_groups", "face_attribute", "colors", "palette", "face_sets", "materials", "seams", "field",
+             "graph")
 
 
 class REEB_PARTS_PT_overlay(SettingsPanel, bpy.types.Panel):

@@ -11,7 +11,9 @@ from bpy.app.translations import pgettext_n as n_
 from mathutils import Matrix
 
 from ..scene import graph_objects, jobs, notes, part_list, part_names, store
+from ..viewport import shading
 
+MODELS = 8  # so many selected models are listed
 NARROW = 215  # width of a sidebar, in pixels of a screen without scaling, that has no room for shares
 
 
@@ -102,10 +104,16 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
             layout.label(text=text, icon="EMPTY_AXIS")
             layout.operator("reeb_parts.from_nodes")
             layout.operator("reeb_parts.split_at_node", icon="MOD_EDGESPLIT")
+            _draw_parts(layout, context, source.data.reeb_parts)
         elif result is None:
-            _draw_start(layout, context, width)
+            _draw_hint(layout, context, width)
+            column = _names_before(layout).column(align=True)
+            column.prop(context.scene.reeb_parts, "detail", slider=True)
+            column.prop(context.scene.reeb_parts, "n_parts")
         else:
             _draw_notes(layout, result, width)
+            _draw_unseen(layout, context, result, width)
+            _draw_models(layout, context)
             _draw_detail(layout, context, result)
             _draw_parts(layout, context, result)
 
@@ -124,16 +132,12 @@ def _draw_decompose(layout: bpy.types.UILayout, again: bool) -> None:
         row.operator("reeb_parts.clear", text="", icon="TRASH")
 
 
-def _draw_start(layout: bpy.types.UILayout, context: bpy.types.Context, width: int) -> None:
+def _draw_hint(layout: bpy.types.UILayout, context: bpy.types.Context, width: int) -> None:
     """What there is to do, while there are no parts."""
     is_mesh = context.object is not None and context.object.type == "MESH"
     text = (iface_("Decompose cuts the selected mesh into parts. The mesh itself stays as it is.") if is_mesh
             else iface_("Select a mesh, then press Decompose."))
     _wrapped(layout.column(align=True), text, width, "INFO")
-    settings = context.scene.reeb_parts
-    column = _names_before(layout).column(align=True)
-    column.prop(settings, "detail", slider=True)
-    column.prop(settings, "n_parts")
 
 
 def _draw_notes(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup, width: int) -> None:
@@ -153,6 +157,36 @@ def _draw_notes(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup, wid
             _wrapped(column, note, width, "INFO")
 
 
+def _draw_unseen(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup,
+                 width: int) -> None:
+    """How the parts are seen, in a viewport that does not show them."""
+    if not shading.hides_parts(context.space_data, bool(result.color_attribute), result.has_materials):
+        return
+    box = layout.box().column(align=True)
+    _wrapped(box, iface_("This viewport does not show the parts."), width, "HIDE_ON")
+    row = box.row(align=True)
+    if result.color_attribute:
+        row.operator("reeb_parts.show_colors", text="Show Colors")
+    row.operator("reeb_parts.materials", text="Give Materials").remove = False
+
+
+def _draw_models(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """How many parts each of several selected models has; the list below is of the active one."""
+    models = [obj for obj in context.selected_objects if store.has_parts(obj)]
+    if len(models) < 2:
+        return
+    column = layout.box().column(align=True)
+    column.scale_y = 0.8
+    for obj in models[:MODELS]:
+        row = column.row()
+        row.label(text=obj.name, icon="RADIOBUT_ON" if obj == context.object else "RADIOBUT_OFF", translate=False)
+        count = row.row()
+        count.alignment = "RIGHT"
+        count.label(text=_count(len(obj.data.reeb_parts.parts), n_("{n} part"), n_("{n} parts")))
+    if len(models) > MODELS:
+        column.label(text=iface_("and {n} more models").format(n=len(models) - MODELS), icon="BLANK1")
+
+
 def _wrapped(column: bpy.types.UILayout, text: str, width: int, icon: str) -> None:
     """A text in lines of some letters, with an icon before the first one."""
     for index, line in enumerate(textwrap.wrap(text, width)):
@@ -165,8 +199,8 @@ def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, result:
     column.enabled = not store.is_edited(result.id_data)
     row = column.row(align=True)
     row.prop(result, "detail", slider=True)
-    row.prop(context.scene.reeb_parts, "graph", text="", icon="HIDE_OFF" if context.scene.reeb_parts.graph
-             else "HIDE_ON")
+    shown = graph_objects.is_shown(context, context.object)
+    row.operator("reeb_parts.show_graph", text="", icon="HIDE_OFF" if shown else "HIDE_ON", depress=shown)
     row = column.row(align=True)
     row.operator("reeb_parts.step_detail", text="Fewer").more = False
     row.prop(result, "n_parts", text="Parts")

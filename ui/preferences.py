@@ -8,11 +8,16 @@ from bpy.props import EnumProperty
 
 from .. import __package__ as base_package
 from ..scene.settings import OUTPUTS, OVERLAY, PRESET_ITEMS, OutputProperties, OverlayProperties
+from . import shortcut
 
 
 def _without_update(prop: Any) -> Any:
     """The same property, for a place where changing it draws nothing."""
     return prop.function(**{key: value for key, value in prop.keywords.items() if key != "update"})
+
+
+# As in blender_manifest.toml, which Blender does not tell.
+WEBSITE = "https://extensions.blender.org/add-ons/reeb-parts/"
 
 
 class OverlayDefaults:
@@ -32,6 +37,10 @@ class ReebPartsPreferences(bpy.types.AddonPreferences, OutputProperties, Overlay
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
+        row = layout.row()
+        row.operator("wm.url_open", text="Documentation", icon="HELP").url = WEBSITE
+        row.operator("wm.url_open", text="Report a Problem", icon="URL").url = f"{WEBSITE}reviews/"
+        shortcut.draw(layout, context)
         layout.use_property_split = True
         layout.label(text="New scenes start with these settings.")
         layout.prop(self, "preset")

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..core.graph.fold import unfolded
 from ..core.graph.reeb import ReebGraph
 from ..core.result.decomposition import Decomposition
 from ..scene import bridge
+from ..scene.store import Stored
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,23 +38,34 @@ class GraphLines:
     segments: np.ndarray
 
     @classmethod
-    def of(cls, decomposition: Decomposition, stretch: np.ndarray) -> GraphLines:
-        """Lines of a decomposition's graph. stretch : (3, 3), of the mesh when it was decomposed."""
+    def of(cls, decomposition: Decomposition, stretch: np.ndarray, arcs: np.ndarray | None = None) -> GraphLines:
+        """Lines of a decomposition's graph.
+
+        stretch : (3, 3), of the mesh when it was decomposed. arcs : (q,) bool, those that there are lines of; None for
+        all.
+        """
         graph = decomposition.graph
         position = np.concatenate([graph.node_position, graph.point_position]) @ bridge.unstretch(stretch).T
         value = np.concatenate([graph.node_value, graph.point_value])
         candidate = np.concatenate([decomposition.node_candidate, decomposition.point_candidate])
-        return cls(position, value, candidate, _segments(graph))
+        return cls(position, value, candidate, _segments(graph, np.ones(graph.n_arcs, bool) if arcs is None else arcs))
+
+    @classmethod
+    def shown(cls, stored: Stored, stretch: np.ndarray) -> GraphLines:
+        """Lines of the arcs that the parts shown now need; stretch as of ``of``."""
+        parts = stored.shown_parts().parts
+        graph = stored.decomposition.graph
+        return cls.of(stored.decomposition, stretch, unfolded(graph, parts.node_part, parts.point_part)[1])
 
 
-def _segments(graph: ReebGraph) -> np.ndarray:
-    """Nodes come first, then the centre points of the arcs in order."""
+def _segments(graph: ReebGraph, arcs: np.ndarray) -> np.ndarray:
+    """Nodes come first, then the center points of the arcs in order. arcs : (q,) bool."""
     points = graph.n_nodes + np.arange(len(graph.point_value))
-    following = np.flatnonzero(graph.point_arc[1:] == graph.point_arc[:-1])
+    following = np.flatnonzero((graph.point_arc[1:] == graph.point_arc[:-1]) & arcs[graph.point_arc[1:]])
     inner = np.stack([points[following], points[following + 1]], axis=1)
-    full = np.flatnonzero(np.diff(graph.arc_points))
+    full = np.flatnonzero((np.diff(graph.arc_points) > 0) & arcs)
     first, last = points[graph.arc_points[full]], points[graph.arc_points[full + 1] - 1]
-    bare = graph.arcs[np.diff(graph.arc_points) == 0]
+    bare = graph.arcs[(np.diff(graph.arc_points) == 0) & arcs]
     return np.concatenate([
         inner, bare, np.stack([graph.arcs[full, 0], first], axis=1), np.stack([last, graph.arcs[full, 1]], axis=1),
     ]).astype(np.int64)  # fmt: skip

@@ -20,6 +20,7 @@ from .lines import Lines
 SIZE = 6.0  # radius of a mark in pixels, of a screen without scaling
 RIM = 1.35  # of the dark rim, in radii
 WIDTH = 4.0  # of the lines
+COVER = 1.25  # radius of a mark that covers the empty behind it, in sizes of the empty
 _DARK, _LIGHT = (0.05, 0.05, 0.05, 1.0), (0.9, 0.9, 0.9, 1.0)  # of the rim, around light and dark marks
 
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722, 0.0])
@@ -100,7 +101,7 @@ def _draw_graph(context: bpy.types.Context, source: bpy.types.Object, items: lis
     gpu.state.blend_set("ALPHA")
     if any(item.get(graph_objects.ROLE) == "arcs" for item in items):
         _draw_arcs(source)
-    nodes = [item for item in items if item.get(graph_objects.ROLE) == "node"]
+    nodes = [item for item in items if item.get(graph_objects.ROLE) == "node" and not graph_objects.is_folded(item)]
     if nodes:
         _draw_nodes(context, source, nodes)
     gpu.state.blend_set("NONE")
@@ -135,7 +136,7 @@ def colored_arcs(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
         stored = store.last(mesh)
     else:
         stored = store.load(mesh)
-    lines = GraphLines.of(stored.decomposition, store.stretch_of(mesh))
+    lines = GraphLines.shown(stored, store.stretch_of(mesh))
     colors = part_names.number_colors(mesh)[stored.shown[lines.candidate]]
     ends = lines.segments
     middle = lines.position[ends].mean(axis=1)
@@ -155,7 +156,9 @@ def _draw_nodes(context: bpy.types.Context, source: bpy.types.Object, nodes: lis
     depth = np.concatenate([places, np.ones((len(places), 1))], axis=1) @ whole[3]
     # A pixel is so large where each node is.
     pixel = 2.0 * np.abs(depth) / (region.width * abs(view.window_matrix[0][0]))
-    radii = SIZE * context.preferences.system.ui_scale * pixel
+    # Over what Blender draws of the empties themselves, so that each is seen once.
+    own = np.array([node.empty_display_size * max(node.matrix_world.to_scale()) for node in nodes])
+    radii = np.maximum(SIZE * context.preferences.system.ui_scale * pixel, COVER * own)
     points, shades = marks(places, [node["kind"] for node in nodes], colors, matrix[0, :3], matrix[1, :3], radii)
     shader = gpu.shader.from_builtin("FLAT_COLOR")
     batch_for_shader(shader, "TRIS", {"pos": points, "color": shades}).draw(shader)

@@ -10,7 +10,7 @@ import bpy
 import gpu
 import numpy as np
 
-from ..scene import explode, mesh_arrays, store
+from ..scene import explode, graph_objects, mesh_arrays, store
 from ..scene.part_list import chosen_numbers
 from .lines import Lines
 
@@ -47,7 +47,9 @@ def draw() -> None:
     global _built, _lines
     context = bpy.context
     obj = context.object
-    if (obj is None or obj.type != "MESH" or obj.mode != "OBJECT" or not obj.select_get()
+    of_node = graph_objects.part_of(obj)  # a node that is selected lights its part
+    obj, chosen = (of_node[0], obj.select_get()) if of_node else (obj, obj is not None and obj.select_get())
+    if (obj is None or obj.type != "MESH" or obj.mode != "OBJECT" or not chosen
             or not context.scene.reeb_parts.highlight or not context.space_data.overlay.show_overlays
             or not store.has_result(obj.data) or store.is_edited(obj.data)
             or explode.find(obj)):  # the parts are elsewhere then

@@ -61,6 +61,7 @@ class Model:
         self.stored = store.load(obj.data)
         self.stretch = store.stretch_of(obj.data)
         self.lines = GraphLines.of(self.stored.decomposition, self.stretch)
+        self.shown_lines = GraphLines.shown(self.stored, self.stretch)
         table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
         self.face_value = table.face_means(np.nan_to_num(self.stored.decomposition.field))
         self.face_center = table.face_means(table.vertices)
@@ -90,7 +91,7 @@ class Model:
         if not on_graph:
             return self._on_face(int(self.tree.query(location)[1]), location)
         segment, share, _ = nearest(self.lines.position, self.lines.segments, location)
-        return self._on_line(segment, share)
+        return _on_line(self.lines, segment, share)
 
     def under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
               mouse: tuple[float, float], graph: bool = True, surface: bool = True) -> Target | None:
@@ -104,18 +105,11 @@ class Model:
         arcs = graph_objects.arcs(obj)
         if arcs is None or not arcs.visible_get():
             return None
-        points = on_screen(self.lines.position, obj.matrix_world, region, view)
-        segment, share, distance = nearest(points, self.lines.segments, mouse)
+        points = on_screen(self.shown_lines.position, obj.matrix_world, region, view)
+        segment, share, distance = nearest(points, self.shown_lines.segments, mouse)
         if segment < 0 or distance > REACH * context.preferences.system.ui_scale:
             return None
-        return self._on_line(segment, share)
-
-    def _on_line(self, segment: int, share: float) -> Target:
-        low, high = self.lines.segments[segment]
-        end = high if share > 0.5 else low
-        blend = np.array([1.0 - share, share])
-        return Target(int(self.lines.candidate[end]), blend @ self.lines.position[[low, high]],
-                      float(blend @ self.lines.value[[low, high]]), -1)
+        return _on_line(self.shown_lines, segment, share)
 
     def _face_under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
                     view: bpy.types.RegionView3D, mouse: tuple[float, float]) -> Target | None:
@@ -140,6 +134,15 @@ class Model:
 
     def _on_face(self, face: int, location: np.ndarray) -> Target:
         return Target(int(self.stored.decomposition.candidates[face]), location, float(self.face_value[face]), face)
+
+
+def _on_line(lines: GraphLines, segment: int, share: float) -> Target:
+    """The place some share along a segment of some lines."""
+    low, high = lines.segments[segment]
+    end = high if share > 0.5 else low
+    blend = np.array([1.0 - share, share])
+    return Target(int(lines.candidate[end]), blend @ lines.position[[low, high]],
+                  float(blend @ lines.value[[low, high]]), -1)
 
 
 def on_screen(positions: np.ndarray, matrix: Matrix, region: bpy.types.Region,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..scene import transaction
+from ..scene import redraw, transaction
 
 
 @dataclass
@@ -25,13 +25,36 @@ _before: dict[int, ViewSettings] = {}
 def show_colors(context: bpy.types.Context) -> None:
     """Colour the solid view by the active colour attribute, without lines from each node to its parent."""
     space = _solid_view(context)
-    if space is None:
-        return
+    if space is not None:
+        _show_colors(space)
+
+
+def turn_to_colors(context: bpy.types.Context) -> None:
+    """Show the parts' colors in the viewport, whatever it shows now; in all, if the pointer is in none."""
+    space = context.space_data
+    for view in [space] if space is not None and space.type == "VIEW_3D" else redraw.view_spaces():
+        transaction.keep(view.shading, "type")
+        view.shading.type = "SOLID"
+        _show_colors(view)
+
+
+def _show_colors(space: bpy.types.SpaceView3D) -> None:
+    """Color a solid view by the active color attribute."""
     before = ViewSettings(space.shading.color_type, space.overlay.show_relationship_lines)
     _before.setdefault(space.as_pointer(), before)
     _keep(space)
     space.shading.color_type = "VERTEX"
     space.overlay.show_relationship_lines = False
+
+
+def hides_parts(space: bpy.types.SpaceView3D, has_colors: bool, has_materials: bool) -> bool:
+    """Whether a viewport shows neither the parts' colors nor their materials, if the mesh has these."""
+    shading = space.shading
+    if shading.type in {"MATERIAL", "RENDERED"}:
+        return not has_materials
+    if shading.type != "SOLID":
+        return False
+    return not ((has_colors and shading.color_type == "VERTEX") or (has_materials and shading.color_type == "MATERIAL"))
 
 
 def show_pieces(context: bpy.types.Context) -> None:

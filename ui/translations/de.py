@@ -53,6 +53,12 @@ OPERATORS = {
     "Release All Parts": "Alle Teile freigeben",
     # Der Graph
     "Nodes of Chosen Parts": "Knoten der gewählten Teile",
+    "Show or Hide Graph": "Graph zeigen oder verbergen",
+    "Show Colors": "Farben zeigen",
+    "Show Colors of Parts": "Farben der Teile zeigen",
+    "Give Materials": "Materialien geben",
+    "Documentation": "Dokumentation",
+    "Report a Problem": "Problem melden",
     "Parts of Selected Nodes": "Teile der ausgewählten Knoten",
     "Part of Arc": "Teil des Bogens",
     # Teile verwenden
@@ -100,6 +106,13 @@ TEXTS = {
     "{n} loop": "{n} Schleife",
     "{n} loops": "{n} Schleifen",
     "Advanced": "Erweitert",
+    "This viewport does not show the parts.": "Diese Ansicht zeigt die Teile nicht.",
+    "and {n} more models": "und {n} weitere Modelle",
+    "Show the parts' colors in this viewport: Solid, colored by attribute":
+        "Die Farben der Teile in dieser Ansicht zeigen: Solid, nach Attribut gefärbt",
+    "The parts have no colors. Switch these on under Advanced, Output; decompose again.":
+        "Die Teile haben keine Farben. Bitte unter „Erweitert“, „Ausgabe“ einschalten und erneut zerlegen.",
+    "Show the Reeb graph over the model, or hide it": "Den Reeb-Graphen über dem Modell zeigen oder verbergen",
     "{n} Small Part": "{n} kleines Teil",
     "{n} Small Parts": "{n} kleine Teile",
     "Sort": "Sortieren",
@@ -270,8 +283,8 @@ TEXTS = {
     "Node size": "Knotengröße",
     "Size of the empties, as a share of the object's": "Größe der Leerobjekte, als Anteil der Größe des Objekts",
     "Line thickness": "Linienstärke",
-    "Thickness of the arcs, as a share of the radius of the body around them":
-        "Stärke der Bögen, als Anteil des Radius des Körpers um sie herum",
+    "Thickness of the curve under the lines, as a share of the radius of the body around it":
+        "Stärke der Kurve unter den Linien, als Anteil des Radius des Körpers um sie herum",
     "In front": "Im Vordergrund",
     "Draw the graph over the model instead of hidden inside it":
         "Den Graphen über das Modell zeichnen, statt in ihm verborgen",

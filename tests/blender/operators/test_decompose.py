@@ -279,13 +279,17 @@ def test_graph_is_made_of_empties_and_a_curve(obj):
     empties = [o for o in collection.objects if o.type == "EMPTY"]
     (curve,) = [o for o in collection.objects if o.type == "CURVE"]
     assert len(empties) == result.n_nodes
-    assert len(curve.data.splines) == result.n_arcs
+    shown = [e for e in empties if not e["folded"]]
+    assert 5 < len(shown) <= len(empties)
+    assert 5 <= len(curve.data.splines) <= result.n_arcs
     assert {o.parent for o in collection.objects} == {obj}
     assert {e["kind"] for e in empties} == {"minimum", "saddle", "maximum"}
     assert len({e.empty_display_type for e in empties}) == 3
     # Small beside the object, in all three shapes.
     diagonal = np.linalg.norm(np.ptp(np.array([corner[:] for corner in obj.bound_box]), axis=0))
-    assert [e.empty_display_size for e in empties] == pytest.approx([0.01 * diagonal] * len(empties))
+    assert [e.empty_display_size for e in shown] == pytest.approx([0.005 * diagonal] * len(shown))
+    assert all(e.empty_display_size < 0.001 * diagonal for e in empties if e["folded"])
+    assert all(e.hide_select == e["folded"] for e in empties)
     numbers = {part.number for part in result.parts}
     for empty in empties:
         assert 0.0 <= empty["value"] <= 1.0

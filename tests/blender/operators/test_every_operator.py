@@ -154,6 +154,7 @@ CASES = {
     "merge_neighbour": Case(prepare=small_part),
     "merge_small": Case(prepare=many_small),
     "frame": Case(prepare=choose(1)),
+    "show_colors": Case(),
     "split": Case(prepare=few_parts),
     "grow": Case(prepare=few_parts),
     "shrink": Case(prepare=few_parts),
@@ -166,6 +167,7 @@ CASES = {
     "from_nodes": Case(active="node", changes=("/active", "/selected"), refuses=NO_NODE),
     "from_arc": Case(on_branch, active="arcs", changes=("/active", "/selected"),
                      refuses={**LINKED, **dict.fromkeys(OTHER_MODES, "Select the arcs of a graph")}),
+    "show_graph": Case(changes=("/settings",)),
     "to_nodes": Case(refuses={**LINKED, **OUTSIDE}),
     "split_at_node": Case(active="node", refuses=NO_NODE),
     "separate": Case({"caps": True}, changes=("/active", "/selected", "/Tree.*/hidden", "/Tree.*/mode",
@@ -294,7 +296,8 @@ def set_up(package, name, situation, make, tree, tmp_path):
         bpy.ops.reeb_parts.decompose()
     case.prepare(obj)
     arguments = case.arguments(obj) if callable(case.arguments) else case.arguments
-    active = {"mesh": obj.name, "node": "Reeb saddle", "arcs": "Reeb arcs", "piece": f"{obj.name} Part 02"}[case.active]
+    node = next((item.name for item in obj.children if item.get("kind") == "saddle" and not item["folded"]), "")
+    active = {"mesh": obj.name, "node": node, "arcs": "Reeb arcs", "piece": f"{obj.name} Part 02"}[case.active]
     if situation == "linked from a file":
         link_from_file(tmp_path / "library.blend", active)
     elif case.active == "piece" or situation not in OTHER_MODES:

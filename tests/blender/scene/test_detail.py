@@ -110,3 +110,19 @@ def test_what_was_given_to_parts_outlasts_an_edit(obj, result, package):
     same = before.keys() & after.keys()
     assert len(same) >= 5
     assert {number: after[number] for number in same} == {number: before[number] for number in same}
+
+
+def test_detail_of_several_selected_models_is_set_together(make, tree):
+    first, second, third = (make((tree[0] * size, tree[1]), name) for size, name in ((1, "A"), (2, "B"), (3, "C")))
+    for obj in (first, second, third):
+        obj.select_set(True)
+    bpy.ops.reeb_parts.decompose()
+    third.select_set(False)
+    bpy.context.view_layer.objects.active = first
+    first.data.reeb_parts.n_parts = 3
+    assert [len(obj.data.reeb_parts.parts) for obj in (first, second, third)] == [3, 3, 5]
+    first.data.reeb_parts.detail = 0.5
+    assert [len(obj.data.reeb_parts.parts) for obj in (first, second, third)] == [5, 5, 5]
+    # A script that sets the detail of a model that is not the active one means this one alone.
+    second.data.reeb_parts.n_parts = 2
+    assert [len(obj.data.reeb_parts.parts) for obj in (first, second, third)] == [5, 2, 5]

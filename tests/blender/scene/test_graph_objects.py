@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The graph as objects, hidden and shown; what of it and of the pieces is seen in the viewport."""
 
+import importlib
+from dataclasses import replace
+
 import bpy
+import numpy as np
 import pytest
 from snapshot import activate
 
@@ -75,7 +79,7 @@ def test_pieces_and_nodes_have_the_colours_of_the_list_in_the_view(obj, settings
     colors = {part.name: part.color[:] for part in obj.data.reeb_parts.parts}
     for name, color in colors.items():
         linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color]
-        assert bpy.data.objects[name].color[:3] == pytest.approx(linear, abs=1e-5)
+        assert bpy.data.objects[f"Tree {name}"].color[:3] == pytest.approx(linear, abs=1e-5)
 
 
 def graph_nodes(obj):
@@ -117,3 +121,96 @@ def test_an_object_that_is_given_another_mesh_loses_its_graph(obj, settings, mak
     other.data.reeb_parts.detail = 1.0
     assert graph_nodes(obj) == []
     assert [node for node, _ in graph_nodes(other)] == [node for node, _ in other_graph]
+
+
+def nodes(obj, shown=True):
+    """The nodes of an object's graph that are shown, or all."""
+    return [item for item in obj.children if item.get("reeb_parts_role") == "node"
+            and not (shown and item["folded"])]
+
+
+def test_nodes_are_as_many_as_the_parts_need_and_come_back_with_detail(obj, settings):
+    result = obj.data.reeb_parts
+    every = len(nodes(obj, shown=False))
+    counts = {}
+    for count in (1, 5, 20):
+        result.n_parts = count
+        counts[count] = len(nodes(obj))
+        assert {node["part"] for node in nodes(obj)} == {node["part"] for node in nodes(obj, shown=False)}
+        assert len(nodes(obj, shown=False)) == every == result.n_nodes
+    assert counts[1] == 1
+    assert counts[1] < counts[5] < counts[20]
+    result.n_parts = 5
+    assert len(nodes(obj)) == counts[5]
+
+
+def test_the_curve_has_the_arcs_between_the_nodes_that_are_shown(obj, settings):
+    (arcs,) = [item for item in obj.children if item.get("reeb_parts_role") == "arcs"]
+    result = obj.data.reeb_parts
+    thickness = arcs.data.bevel_depth = 0.125
+    curves = len(bpy.data.curves)
+    for count in (1, 5, 20):
+        result.n_parts = count
+        ends = {tuple(round(x, 4) for x in spline.points[end].co[:3])
+                for spline in arcs.data.splines for end in (0, -1)}
+        assert {tuple(round(x, 4) for x in node.location) for node in nodes(obj)} <= ends or count == 1
+        assert (arcs.data.name, arcs.data.bevel_depth, len(bpy.data.curves)) == ("Reeb arcs", thickness, curves)
+    assert len(arcs.data.splines) > 5
+
+
+def test_nodes_are_named_by_part_and_kind(obj, settings):
+    result = obj.data.reeb_parts
+    result.n_parts = 5
+    result.parts[1].name = "Arm"
+    (tip,) = [node for node in nodes(obj) if node["part"] == result.parts[1].number and node["kind"] == "maximum"]
+    assert tip.name == "Arm tip"
+    names = [node.name for node in nodes(obj, shown=False)]
+    words = {"maximum": "tip", "saddle": "joint", "minimum": "middle"}
+    for node in nodes(obj, shown=False):
+        part = next(part.name for part in result.parts if part.number == node["part"])
+        assert node.name.startswith(f"{part} {words[node['kind']]}")
+    bpy.ops.reeb_parts.decompose(method="berretti", n_parts=5)
+    assert sorted(node.name for node in nodes(obj, shown=False)) == sorted(names)
+
+
+def test_the_graph_cannot_be_torn_apart_by_moving_all(obj, settings):
+    before = graph_facts()
+    for item in bpy.data.objects:
+        item.select_set(True)
+        if item != obj:
+            assert all((*item.lock_location, *item.lock_rotation, *item.lock_scale))
+    obj.select_set(False)
+    bpy.context.view_layer.objects.active = nodes(obj)[0]
+    bpy.ops.transform.translate(value=(1.0, 2.0, 3.0))
+    bpy.ops.transform.resize(value=(2.0, 2.0, 2.0))
+    assert graph_facts() == before
+
+
+def test_the_eye_hides_and_shows(obj, settings):
+    for hidden in (True, False):
+        bpy.ops.reeb_parts.show_graph()
+        assert layer_of("Reeb Graph Tree").hide_viewport == hidden
+        assert settings.graph != hidden
+
+
+def test_a_graph_that_would_be_clutter_is_hidden_at_first(package, make, obj, settings):
+    graph_objects = importlib.import_module(f"{package}.scene.graph_objects")
+    store = importlib.import_module(f"{package}.scene.store")
+    graph = store.load(obj.data).decomposition.graph
+    assert not graph_objects.is_crowded(graph, np.ones(graph.n_nodes, bool))
+    assert not layer_of("Reeb Graph Tree").hide_viewport
+    far = np.array([[100.0, 100.0, 100.0]])
+    heap = replace(graph, node_position=graph.node_position, point_position=np.concatenate([graph.point_position, far]))
+    assert graph_objects.is_crowded(heap, np.ones(graph.n_nodes, bool))
+
+
+def test_a_graph_goes_with_its_model(package, obj, settings):
+    watch = importlib.import_module(f"{package}.scene.watch")
+    graph_objects = importlib.import_module(f"{package}.scene.graph_objects")
+    assert list(graph_objects.left_behind()) == []
+    activate(obj)
+    bpy.ops.object.delete()
+    assert list(graph_objects.left_behind()) == [obj]
+    watch._tidy()  # as a timer does
+    assert "Reeb Graph Tree" not in bpy.data.collections
+    assert [item for item in bpy.data.objects if "reeb_parts_role" in item] == []

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether a viewport shows parts, and that a button makes it show them."""
+
+import sys
+
+import bpy
+import pytest
+
+
+@pytest.fixture
+def space():
+    """A viewport, set back afterwards."""
+    area = next(area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == "VIEW_3D")
+    shading = area.spaces.active.shading
+    before = shading.type, shading.color_type
+    yield area.spaces.active
+    shading.type, shading.color_type = before
+
+
+SEEN = [("SOLID", "VERTEX", True, False, False), ("SOLID", "VERTEX", False, False, True),
+        ("SOLID", "MATERIAL", True, False, True), ("SOLID", "MATERIAL", False, True, False),
+        ("MATERIAL", "VERTEX", True, False, True), ("MATERIAL", "VERTEX", True, True, False),
+        ("WIREFRAME", "MATERIAL", True, False, False)]
+
+
+@pytest.mark.parametrize(("kind", "color", "colors", "materials", "hidden"), SEEN)
+def test_what_a_viewport_does_not_show(package, space, kind, color, colors, materials, hidden):
+    space.shading.color_type = color
+    space.shading.type = kind
+    shading = sys.modules[f"{package}.viewport.shading"]
+    assert shading.hides_parts(space, colors, materials) == hidden
+
+
+def test_the_button_shows_the_colors(package, space, obj):
+    bpy.ops.reeb_parts.decompose()
+    space.shading.type = "MATERIAL"
+    shading = sys.modules[f"{package}.viewport.shading"]
+    assert shading.hides_parts(space, True, False)
+    bpy.ops.reeb_parts.show_colors()
+    assert not shading.hides_parts(space, True, False)
+    bpy.ops.reeb_parts.decompose(colors=False)
+    with pytest.raises(RuntimeError, match="no colors"):
+        bpy.ops.reeb_parts.show_colors()

@@ -1,0 +1,90 @@
+"""Folded graphs: worked out by hand, and what holds for the graph of any mesh at any level of detail."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapes
+
+from core import decompose
+from core.graph.critical import MAXIMUM, MINIMUM, SADDLE
+from core.graph.fold import arc_lengths, unfolded
+from core.graph.reeb import ReebGraph
+
+
+def graph_of(kinds, positions, arcs):
+    """A graph without center points."""
+    return replace(
+        ReebGraph.empty(), node_kind=np.array(kinds, np.int8), node_value=np.linspace(0, 1, len(kinds)),
+        node_position=np.array(positions, float), arcs=np.array(arcs, np.int64),
+        arc_points=np.zeros(len(arcs) + 1, np.int64), n_components=1)
+
+
+# A body with its middle (0) and two saddles (1, 2); from 1 a leg (3) and a bump of the body (4), from 2 a head (5)
+# with two ears (6, 7).
+ANIMAL = graph_of(
+    [MINIMUM, SADDLE, SADDLE, MAXIMUM, MAXIMUM, SADDLE, MAXIMUM, MAXIMUM],
+    [(0, 0, 0), (1, 0, 0), (2, 0, 0), (1, -3, 0), (1, 1, 0), (3, 0, 0), (3, 2, 0), (3, 0, 1)],
+    [(0, 1), (1, 2), (1, 3), (1, 4), (2, 5), (5, 6), (5, 7)])
+NO_POINTS = np.empty(0, np.int64)
+
+
+def test_lengths_by_hand():
+    np.testing.assert_allclose(arc_lengths(ANIMAL), [1, 1, 3, 1, 1, 2, 1])
+
+
+def test_one_part_needs_one_node():
+    nodes, arcs = unfolded(ANIMAL, np.zeros(8, np.int64), NO_POINTS)
+    assert nodes.sum() == 1
+    assert not arcs.any()
+
+
+def test_body_leg_and_head_by_hand():
+    # The ear that reaches less far goes, and one of the body's two ends, which reach equally far.
+    nodes, arcs = unfolded(ANIMAL, np.array([0, 0, 0, 1, 0, 2, 2, 2]), NO_POINTS)
+    assert np.flatnonzero(~arcs).tolist() in ([0, 6], [3, 6])
+    assert nodes[[1, 3, 6]].all()  # the saddle at the leg, the ends of leg and ear
+    assert not nodes[[2, 5, 7]].any()  # nothing branches off there any more
+
+
+def test_every_ear_of_its_own_is_shown():
+    nodes, arcs = unfolded(ANIMAL, np.array([0, 0, 0, 1, 0, 2, 3, 4]), NO_POINTS)
+    assert nodes[[3, 5, 6, 7]].all()
+    assert arcs[[2, 4, 5, 6]].all()
+
+
+def test_a_loop_within_one_part_stays():
+    ring = graph_of([MINIMUM, SADDLE, SADDLE, MAXIMUM], [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)],
+                    [(0, 1), (1, 2), (1, 2), (2, 3)])
+    nodes, arcs = unfolded(ring, np.zeros(4, np.int64), NO_POINTS)
+    assert arcs[[1, 2]].all()
+    assert nodes[[1, 2]].any()
+
+
+@pytest.fixture(scope="module", params=["tree", "two"])
+def result(request):
+    shape = shapes.tube_tree() if request.param == "tree" else shapes.genus_two()
+    return decompose(*shape)
+
+
+@pytest.mark.parametrize("n_parts", [1, 2, 5, 9, 30])
+def test_at_any_level(result, n_parts):
+    parts = result.parts(n_parts=n_parts)
+    graph = result.graph
+    nodes, arcs = unfolded(graph, parts.node_part, parts.point_part)
+    assert set(parts.node_part[nodes]) == set(parts.node_part)  # a node of every part that has one
+    between = parts.node_part[graph.arcs[:, 0]] != parts.node_part[graph.arcs[:, 1]]
+    assert arcs[between].all()
+    # What is left hangs together as before, with the same loops: only branches were cut off.
+    ends = np.unique(graph.arcs[arcs])
+    if len(ends):
+        gone = graph.n_nodes - len(ends)
+        assert graph.n_arcs - arcs.sum() == gone
+    # Nodes are few: in each part one end of a branch at most that reaches no other part.
+    degree = np.bincount(graph.arcs[arcs].ravel(), minlength=graph.n_nodes)
+    inside = nodes & (degree < 2)
+    for part in range(parts.count):
+        lone = [node for node in np.flatnonzero(inside & (parts.node_part == part))
+                if not (parts.point_part[np.isin(graph.point_arc, np.flatnonzero(
+                    arcs & (graph.arcs == node).any(axis=1)))] != part).any()]
+        assert len(lone) <= 1
