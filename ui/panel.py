@@ -11,7 +11,6 @@ from bpy.app.translations import pgettext_n as n_
 from mathutils import Matrix
 
 from ..scene import graph_objects, jobs, notes, part_list, part_names, store
-from ..viewport import shading
 
 MODELS = 8  # so many selected models are listed
 NARROW = 215  # width of a sidebar, in pixels of a screen without scaling, that has no room for shares
@@ -157,10 +156,20 @@ def _draw_notes(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup, wid
             _wrapped(column, note, width, "INFO")
 
 
+def hides_parts(space: bpy.types.SpaceView3D, has_colors: bool, has_materials: bool) -> bool:
+    """Whether a viewport shows neither the parts' colors nor their materials, if the mesh has these."""
+    shading = space.shading
+    if shading.type in {"MATERIAL", "RENDERED"}:
+        return not has_materials
+    if shading.type != "SOLID":
+        return False
+    return not ((has_colors and shading.color_type == "VERTEX") or (has_materials and shading.color_type == "MATERIAL"))
+
+
 def _draw_unseen(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup,
                  width: int) -> None:
     """How the parts are seen, in a viewport that does not show them."""
-    if not shading.hides_parts(context.space_data, bool(result.color_attribute), result.has_materials):
+    if not hides_parts(context.space_data, bool(result.color_attribute), result.has_materials):
         return
     box = layout.box().column(align=True)
     _wrapped(box, iface_("This viewport does not show the parts."), width, "HIDE_ON")

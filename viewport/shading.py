@@ -47,16 +47,6 @@ def _show_colors(space: bpy.types.SpaceView3D) -> None:
     space.overlay.show_relationship_lines = False
 
 
-def hides_parts(space: bpy.types.SpaceView3D, has_colors: bool, has_materials: bool) -> bool:
-    """Whether a viewport shows neither the parts' colors nor their materials, if the mesh has these."""
-    shading = space.shading
-    if shading.type in {"MATERIAL", "RENDERED"}:
-        return not has_materials
-    if shading.type != "SOLID":
-        return False
-    return not ((has_colors and shading.color_type == "VERTEX") or (has_materials and shading.color_type == "MATERIAL"))
-
-
 def show_pieces(context: bpy.types.Context) -> None:
     """Colour the solid view by object, where it showed the parts: now these are objects."""
     space = _solid_view(context)

@@ -27,17 +27,17 @@ SEEN = [("SOLID", "VERTEX", True, False, False), ("SOLID", "VERTEX", False, Fals
 def test_what_a_viewport_does_not_show(package, space, kind, color, colors, materials, hidden):
     space.shading.color_type = color
     space.shading.type = kind
-    shading = sys.modules[f"{package}.viewport.shading"]
-    assert shading.hides_parts(space, colors, materials) == hidden
+    panel = sys.modules[f"{package}.ui.panel"]
+    assert panel.hides_parts(space, colors, materials) == hidden
 
 
 def test_the_button_shows_the_colors(package, space, obj):
     bpy.ops.reeb_parts.decompose()
     space.shading.type = "MATERIAL"
-    shading = sys.modules[f"{package}.viewport.shading"]
-    assert shading.hides_parts(space, True, False)
+    panel = sys.modules[f"{package}.ui.panel"]
+    assert panel.hides_parts(space, True, False)
     bpy.ops.reeb_parts.show_colors()
-    assert not shading.hides_parts(space, True, False)
+    assert not panel.hides_parts(space, True, False)
     bpy.ops.reeb_parts.decompose(colors=False)
     with pytest.raises(RuntimeError, match="no colors"):
         bpy.ops.reeb_parts.show_colors()
