@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import part_list, part_places, selection, store
+from ..scene import naming, part_list, part_names, part_places, reactions, selection, store
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.part_list import chosen_numbers
@@ -71,6 +71,18 @@ class REEB_PARTS_OT_frame(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         mask = np.isin(stored.face_numbers, chosen_numbers(obj.data))
         framing.look_at(context, *part_places.box(obj, mask))
+
+
+class REEB_PARTS_OT_suggest_names(PartOperator, bpy.types.Operator):
+    """Name the parts that you have not named by what they are: head, leg, handle; else by their place and kind"""
+
+    bl_idname = "reeb_parts.suggest_names"
+    bl_label = "Suggest Names"
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
+        named = part_names.kept_names(obj.data)
+        names = {number: name for number, name in naming.suggested(obj, stored).items() if number not in named}
+        return rpt_("{n} parts are named").format(n=reactions.give_names(obj.data, names))
 
 
 class REEB_PARTS_OT_show_colors(PartOperator, bpy.types.Operator):

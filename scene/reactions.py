@@ -82,6 +82,19 @@ def _take_name(part: bpy.types.PropertyGroup) -> None:
     part_names.keep_name(mesh, part.number, part.name)
 
 
+def give_names(mesh: bpy.types.Mesh, names: dict[int, str]) -> int:
+    """Name parts by number; a name that another part has gets a number behind it. How many parts were named."""
+    parts = [part for part in mesh.reeb_parts.parts if part.number in names]
+    transaction.keep_result(mesh)
+    with quiet.quiet():
+        for part in parts:
+            part.name = part_names.free_name(mesh, part.number, names[part.number])
+            _take_name(part)
+    for obj in targets.users(mesh):
+        graph_objects.update_names(obj)
+    return len(parts)
+
+
 def show_graph(obj: bpy.types.Object | None, shown: bool, context: bpy.types.Context) -> None:
     """Hide the graph of an object that has parts, or show it; it is drawn if there is none yet."""
     if obj is None or not store.has_parts(obj):

@@ -23,7 +23,7 @@ def _draw_operators(layout: bpy.types.UILayout, *entries: tuple[str, str]) -> No
 def draw_part_menu(layout: bpy.types.UILayout) -> None:
     """All that can be done with the chosen parts; also in the list's context menu."""
     layout.operator_menu_enum("reeb_parts.mark", "action", icon="CHECKBOX_HLT")
-    layout.operator("reeb_parts.frame", icon="VIEWZOOM")
+    _draw_operators(layout, ("reeb_parts.suggest_names", "SORTALPHA"), ("reeb_parts.frame", "VIEWZOOM"))
     layout.separator()
     _draw_operators(
         layout, ("reeb_parts.merge", "AUTOMERGE_ON"), ("reeb_parts.merge_neighbour", "NONE"),

@@ -253,8 +253,9 @@ def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, result: 
     row.operator("reeb_parts.select", text="Select")
     row.operator("reeb_parts.isolate", text="Isolate").show_all = False
     row.operator("reeb_parts.isolate", text="Show All").show_all = True
-    row = layout.row()
+    row = layout.split(factor=0.42, align=True)
     row.scale_y = 1.2
+    row.operator("reeb_parts.suggest_names")
     row.operator("reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
 
 

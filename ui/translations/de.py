@@ -39,6 +39,7 @@ OPERATORS = {
     "Merge Small": "Zusammenführen",
     "Merge Small Parts": "Kleine Teile zusammenführen",
     "Frame Parts": "Teile heranholen",
+    "Suggest Names": "Benennen",
     "Split Parts": "Teile teilen",
     "Split at Graph Node": "Am Graphknoten teilen",
     "Cut Part at Point": "Teil am Punkt schneiden",
@@ -106,6 +107,15 @@ TEXTS = {
     "{n} loop": "{n} Schleife",
     "{n} loops": "{n} Schleifen",
     "Advanced": "Erweitert",
+    # Vorschläge für Namen
+    "Name the parts that you have not named by what they are: head, leg, handle; else by their place and kind":
+        "Die Teile, die noch keinen eigenen Namen haben, danach benennen, was sie sind: Kopf, Bein, Henkel; sonst nach "
+        "Art und Lage",
+    "{n} parts are named": "{n} Teile sind benannt",
+    "{place} {kind}": "{kind} {place}",
+    "body": "Körper", "head": "Kopf", "neck": "Hals", "arm": "Arm", "leg": "Bein", "tail": "Schwanz", "ear": "Ohr",
+    "handle": "Henkel", "limb": "Glied", "tip": "Spitze", "piece": "Stück", "front": "vorn", "back": "hinten",
+    "top": "oben", "bottom": "unten", "left": "links", "right": "rechts",
     "This viewport does not show the parts.": "Diese Ansicht zeigt die Teile nicht.",
     "and {n} more models": "und {n} weitere Modelle",
     "Show the parts' colors in this viewport: Solid, colored by attribute":

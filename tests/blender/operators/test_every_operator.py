@@ -155,6 +155,7 @@ CASES = {
     "merge_small": Case(prepare=many_small),
     "frame": Case(prepare=choose(1)),
     "show_colors": Case(),
+    "suggest_names": Case(),
     "split": Case(prepare=few_parts),
     "grow": Case(prepare=few_parts),
     "shrink": Case(prepare=few_parts),
@@ -267,7 +268,7 @@ def flag(mesh, name, vertices, rule):
         items.foreach_set(name, [rule(vertices[i] for i in item.vertices) for item in items])
 
 
-OURS = re.compile(r"\.?reeb_|Reeb |(\w+ )?Parts? \d|Parts of ")
+OURS = re.compile(r"\.?reeb_|Reeb |([\w.]+ )?Parts? \d|Parts of ")
 RESULT = ("result", "made", "users")  # what an operator writes by rights, and what counts its pieces
 FLAGS = re.compile(r"\.select_|\.hide_|\.?uv_seam|\.uv_select|sharp_|material_index")
 

@@ -129,3 +129,21 @@ def test_the_view_goes_to_a_part(obj, result):
     points = np.array([obj.matrix_world @ obj.data.vertices[v].co for v in vertices])
     for view in views:
         np.testing.assert_allclose(view.view_location, (points.min(0) + points.max(0)) / 2, atol=1e-5)
+
+
+def test_suggested_names_are_taken_by_parts_that_have_none(obj, result):
+    result.parts[1].name = "mine"
+    bpy.ops.reeb_parts.suggest_names()
+    names = [part.name for part in result.parts]
+    assert names[1] == "mine"
+    assert len(set(names)) == 5
+    assert sum(name.endswith("limb") for name in names) == 3
+    assert sorted(group.name for group in obj.vertex_groups) == sorted(names)
+    nodes = {item.name for item in obj.children if item.get("kind") == "maximum" and not item["folded"]}
+    assert "mine tip" in nodes
+    # They are kept as names that were typed: through other levels of detail, and through another run.
+    result.n_parts = 8
+    result.n_parts = 5
+    assert sorted(part.name for part in result.parts) == sorted(names)
+    bpy.ops.reeb_parts.decompose()
+    assert sorted(part.name for part in result.parts) == sorted(names)

@@ -1,0 +1,304 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Names for parts that say what they are: a word where the shape is clear enough, else the place and the kind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..result.decomposition import Parts
+
+# Up is the third axis, the front is towards the negative second one, as in Blender.
+_PLACES = (("right", "left"), ("front", "back"), ("bottom", "top"))
+
+# Shares of the model's height, width or length.
+_FOOT = 0.08  # a part that comes so near to the ground stands on it
+_ASIDE = 0.12  # the middle of a part that is so far from the body's middle is at this side of it
+_MIDST = 0.15  # a part whose middle is nearer than that to the body's lies in the midst of it
+_UPRIGHT = 1.2  # a model so many times as high as long is upright
+_CLEAR = 2.0  # the end of a creature with so many times as much hanging on it has the head
+_LONG = 1.8  # a part so many times as long as wide is a limb
+
+
+@dataclass(frozen=True, eq=False)
+class Shapes:
+    """Where parts are and how large, in the world.
+
+    Attributes
+    ----------
+    parts : Parts
+        With k parts.
+    low, high : (k, 3) float64
+        Corners of the box around each part.
+    middle : (k, 3) float64
+        Middle of the surface of each part.
+    length : (k, 3) float64
+        Extents of each part along its own axes, longest first.
+    normal : (3,) float64
+        Of the plane of symmetry; zero without one.
+    """
+
+    parts: Parts
+    low: np.ndarray
+    high: np.ndarray
+    middle: np.ndarray
+    length: np.ndarray
+    normal: np.ndarray
+
+    @classmethod
+    def of(cls, parts: Parts, center: np.ndarray, area: np.ndarray, points: np.ndarray,
+           point_face: np.ndarray, turn: np.ndarray) -> Shapes:
+        """Measure parts.
+
+        Parameters
+        ----------
+        parts : Parts
+            Of p faces.
+        center, area : (p, 3) and (p,) float64
+            Of the faces, in the world.
+        points, point_face : (c, 3) float64 and (c,) int64
+            The corners of all faces, and the face of each.
+        turn : (3, 3) float64
+            Takes directions of the decomposition to those of the world.
+        """
+        labels, count = parts.labels, parts.count
+        weight = area + 1e-12 * area.sum() + 1e-300
+        total = np.bincount(labels, weight, count)
+        middle = np.stack([np.bincount(labels, weight * axis, count) for axis in center.T], axis=1) / total[:, None]
+        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+        np.minimum.at(low, labels[point_face], points)
+        np.maximum.at(high, labels[point_face], points)
+        offset = center - middle[labels]
+        spread = np.stack([np.bincount(labels, weight * offset[:, i] * offset[:, j], count)
+                           for i in range(3) for j in range(3)], axis=1).reshape(-1, 3, 3) / total[:, None, None]
+        length = np.sqrt(np.maximum(np.linalg.eigvalsh(spread)[:, ::-1], 0.0))
+        mirror = parts.decomposition.mirror
+        return cls(parts, low, high, middle, length, turn @ mirror[:3] if len(mirror) else np.zeros(3))
+
+    @cached_property
+    def size(self) -> np.ndarray:
+        """(3,) float64, extents of the whole model."""
+        return np.maximum(self.high.max(axis=0) - self.low.min(axis=0), 1e-300)
+
+    @cached_property
+    def neighbors(self) -> list[set[int]]:
+        """Parts that each part touches."""
+        found: list[set[int]] = [set() for _ in range(self.parts.count)]
+        for a, b in self.parts.cuts.tolist():
+            found[a].add(b)
+            found[b].add(a)
+        return found
+
+    @cached_property
+    def elongation(self) -> np.ndarray:
+        """(k,) float64, how many times as long as wide each part is."""
+        return self.length[:, 0] / np.maximum(self.length[:, 1], 1e-9 * self.size.max())
+
+    @cached_property
+    def body(self) -> int:
+        """The part that most area hangs on: the one that leaves the smallest remainders when it is taken away."""
+        share = self.parts.share
+        best, least = 0, np.inf
+        for part in range(self.parts.count):
+            seen, largest = {part}, 0.0
+            for start in self.neighbors[part]:
+                if start in seen:
+                    continue
+                waiting, total = [start], 0.0
+                seen.add(start)
+                while waiting:
+                    at = waiting.pop()
+                    total += share[at]
+                    waiting += (new := self.neighbors[at] - seen)
+                    seen |= new
+                largest = max(largest, total)
+            if largest < least:
+                best, least = part, largest
+        return best
+
+    @cached_property
+    def steps(self) -> np.ndarray:
+        """(k,) int64, over how many cuts each part hangs on the body; a large number for loose ones."""
+        steps, at, reached = np.full(self.parts.count, 10**6), [self.body], 0
+        steps[self.body] = 0
+        while at:
+            reached += 1
+            at = [part for part in {other for part in at for other in self.neighbors[part]} if steps[part] > reached]
+            steps[at] = reached
+        return steps
+
+    @cached_property
+    def offset(self) -> np.ndarray:
+        """(k, 3) float64, from the middle of the body to that of each part, as shares of the model's extents."""
+        return (self.middle - self.middle[self.body]) / self.size
+
+    @cached_property
+    def across(self) -> int:
+        """The axis, 0 or 1, across a creature: that across the plane of symmetry, or else the first."""
+        return int(abs(self.normal[1]) > abs(self.normal[0]))
+
+    @cached_property
+    def upright(self) -> bool:
+        """Whether a creature would stand on two legs: it is higher than long."""
+        return bool(self.size[2] > _UPRIGHT * self.size[1 - self.across])
+
+    @cached_property
+    def ahead(self) -> int:
+        """1 or -1, the direction along a creature in which its head is; 0 if that is not clear.
+
+        Head and neck, high and in the midst, are larger than a tail.
+        """
+        along, ground = self.offset[:, 1 - self.across], self.low[:, 2].min()
+        there = (np.abs(self.offset[:, self.across]) < _MIDST) & (np.abs(along) > 0.2) & (self.offset[:, 2] > 0.0)
+        there &= (self.low[:, 2] - ground > _FOOT * self.size[2]) & (np.arange(self.parts.count) != self.body)
+        front, back = (float(self.parts.share[there & (sign * along > 0)].sum()) for sign in (1, -1))
+        return 0 if max(front, back) < _CLEAR * min(front, back) or front == back else 1 if front > back else -1
+
+    @cached_property
+    def paired(self) -> np.ndarray:
+        """(k,) bool, whether a part has a mirror image that is another part."""
+        return self.parts.side != 0
+
+
+@dataclass(frozen=True)
+class Suggestion:
+    """What a part may be called, in English words.
+
+    Attributes
+    ----------
+    word : str
+        What it is: body, head, neck, arm, leg, tail, ear or handle; or its kind alone, limb, tip or piece.
+    place : str
+        Where it is, if that is clear and tells it from others: front, back, top, bottom, left, right, or "".
+    side : int
+        1 for the side of the positive first axis, which Blender calls left, -1 for the other one, 0 for neither.
+    """
+
+    word: str
+    place: str = ""
+    side: int = 0
+
+
+def suggestions(shapes: Shapes) -> list[Suggestion]:
+    """Suggest a name for each part.
+
+    A handle is the part that forms a loop together with the one part that it touches. A creature stands on legs on both
+    sides of a body that does not touch the ground, and has a head: in the midst of it, in front of the body unless the
+    model is upright, and of the parts there one that reaches highest. Parts that fit no rule get their kind only.
+
+    Returns
+    -------
+    names : list of Suggestion
+        One for each part.
+    """
+    count = shapes.parts.count
+    words = dict.fromkeys(_handles(shapes), "handle")
+    creature = [] if words or count < 2 else _creature(shapes)
+    for word, found in creature:
+        for part in found:
+            words.setdefault(part, word)
+    return [_suggestion(shapes, part, words.get(part, "")) for part in range(count)]
+
+
+def _suggestion(shapes: Shapes, part: int, word: str) -> Suggestion:
+    """The name of a part: of its word, or without one of its kind."""
+    if part == shapes.body:
+        return Suggestion(word or "body")
+    offset = shapes.offset[part].copy()
+    if word in {"leg", "arm", "ear"}:
+        return _limb(shapes, part, word)
+    if word:
+        return Suggestion(word)
+    inner = len(shapes.neighbors[part]) > 1
+    kind = "piece" if inner else "limb" if shapes.elongation[part] > _LONG else "tip"
+    if shapes.paired[part]:
+        offset[shapes.across] = 0.0  # the side says that
+    axis = int(np.abs(offset).argmax())
+    place = _PLACES[axis][int(offset[axis] > 0)] if abs(offset[axis]) > _ASIDE else ""
+    return Suggestion(kind, place, int(shapes.parts.side[part]))
+
+
+def _limb(shapes: Shapes, part: int, word: str) -> Suggestion:
+    """The name of a limb of a creature: with its side, and of four and more legs in front or back."""
+    across, along = shapes.offset[part, shapes.across], shapes.ahead * shapes.offset[part, 1 - shapes.across]
+    side = int(shapes.parts.side[part]) or (int(np.sign(across)) if abs(across) > 0.5 * _ASIDE else 0)
+    place = "" if word != "leg" or shapes.upright or abs(along) < _ASIDE else "front" if along > 0 else "back"
+    return Suggestion(word, place, side)
+
+
+def _handles(shapes: Shapes) -> list[int]:
+    """Parts that form a loop of the graph together with the one larger part that they touch."""
+    graph, parts = shapes.parts.decomposition.graph, shapes.parts
+    if not graph.n_loops:
+        return []
+    point = parts.point_part
+    # Every step along the graph from one part into another.
+    same = graph.point_arc[1:] == graph.point_arc[:-1]
+    full = np.flatnonzero(np.diff(graph.arc_points))
+    steps = np.concatenate([
+        np.stack([point[:-1][same], point[1:][same]], axis=1),
+        np.stack([parts.node_part[graph.arcs[full, 0]], point[graph.arc_points[full]]], axis=1),
+        np.stack([point[graph.arc_points[full + 1] - 1], parts.node_part[graph.arcs[full, 1]]], axis=1)])
+    crossings = np.bincount(steps[steps[:, 0] != steps[:, 1]].ravel(), minlength=parts.count)
+    return [part for part in range(parts.count) if crossings[part] == 2 and len(shapes.neighbors[part]) == 1
+            and shapes.elongation[part] > _LONG / 1.5
+            and parts.share[part] < parts.share[next(iter(shapes.neighbors[part]))]]
+
+
+def _creature(shapes: Shapes) -> list[tuple[str, list[int]]]:
+    """Words for the parts of a creature that stands on legs, the surest first; none for other models."""
+    body, steps, size, across = shapes.body, shapes.steps, shapes.size, shapes.across
+    ground, offset, aside = shapes.low[:, 2].min(), shapes.offset, shapes.offset[:, across]
+    hanging = [part for part in range(shapes.parts.count) if 0 < steps[part] < 10**6]
+    feet = [part for part in hanging
+            if shapes.low[part, 2] - ground < _FOOT * size[2] and shapes.middle[part, 2] < shapes.middle[body, 2]]
+    # A creature stands on both sides, and its body on none.
+    both = bool(feet) and aside[feet].min() < 0.0 < aside[feet].max()
+    if not both or shapes.low[body, 2] - ground < _FOOT * size[2]:
+        return []
+    legs = feet + _between(shapes, feet)
+    others = [part for part in hanging if part not in legs]
+    midst = [part for part in others if abs(aside[part]) < _MIDST]
+    if not shapes.upright:
+        midst = [part for part in midst if shapes.ahead * offset[part, 1 - across] > 0.2]
+    head = _head(shapes, midst)
+    if head is None:
+        return [("leg", legs)]
+    found = [("leg", legs), ("head", [head]), ("body", [body]), ("neck", [
+        part for part in midst if part in shapes.neighbors[head] and steps[part] < steps[head]])]
+    found.append(("ear", [part for part in others if shapes.neighbors[part] == {head}
+                          and shapes.parts.share[part] < 0.3 * shapes.parts.share[head]
+                          and shapes.high[part, 2] > shapes.high[head, 2] - 0.2 * (shapes.high - shapes.low)[head, 2]]))
+    if shapes.upright:
+        arms = [part for part in others if shapes.elongation[part] > 1.3 and part != head and abs(aside[part]) > _ASIDE
+                and shapes.middle[part, 2] > shapes.low[body, 2] and head not in shapes.neighbors[part]]
+        return [*found, ("arm", arms + [part for part in _between(shapes, arms) if part not in legs])]
+    return [*found, ("tail", [
+        part for part in others if abs(aside[part]) < _MIDST and head not in shapes.neighbors[part]
+        and shapes.elongation[part] > 1.3 and shapes.ahead * offset[part, 1 - across] < -0.3])]
+
+
+def _between(shapes: Shapes, ends: list[int]) -> list[int]:
+    """Parts on the way from the body to some ends of limbs, as far as they are to one side of the body."""
+    found: list[int] = []
+    at = list(ends)
+    while at:
+        at = [part for part in {other for part in at for other in shapes.neighbors[part]
+                                if 0 < shapes.steps[other] < shapes.steps[part]}
+              if abs(shapes.offset[part, shapes.across]) > 0.5 * _MIDST
+              and part not in found and part not in ends]
+        found += at
+    return found
+
+
+def _head(shapes: Shapes, single: list[int]) -> int | None:
+    """The part in the midst of the model that reaches highest, if that is above the body; None for none."""
+    body = shapes.body
+    high = [part for part in single if shapes.parts.share[part] > 0.01
+            and shapes.high[part, 2] > shapes.middle[body, 2] + 0.1 * shapes.size[2]]
+    ends = [part for part in high if not any(other in high and shapes.steps[other] > shapes.steps[part]
+                                             and shapes.parts.share[other] > 0.1 * shapes.parts.share[part]
+                                             for other in shapes.neighbors[part])]
+    return max(ends, key=lambda part: shapes.high[part, 2]) if ends else None

@@ -1,0 +1,85 @@
+"""Suggested names: the bundled cow in any direction, limbs of a tree, the handle of a mug, and what changes nothing."""
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapes
+
+from core import decompose
+from core.uses.naming import Shapes, Suggestion, suggestions
+
+SPOT = Path(__file__).parents[3] / "models" / "spot.obj"
+
+
+def named(vertices, faces, result=None, turn=None, **level):
+    """Suggestions for the parts of triangles, by label; turn : (3, 3), of the model once it is decomposed."""
+    parts = (result or decompose(vertices, faces)).parts(**level)
+    turn = np.eye(3) if turn is None else turn
+    corner = (vertices @ turn.T)[faces]
+    area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1) / 2
+    face = np.repeat(np.arange(len(faces)), 3)
+    return suggestions(Shapes.of(parts, corner.mean(axis=1), area, corner.reshape(-1, 3), face, turn))
+
+
+@pytest.fixture(scope="module")
+def cow():
+    """Vertices and faces of the bundled model, its third axis up, and its decomposition."""
+    vertices, faces = [], []
+    for line in SPOT.read_text().splitlines():
+        if line.startswith("v "):
+            vertices.append([float(word) for word in line.split()[1:4]])
+        elif line.startswith("f "):
+            ring = [int(word.split("/")[0]) - 1 for word in line.split()[1:]]
+            faces += [(ring[0], ring[i], ring[i + 1]) for i in range(1, len(ring) - 1)]
+    vertices = np.array(vertices)[:, [0, 2, 1]] * [1.0, -1.0, 1.0]
+    return vertices, np.array(faces), decompose(vertices, faces)
+
+
+def words(names):
+    return Counter(name.word for name in names)
+
+
+def test_a_creature(cow):
+    names = named(*cow, n_parts=10)
+    found = words(names)
+    assert (found["body"], found["head"], found["leg"]) == (1, 1, 4)
+    legs = {(name.place, name.side) for name in names if name.word == "leg"}
+    assert legs == {(place, side) for place in ("front", "back") for side in (1, -1)}
+
+
+@pytest.mark.parametrize("turn", [((-1, 0, 0), (0, -1, 0), (0, 0, 1)), ((0, 1, 0), (-1, 0, 0), (0, 0, 1))])
+def test_in_which_direction_it_walks_does_not_matter(cow, turn):
+    names, turned = named(*cow, n_parts=10), named(*cow, turn=np.array(turn), n_parts=10)
+    assert [(name.word, name.place) for name in turned if name.word != "piece"] == [
+        (name.word, name.place) for name in names if name.word != "piece"]
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1e4])
+def test_neither_does_its_size(cow, scale):
+    vertices, faces, result = cow
+    assert named(vertices * scale, faces, result, n_parts=10) == named(*cow, n_parts=10)
+
+
+def test_upside_down_it_has_no_head(cow):
+    found = words(named(*cow, turn=np.diag([1.0, -1.0, -1.0]), n_parts=10))
+    assert (found["head"], found["tail"], found["body"]) == (0, 0, 1)
+
+
+def test_branches_of_a_tree_are_limbs():
+    names = named(*shapes.tube_tree())
+    assert words(names) == {"body": 1, "limb": 4}
+    assert len({name.place for name in names}) == 5  # each points somewhere else
+
+
+def test_one_part():
+    assert named(*shapes.icosphere(), n_parts=1) == [Suggestion("body")]
+
+
+def test_every_part_of_every_level_has_a_name(cow):
+    for count in (2, 7, 40):
+        names = named(*cow, n_parts=count)
+        assert len(names) == count
+        assert words(names)["body"] == 1
+        assert all(name.word and name.side in (-1, 0, 1) for name in names)
