@@ -154,8 +154,6 @@ CASES = {
     "merge_neighbour": Case(prepare=small_part),
     "merge_small": Case(prepare=many_small),
     "frame": Case(prepare=choose(1)),
-    "show_colors": Case(),
-    "suggest_names": Case(),
     "split": Case(prepare=few_parts),
     "grow": Case(prepare=few_parts),
     "shrink": Case(prepare=few_parts),
@@ -168,7 +166,6 @@ CASES = {
     "from_nodes": Case(active="node", changes=("/active", "/selected"), refuses=NO_NODE),
     "from_arc": Case(on_branch, active="arcs", changes=("/active", "/selected"),
                      refuses={**LINKED, **dict.fromkeys(OTHER_MODES, "Select the arcs of a graph")}),
-    "show_graph": Case(changes=("/settings",)),
     "to_nodes": Case(refuses={**LINKED, **OUTSIDE}),
     "split_at_node": Case(active="node", refuses=NO_NODE),
     "separate": Case({"caps": True}, changes=("/active", "/selected", "/Tree.*/hidden", "/Tree.*/mode",
@@ -185,6 +182,9 @@ CASES = {
     "unwrap": Case(changes=("/active UV map",)),
     "export": Case({"directory": FOLDER, "format": "ply"}),
     "armature": Case(),
+    "show_colors": Case(),
+    "suggest_names": Case(),
+    "show_graph": Case(changes=("/settings",)),
 }  # fmt: skip
 
 
