@@ -21,16 +21,19 @@ from .parameters import Parameters
 from .result.decomposition import Decomposition
 from .sentence import Sentence
 
+#: Names of the arrays of a shape.
+_SHAPE = ("vertices", "triangles", "polygon", "mirror")
 
-def write_request(folder: Path, shapes: list[tuple[np.ndarray, np.ndarray, np.ndarray]],
+
+def write_request(folder: Path, shapes: list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]],
                   parameters: Parameters) -> None:
     """Write what is to be decomposed.
 
     Parameters
     ----------
     folder : Path
-    shapes : list of (vertices, triangles, polygon)
-        As ``decompose`` takes them.
+    shapes : list of (vertices, triangles, polygon, mirror)
+        As ``decompose`` takes them; the last is empty for none.
     parameters : Parameters
 
     Raises
@@ -38,8 +41,8 @@ def write_request(folder: Path, shapes: list[tuple[np.ndarray, np.ndarray, np.nd
     OSError
         The files cannot be written.
     """
-    for number, (vertices, triangles, polygon) in enumerate(shapes):
-        np.savez(folder / f"shape_{number}.npz", vertices=vertices, triangles=triangles, polygon=polygon)
+    for number, arrays in enumerate(shapes):
+        np.savez(folder / f"shape_{number}.npz", **dict(zip(_SHAPE, arrays, strict=True)))
     request = {"shapes": len(shapes), "parameters": asdict(parameters)}
     (folder / "request.json").write_text(json.dumps(request), encoding="utf-8")
 
@@ -50,10 +53,11 @@ def read_request(folder: Path) -> tuple[int, Parameters]:
     return request["shapes"], Parameters(**request["parameters"])
 
 
-def read_shape(folder: Path, number: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices, triangles and polygons of a shape."""
+def read_shape(folder: Path, number: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles, polygons and mirror plane of a shape."""
     arrays = _arrays(folder / f"shape_{number}.npz")
-    return arrays["vertices"], arrays["triangles"], arrays["polygon"]
+    vertices, triangles, polygon, mirror = (arrays[name] for name in _SHAPE)
+    return vertices, triangles, polygon, mirror
 
 
 def write_result(folder: Path, number: int, result: Decomposition) -> None:

@@ -21,7 +21,9 @@ from .parameters import TOGETHER, Parameters
 from .progress import Progress, Stopwatch
 from .result.assemble import ComponentResult, assemble
 from .result.decomposition import Decomposition
+from .result.half import of_half
 from .surface.coarsening import Pyramid
+from .surface.halves import completed, plane_of
 from .surface.ordering import sorted_by_place
 from .surface.polygons import PolygonMesh
 from .surface.preparation import Component, bodies, repair
@@ -42,6 +44,7 @@ def decompose(
     progress: Progress | None = None,
     model: BoostedTrees | None = None,
     join_model: BoostedTrees | None = None,
+    mirror: ArrayLike | None = None,
 ) -> Decomposition:
     """Cut a mesh into parts.
 
@@ -63,6 +66,9 @@ def decompose(
         Model that judges cuts in the method "perceptual". Without it, the model that ships with the package.
     join_model : BoostedTrees, optional
         Model that judges which parts of different pieces belong together. Without it, the one that ships.
+    mirror : (4,) array_like of float, optional
+        For a half model: a plane, as its normal and its distance from the origin along it. What is decomposed is the
+        mesh together with its image behind that plane; the parts are those of the mesh given.
 
     Returns
     -------
@@ -87,6 +93,11 @@ def decompose(
     time of all other steps grows with the number of faces plus that of crossings of faces and levels.
     """
     parameters = Parameters.of(parameters)
+    if mirror is not None:
+        half, plane = PolygonMesh.of(vertices, faces, polygon), plane_of(mirror)
+        whole = completed(half, plane * np.array([1.0, 1.0, 1.0, 2.0**-half.exponent]))
+        return of_half(decompose(np.ldexp(whole.vertices, half.exponent), whole.triangles, parameters, whole.polygon,
+                                 progress, model, join_model), half)
     watch = Stopwatch(progress)
     with watch.stage("mesh", MESH_SHARE):
         given, ordering = sorted_by_place(PolygonMesh.of(vertices, faces, polygon))

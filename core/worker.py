@@ -52,7 +52,7 @@ def run(folder: Path) -> None:
         count, parameters = read_request(folder)
         for number in range(count):
             try:
-                result = decompose(*_arguments(folder, number, parameters))
+                result = decompose(**_arguments(folder, number, parameters))
             except ReebError as error:
                 say(shape=number, error=plain_error(error))
             else:
@@ -72,9 +72,9 @@ def say(**message: Any) -> None:
     sys.stdout.flush()
 
 
-def _arguments(folder: Path, number: int, parameters: Any) -> tuple:
+def _arguments(folder: Path, number: int, parameters: Any) -> dict[str, Any]:
     """What ``decompose`` is called with for a shape."""
-    vertices, triangles, polygon = read_shape(folder, number)
+    vertices, triangles, polygon, mirror = read_shape(folder, number)
     said: list[Any] = ["", 0.0]  # the last stage, and when
 
     def progress(stage: str, share: float) -> None:
@@ -84,7 +84,8 @@ def _arguments(folder: Path, number: int, parameters: Any) -> tuple:
             said[:] = stage, now
             say(shape=number, stage=stage, share=float(share))
 
-    return vertices, triangles, parameters, polygon, progress
+    return {"vertices": vertices, "faces": triangles, "parameters": parameters, "polygon": polygon,
+            "progress": progress, "mirror": mirror if len(mirror) else None}
 
 
 def _end_with_parent(folder: Path) -> None:

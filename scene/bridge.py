@@ -16,6 +16,7 @@ from ..core.sentence import Sentence
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
 from . import mesh_arrays, targets
+from .half_models import half_plane
 from .mesh_arrays import shown_points
 from .temporary import freed, removed
 
@@ -33,8 +34,10 @@ class Shape:
         The face of the mesh that each triangle lies in.
     stretch : (3, 3) float64
         Symmetric; takes the mesh's coordinates to ``vertices``.
+    mirror : (4,) float64 or (0,)
+        Of a half model the plane behind which its other half is, see ``half_models``.
     digest : str
-        Equal for equal arrays.
+        Equal for equal vertices, triangles and polygons.
     notes : tuple of Sentence
     """
 
@@ -42,12 +45,13 @@ class Shape:
     triangles: np.ndarray
     polygon: np.ndarray
     stretch: np.ndarray
+    mirror: np.ndarray
     digest: str
     notes: tuple[Sentence, ...]
 
 
 def read_shape(obj: bpy.types.Object) -> Shape:
-    """Read the mesh of an object: all of it, hidden or not, before any modifier."""
+    """Read the mesh of an object: all of it, hidden or not, before any modifier but what mirrors half a model."""
     mesh = obj.data
     if obj.mode == "EDIT":
         # A copy as a mesh of its own can be read in bulk; the edit mesh itself cannot.
@@ -62,8 +66,9 @@ def read_shape(obj: bpy.types.Object) -> Shape:
     vertices = points.astype(np.float64)
     if not np.array_equal(stretch, np.eye(3)):
         vertices = vertices @ stretch.T
+    mirror = half_plane(obj, vertices, stretch)
     digest = mesh_arrays.digest(vertices, triangles, polygon)
-    return Shape(vertices, triangles, polygon, stretch, digest, _notes(obj))
+    return Shape(vertices, triangles, polygon, stretch, mirror, digest, _notes(obj, len(mirror) > 0))
 
 
 def world_stretch(obj: bpy.types.Object) -> np.ndarray:
@@ -105,10 +110,10 @@ def face_centers(obj: bpy.types.Object) -> np.ndarray:
     return mesh_arrays.corner_table(obj.data).face_means(points)
 
 
-def _notes(obj: bpy.types.Object) -> tuple[Sentence, ...]:
+def _notes(obj: bpy.types.Object, is_half: bool) -> tuple[Sentence, ...]:
     notes = []
-    # One of ours only moves the parts in the view.
-    count = sum(not modifier.name.startswith("Reeb Parts") for modifier in obj.modifiers)
+    # One of ours only moves the parts in the view; and the mirror of half a model was there.
+    count = sum(not modifier.name.startswith("Reeb Parts") for modifier in obj.modifiers) - is_half
     if count == 1:
         notes.append(Sentence("{name} was decomposed as it is before its modifier was applied.", name=obj.name))
     elif count:

@@ -73,7 +73,8 @@ class Worker:
         # Only its owner can open it.
         self.folder = Path(tempfile.mkdtemp(prefix="reeb_parts_", dir=bpy.app.tempdir or None))
         try:
-            handover.write_request(self.folder, [(s.vertices, s.triangles, s.polygon) for s in shapes], parameters)
+            given = [(s.vertices, s.triangles, s.polygon, s.mirror) for s in shapes]
+            handover.write_request(self.folder, given, parameters)
             self._process = self._start(python)
         except BaseException:
             shutil.rmtree(self.folder, ignore_errors=True)

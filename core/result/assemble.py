@@ -95,7 +95,7 @@ def assemble(
     -------
     decomposition : Decomposition
     """
-    face_graph = _face_graph(given, working)
+    face_graph = face_graph_of(given, working)
     contacts = _contacts(given, working, results)
     label, hierarchy = _face_candidates(given, working, results, face_graph, parameters)
     mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
@@ -106,20 +106,65 @@ def assemble(
     label, hierarchy = settle(face_graph.with_contacts(contacts), label, hierarchy)
     face_graph = face_graph.with_contacts(contacts)
     values, notes = _vertex_field(given, working, results, parameters)
-    sides = np.repeat(working.polygon, 3), working.mesh.edges.face_edges.ravel()
-    pairs, length = boundaries(face_graph, label, *sides, working.mesh.edge_length)
-    corners = given.triangles.faces.ravel()
-    weight = np.repeat(given.triangles.face_area + LEAST_WEIGHT * given.triangles.area, 3)
-    vertex = majority(corners, np.repeat(label[given.polygon], 3), weight, given.triangles.n_vertices)
+    tables = tables_of(given, working, face_graph, label)
     nodes, points = _graph_candidates(results, label)
     return Decomposition(
-        candidates=label, vertex_candidates=vertex,
-        candidate_area=np.bincount(label, face_graph.area), candidate_pairs=pairs,
-        candidate_pair_length=length, hierarchy=hierarchy, field=values,
+        candidates=label, vertex_candidates=tables.vertex_candidate,
+        candidate_area=tables.candidate_area, candidate_pairs=tables.pairs,
+        candidate_pair_length=tables.pair_length, hierarchy=hierarchy, field=values,
         graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
         point_candidate=points, contacts=contacts, mirror=mirror.plane, face_twin=mirror.twin,
         face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters, notes=working.notes + notes,
         seconds=seconds)
+
+
+@dataclass(frozen=True, eq=False)
+class CandidateTables:
+    """What follows from the candidates of the caller's faces.
+
+    Attributes
+    ----------
+    face_area : (p,) float64
+    vertex_candidate : (n,) int64
+        Candidate that has most of the faces at each vertex; -1 for a vertex of no face.
+    candidate_area : (c,) float64
+    pairs : (e, 2) int64
+        Candidates that touch, smaller index first.
+    pair_length : (e,) float64
+        Of the boundary between them.
+    """
+
+    face_area: np.ndarray
+    vertex_candidate: np.ndarray
+    candidate_area: np.ndarray
+    pairs: np.ndarray
+    pair_length: np.ndarray
+
+
+def tables_of(given: PolygonMesh, working: WorkingMesh, graph: FaceGraph, label: np.ndarray) -> CandidateTables:
+    """Measure the candidates of the caller's faces.
+
+    Parameters
+    ----------
+    given : PolygonMesh
+        p faces and n vertices.
+    working : WorkingMesh
+        Made of it.
+    graph : FaceGraph
+        Which of the p faces touch.
+    label : (p,) int64
+        Candidate of each face, 0..c-1.
+
+    Returns
+    -------
+    tables : CandidateTables
+    """
+    sides = np.repeat(working.polygon, 3), working.mesh.edges.face_edges.ravel()
+    pairs, length = boundaries(graph, label, *sides, working.mesh.edge_length)
+    corners = given.triangles.faces.ravel()
+    weight = np.repeat(given.triangles.face_area + LEAST_WEIGHT * given.triangles.area, 3)
+    vertex = majority(corners, np.repeat(label[given.polygon], 3), weight, given.triangles.n_vertices)
+    return CandidateTables(graph.area, vertex, np.bincount(label, graph.area), pairs, length)
 
 
 def _in_field(graph: ReebGraph, field: ScalarField) -> ReebGraph:
@@ -130,8 +175,11 @@ def _in_field(graph: ReebGraph, field: ScalarField) -> ReebGraph:
                    point_value=np.interp(graph.point_value, *known))
 
 
-def _face_graph(given: PolygonMesh, working: WorkingMesh) -> FaceGraph:
-    """Which of the caller's faces touch. A face that the working copy lacks touches one neighbor, along length 0."""
+def face_graph_of(given: PolygonMesh, working: WorkingMesh) -> FaceGraph:
+    """Which of the caller's faces touch. A face that the working copy lacks touches one neighbor, along length 0.
+
+    given : PolygonMesh. working : WorkingMesh, made of it.
+    """
     mesh = working.mesh
     pairs = working.polygon[mesh.edges.pairs]
     apart = pairs[:, 0] != pairs[:, 1]

@@ -581,6 +581,10 @@ TEXTS = {
     "{n} of the loose parts are so even that nothing protrudes: one part each.":
         "Lose Teile, die so gleichmäßig sind, dass nichts vorsteht: {n}; sie sind je ein einziges Teil.",
     "Nothing protrudes: the mesh is one part.": "Nichts steht vor: das Mesh ist ein einziges Teil.",
+    "The mesh was decomposed together with its mirror image.":
+        "Das Mesh wurde zusammen mit seinem Spiegelbild zerlegt.",
+    "A mirror plane is four numbers: its normal, and its distance from the origin.":
+        "Eine Spiegelebene sind vier Zahlen: ihre Normale und ihr Abstand vom Ursprung.",
     "{name} was decomposed as it is before its modifier was applied.":
         "{name} wurde zerlegt, wie es vor Anwendung seines Modifikators ist.",
     "{name} was decomposed as it is before its {n} modifiers were applied.":

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The result for a half model, from that of the whole of which it is one side."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..sentence import Sentence
+from ..surface.labels import connect, majority
+from ..surface.polygons import PolygonMesh
+from ..surface.preparation import repair
+from .assemble import LEAST_WEIGHT, face_graph_of, settle, tables_of
+from .decomposition import Decomposition
+
+
+def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
+    """Keep of a result what concerns the first half of the faces, the others being their images.
+
+    Parameters
+    ----------
+    whole : Decomposition
+        2 p faces; face k + p is the mirror image of face k.
+    given : PolygonMesh
+        The half model: p polygons, and n vertices, which are the first of the whole.
+
+    Returns
+    -------
+    decomposition : Decomposition
+        Of p faces. Its graph is that of the whole; a node of the other side lies in the candidate of which it is the
+        image. Parts merge as on the whole, and wherever their images do.
+    """
+    count, working = given.n_polygons, repair(given)
+    graph = face_graph_of(given, working)
+    contacts = whole.contacts % count
+    contacts = contacts[contacts[:, 0] != contacts[:, 1]]
+    touching = graph.with_contacts(contacts)
+    label, hierarchy = settle(touching, connect(graph, whole.candidates[:count]), whole.hierarchy)
+    tables = tables_of(given, working, touching, label)
+    # Where the nodes of either side lie: most of a candidate of the whole is, mirrored back, in one of the half.
+    area = np.tile(tables.face_area, 2)
+    home = majority(whole.candidates, np.tile(label, 2), area + LEAST_WEIGHT * area.sum(), whole.n_candidates)
+    nothing = np.empty(0, np.int64)
+    found = whole.scaled(-given.exponent)
+    return replace(
+        found, candidates=label, vertex_candidates=tables.vertex_candidate, candidate_area=tables.candidate_area,
+        candidate_pairs=tables.pairs, candidate_pair_length=tables.pair_length, hierarchy=hierarchy,
+        field=whole.field[:given.triangles.n_vertices], node_candidate=home[whole.node_candidate],
+        point_candidate=home[whole.point_candidate], contacts=contacts, mirror=np.empty(0), face_twin=nothing,
+        face_side=nothing.astype(np.int8),
+        notes=(Sentence("The mesh was decomposed together with its mirror image."), *whole.notes),
+    ).scaled(given.exponent)

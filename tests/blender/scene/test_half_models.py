@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Half models: the first modifier mirrors them, and their parts are those of the whole."""
+
+import importlib
+
+import bpy
+import numpy as np
+import pytest
+import shapes
+from mathutils import Matrix
+
+
+@pytest.fixture
+def half():
+    figure = shapes.mirrored_figure()
+    kept = figure.faces[(figure.vertices[figure.faces, 0] >= -1e-9).all(axis=1)]
+    used, faces = np.unique(kept, return_inverse=True)
+    return shapes.Shape(figure.vertices[used], faces.reshape(-1, 3))
+
+
+@pytest.fixture
+def plane_of(package):
+    bridge = importlib.import_module(f"{package}.scene.bridge")
+
+    def read(obj):
+        bpy.context.view_layer.update()
+        shape = bridge.read_shape(obj)
+        return shape.mirror, shape
+
+    return read
+
+
+@pytest.fixture
+def mirrored(make, half):
+    obj = make(half, "Figure")
+    obj.modifiers.new("Mirror", "MIRROR")
+    return obj
+
+
+def face_numbers(mesh):
+    return np.array([value.value for value in mesh.attributes["reeb_part"].data])
+
+
+def seen_sides(obj, plane, stretch):
+    """Vertices of the evaluated mesh in coordinates of the shape, and their heights above the plane."""
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    points = np.array([v.co for v in evaluated.vertices]) @ stretch.T
+    return points, points @ plane[:3] - plane[3]
+
+
+def test_the_parts_of_the_whole(mirrored, half, package):
+    core = importlib.import_module(f"{package}.core")
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+    expected = core.decompose(half.vertices.astype(np.float32), half.faces, mirror=(1, 0, 0, 0)).parts()
+    numbers = face_numbers(mirrored.data)
+    pairs = set(zip(numbers.tolist(), expected.labels.tolist(), strict=True))
+    assert len(pairs) == expected.count == len(mirrored.data.reeb_parts.parts)
+    notes = mirrored.data.reeb_parts.notes
+    assert "mirror image" in notes
+    assert "before its modifier" not in notes
+    # Nothing becomes stale when the modifier is hidden.
+    mirrored.modifiers[0].show_viewport = False
+    bpy.context.view_layer.update()
+    assert importlib.import_module(f"{package}.scene.store").has_parts(mirrored)
+
+
+def own(obj):
+    obj.scale, obj.rotation_euler, obj.location = (1.5, 0.7, 2.0), (0.3, 1.0, -0.4), (1, 2, 3)
+
+
+def by_an_object(obj):
+    """A mirror object beside the model, turned; the model is scaled unevenly."""
+    other = bpy.data.objects.new("Mirror", None)
+    bpy.context.scene.collection.objects.link(other)
+    other.location, other.rotation_euler, obj.scale = (-1.5, 0.5, 0.1), (0, 0.2, 0.1), (1, 2, 1)
+    obj.modifiers[0].mirror_object = other
+
+
+def by_another_axis(obj):
+    obj.data.transform(Matrix(((0, 1, 0, 0), (1, 0, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))))
+    obj.modifiers[0].use_axis = (False, True, False)
+
+
+@pytest.mark.parametrize("change", [own, by_an_object, by_another_axis])
+def test_the_plane_is_that_of_what_is_seen(mirrored, plane_of, change):
+    change(mirrored)
+    plane, shape = plane_of(mirrored)
+    assert len(plane) == 4
+    points, height = seen_sides(mirrored, plane, shape.stretch)
+    image = points - 2 * height[:, None] * plane[:3]
+    apart = np.linalg.norm(image[:, None] - points, axis=2).min(axis=1)
+    assert apart.max() < 2e-3 * np.ptp(points)
+
+
+def two_axes(obj):
+    obj.modifiers[0].use_axis = (True, True, False)
+
+
+def cuts_off(obj):
+    obj.modifiers[0].use_bisect_axis = (True, False, False)
+
+
+def is_hidden(obj):
+    obj.modifiers[0].show_viewport = False
+
+
+def comes_second(obj):
+    obj.modifiers.new("Array", "ARRAY")
+    obj.modifiers.move(1, 0)
+
+
+def lies_on_both_sides(obj):
+    obj.data.transform(Matrix.Translation((-0.3, 0, 0)))
+
+
+def shears(obj):
+    """Turned below a parent of uneven scale: what is seen is no mirror image in the world."""
+    parent = bpy.data.objects.new("Parent", None)
+    bpy.context.scene.collection.objects.link(parent)
+    obj.parent, parent.scale, obj.rotation_euler = parent, (1, 3, 1), (0, 0, 0.5)
+
+
+@pytest.mark.parametrize("change", [two_axes, cuts_off, is_hidden, comes_second, lies_on_both_sides, shears])
+def test_other_modifiers_are_left_alone(mirrored, plane_of, change):
+    change(mirrored)
+    assert len(plane_of(mirrored)[0]) == 0

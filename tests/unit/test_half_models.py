@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Half models get the parts of the whole of which they are one side."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import Decomposition, MeshError, decompose
+from core.surface.arrays import renumbered
+from core.surface.halves import completed, is_one_side, plane_of
+from core.surface.mesh import TriMesh
+from core.surface.polygons import PolygonMesh
+
+X = np.array([1.0, 0, 0, 0])
+
+
+def half_of(shape):
+    """The faces of a symmetric shape on one side of the plane x = 0."""
+    kept = shape.faces[(shape.vertices[shape.faces, 0] >= -1e-9).all(axis=1)]
+    used, faces = renumbered(kept)
+    return shapes.Shape(shape.vertices[used], faces)
+
+
+def posed(shape, plane, seed):
+    """A shape turned, scaled and moved, and the plane with it."""
+    turn, scale, offset = shapes.rotation(np.random.default_rng(seed)), 10.0**(seed - 1), np.array([0.3, -2.0, 1.0])
+    normal = turn @ plane[:3]
+    return (shapes.Shape(scale * shape.vertices @ turn.T + offset, shape.faces),
+            np.append(normal, scale * plane[3] + normal @ offset))
+
+
+def same_partition(one, two):
+    pairs = set(zip(one.tolist(), two.tolist(), strict=True))
+    return len(pairs) == len(set(one.tolist())) == len(set(two.tolist()))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_parts_of_the_whole(seed):
+    half, plane = posed(half_of(shapes.mirrored_figure()), X, seed)
+    whole = completed(PolygonMesh.of(*half), plane)
+    expected = decompose(whole.vertices, whole.triangles)
+    found = decompose(*half, mirror=plane * (5.0, 5.0, 5.0, 1.0))
+    assert found.n_faces == len(half.faces)
+    assert found.n_vertices == len(half.vertices)
+    for detail in (0.2, 0.5, 0.8):
+        count = len(half.faces)
+        assert same_partition(found.parts(detail).labels, expected.parts(detail).labels[:count]), detail
+    assert found.parts(0.0).count == 1
+    assert found.graph.n_nodes == expected.graph.n_nodes
+    np.testing.assert_allclose(found.field, expected.field[:len(half.vertices)])
+    # The figure is open at its ends, and there a few vertices are moved onto the plane.
+    assert found.candidate_area.sum() == pytest.approx(expected.candidate_area.sum() / 2, rel=1e-4)
+    _nodes_lie_in_their_parts(found, expected)
+
+
+def _nodes_lie_in_their_parts(found, expected):
+    """Each node lies in the part of the half in which its part of the whole, or the image of that, is."""
+    parts, whole = found.parts(), expected.parts()
+    home = np.full(whole.count, -1)
+    home[whole.labels[:found.n_faces]] = parts.labels
+    twin = home[whole.twin]
+    for mine, of_whole in zip(parts.node_part, whole.node_part, strict=True):
+        assert mine in (home[of_whole], twin[of_whole])
+
+
+def test_the_graph_has_the_loops_of_the_whole():
+    half = half_of(shapes.torus())
+    assert decompose(*half, mirror=X).graph.n_loops == 1
+    assert decompose(*half).graph.n_loops == 0
+
+
+@pytest.mark.parametrize(("shape", "euler"), [
+    (shapes.torus(), 0), (shapes.moved(shapes.subdivide(shapes.subdivide(shapes.box())), (-0.5, 0, 0)), 2)])
+def test_the_border_at_the_plane_is_closed(shape, euler):
+    half = half_of(shape)
+    half.vertices[np.abs(half.vertices[:, 0]) < 1e-9, 0] = 3e-4  # not quite on the plane
+    whole = completed(PolygonMesh.of(*half), X)
+    mesh = TriMesh(whole.vertices, whole.triangles)
+    sides = np.bincount(mesh.edges.face_edges.ravel())
+    assert (sides == 2).all()
+    assert mesh.n_vertices - len(sides) + mesh.n_faces == euler
+    assert (np.bincount(whole.polygon) == 1).all()
+    count = len(half.faces)
+    np.testing.assert_allclose(mesh.face_centroids[:count] * (-1, 1, 1), mesh.face_centroids[count:], atol=1e-12)
+    np.testing.assert_allclose(mesh.face_normals[:count] * (-1, 1, 1), mesh.face_normals[count:], atol=1e-12)
+
+
+def test_stored_and_read_again():
+    half = half_of(shapes.mirrored_figure())
+    found = decompose(*half, mirror=X)
+    read = Decomposition.from_bytes(found.to_bytes(), (found.n_vertices, found.n_faces))
+    np.testing.assert_array_equal(read.parts().labels, found.parts().labels)
+
+
+@pytest.mark.parametrize("plane", [
+    (0, 0, 0, 1), (1, 0, 0), (1, 0, 0, np.nan), (np.inf, 0, 0, 0), "x", None, (1j, 0, 0, 0), [[1, 0, 0, 0]]])
+def test_what_is_no_plane(plane):
+    with pytest.raises(MeshError, match="four numbers"):
+        plane_of(plane)
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1e200])
+def test_planes_have_a_normal_of_length_one(scale):
+    np.testing.assert_allclose(plane_of((3 * scale, 4 * scale, 0, 2)), (0.6, 0.8, 0, 2))
+
+
+def test_one_side():
+    shape = shapes.icosphere(2)
+    assert not is_one_side(shape.vertices, X)
+    assert is_one_side(half_of(shape).vertices, X)
+    assert is_one_side(half_of(shape).vertices - (1e-3, 0, 0), X)
+    assert is_one_side(-half_of(shape).vertices, X)
