@@ -5,6 +5,7 @@ import bpy
 
 from ..scene import jobs
 from . import (
+    alike,
     armature,
     checks,
     clear,
@@ -24,8 +25,8 @@ from . import (
     unwrap,
 )
 
-MODULES = (decompose, detail, clear, settings, parts, pick, edit, slide, cut, paint, graph, separate, checks, outputs,
-           unwrap, export, armature)
+MODULES = (decompose, detail, clear, settings, parts, alike, pick, edit, slide, cut, paint, graph, separate, checks,
+           outputs, unwrap, export, armature)
 #: Every operator that one of the modules defines.
 CLASSES = tuple(cls for module in MODULES for cls in vars(module).values()
                 if isinstance(cls, type) and issubclass(cls, bpy.types.Operator))

@@ -139,6 +139,14 @@ def mark(mesh: bpy.types.Mesh, action: str, with_faces: Container[int] = ()) -> 
         }[action]
 
 
+def mark_numbers(mesh: bpy.types.Mesh, numbers: Container[int]) -> None:
+    """Mark the parts of some numbers and no others; the active part stays."""
+    transaction.keep_result(mesh)
+    with quiet.quiet():
+        for part in mesh.reeb_parts.parts:
+            part.selected = part.number in numbers
+
+
 @reaction
 def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The user has clicked a part in the list: only it is chosen, and in Edit Mode its faces are selected."""

@@ -83,8 +83,12 @@ def _take_name(part: bpy.types.PropertyGroup) -> None:
 
 
 def give_names(mesh: bpy.types.Mesh, names: dict[int, str]) -> int:
-    """Name parts by number; a name that another part has gets a number behind it. How many parts were named."""
-    parts = [part for part in mesh.reeb_parts.parts if part.number in names]
+    """Name parts by number, in the order given; a name that another part has gets a number behind it.
+
+    Returns how many parts were named.
+    """
+    listed = {part.number: part for part in mesh.reeb_parts.parts}
+    parts = [listed[number] for number in names if number in listed]
     transaction.keep_result(mesh)
     with quiet.quiet():
         for part in parts:

@@ -23,7 +23,9 @@ def _draw_operators(layout: bpy.types.UILayout, *entries: tuple[str, str]) -> No
 def draw_part_menu(layout: bpy.types.UILayout) -> None:
     """All that can be done with the chosen parts; also in the list's context menu."""
     layout.operator_menu_enum("reeb_parts.mark", "action", icon="CHECKBOX_HLT")
-    _draw_operators(layout, ("reeb_parts.suggest_names", "SORTALPHA"), ("reeb_parts.frame", "VIEWZOOM"))
+    _draw_operators(
+        layout, ("reeb_parts.suggest_names", "SORTALPHA"), ("reeb_parts.names_from_active", "NONE"),
+        ("reeb_parts.find_similar", "NONE"), ("reeb_parts.frame", "VIEWZOOM"))
     layout.separator()
     _draw_operators(
         layout, ("reeb_parts.merge", "AUTOMERGE_ON"), ("reeb_parts.merge_neighbour", "NONE"),

@@ -32,6 +32,8 @@ OPERATORS = {
     "Show All": "Alles zeigen",
     "Show All Parts": "Alle Teile zeigen",
     "Mark Parts": "Teile ankreuzen",
+    "Find Similar Parts": "Ähnliche Teile finden",
+    "Names from Active": "Namen vom aktiven Objekt",
     "Pick Parts": "Teile anklicken",
     # Teile von Hand
     "Merge Parts": "Teile zusammenführen",
@@ -430,6 +432,16 @@ TEXTS = {
     "Show all": "Alle zeigen",
     "Show every face again": "Alle Flächen wieder zeigen",
     "Mark parts in the list": "Teile in der Liste ankreuzen",
+    "Mark the parts that are like the active one in size, shape and place, on all objects of the scene":
+        "Die Teile ankreuzen, die dem aktiven in Größe, Form und Lage ähneln, an allen Objekten der Szene",
+    "Difference": "Unterschied",
+    "All objects": "Alle Objekte",
+    "Name the parts of all decomposed objects, not only of selected ones":
+        "Die Teile aller zerlegten Objekte benennen, nicht nur der ausgewählten",
+    "How much parts may differ: 0 finds copies only, 1 most parts of a kind":
+        "Wie sehr Teile sich unterscheiden dürfen: 0 findet nur Kopien, 1 die meisten Teile einer Art",
+    "Give parts of the other selected objects the names of the same parts of the active one, in any pose":
+        "Teilen der anderen ausgewählten Objekte die Namen derselben Teile des aktiven geben, in jeder Haltung",
     "Mark every part": "Jedes Teil ankreuzen",
     "None": "Keine",
     "Mark no part": "Kein Teil ankreuzen",
@@ -542,19 +554,8 @@ TEXTS = {
     "3MF": "3MF",
     "glTF Binary": "glTF Binär",
     "With materials and textures": "Mit Materialien und Texturen",
-    "Make an armature with a bone for each part, along the part's centre line, that moves the mesh smoothly":
-        "Ein Skelett mit einem Knochen für jedes Teil erstellen, entlang seiner Mittellinie, das das Mesh weich bewegt",
-    "Weights": "Gewichte",
-    "How much each bone moves each vertex; at most four bones move one":
-        "Wie sehr jeder Knochen jeden Punkt bewegt; höchstens vier Knochen bewegen einen",
-    "Change smoothly across the cuts, as far as the limb is thick":
-        "Ändern sich weich über die Schnitte hinweg, so weit wie das Glied dick ist",
-    "Automatic": "Automatisch",
-    "Blender's own, by heat from the bones": "Blenders eigene, durch Wärme von den Knochen",
-    "Each part moves as a whole, by its own vertex group":
-        "Jedes Teil bewegt sich als Ganzes, durch seine eigene Punktgruppe",
-    "Blender finds no automatic weights for {name}. Choose smooth weights.":
-        "Blender findet keine automatischen Gewichte für {name}. Bitte weiche Gewichte wählen.",
+    "Make an armature with a bone for each part, along the part's centre line, as a start for a rig":
+        "Ein Skelett mit einem Knochen für jedes Teil erstellen, entlang seiner Mittellinie, als Anfang für ein Rig",
     "Move the mesh": "Mesh bewegen",
     "Add an Armature modifier, so that posing the bones moves the parts":
         "Einen Skelett-Modifikator hinzufügen, sodass die Posen der Knochen die Teile bewegen",
@@ -697,6 +698,12 @@ TEXTS = {
     "Object Mode shows hidden faces all the same; Edit Mode and paint modes do not":
         "Der Objektmodus zeigt verborgene Flächen trotzdem; Bearbeitungs- und Malmodi nicht",
     "There is no part with the number {number}.": "Es gibt kein Teil mit der Nummer {number}.",
+    "Similar parts: {n}, marked on {objects} objects": "Ähnliche Teile: {n}, angekreuzt an {objects} Objekten",
+    "Parts named: {n}, on {objects} objects": "Benannte Teile: {n}, an {objects} Objekten",
+    "No part of {name} has a name of its own. Double-click parts in the list to name them.":
+        "Kein Teil von {name} hat einen eigenen Namen. Ein Doppelklick auf ein Teil der Liste benennt es.",
+    "Select other decomposed objects, too; the active one gives the names.":
+        "Bitte auch andere zerlegte Objekte auswählen; das aktive gibt die Namen.",
     "{name} is locked. Unlock it in the list first.": "{name} ist gesperrt. Bitte zuerst in der Liste entsperren.",
     "Mark the parts to merge in the list, two or more.":
         "Bitte die Teile in der Liste ankreuzen, die zusammengeführt werden sollen, mindestens zwei.",

@@ -114,6 +114,14 @@ def one_part(obj):
     obj.data.reeb_parts.n_parts = 1
 
 
+def named_beside_a_copy(obj):
+    """A part has a name of its own, and there is a copy of the object with a mesh of its own."""
+    obj.data.reeb_parts.parts[1].name = "Branch Part 1"  # which is known as ours
+    other = obj.copy()
+    other.data = obj.data.copy()
+    bpy.context.scene.collection.objects.link(other)
+
+
 def other_parameters(obj):
     """A scene whose parameters are not those of its preset."""
     bpy.context.scene.reeb_parts.equalize = False
@@ -181,10 +189,12 @@ CASES = {
     "materials": Case(changes=SLOTS),
     "unwrap": Case(changes=("/active UV map",)),
     "export": Case({"directory": FOLDER, "format": "ply"}),
-    "armature": Case(changes=("/modifiers",)),
+    "armature": Case(),
     "show_colors": Case(),
     "suggest_names": Case(),
     "show_graph": Case(changes=("/settings",)),
+    "find_similar": Case(prepare=choose(1)),
+    "names_from_active": Case({"everywhere": True}, prepare=named_beside_a_copy),
 }  # fmt: skip
 
 
@@ -268,7 +278,7 @@ def flag(mesh, name, vertices, rule):
         items.foreach_set(name, [rule(vertices[i] for i in item.vertices) for item in items])
 
 
-OURS = re.compile(r"\.?reeb_|Reeb |([\w.]+ |DEF-)?Parts? \d|Parts of |"
+OURS = re.compile(r"\.?reeb_|Reeb |([\w.]+ )?Parts? \d|Parts of |"
                   r"body|.*(limb|tip|piece|joint|middle)(\.\w+)*$")  # nodes, and names that are suggested
 RESULT = ("result", "made", "users")  # what an operator writes by rights, and what counts its pieces
 FLAGS = re.compile(r"\.select_|\.hide_|\.?uv_seam|\.uv_select|sharp_|material_index")

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts that are like a part, on all models of the file, and names of parts carried from one model to another."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
+
+from . import bridge, part_list, part_names, reactions, store
+from .errors import SceneError
+
+
+def objects_with_parts(context: bpy.types.Context, selected: bool = False) -> list[bpy.types.Object]:
+    """Objects of the view layer whose parts can be worked on, the active one first; one per mesh.
+
+    selected : bool, whether only the active one and selected ones. Those are left out that are linked from a file, were
+    edited since they were decomposed, or are being edited.
+    """
+    layer = context.view_layer
+    objects = [layer.objects.active, *(layer.objects.selected if selected else layer.objects)]
+    first: dict[bpy.types.Mesh, bpy.types.Object] = {}
+    for obj in objects:
+        if store.has_parts(obj) and obj.data not in first and _can_be_read(obj):
+            first[obj.data] = obj
+    return list(first.values())
+
+
+def _can_be_read(obj: bpy.types.Object) -> bool:
+    try:
+        part_list.check_parts(obj)
+        store.load(obj.data)
+    except SceneError:
+        return False
+    return True
+
+
+def find_similar(context: bpy.types.Context, obj: bpy.types.Object, limit: float) -> tuple[int, int]:
+    """Mark the parts that are like the active part of an object, in the lists of all objects.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+        In Object Mode, with parts.
+    limit : float
+        How far from the active part those are that are marked, see ``core.uses.descriptors.distances``.
+
+    Returns
+    -------
+    n_parts, n_objects : int
+        How many are marked besides the active part, and on how many objects.
+    """
+    from ..core.uses.descriptors import distances
+
+    objects = objects_with_parts(context)
+    described = {other: _descriptors(other) for other in objects}
+    numbers, rows = described[obj]
+    one = rows[numbers.tolist().index(part_list.active_number(obj.data))]
+    n_parts = n_objects = 0
+    for other in objects:
+        numbers, rows = described[other]
+        found = set(numbers[distances(one, rows) <= limit].tolist())
+        part_list.mark_numbers(other.data, found)
+        n_parts += len(found) - (other == obj)
+        n_objects += bool(found)
+    return n_parts, n_objects
+
+
+def _descriptors(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
+    """Number and descriptor of each part of an object, (count,) int64 and (count, d) float64."""
+    from ..core.uses.descriptors import part_descriptors
+
+    numbered = store.load(obj.data).shown_parts()
+    shape = bridge.read_shape(obj)
+    return numbered.numbers, part_descriptors(shape.vertices, shape.triangles, numbered.parts, shape.polygon)
+
+
+def carry_names(context: bpy.types.Context, source: bpy.types.Object, everywhere: bool) -> tuple[int, int]:
+    """Give the parts of other objects the names of those parts of one that they correspond to.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    source : bpy.types.Object
+        In Object Mode, with parts, of which the user has named some.
+    everywhere : bool
+        All objects with parts, not only selected ones.
+
+    Returns
+    -------
+    n_parts, n_objects : int
+        How many parts were named, and on how many objects.
+
+    Raises
+    ------
+    SceneError
+        No part of the source has a name of its own, or no other such object has parts.
+    """
+    names = part_names.kept_names(source.data)
+    targets = [obj for obj in objects_with_parts(context, not everywhere) if obj.data != source.data]
+    if not names:
+        raise SceneError(rpt_("No part of {name} has a name of its own. Double-click parts in the list to name "
+                              "them.").format(name=source.name))
+    if not targets:
+        raise SceneError(rpt_("Select other decomposed objects, too; the active one gives the names."))
+    return sum(_carry(names, source, target) for target in targets), len(targets)
+
+
+def _carry(names: dict[int, str], source: bpy.types.Object, target: bpy.types.Object) -> int:
+    """Name the parts of a target; how many got a name."""
+    numbered = store.load(target.data).shown_parts()
+    found, share = _corresponding(source, target)
+    wanted = {number: names[other] for number, other in zip(numbered.numbers.tolist(), found, strict=True)
+              if other in names}
+    surest = dict(zip(numbered.numbers.tolist(), (share * numbered.parts.share).tolist(), strict=True))
+    mesh = target.data
+    # Their former names are free for others.
+    reactions.give_names(mesh, {number: part_names.own_name(mesh, number) for number in wanted})
+    # Of several parts that come from one, the one that most of it goes to has the plain name.
+    return reactions.give_names(
+        mesh, {number: wanted[number] for number in sorted(wanted, key=lambda number: -surest[number])})
+
+
+def _corresponding(source: bpy.types.Object, target: bpy.types.Object) -> tuple[list[int], np.ndarray]:
+    """Number of the source's part for each part of the target, and how sure that is, (count,) 0..1."""
+    from ..core.surface.labels import majority
+    from ..core.uses.correspondence import carried_labels, sample_surface
+
+    from_parts, to_parts = (store.load(obj.data).shown_parts() for obj in (source, target))
+    shapes = [bridge.read_shape(obj) for obj in (source, target)]
+    if np.array_equal(shapes[0].triangles, shapes[1].triangles):
+        # The same mesh in another pose: face by face.
+        a, b, c = shapes[1].vertices[shapes[1].triangles].transpose(1, 0, 2)
+        area = np.bincount(shapes[1].polygon, np.linalg.norm(np.cross(b - a, c - a), axis=1))
+        label = majority(to_parts.parts.labels, from_parts.parts.labels, area, to_parts.parts.count)
+        return from_parts.numbers[label].tolist(), np.ones(len(label))
+    samples = [sample_surface(shape.vertices, shape.triangles, shape.polygon) for shape in shapes]
+    label, share = carried_labels(samples[0], from_parts.parts.labels, samples[1], to_parts.parts.labels)
+    return from_parts.numbers[label].tolist(), share

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Similar parts are found on all objects, and names go to the same parts of a model in another pose."""
+
+import bpy
+import numpy as np
+import pytest
+import shapes
+from snapshot import activate
+
+
+@pytest.fixture
+def figures(make):
+    """A figure with parts that are named, and the same bent, finer and in another order; both selected."""
+    shape = shapes.mirrored_figure(0.15)
+    first = make(shape, "First")
+    bpy.ops.reeb_parts.decompose()
+    finer = shapes.subdivide(shape)
+    turn = np.radians(40) * finer.vertices[:, 1] / np.ptp(finer.vertices[:, 1])
+    radius = np.ptp(finer.vertices[:, 1]) / np.radians(40)
+    points = np.stack([finer.vertices[:, 0], (radius + finer.vertices[:, 2]) * np.sin(turn),
+                       (radius + finer.vertices[:, 2]) * np.cos(turn) - radius], axis=1)
+    second = make(shapes.shuffled(shapes.Shape(points, finer.faces), np.random.default_rng(0))[0], "Second")
+    bpy.ops.reeb_parts.decompose()
+    activate(first)
+    second.select_set(True)
+    return first, second
+
+
+def middles(obj):
+    """Middle of the faces of each part, by number."""
+    numbers = np.zeros(len(obj.data.polygons), np.int32)
+    obj.data.attributes["reeb_part"].data.foreach_get("value", numbers)
+    centers = np.array([polygon.center[:] for polygon in obj.data.polygons])
+    return {number: centers[numbers == number].mean(axis=0) for number in set(numbers.tolist())}
+
+
+def marked(obj):
+    return {part.number for part in obj.data.reeb_parts.parts if part.selected}
+
+
+def test_names_go_to_the_same_parts_in_another_pose_left_and_right(figures):
+    first, second = figures
+    for index, part in enumerate(first.data.reeb_parts.parts):
+        part.name = f"Own {index}"
+    names = {part.name: middles(first)[part.number] for part in first.data.reeb_parts.parts}
+    assert bpy.ops.reeb_parts.names_from_active() == {"FINISHED"}
+    assert len(second.data.reeb_parts.parts) == len(first.data.reeb_parts.parts)
+    places = middles(second)
+    for part in second.data.reeb_parts.parts:
+        distance = {name: np.linalg.norm(middle - places[part.number]) for name, middle in names.items()}
+        assert part.name == min(distance, key=distance.get)
+        assert part.name in second.vertex_groups
+    assert {part.name for part in first.data.reeb_parts.parts} == set(names)
+
+
+def test_of_the_same_mesh_every_face_keeps_its_name_and_parts_without_a_name_keep_theirs(figures):
+    first, second = figures
+    copy = first.copy()
+    copy.data = first.data.copy()
+    bpy.context.scene.collection.objects.link(copy)
+    second.select_set(False)
+    copy.select_set(True)
+    before = [part.name for part in copy.data.reeb_parts.parts]
+    first.data.reeb_parts.parts[2].name = "Named"
+    given = [part.name for part in first.data.reeb_parts.parts]
+    bpy.ops.reeb_parts.names_from_active()
+    assert [part.name for part in copy.data.reeb_parts.parts] == given
+    assert sum(a != b for a, b in zip(before, given, strict=True)) in (1, 2)  # with its mirror image
+
+
+def test_several_parts_that_come_from_one_get_names_that_differ(figures):
+    first, second = figures
+    first.data.reeb_parts.n_parts = 1
+    first.data.reeb_parts.parts[0].name = "Whole"
+    bpy.ops.reeb_parts.names_from_active()
+    names = [part.name for part in second.data.reeb_parts.parts]
+    assert len(set(names)) == len(names)
+    assert {name.partition(".")[0] for name in names} == {"Whole"}
+    assert "Whole" in names
+
+
+@pytest.mark.parametrize(("prepare", "words"), [
+    (lambda first, second: None, "No part of First has a name of its own"),
+    (lambda first, second: (setattr(first.data.reeb_parts.parts[0], "name", "Body"), second.select_set(False)),
+     "Select other decomposed objects"),
+], ids=["no names", "no others"])  # fmt: skip
+def test_what_is_missing_is_said(figures, prepare, words):
+    prepare(*figures)
+    with pytest.raises(RuntimeError, match=words):
+        bpy.ops.reeb_parts.names_from_active()
+
+
+def test_similar_parts_are_marked_on_all_objects(figures):
+    first, second = figures
+    parts = first.data.reeb_parts.parts
+    twins = {part.number: next((other.number for other in parts if other.own_name != part.own_name
+                                and bpy.utils.flip_name(other.own_name) == part.own_name), None) for part in parts}
+    index = next(index for index, part in enumerate(parts) if twins[part.number])
+    first.data.reeb_parts.active = index
+    number = parts[index].number
+    bpy.ops.reeb_parts.find_similar(limit=0.0)
+    assert marked(first) == {number}
+    assert marked(second) == set()
+    bpy.ops.reeb_parts.find_similar(limit=0.5)
+    assert {number, twins[number]} <= marked(first)
+    assert len(marked(second)) >= 2
+    assert parts[first.data.reeb_parts.active].number == number
+    bpy.ops.reeb_parts.find_similar(limit=1000.0)
+    assert (len(marked(first)), len(marked(second))) == (len(parts), len(second.data.reeb_parts.parts))
