@@ -25,6 +25,16 @@ AHEAD = 4
 PATIENCE = 20.0  # seconds that a scheduler may take to answer
 LOOK = 5.0  # seconds between two looks at how many workers there are
 
+#: Dask's own bookkeeping, on a cluster of our own. Its workers only wait for the processes of the models: a profile of
+#: them would show nothing, and many looks at them take processor time from the models. The history of jobs that the
+#: dashboard shows grows with the number of models.
+QUIET = {
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "500ms",
+    "distributed.admin.system-monitor.interval": "2s",
+    "distributed.scheduler.dashboard.tasks.task-stream-length": 1000,
+}
+
 _own = threading.local()
 
 
@@ -67,10 +77,8 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
     # The workers inherit that they do not hear Ctrl+C: it is for this process, which ends them.
     former = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        # What needs memory are the processes of the models, which have limits of their own. Dask's profile would only
-        # show how its threads wait for them.
-        with dask.config.set({"distributed.worker.profile.enabled": False,
-                              "distributed.admin.system-monitor.interval": "2s"}):
+        # What needs memory are the processes of the models, which have limits of their own.
+        with dask.config.set(QUIET):
             cluster = LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
                                    dashboard_address=dashboard, silence_logs=logging.CRITICAL)
             client = Client(cluster)
