@@ -4,7 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import bridge, piece_checks, piece_objects, piece_repairs, targets, transaction
+from ..scene import bridge, piece_checks, piece_objects, piece_repairs, redraw, targets, transaction
 from ..scene.errors import SceneError
 from ..scene.reporting import ReportingOperator
 from ..scene.selection import select_faces
@@ -33,6 +33,7 @@ class REEB_PARTS_OT_check_pieces(PieceOperator, bpy.types.Operator):
         chosen = [context.view_layer.objects.active, *context.view_layer.objects.selected]
         pieces = list(dict.fromkeys(obj for obj in chosen if piece_objects.original(obj) is not None))
         piece_objects.check_pieces(pieces)
+        redraw.sidebars()
         report_unsound(self, pieces)
 
 

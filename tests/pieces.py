@@ -100,6 +100,39 @@ def compare(obj, pieces) -> Pieces:
                   together / volume - 1, _voids(pieces) / abs(volume))  # fmt: skip
 
 
+def rims(meshes, size) -> tuple[float, float]:
+    """By how many degrees the rims of caps turn from edge to edge, and by how much per length, in radians times size.
+
+    A rim is where a cap and another face meet, or where an open edge is, and ends where it branches.
+    """
+    angles, total, length = [], 0.0, 0.0
+    for mesh in meshes:
+        corner_edge = _corners(mesh, "edge_index")
+        cap = np.repeat(_caps(mesh), _read(mesh.polygons, "loop_total", kind=np.int32))
+        faces, caps = (np.bincount(corner_edge[mask], minlength=len(mesh.edges)) for mask in (~cap, cap))
+        ends = _read(mesh.edges, "vertices", 2, np.int32)[(faces == 1) & (caps == 1)]
+        points = _read(mesh.vertices, "co", 3).astype(np.float64)
+        length += np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1).sum()
+        order = np.argsort(ends.ravel(), kind="stable")
+        count = np.bincount(ends.ravel(), minlength=len(points))
+        at = np.flatnonzero(count == 2)
+        place = np.cumsum(count)[at] - 2
+        other = ends[:, ::-1].ravel()[order]
+        back, ahead = points[at] - points[other[place]], points[other[place + 1]] - points[at]
+        angle = np.arctan2(np.linalg.norm(np.cross(back, ahead), axis=1), (back * ahead).sum(axis=1))
+        angles.append(angle)
+        total += angle.sum()
+    every = np.concatenate(angles) if angles else np.empty(0)
+    return (float(np.degrees(every.mean())) if len(every) else 0.0), total * size / max(length, 1e-30)
+
+
+def closed_volume(mesh) -> float | None:
+    """What a mesh encloses; None unless it is closed."""
+    if not (_edge_faces(mesh) == 2).all():
+        return None
+    return _volume(mesh, np.ones(len(mesh.polygons), bool))
+
+
 class _Sums:
     """Totals and largest differences by name."""
 
