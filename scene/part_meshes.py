@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 
 from ..core.surface.corners import edge_labels
-from . import caps, mesh_arrays, outputs, quiet
+from . import caps, mesh_arrays, outputs, quiet, smooth_faces
 from .outputs import kept_aside, materials
 from .temporary import freed, removed
 
@@ -140,9 +140,7 @@ def _made(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: list[int], clo
     plain, along_faces = mesh.copy(), 0
     with removed(bpy.data.meshes, plain):
         if smooth is not None:
-            from .smooth_faces import divide_faces  # imports SciPy
-
-            face_numbers, cuts = divide_faces(plain, face_numbers, smooth, along)
+            face_numbers, cuts = smooth_faces.divide_faces(plain, face_numbers, smooth, along)
             along_faces = cuts.kept
         edge, (vertex, face) = mesh_arrays.corner_edges(plain), mesh_arrays.face_corners(plain)
         cut = mesh_arrays.cut_edges(plain, face_numbers)

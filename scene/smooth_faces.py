@@ -8,15 +8,18 @@ weights, and hand on what faces and edges do.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
 import numpy as np
 from bmesh.types import BMesh, BMFace, BMVert
 
-from ..core.uses.clean_cuts import CleanCuts, clean_cuts
 from . import mesh_arrays
 from .temporary import freed
+
+if TYPE_CHECKING:
+    from ..core.uses.clean_cuts import CleanCuts
 
 _NUMBER = "reeb_parts_face_number"
 
@@ -57,6 +60,8 @@ def divide_faces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.nda
 
 
 def _cuts(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> CleanCuts:
+    from ..core.uses.clean_cuts import clean_cuts  # imports SciPy
+
     table = mesh_arrays.corner_table(mesh, mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T)
     sides = np.stack(table.edge_labels(face_numbers), axis=1)
     whole = (sides[:, None] == along[None]).all(axis=2).any(axis=1) if len(along) else None

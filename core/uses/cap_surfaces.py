@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-from scipy.sparse import coo_array, csr_array
-from scipy.sparse.linalg import splu
-from scipy.spatial import cKDTree
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 # Inner points are as far from the curve as such a share of the distance between them.
 _AWAY = 0.8
@@ -56,6 +58,8 @@ def away_from_curve(flat: np.ndarray) -> np.ndarray:
 
     flat : (k, 2) float64, in units of its size. Returns (m, 2) float64, some of them outside of the curve.
     """
+    from scipy.spatial import cKDTree  # imported here, as below, for the reason that surface.arrays.components gives
+
     before = np.roll(flat, 1, axis=0)
     step = max(float(np.median(np.linalg.norm(flat - before, axis=1))), _LEAST)
     tree = cKDTree(np.concatenate([flat, (flat + before) / 2]))
@@ -77,6 +81,8 @@ def harmonic_weights(points: np.ndarray, triangles: np.ndarray) -> csr_array:
 
     points : (n, 2) float64. triangles : (t, 3) int64. Returns a symmetric (n, n) matrix.
     """
+    from scipy.sparse import coo_array
+
     rows, columns, weights = [], [], []
     for i in range(3):
         apex, p, q = (triangles[:, (i + j) % 3] for j in range(3))
@@ -109,6 +115,9 @@ def spread(weights: csr_array, values: np.ndarray, fixed: np.ndarray | None = No
     found : (n, c) float64
         Of all points; of those without a value only, (n - k, c), if the first have one.
     """
+    from scipy.sparse import coo_array
+    from scipy.sparse.linalg import splu
+
     n = weights.shape[0]
     known = np.arange(n) < len(values) if fixed is None else fixed
     free = np.flatnonzero(~known)
