@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A picture of objects in their part colours with their Reeb graphs drawn over them, for command-line runs.
+"""A picture of objects in their part colors with their Reeb graphs drawn over them, for command-line runs.
 
 Everything is set up in a scene of its own and removed afterwards; the objects' own scene, materials and
 render settings are left alone. Cycles on the processor renders, since that works on any machine.
@@ -61,7 +61,7 @@ def render_parts(objects: list[tuple[bpy.types.Object, bpy.types.Collection | No
     Parameters
     ----------
     objects : list of (bpy.types.Object, bpy.types.Collection or None)
-        Meshes with the colour attribute that the decomposition wrote, shown whether hidden or not, each with
+        Meshes with the color attribute that the decomposition wrote, shown whether hidden or not, each with
         the collection of its graph's curves and empties; None leaves the graph out.
     path : str or Path
         Where to write; the folder must exist.
@@ -118,7 +118,7 @@ def _place(data: bpy.types.ID, name: str, collection: bpy.types.Collection, made
 
 
 def _add_model(obj: bpy.types.Object, collection: bpy.types.Collection, made: list[bpy.types.ID]) -> None:
-    """The object's mesh in its part colours."""
+    """The object's mesh in its part colors."""
     mesh = obj.data.copy()
     name = mesh.color_attributes.active_color_name
     mesh.shade_smooth()
@@ -156,7 +156,7 @@ def _add_graph(graph: bpy.types.Collection, extent: float, collection: bpy.types
 
 def _material(name: str, made: list[bpy.types.ID], *, attribute: str | None = None,
               color: tuple[float, float, float] = (0.8, 0.8, 0.8)) -> bpy.types.Material:
-    """A matt material of one colour or of a colour attribute."""
+    """A matt material of one color or of a color attribute."""
     material = bpy.data.materials.new(name)
     _use_nodes(material)
     made.append(material)

@@ -116,22 +116,22 @@ class Parameters:
         0.5, 0.0, 1.0, "Detail",
         "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate")
     n_parts: int = _number(
-        0, 0, 100_000, "Number of parts",
+        0, 0, 100_000, "Number of Parts",
         "Exactly this many parts instead of a level of detail; 0 lets Detail decide")
     base_spacing: float = _number(
-        0.005, 0.0005, 0.05, "Base spacing",
+        0.005, 0.0005, 0.05, "Base Spacing",
         "Share of the area around each point that distances are measured from; smaller is "
         "slower and finer (the paper's 0.005 S)")
     equalize: bool = field(default=True, metadata={
-        "label": "Equalise",
+        "label": "Equalize",
         "description": "Give every range of distances the same area, so that long limbs do not "
                        "hide short ones (the paper's s(p))"})
     n_slabs: int = _number(
         100, 8, 1000, "Levels",
         "Number of slabs the surface is cut into before parts are formed (1 / epsilon)")
     small_region: float = _number(
-        0.05, 0.0005, 0.5, "Small region",
-        "Parts smaller than this share of the largest one join a neighbour; 0.01 keeps fingers")
+        0.05, 0.0005, 0.5, "Small Region",
+        "Parts smaller than this share of the largest one join a neighbor; 0.01 keeps fingers")
     concavity_weight: float = _number(
         0.5, 0.0, 1.0, "Concavity",
         "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)")
@@ -140,10 +140,10 @@ class Parameters:
         "How far to either side a cut may move into a crease, as a share of the radius of a circle "
         "as long as the cut; 0 leaves it where it is")
     sigma: float = _number(
-        0.15, 0.0, 0.25, "Crease length",
+        0.15, 0.0, 0.25, "Crease Length",
         "How much of a cut's length must be concave to count (the paper's sigma)")
     n_clusters: int = _number(
-        0, 0, 32, "Curvature classes",
+        0, 0, 32, "Curvature Classes",
         "Number of classes of curvature that the surface is sorted into; 0 chooses it from the data")
     outline_weight: float = _number(
         0.5, 0.0, 1.0, "Outline",
@@ -153,7 +153,7 @@ class Parameters:
         10, 0, 100, "Smoothing",
         "Rounds that take saw teeth off the cuts, a face at a time; 0 leaves them as they fall")
     follow_level_sets: bool = field(default=False, metadata={
-        "label": "Follow level sets",
+        "label": "Follow Level Sets",
         "description": "Keep cuts on level sets of the distance, as the paper does; off, they "
                        "follow creases"})
     symmetry: bool = field(default=True, metadata={
@@ -161,7 +161,7 @@ class Parameters:
         "description": "Where the model is its own mirror image, or most of it is, make its parts so, too. Changes by "
                        "hand are made on both sides"})
     loose_part: float = _number(
-        0.01, 0.0, 1.0, "Small loose part",
+        0.01, 0.0, 1.0, "Small Loose Part",
         "Loose parts with less than this share of the whole area are one part each")
 
     def __post_init__(self) -> None:

@@ -32,7 +32,7 @@ class REEB_PARTS_OT_names_from_active(PartOperator, bpy.types.Operator):
     bl_label = "Names from Active"
 
     everywhere: bpy.props.BoolProperty(
-        name="All objects", description="Name the parts of all decomposed objects, not only of selected ones")
+        name="All Objects", description="Name the parts of all decomposed objects, not only of selected ones")
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         n_parts, n_objects = alike.carry_names(context, obj, self.everywhere)

@@ -16,7 +16,7 @@ class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
     bl_label = "Make Armature from Parts"
 
     deform: bpy.props.BoolProperty(
-        name="Move the mesh", default=False,
+        name="Move the Mesh", default=False,
         description="Add an Armature modifier, so that posing the bones moves the parts",
     )
 

@@ -24,7 +24,7 @@ class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):
         name="Location", size=3, subtype="XYZ", description="Where to cut, in the world",
     )
     on_graph: bpy.props.BoolProperty(
-        name="On the graph", default=True,
+        name="On the Graph", default=True,
         description="The location is on an arc of the graph; without it, on the surface",
     )
 

@@ -48,10 +48,10 @@ class ChosenPartsOperator(PartOperator):
 
 
 class REEB_PARTS_OT_merge_neighbour(ChosenPartsOperator, bpy.types.Operator):
-    """Merge each chosen part into the neighbour that it is least clearly cut from"""
+    """Merge each chosen part into the neighbor that it is least clearly cut from"""
 
     bl_idname = "reeb_parts.merge_neighbour"
-    bl_label = "Merge into Neighbour"
+    bl_label = "Merge into Neighbor"
     edit = staticmethod(edits.merged_into_neighbor)
 
 
@@ -100,7 +100,7 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.assign"
     bl_label = "Assign Faces to Part"
 
-    new: bpy.props.BoolProperty(name="New part", description="Make a part of its own of the faces")
+    new: bpy.props.BoolProperty(name="New Part", description="Make a part of its own of the faces")
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         mesh = obj.data

@@ -30,18 +30,18 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
     filter_folder: bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
     format: bpy.props.EnumProperty(
         name="Format", default="obj",
-        items=[("obj", "OBJ", "Wavefront, with materials"), ("ply", "PLY", "Stanford, with colours"),
+        items=[("obj", "OBJ", "Wavefront, with materials"), ("ply", "PLY", "Stanford, with colors"),
                ("stl", "STL", "For 3D printing"), ("glb", "glTF Binary", "With materials and textures"),
-               ("3mf", "3MF", "For slicers: all parts of an object as one assembly, with names and colours")],
+               ("3mf", "3MF", "For slicers: all parts of an object as one assembly, with names and colors")],
         description="Kind of the files",
     )
     one_file: bpy.props.BoolProperty(
-        name="One file", default=False,
+        name="One File", default=False,
         description="Write all parts of an object to one file, as objects of their own where the format knows objects; "
         "3MF always does",
     )
     caps: bpy.props.BoolProperty(
-        name="Close holes", default=False,
+        name="Close Holes", default=False,
         description="Close the holes where parts were joined, so that each file holds a closed body",
     )
 

@@ -23,7 +23,7 @@ class OutputOperator(PartOperator):
     output: tuple[ModuleType, str, str]
 
     remove: bpy.props.BoolProperty(
-        name="Take back", options={"SKIP_SAVE"},
+        name="Take Back", options={"SKIP_SAVE"},
         description="Take them away again; what was there before is back",
     )
 
@@ -56,7 +56,7 @@ class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
 
 
 class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
-    """Give each part a material of its own, in the part's colour; they follow the parts"""
+    """Give each part a material of its own, in the part's color; they follow the parts"""
 
     bl_idname = "reeb_parts.materials"
     bl_label = "Give Each Part a Material"

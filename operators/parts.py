@@ -46,7 +46,7 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.isolate"
     bl_label = "Isolate Parts"
 
-    show_all: bpy.props.BoolProperty(name="Show all", description="Show every face again")
+    show_all: bpy.props.BoolProperty(name="Show All", description="Show every face again")
 
     def run(self, context: bpy.types.Context) -> None:
         seen = self.show_all or context.mode != "OBJECT"

@@ -18,12 +18,12 @@ class REEB_PARTS_OT_unwrap(PartOperator, bpy.types.Operator):
     bl_label = "Unwrap along Cuts"
 
     open_parts: bpy.props.BoolProperty(
-        name="Open tubes", default=True,
+        name="Open Tubes", default=True,
         description="Also cut parts open where they would not lie flat: tubes along, and toward tips. These seams run "
         "on inner sides and along creases, and are not marked on the mesh",
     )
     stack: bpy.props.BoolProperty(
-        name="Stack twins", default=False,
+        name="Stack Twins", default=False,
         description="Lay parts whose meshes are mirror images of each other over each other, so that both share one "
         "place in the texture",
     )

@@ -51,7 +51,7 @@ class PieceMeshes:
     Attributes
     ----------
     meshes : dict of int -> bpy.types.Mesh
-        By the number of the part. UVs, colours, vertex groups, shape keys, normals and materials are kept.
+        By the number of the part. UVs, colors, vertex groups, shape keys, normals and materials are kept.
     left_open : int
         Edges of holes that could not be filled.
     along_faces : int

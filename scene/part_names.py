@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names and colours of parts, by their numbers; those that the user gave are kept while the part is not shown."""
+"""Names and colors of parts, by their numbers; those that the user gave are kept while the part is not shown."""
 
 from __future__ import annotations
 
@@ -74,19 +74,19 @@ def unnamed_twin(part: bpy.types.PropertyGroup) -> bpy.types.PropertyGroup | Non
 
 
 def keep_color(mesh: bpy.types.Mesh, number: int, color: tuple[float, float, float] | None) -> None:
-    """Remember a colour, also while its part is not shown. color : three values, sRGB; None for the palette's."""
+    """Remember a color, also while its part is not shown. color : three values, sRGB; None for the palette's."""
     if entry := _keep(mesh, number, color is not None):
         entry.color, entry.has_color = color or (0.0, 0.0, 0.0), color is not None
         _drop_empty(mesh)
 
 
 def kept_colors(mesh: bpy.types.Mesh) -> dict:
-    """The colours that the user gave to parts, by number."""
+    """The colors that the user gave to parts, by number."""
     return {entry.number: entry.color[:] for entry in mesh.reeb_parts.names if entry.has_color}
 
 
 def number_colors(mesh: bpy.types.Mesh) -> np.ndarray:
-    """The colour of each part of the list by its number, (largest number + 1, 4) float32, sRGB and alpha."""
+    """The color of each part of the list by its number, (largest number + 1, 4) float32, sRGB and alpha."""
     parts = mesh.reeb_parts.parts
     known = [part for part in parts if 0 <= part.number <= MAX_NUMBER]
     colors = np.ones((max((part.number for part in known), default=0) + 1, 4), np.float32)

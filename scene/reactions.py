@@ -115,7 +115,7 @@ def show_graph(obj: bpy.types.Object | None, shown: bool, context: bpy.types.Con
 
 
 def use_palette(obj: bpy.types.Object | None, palette: str, context: bpy.types.Context) -> None:
-    """Colour the parts of an object, if it has any, from another palette."""
+    """Color the parts of an object, if it has any, from another palette."""
     if obj is None or not store.has_parts(obj) or obj.data.reeb_parts.palette == palette:
         return
     mesh = obj.data
@@ -130,7 +130,7 @@ def use_palette(obj: bpy.types.Object | None, palette: str, context: bpy.types.C
 
 @reaction
 def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """A part was given another colour: all that is coloured by it takes it, and it stays."""
+    """A part was given another color: all that is colored by it takes it, and it stays."""
     mesh = part.id_data
 
     def keep(stored: Stored) -> None:

@@ -86,7 +86,7 @@ def shows_clutter(numbered: NumberedParts) -> bool:
 
 
 def _keep_colors(mesh: bpy.types.Mesh) -> None:
-    """Let the parts that take over numbers of the result before have its colours."""
+    """Let the parts that take over numbers of the result before have its colors."""
     if store.has_result(mesh):
         with suppress(SceneError):  # it cannot be read any more
             outputs.keep_places(mesh, store.last(mesh).shown_parts())

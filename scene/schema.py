@@ -31,15 +31,15 @@ class ReebPart(bpy.types.PropertyGroup):
     )
     number: IntProperty(name="Number", description="What the part is known by; the value of reeb_part")
     color: FloatVectorProperty(
-        name="Colour", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0, update=reactions.recolor,
-        description="Colour of the part; one that you choose stays with it",
+        name="Color", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0, update=reactions.recolor,
+        description="Color of the part; one that you choose stays with it",
     )
     share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")
     middle: FloatVectorProperty(size=3)  # of its surface, in the coordinates of the mesh
     own_name: StringProperty(description="The name of the part until the user gives it another")
     locked: BoolProperty(
         name="Locked", update=reactions.lock,
-        description="The part stays as it is, whatever the detail and whatever is done to its neighbours",
+        description="The part stays as it is, whatever the detail and whatever is done to its neighbors",
     )
     pinned: BoolProperty(name="Pinned", description="The part was changed by hand and stays whatever the detail")
     selected: BoolProperty(name="Selected", description="Included in what is done to the selected parts")
@@ -48,7 +48,7 @@ class ReebPart(bpy.types.PropertyGroup):
 
 
 class ReebName(bpy.types.PropertyGroup):
-    """A name or a colour that the user gave to a part, kept while the part is not shown."""
+    """A name or a color that the user gave to a part, kept while the part is not shown."""
 
     name: StringProperty(description="Empty: the part's own")
     number: IntProperty()
@@ -84,7 +84,7 @@ class ReebPartsResult(bpy.types.PropertyGroup, Settled):
         "Nothing is computed again",
     )
     n_parts: IntProperty(
-        name="Number of parts", min=1, update=reactions.show_number,
+        name="Number of Parts", min=1, update=reactions.show_number,
         description="Exactly this many parts, whatever the detail. Nothing is computed again",
     )
     by_number: BoolProperty(description="The number of parts decides, not the detail")
@@ -92,7 +92,7 @@ class ReebPartsResult(bpy.types.PropertyGroup, Settled):
     fewest: IntProperty()  # parts that there can be, once a number was asked for
     most: IntProperty()
     parts: CollectionProperty(type=ReebPart)
-    active: IntProperty(name="Active part", update=part_list.on_list_click, options=set())  # no keys in its menu
+    active: IntProperty(name="Active Part", update=part_list.on_list_click, options=set())  # no keys in its menu
     names: CollectionProperty(type=ReebName)
 
     # What was written, under which name, and what was there before

@@ -12,7 +12,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
-from ..core.uses.colors import PALETTES
+from ..core.uses.colors import LABELS, PALETTES
 from . import graph_objects, reactions
 from .errors import translated
 from .settled import Settled, reaction
@@ -91,24 +91,24 @@ class OutputProperties:
     """What is written to the object."""
 
     vertex_groups: BoolProperty(
-        name="Vertex groups", default=True,
+        name="Vertex Groups", default=True,
         description="A vertex group for each part; vertices on a cut belong to every part that meets there",
     )
     face_attribute: BoolProperty(
-        name="Face attribute", default=True,
+        name="Face Attribute", default=True,
         description="The number of each face's part as the attribute reeb_part, for Geometry Nodes",
     )
     colors: BoolProperty(
-        name="Colours", default=True,
-        description="The parts' colours as the active colour attribute Reeb Parts",
+        name="Colors", default=True,
+        description="The parts' colors as the active color attribute Reeb Parts",
     )
     palette: EnumProperty(
-        name="Palette", items=[(name, name, "") for name in PALETTES],
-        description="What the parts' colours are chosen from. A colour that you give to a part in the list "
+        name="Palette", items=[(name, LABELS.get(name, name), "") for name in PALETTES],
+        description="What the parts' colors are chosen from. A color that you give to a part in the list "
         "stays the part's own",
     )
     face_sets: BoolProperty(
-        name="Face sets", default=False,
+        name="Face Sets", default=False,
         description="A face set for each part, for Sculpt Mode; Clear brings your own back",
     )
     materials: BoolProperty(
@@ -116,12 +116,12 @@ class OutputProperties:
         description="A material for each part; Clear brings your own back",
     )
     seams: BoolProperty(
-        name="Seams along cuts", default=False,
+        name="Seams along Cuts", default=False,
         description="UV seams where parts meet, beside your own; Clear removes only these",
     )
     field: BoolProperty(
-        name="Distance field", default=False,
-        description="The normalised average geodesic distance that the parts come from, as the vertex "
+        name="Distance Field", default=False,
+        description="The normalized average geodesic distance that the parts come from, as the vertex "
         "attribute reeb_agd: 0 in the middle of the body, 1 at the farthest tip",
     )
     graph: BoolProperty(
@@ -142,15 +142,15 @@ class OverlayProperties:
     """How the graph is drawn."""
 
     node_size: FloatProperty(
-        name="Node size", default=0.005, min=0.001, max=0.5, precision=3, step=0.1, update=_redraw_graph,
+        name="Node Size", default=0.005, min=0.001, max=0.5, precision=3, step=0.1, update=_redraw_graph,
         description="Size of the empties, as a share of the object's",
     )
     line_thickness: FloatProperty(
-        name="Line thickness", default=0.0, min=0.0, max=1.0, precision=3, step=1, update=_redraw_graph,
+        name="Line Thickness", default=0.0, min=0.0, max=1.0, precision=3, step=1, update=_redraw_graph,
         description="Thickness of the curve under the lines, as a share of the radius of the body around it",
     )
     in_front: BoolProperty(
-        name="In front", default=True, update=_redraw_graph,
+        name="In Front", default=True, update=_redraw_graph,
         description="Draw the graph over the model instead of hidden inside it",
     )
 
@@ -180,32 +180,32 @@ class SeparateProperties(WhichProperties):
         description="Where the pieces are cut from each other; the mesh itself stays as it is",
     )
     caps: BoolProperty(
-        name="Close holes", default=False,
+        name="Close Holes", default=False,
         description="Close the holes where parts were joined, so that each piece is closed; borders that "
         "the mesh had before stay open. The faces are marked by the attribute reeb_cap",
     )
     center: BoolProperty(
-        name="Origin in the middle", default=True,
+        name="Origin in the Middle", default=True,
         description="Put the origin of each piece to the middle of its surface; without it, all keep the "
         "origin of the object",
     )
     modifiers: BoolProperty(
-        name="Keep modifiers", default=True,
+        name="Keep Modifiers", default=True,
         description="Copy the object's modifiers to each piece. Where one works about the origin, as Mirror does, "
         "the pieces keep the origin of the object, so that all stays in its place",
     )
     seen: BoolProperty(
-        name="Apply modifiers", default=False,
+        name="Apply Modifiers", default=False,
         description="Cut the mesh as it is seen, with its modifiers applied, instead of the one that is stored; "
         "the pieces then have no modifiers",
     )
     parent: BoolProperty(
-        name="Parent to original", default=False,
+        name="Parent to Original", default=False,
         description="Make the pieces children of the object, so that they follow it; without it, they have "
         "the parent that the object has",
     )
     hide: BoolProperty(
-        name="Hide original", default=True,
+        name="Hide Original", default=True,
         description="Hide the object, which stays as it is, in the viewport and in renders",
     )
 
@@ -281,11 +281,11 @@ class ReebPartsSettings(
         description="List the parts, too, that are smaller than the share set under Advanced, Overlay",
     )
     small: FloatProperty(
-        name="Small below", default=1.0, min=0.0, max=100.0, subtype="PERCENTAGE",
+        name="Small Below", default=1.0, min=0.0, max=100.0, subtype="PERCENTAGE",
         description="Parts of a smaller share of the surface are folded into one row where the list is long",
     )
     highlight: BoolProperty(
-        name="Outline chosen parts", default=True,
+        name="Outline Chosen Parts", default=True,
         description="Draw a line around the parts that are chosen in the list",
     )
     preset: EnumProperty(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A tool that shows in colours what the active part would be, and writes its parts once that is confirmed."""
+"""A tool that shows in colors what the active part would be, and writes its parts once that is confirmed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .view_tool import CHANGED, ViewTool
 
 
 class ColoredTool(ViewTool):
-    """Shows in colours what the active part would be; all else is written once that is confirmed.
+    """Shows in colors what the active part would be; all else is written once that is confirmed.
 
     A class that inherits gives ``finish(context, obj)``, too.
     """
@@ -35,7 +35,7 @@ class ColoredTool(ViewTool):
         edits.check_unlocked(obj.data, [self.number])
 
     def show(self, obj: bpy.types.Object, numbers: np.ndarray) -> None:
-        """Colour the faces as if they were in other parts. numbers : (p,) int64."""
+        """Color the faces as if they were in other parts. numbers : (p,) int64."""
         changed = np.flatnonzero(numbers != self._shown)
         colors.write(obj.data, numbers, part_names.number_colors(obj.data), changed)
         obj.data.update()

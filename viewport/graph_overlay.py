@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The graph in the colours of its parts, drawn over the empties and curves that it consists of.
+"""The graph in the colors of its parts, drawn over the empties and curves that it consists of.
 
-Blender draws empties and their kinds in one colour. The marks here say which part a node is in and what
+Blender draws empties and their kinds in one color. The marks here say which part a node is in and what
 kind it is: a disc for a minimum, a square for a saddle, a triangle for a maximum. Nothing is written anywhere;
 what is hidden, or was taken away, is not drawn.
 """
@@ -119,7 +119,7 @@ def _draw_arcs(source: bpy.types.Object) -> None:
 
 
 def colored_arcs(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """The arcs of a graph as lines in the colours of their parts.
+    """The arcs of a graph as lines in the colors of their parts.
 
     Returns
     -------

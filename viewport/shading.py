@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Show the parts' colours in the viewport that Decompose was pressed in."""
+"""Show the parts' colors in the viewport that Decompose was pressed in."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _before: dict[int, ViewSettings] = {}
 
 
 def show_colors(context: bpy.types.Context) -> None:
-    """Colour the solid view by the active colour attribute, without lines from each node to its parent."""
+    """Color the solid view by the active color attribute, without lines from each node to its parent."""
     space = _solid_view(context)
     if space is not None:
         _show_colors(space)
@@ -48,7 +48,7 @@ def _show_colors(space: bpy.types.SpaceView3D) -> None:
 
 
 def show_pieces(context: bpy.types.Context) -> None:
-    """Colour the solid view by object, where it showed the parts: now these are objects."""
+    """Color the solid view by object, where it showed the parts: now these are objects."""
     space = _solid_view(context)
     if space is not None and space.as_pointer() in _before and space.shading.color_type == "VERTEX":
         _keep(space)

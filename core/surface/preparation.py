@@ -366,7 +366,7 @@ def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
     if not flip.any():
         return mesh, ()
     faces = np.where(flip[:, None], mesh.faces[:, ::-1], mesh.faces)
-    note = Sentence("{n} triangles face inwards or against their neighbours.", n=int(flip.sum()))
+    note = Sentence("{n} triangles face inwards or against their neighbors.", n=int(flip.sum()))
     return TriMesh(mesh.vertices, faces), (note,)
 
 
@@ -393,6 +393,6 @@ def _notes(given: PolygonMesh) -> tuple[str, ...]:
                  n=int((mesh.edges.n_faces > 2).sum())),
         Sentence("{n} border edges: the surface is open there.", n=int((mesh.edges.n_faces == 1).sum())),
         Sentence("{n} vertices belong to no face; they get no part.", n=n_lost),
-        Sentence("{n} faces have zero area; they follow their neighbours.", n=int(flat.sum())),
+        Sentence("{n} faces have zero area; they follow their neighbors.", n=int(flat.sum())),
     )
     return tuple(note for note in notes if note.values["n"])

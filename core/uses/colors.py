@@ -42,6 +42,9 @@ PALETTES = {
     "Bright": _KELLY,
 }
 
+#: What the user sees in place of a name, which is that of files and scripts.
+LABELS = {"Colour-blind safe": "Color-Blind Safe"}
+
 # Matrices that turn linear RGB into what people without one type of cones see: protanopes, then deuteranopes
 # (Vienot, Brettel and Mollon 1999).
 _DEFICIENCIES = np.array([

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The colours of the parts as a colour attribute."""
+"""The colors of the parts as a color attribute."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MANY = 200_000
 
 
 def add(obj: bpy.types.Object) -> None:
-    """Make the colour attribute active, for the viewport and for rendering; remember what was."""
+    """Make the color attribute active, for the viewport and for rendering; remember what was."""
     mesh = obj.data
     result = mesh.reeb_parts
     if result.color_attribute in mesh.color_attributes:
@@ -36,7 +36,7 @@ def add(obj: bpy.types.Object) -> None:
 
 
 def remove(obj: bpy.types.Object) -> None:
-    """Remove the colour attribute; what was active before is active again."""
+    """Remove the color attribute; what was active before is active again."""
     mesh = obj.data
     result = mesh.reeb_parts
     ours = result.color_attribute
@@ -51,7 +51,7 @@ def remove(obj: bpy.types.Object) -> None:
 
 
 def write(mesh: bpy.types.Mesh, numbers: np.ndarray, colors: np.ndarray, changed: np.ndarray | None = None) -> None:
-    """Write the colours of parts into our colour attribute, if it is there.
+    """Write the colors of parts into our color attribute, if it is there.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def write(mesh: bpy.types.Mesh, numbers: np.ndarray, colors: np.ndarray, changed
     colors : (count, 4) float32
         By number, see part_names.number_colors.
     changed : (k,) int, optional
-        The only faces that are coloured otherwise than before.
+        The only faces that are colored otherwise than before.
     """
     attribute = mesh.attributes.get(mesh.reeb_parts.color_attribute)
     if attribute is None:
@@ -75,7 +75,7 @@ def write(mesh: bpy.types.Mesh, numbers: np.ndarray, colors: np.ndarray, changed
 
 def _write_few(attribute: bpy.types.Attribute, face: np.ndarray, changed: np.ndarray | None,
                shades: list[list[float]]) -> None:
-    """Colour the corners of some faces one by one."""
+    """Color the corners of some faces one by one."""
     first, end = np.searchsorted(face, changed), np.searchsorted(face, changed, side="right")
     for low, high, shade in zip(first.tolist(), end.tolist(), shades, strict=True):
         for corner in range(low, high):
@@ -83,7 +83,7 @@ def _write_few(attribute: bpy.types.Attribute, face: np.ndarray, changed: np.nda
 
 
 def _write_many(mesh: bpy.types.Mesh, attribute: bpy.types.Attribute, numbers: np.ndarray, colors: np.ndarray) -> bool:
-    """Colour faces, and let Blender make byte colours of the corners of that: three times as fast as to set them.
+    """Color faces, and let Blender make byte colors of the corners of that: three times as fast as to set them.
 
     Whether that was done: Blender's operator evaluates the scene, which modifiers make slow.
     """
@@ -112,12 +112,12 @@ def _write_many(mesh: bpy.types.Mesh, attribute: bpy.types.Attribute, numbers: n
 
 
 def _spread(colors: np.ndarray, index: np.ndarray) -> np.ndarray:
-    """The colours of an index, four values each, in a row, float32."""
+    """The colors of an index, four values each, in a row, float32."""
     # A colour as one number of sixteen bytes is copied four times as fast as a row.
     whole = np.ascontiguousarray(colors, np.float32).view(np.complex128)[:, 0]
     return whole[index].view(np.float32)
 
 
 def linear(color: Iterable[float]) -> list:
-    """sRGB, which lists and vertex colours use, as what objects and materials are coloured with."""
+    """sRGB, which lists and vertex colors use, as what objects and materials are colored with."""
     return [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A material for each part, in the part's colour."""
+"""A material for each part, in the part's color."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def drop_slots(mesh: bpy.types.Mesh, gone: Container[bpy.types.Material]) -> Non
 
 
 def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
-    """Give each part a material and a slot, in the part's colour of the list, if the materials are ours."""
+    """Give each part a material and a slot, in the part's color of the list, if the materials are ours."""
     if not mesh.reeb_parts.has_materials:
         return
     slots = np.zeros(numbered.parts.count, np.int32)

@@ -75,7 +75,7 @@ def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.nd
 
 
 def update_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
-    """Bring the colour attribute and the materials up to date with the colours of the list, which stays."""
+    """Bring the color attribute and the materials up to date with the colors of the list, which stays."""
     transaction.keep_mesh(mesh)
     colors.write(mesh, numbered.face_numbers, part_names.number_colors(mesh))
     materials.write(mesh, numbered)
@@ -84,7 +84,7 @@ def update_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
 
 def _recolored(numbered: NumberedParts, before: np.ndarray | None, old: np.ndarray,
                new: np.ndarray) -> np.ndarray | None:
-    """The faces whose colour changes, None if that is not known."""
+    """The faces whose color changes, None if that is not known."""
     if before is None:
         return None
     same = np.zeros(len(new), bool)
@@ -133,12 +133,12 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
 
 
 def palette_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
-    """The colour of each part from the mesh's palette, (count, 3) float64 sRGB."""
+    """The color of each part from the mesh's palette, (count, 3) float64 sRGB."""
     return number_colors(numbered, _palette(mesh), _former_places(mesh))
 
 
 def keep_places(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
-    """Remember the colours of the parts, for those of a later result that take over their numbers."""
+    """Remember the colors of the parts, for those of a later result that take over their numbers."""
     mesh.reeb_parts.color_places = json.dumps(number_places(numbered, _palette(mesh), _former_places(mesh)))
 
 
@@ -147,7 +147,7 @@ def _palette(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def _former_places(mesh: bpy.types.Mesh) -> tuple[tuple[int, int], ...]:
-    """Numbers of parts, and the place in the palette of the colour that each had in an earlier result."""
+    """Numbers of parts, and the place in the palette of the color that each had in an earlier result."""
     try:
         return tuple((int(number), int(place) % len(PALETTE)) for number, place in
                      json.loads(mesh.reeb_parts.color_places or "[]"))
@@ -156,7 +156,7 @@ def _former_places(mesh: bpy.types.Mesh) -> tuple[tuple[int, int], ...]:
 
 
 def _part_colors(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
-    """The colour of each part, (count, 3) float64 sRGB: what the user chose, or else of the palette."""
+    """The color of each part, (count, 3) float64 sRGB: what the user chose, or else of the palette."""
     shades = palette_colors(mesh, numbered)
     for number, color in part_names.kept_colors(mesh).items():
         shades[numbered.numbers == number] = color

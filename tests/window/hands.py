@@ -136,7 +136,7 @@ def numbered(seen):
 
 
 def recolored(seen):
-    """The chip of a part, and a colour typed into Blender's popup."""
+    """The chip of a part, and a color typed into Blender's popup."""
     before = corner_colors()
     x, y = yield from press_entry(1, "color")
     yield 0.4
@@ -228,7 +228,7 @@ def all_undone(seen, name, before):
 
 
 def corner_colors():
-    """The colour of each corner, by its index."""
+    """The color of each corner, by its index."""
     return {i: tuple(round(c, 2) for c in item.color_srgb)
             for i, item in enumerate(mesh().color_attributes["Reeb Parts"].data)}
 

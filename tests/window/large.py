@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Detail of a larger mesh, typed and dragged in a real window: one with more than 200,000 corners, whose colours
+"""Detail of a larger mesh, typed and dragged in a real window: one with more than 200,000 corners, whose colors
 Blender's own operator converts.
 
 Executed inside Blender as driver.py is, which says how.
@@ -74,7 +74,7 @@ def facts():
         "parts": len(result.parts),
         "groups": sorted(group.name for group in bpy.data.objects["spot"].vertex_groups),
         "names": sorted(part.group for part in result.parts),
-        "wrong colour": float(np.abs(colors.reshape(-1, 4)[:, :3] - own[face]).max()),
+        "wrong color": float(np.abs(colors.reshape(-1, 4)[:, :3] - own[face]).max()),
         "digest": hashlib.sha256(colors.tobytes() + numbers.tobytes()).hexdigest(),
         "attributes": sorted((a.name, a.data_type, a.domain) for a in attributes),
         "active": [attributes.active_color_name, attributes.default_color_name],

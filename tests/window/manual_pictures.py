@@ -75,7 +75,7 @@ def few_and_many():
 
 
 def colored():
-    """The popup of a chip, and a colour typed into it."""
+    """The popup of a chip, and a color typed into it."""
     x, y = yield from pointer.entry(1, "color")
     yield from pointer.press(x, y)
     yield 0.4

@@ -125,7 +125,7 @@ def until(condition, patience=5.0):
 def shot(name, box=None):
     """A picture of the window into the folder for them.
 
-    With a box (left, top, right, bottom) only of that, in few colours: small enough for the documentation.
+    With a box (left, top, right, bottom) only of that, in few colors: small enough for the documentation.
     """
     crop = []
     if box:

@@ -165,7 +165,7 @@ COMMANDS = (
     Command("Show All Parts", lambda obj: (mark(LEG)(obj), bpy.ops.reeb_parts.isolate())),
     Command("Reeb Parts Invert", mark(LEG)),
     Command("Merge Parts", mark(HEAD, EAR)),
-    Command("Merge into Neighbour", mark(EAR)),
+    Command("Merge into Neighbor", mark(EAR)),
     Command("Split Parts", mark(HEAD)),
     Command("Cut Part at Point", mark(HEAD), click_cut),
     Command("Grow Parts", mark(EAR)),

@@ -16,7 +16,7 @@ def seen(drive):
 def test_colours_and_groups_are_those_of_the_parts_after_each_step(seen):
     for step in seen.values():
         assert step["corners"] > 200_000
-        assert step["wrong colour"] < 0.51 / 255
+        assert step["wrong color"] < 0.51 / 255
         assert step["groups"] == step["names"]
         assert step["active"] == ["Reeb Parts", "Reeb Parts"]
         assert step["attributes"] == seen["decomposed"]["attributes"]

@@ -13,7 +13,7 @@ DOES = {
     "Show All Parts, OBJECT": "/flags/polygons hide",
     "Reeb Parts Invert, OBJECT": "/meshes/spot/result",
     "Merge Parts, OBJECT": "INFO: 2 parts are Part 06 now",
-    "Merge into Neighbour, OBJECT": "/attributes/reeb_part",
+    "Merge into Neighbor, OBJECT": "/attributes/reeb_part",
     "Split Parts, OBJECT": "/attributes/reeb_part",
     "Cut Part at Point, OBJECT": "INFO: Part [0-9]+ was cut from Part 01",
     "Grow Parts, OBJECT": "/attributes/reeb_part",

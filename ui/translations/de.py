@@ -37,7 +37,7 @@ OPERATORS = {
     "Pick Parts": "Teile anklicken",
     # Teile von Hand
     "Merge Parts": "Teile zusammenführen",
-    "Merge into Neighbour": "Mit Nachbarn zusammenführen",
+    "Merge into Neighbor": "Mit Nachbarn zusammenführen",
     "Merge Small": "Zusammenführen",
     "Merge Small Parts": "Kleine Teile zusammenführen",
     "Frame Parts": "Teile heranholen",
@@ -138,7 +138,7 @@ TEXTS = {
     "Show Small Parts": "Kleine Teile zeigen",
     "List the parts, too, that are smaller than the share set under Advanced, Overlay":
         "Auch die Teile nennen, die kleiner sind als der Anteil unter „Erweitert“, „Überlagerung“",
-    "Small below": "Klein unter",
+    "Small Below": "Klein unter",
     "Parts of a smaller share of the surface are folded into one row where the list is long":
         "Teile mit einem kleineren Anteil an der Oberfläche stehen in langen Listen zusammen in einer Zeile",
     "Merge each of the small parts into the neighbor that it is least clearly cut from":
@@ -188,7 +188,7 @@ TEXTS = {
     "cutting in two again and again":
         "Wie Schnitte gewählt werden: so, wie Menschen schneiden würden, nach den Regeln des Artikels auf dem "
         "Reeb-Graphen, wo sich die Krümmung ändert, oder durch immer neues Teilen in zwei",
-    "Curvature classes": "Krümmungsklassen",
+    "Curvature Classes": "Krümmungsklassen",
     "Number of classes of curvature that the surface is sorted into; 0 chooses it from the data":
         "Anzahl der Krümmungsklassen, in die die Oberfläche eingeteilt wird; 0 wählt sie aus den Daten",
     "Outline": "Umriss",
@@ -216,25 +216,25 @@ TEXTS = {
     "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate. Nothing is computed again":
         "Wie bereitwillig die Oberfläche zerschnitten wird: 0 ergibt so wenige Teile wie möglich, 1 alle, die "
         "in Frage kommen. Nichts wird neu berechnet",
-    "Number of parts": "Anzahl der Teile",
+    "Number of Parts": "Anzahl der Teile",
     "Exactly this many parts instead of a level of detail; 0 lets Detail decide":
         "Genau so viele Teile statt eines Detailgrads; bei 0 entscheidet Detail",
     "Exactly this many parts, whatever the detail. Nothing is computed again":
         "Genau so viele Teile, unabhängig vom Detail. Nichts wird neu berechnet",
-    "Base spacing": "Basisabstand",
+    "Base Spacing": "Basisabstand",
     "Share of the area around each point that distances are measured from; smaller is slower and finer (the "
     "paper's 0.005 S)":
         "Anteil der Oberfläche um jeden Punkt, von dem aus Abstände gemessen werden; kleiner ist langsamer und "
         "feiner (0.005 S im Artikel)",
-    "Equalise": "Ausgleichen",
+    "Equalize": "Ausgleichen",
     "Give every range of distances the same area, so that long limbs do not hide short ones (the paper's s(p))":
         "Jedem Bereich von Abständen gleich viel Fläche geben, damit lange Gliedmaßen kurze nicht verdecken (s(p) "
         "im Artikel)",
     "Levels": "Stufen",
     "Number of slabs the surface is cut into before parts are formed (1 / epsilon)":
         "Anzahl der Scheiben, in die die Oberfläche geschnitten wird, bevor Teile entstehen (1 / Epsilon)",
-    "Small region": "Kleine Region",
-    "Parts smaller than this share of the largest one join a neighbour; 0.01 keeps fingers":
+    "Small Region": "Kleine Region",
+    "Parts smaller than this share of the largest one join a neighbor; 0.01 keeps fingers":
         "Teile, die kleiner als dieser Anteil des größten sind, gehen in einem Nachbarn auf; 0.01 erhält Finger",
     "Concavity": "Konkavität",
     "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)":
@@ -247,60 +247,60 @@ TEXTS = {
     "The parameter {old} is called {new} now.": "Der Parameter {old} heißt jetzt {new}.",
     "The model {file} was trained on other features (first: {name}). Train it again.":
         "Das Modell {file} wurde an anderen Merkmalen angelernt (das erste: {name}). Es muss neu angelernt werden.",
-    "Crease length": "Faltenlänge",
+    "Crease Length": "Faltenlänge",
     "How much of a cut's length must be concave to count (the paper's sigma)":
         "Wie viel von der Länge eines Schnitts konkav sein muss, um zu zählen (Sigma im Artikel)",
     "Smoothing": "Glättung",
     "Rounds that take saw teeth off the cuts, a face at a time; 0 leaves them as they fall":
         "Durchgänge, die den Schnitten Fläche für Fläche die Sägezähne nehmen; 0 lässt sie, wie sie sind",
-    "Follow level sets": "Niveaulinien folgen",
+    "Follow Level Sets": "Niveaulinien folgen",
     "Keep cuts on level sets of the distance, as the paper does; off, they follow creases":
         "Schnitte wie im Artikel auf Linien gleichen Abstands belassen; ausgeschaltet folgen sie Falten",
-    "Small loose part": "Lose Teile ab",
+    "Small Loose Part": "Lose Teile ab",
     "Loose parts with less than this share of the whole area are one part each":
         "Lose Teile mit weniger als diesem Anteil der ganzen Oberfläche sind je ein einziges Teil",
     # Ausgabe
-    "Vertex groups": "Punktgruppen",
+    "Vertex Groups": "Punktgruppen",
     "A vertex group for each part; vertices on a cut belong to every part that meets there":
         "Eine Punktgruppe für jedes Teil; Punkte auf einem Schnitt gehören zu allen Teilen, die dort aneinandergrenzen",
-    "Face attribute": "Flächenattribut",
+    "Face Attribute": "Flächenattribut",
     "The number of each face's part as the attribute reeb_part, for Geometry Nodes":
         "Für jede Fläche die Nummer ihres Teils als Attribut reeb_part, für Geometry Nodes",
-    "Colours": "Farben",
-    "The parts' colours as the active colour attribute Reeb Parts":
+    "Colors": "Farben",
+    "The parts' colors as the active color attribute Reeb Parts":
         "Die Farben der Teile als aktives Farbattribut Reeb Parts",
     "Palette": "Palette",
-    "What the parts' colours are chosen from. A colour that you give to a part in the list stays the part's own":
+    "What the parts' colors are chosen from. A color that you give to a part in the list stays the part's own":
         "Woraus die Farben der Teile gewählt werden. Eine Farbe, die ein Teil in der Liste erhält, behält es",
-    "Colour-blind safe": "Für Farbenblinde",
+    "Color-Blind Safe": "Für Farbenblinde",
     "Bright": "Kräftig",
     "Pastel": "Pastell",
-    "Face sets": "Face Sets",
+    "Face Sets": "Face Sets",
     "A face set for each part, for Sculpt Mode; Clear brings your own back":
         "Ein Face Set für jedes Teil, für den Skulpturmodus; „Zerlegung entfernen“ stellt die eigenen wieder her",
     "Materials": "Materialien",
     "A material for each part; Clear brings your own back":
         "Ein Material für jedes Teil; „Zerlegung entfernen“ stellt die eigenen wieder her",
-    "Seams along cuts": "Nähte an Schnitten",
+    "Seams along Cuts": "Nähte an Schnitten",
     "UV seams where parts meet, beside your own; Clear removes only these":
         "UV-Nähte, wo Teile aneinandergrenzen, neben den eigenen; „Zerlegung entfernen“ entfernt nur diese",
-    "Distance field": "Abstandsfeld",
-    "The normalised average geodesic distance that the parts come from, as the vertex attribute reeb_agd: 0 in the "
+    "Distance Field": "Abstandsfeld",
+    "The normalized average geodesic distance that the parts come from, as the vertex attribute reeb_agd: 0 in the "
     "middle of the body, 1 at the farthest tip":
         "Der normierte mittlere geodätische Abstand, aus dem die Teile hervorgehen, als Punktattribut reeb_agd: 0 in "
         "der Mitte des Körpers, 1 an der entferntesten Spitze",
     "The Reeb graph as objects: an empty for each node, a curve for the arcs":
         "Der Reeb-Graph als Objekte: ein Leerobjekt für jeden Knoten, eine Kurve für die Bögen",
     # Überlagerung
-    "Node size": "Knotengröße",
+    "Node Size": "Knotengröße",
     "Size of the empties, as a share of the object's": "Größe der Leerobjekte, als Anteil der Größe des Objekts",
-    "Line thickness": "Linienstärke",
+    "Line Thickness": "Linienstärke",
     "Thickness of the curve under the lines, as a share of the radius of the body around it":
         "Stärke der Kurve unter den Linien, als Anteil des Radius des Körpers um sie herum",
-    "In front": "Im Vordergrund",
+    "In Front": "Im Vordergrund",
     "Draw the graph over the model instead of hidden inside it":
         "Den Graphen über das Modell zeichnen, statt in ihm verborgen",
-    "Outline chosen parts": "Gewählte Teile umranden",
+    "Outline Chosen Parts": "Gewählte Teile umranden",
     "Draw a line around the parts that are chosen in the list":
         "Eine Linie um die Teile zeichnen, die in der Liste gewählt sind",
     "The parameters that new scenes start with": "Die Parameter, mit denen neue Szenen beginnen",
@@ -311,14 +311,14 @@ TEXTS = {
         "Name des Teils und seiner Punktgruppe; zum Ändern doppelt klicken",
     "Number": "Nummer",
     "What the part is known by; the value of reeb_part": "Woran das Teil erkannt wird; der Wert von reeb_part",
-    "Colour": "Farbe",
-    "Colour of the part; one that you choose stays with it":
+    "Color": "Farbe",
+    "Color of the part; one that you choose stays with it":
         "Farbe des Teils; eine selbst gewählte bleibt bei ihm",
     "Empty: the part's own": "Leer: der eigene Name des Teils",
     "Share": "Anteil",
     "Share of the surface's area": "Anteil an der Oberfläche",
     "Locked": "Gesperrt",
-    "The part stays as it is, whatever the detail and whatever is done to its neighbours":
+    "The part stays as it is, whatever the detail and whatever is done to its neighbors":
         "Das Teil bleibt, wie es ist, unabhängig vom Detail und davon, was mit seinen Nachbarn geschieht",
     "Pinned": "Angeheftet",
     "The part was changed by hand and stays whatever the detail":
@@ -329,7 +329,7 @@ TEXTS = {
     "The material made for the part": "Das Material, das für das Teil erstellt wurde",
     "The mesh was edited since": "Das Mesh wurde seither bearbeitet",
     "The number of parts decides, not the detail": "Die Anzahl der Teile entscheidet, nicht das Detail",
-    "Active part": "Aktives Teil",
+    "Active Part": "Aktives Teil",
     # Teile verwenden
     "Which parts to use": "Welche Teile verwendet werden",
     "All": "Alle",
@@ -370,22 +370,22 @@ TEXTS = {
         "geteilt. Grenzen, die schon glatt sind, bleiben, wie sie sind",
     "Along Faces": "An Flächen",
     "Along the edges of faces, all of which stay whole": "An den Kanten von Flächen, die alle ganz bleiben",
-    "Close holes": "Löcher schließen",
+    "Close Holes": "Löcher schließen",
     "Close the holes where parts were joined, so that each piece is closed; borders that the mesh had before stay "
     "open. The faces are marked by the attribute reeb_cap":
         "Die Löcher schließen, wo Teile verbunden waren, sodass jedes Stück geschlossen ist; Ränder, die das Mesh "
         "vorher hatte, bleiben offen. Das Attribut reeb_cap kennzeichnet die neuen Flächen",
     "Close the holes where parts were joined, so that each file holds a closed body":
         "Die Löcher schließen, wo Teile verbunden waren, sodass jede Datei einen geschlossenen Körper enthält",
-    "Origin in the middle": "Ursprung in die Mitte",
+    "Origin in the Middle": "Ursprung in die Mitte",
     "Put the origin of each piece to the middle of its surface; without it, all keep the origin of the object":
         "Den Ursprung jedes Stücks in die Mitte seiner Oberfläche setzen; sonst behalten alle den Ursprung des Objekts",
-    "Keep modifiers": "Mit Modifikatoren",
+    "Keep Modifiers": "Mit Modifikatoren",
     "Copy the object's modifiers to each piece. Where one works about the origin, as Mirror does, the pieces keep the "
     "origin of the object, so that all stays in its place":
         "Die Modifikatoren des Objekts auf jedes Stück kopieren. Wirkt einer um den Ursprung, wie Spiegeln, behalten "
         "die Stücke den Ursprung des Objekts, damit alles an seinem Platz bleibt",
-    "Apply modifiers": "Modifikatoren anwenden",
+    "Apply Modifiers": "Modifikatoren anwenden",
     "Cut the mesh as it is seen, with its modifiers applied, instead of the one that is stored; the pieces then have "
     "no modifiers":
         "Das Netz so zerlegen, wie man es sieht, mit angewendeten Modifikatoren, statt so, wie es gespeichert ist; die "
@@ -393,11 +393,11 @@ TEXTS = {
     "The modifiers of {name} make {n} faces that belong to no part. Apply the modifiers and decompose again.":
         "Die Modifikatoren von {name} erzeugen {n} Flächen, die zu keinem Teil gehören. Wende die Modifikatoren an und "
         "zerlege neu.",
-    "Parent to original": "Original als Eltern",
+    "Parent to Original": "Original als Eltern",
     "Make the pieces children of the object, so that they follow it; without it, they have the parent that the object "
     "has":
         "Die Stücke zu Kindern des Objekts machen, sodass sie ihm folgen; sonst haben sie das Elternobjekt des Objekts",
-    "Hide original": "Original verbergen",
+    "Hide Original": "Original verbergen",
     "Hide the object, which stays as it is, in the viewport and in renders":
         "Das Objekt, das unverändert bleibt, im Ansichtsfenster und beim Rendern verbergen",
     "Where the separated parts are": "Wo die abgetrennten Teile sind",
@@ -429,13 +429,13 @@ TEXTS = {
     "Number of the part; 0 for those chosen in the list": "Nummer des Teils; 0 für die in der Liste gewählten",
     "Hide all faces but those of the chosen parts, or show all again":
         "Alle Flächen außer denen der gewählten Teile verbergen oder alle wieder zeigen",
-    "Show all": "Alle zeigen",
+    "Show All": "Alle zeigen",
     "Show every face again": "Alle Flächen wieder zeigen",
     "Mark parts in the list": "Teile in der Liste ankreuzen",
     "Mark the parts that are like the active one in size, shape and place, on all objects of the scene":
         "Die Teile ankreuzen, die dem aktiven in Größe, Form und Lage ähneln, an allen Objekten der Szene",
     "Difference": "Unterschied",
-    "All objects": "Alle Objekte",
+    "All Objects": "Alle Objekte",
     "Name the parts of all decomposed objects, not only of selected ones":
         "Die Teile aller zerlegten Objekte benennen, nicht nur der ausgewählten",
     "How much parts may differ: 0 finds copies only, 1 most parts of a kind":
@@ -454,7 +454,7 @@ TEXTS = {
     "Choose parts by clicking on the model or its graph; Shift chooses several":
         "Teile durch Klicken auf das Modell oder seinen Graphen wählen; Umschalt wählt mehrere",
     "A place on or beside the part, in the world": "Eine Stelle auf oder neben dem Teil, in der Welt",
-    "On the graph": "Auf dem Graphen",
+    "On the Graph": "Auf dem Graphen",
     "The location is on an arc of the graph; without it, on the surface":
         "Die Stelle liegt auf einem Bogen des Graphen; sonst auf der Oberfläche",
     "Add the part to those that are chosen, or take it away again":
@@ -462,7 +462,7 @@ TEXTS = {
     "Location": "Position",
     "Make one part of the parts marked in the list; it takes the name of the active one":
         "Aus den in der Liste angekreuzten Teilen eines machen; es erhält den Namen des aktiven",
-    "Merge each chosen part into the neighbour that it is least clearly cut from":
+    "Merge each chosen part into the neighbor that it is least clearly cut from":
         "Jedes gewählte Teil mit dem Nachbarn zusammenführen, von dem es am wenigsten deutlich abgesetzt ist",
     "Split each chosen part in two, where its own best cut is":
         "Jedes gewählte Teil an seinem besten Schnitt in zwei teilen",
@@ -485,7 +485,7 @@ TEXTS = {
     "Of the brush, in the units of the mesh": "Des Pinsels, in den Einheiten des Meshs",
     "Give the faces selected in Edit Mode to the active part":
         "Die im Bearbeitungsmodus ausgewählten Flächen dem aktiven Teil geben",
-    "New part": "Neues Teil",
+    "New Part": "Neues Teil",
     "Make a part of its own of the faces": "Aus den Flächen ein eigenes Teil machen",
     "Take over what you have painted with face sets in Sculpt Mode: each face goes to the part of its face set":
         "Übernehmen, was im Skulpturmodus mit Face Sets gemalt wurde: jede Fläche kommt zum Teil ihres Face Sets",
@@ -504,23 +504,23 @@ TEXTS = {
         "Aus den Teilen eigene Objekte machen, mit allem, was das Mesh trägt; das Original bleibt, wie es ist",
     "Show and select the object that this piece was separated from":
         "Das Objekt zeigen und auswählen, von dem dieses Stück abgetrennt wurde",
-    "Take back": "Zurücknehmen",
+    "Take Back": "Zurücknehmen",
     "Take them away again; what was there before is back":
         "Sie wieder wegnehmen; was vorher da war, ist wieder da",
     "Mark UV seams where parts meet, beside your own; they follow the parts":
         "UV-Nähte markieren, wo Teile aneinandergrenzen, neben den eigenen; sie folgen den Teilen",
     "Make a face set of each part, for Sculpt Mode; they follow the parts":
         "Aus jedem Teil ein Face Set machen, für den Skulpturmodus; sie folgen den Teilen",
-    "Give each part a material of its own, in the part's colour; they follow the parts":
+    "Give each part a material of its own, in the part's color; they follow the parts":
         "Jedem Teil ein eigenes Material in seiner Farbe geben; sie folgen den Teilen",
     "Unwrap the mesh along the cuts between parts and your own seams, into a UV map of its own":
         "Das Mesh entlang der Schnitte zwischen Teilen und der eigenen Nähte in eine eigene UV-Map abwickeln",
-    "Open tubes": "Röhren öffnen",
+    "Open Tubes": "Röhren öffnen",
     "Also cut parts open where they would not lie flat: tubes along, and toward tips. These seams run on inner sides "
     "and along creases, and are not marked on the mesh":
         "Auch Teile aufschneiden, wo sie nicht flach lägen: Röhren der Länge nach, und zu Spitzen hin. Diese Nähte "
         "laufen auf den Innenseiten und entlang von Falten und werden auf dem Netz nicht markiert",
-    "Stack twins": "Zwillinge stapeln",
+    "Stack Twins": "Zwillinge stapeln",
     "Lay parts whose meshes are mirror images of each other over each other, so that both share one place in the "
     "texture":
         "Teile, deren Netze Spiegelbilder voneinander sind, übereinander legen, sodass beide einen Platz in der "
@@ -535,11 +535,11 @@ TEXTS = {
     "Write each part to a file of its own, or all to one, in a folder; files of the same names are replaced":
         "Jedes Teil in eine eigene Datei schreiben, oder alle in eine, in einem Ordner; Dateien gleichen Namens werden "
         "ersetzt",
-    "One file": "Eine Datei",
+    "One File": "Eine Datei",
     "Write all parts of an object to one file, as objects of their own where the format knows objects; 3MF always does":
         "Alle Teile eines Objekts in eine Datei schreiben, als eigene Objekte, wo das Format Objekte kennt; 3MF "
         "immer",
-    "For slicers: all parts of an object as one assembly, with names and colours":
+    "For slicers: all parts of an object as one assembly, with names and colors":
         "Für Slicer: alle Teile eines Objekts als eine Baugruppe, mit Namen und Farben",
     "Folder": "Ordner",
     "Where the files go; made if it is not there": "Wohin die Dateien kommen; wird bei Bedarf angelegt",
@@ -548,7 +548,7 @@ TEXTS = {
     "OBJ": "OBJ",
     "Wavefront, with materials": "Wavefront, mit Materialien",
     "PLY": "PLY",
-    "Stanford, with colours": "Stanford, mit Farben",
+    "Stanford, with colors": "Stanford, mit Farben",
     "STL": "STL",
     "For 3D printing": "Für den 3D-Druck",
     "3MF": "3MF",
@@ -556,7 +556,7 @@ TEXTS = {
     "With materials and textures": "Mit Materialien und Texturen",
     "Make an armature with a bone for each part, along the part's centre line, as a start for a rig":
         "Ein Skelett mit einem Knochen für jedes Teil erstellen, entlang seiner Mittellinie, als Anfang für ein Rig",
-    "Move the mesh": "Mesh bewegen",
+    "Move the Mesh": "Mesh bewegen",
     "Add an Armature modifier, so that posing the bones moves the parts":
         "Einen Skelett-Modifikator hinzufügen, sodass die Posen der Knochen die Teile bewegen",
     # Was über ein Mesh zu sagen ist
@@ -564,11 +564,11 @@ TEXTS = {
         "Kanten mit mehr als zwei Flächen (nicht mannigfaltig): {n}.",
     "{n} border edges: the surface is open there.": "Randkanten: {n}; dort ist die Oberfläche offen.",
     "{n} vertices belong to no face; they get no part.": "Punkte ohne Fläche: {n}; sie kommen in kein Teil.",
-    "{n} faces have zero area; they follow their neighbours.":
+    "{n} faces have zero area; they follow their neighbors.":
         "Flächen ohne Flächeninhalt: {n}; sie folgen ihren Nachbarn.",
     "{n} coincident border vertices are treated as joined.":
         "Zusammenfallende Randpunkte: {n}; sie gelten als verbunden.",
-    "{n} triangles face inwards or against their neighbours.":
+    "{n} triangles face inwards or against their neighbors.":
         "Dreiecke, die nach innen oder gegen ihre Nachbarn zeigen: {n}.",
     "{n} pieces that touch form one body.": "{n} Stücke, die sich berühren, bilden einen Körper.",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.":

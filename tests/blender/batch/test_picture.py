@@ -22,7 +22,7 @@ def graph_of(obj):
 
 
 def pixels(path):
-    """Colours of a PNG file, (n, 3), sRGB."""
+    """Colors of a PNG file, (n, 3), sRGB."""
     image = bpy.data.images.load(str(path))
     values = np.empty(4 * image.size[0] * image.size[1], np.float32)
     image.pixels.foreach_get(values)
@@ -32,7 +32,7 @@ def pixels(path):
 
 
 def hue(rgb):
-    """Direction of the colour away from grey, unit length."""
+    """Direction of the color away from grey, unit length."""
     away = rgb - rgb.mean(axis=-1, keepdims=True)
     return away / np.maximum(np.linalg.norm(away, axis=-1, keepdims=True), 1e-6)
 

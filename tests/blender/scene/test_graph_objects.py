@@ -74,7 +74,7 @@ def test_the_original_comes_back_without_a_graph_that_was_hidden_before(obj, set
 
 
 def test_pieces_and_nodes_have_the_colours_of_the_list_in_the_view(obj, settings):
-    """Object colours are linear, those of the list are not."""
+    """Object colors are linear, those of the list are not."""
     bpy.ops.reeb_parts.separate()
     colors = {part.name: part.color[:] for part in obj.data.reeb_parts.parts}
     for name, color in colors.items():

@@ -30,7 +30,7 @@ def node_colors(obj):
 
 
 def check_colors(obj):
-    """Faces, materials and nodes are coloured as the list says."""
+    """Faces, materials and nodes are colored as the list says."""
     mesh = obj.data
     colors = {part.number: np.array(part.color) for part in mesh.reeb_parts.parts}
     corner_numbers = np.repeat(numbers(mesh), [face.loop_total for face in mesh.polygons])
@@ -43,7 +43,7 @@ def check_colors(obj):
 
 
 def check_outputs(obj):
-    """Attribute, groups, list, colours and overlay all tell of the same parts."""
+    """Attribute, groups, list, colors and overlay all tell of the same parts."""
     result, mesh = obj.data.reeb_parts, obj.data
     faces = numbers(mesh)
     assert sorted(set(faces.tolist())) == [part.number for part in result.parts]
@@ -103,7 +103,7 @@ def test_more_detail_gives_new_numbers_and_changes_no_name_or_colour(obj, result
 
 @pytest.fixture
 def large(obj):
-    """The tree with 218,000 corners, with colours and another attribute of the user's own."""
+    """The tree with 218,000 corners, with colors and another attribute of the user's own."""
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.subdivide(number_cuts=4)

@@ -29,7 +29,7 @@ ENGLISH = {
     "SIGKILL": r"There is not enough memory to decompose Tree \(\d+ vertices\); nothing was changed\. Close .*\.",
     "SIGSEGV": r"The process that decomposed Tree ended unexpectedly \(signal 11\); nothing was changed\. Try .*\.",
     "button": "Merge Parts",
-    "tooltip": "Close holes",
+    "tooltip": "Close Holes",
 }
 GERMAN = {
     "no object": "Es gibt kein aktives Objekt. Bitte ein Mesh auswählen und erneut versuchen.",
@@ -61,7 +61,7 @@ def wanted(package):
 
 def test_messages_are_found_where_they_are(wanted):
     some = {
-        ("Operator", "Merge Parts"), ("*", "Clear brings your own back"), ("*", "Close holes"), ("*", "Boundaries"),
+        ("Operator", "Merge Parts"), ("*", "Clear brings your own back"), ("*", "Close Holes"), ("*", "Boundaries"),
         ("*", "{n} border edges: the surface is open there."), ("*", "distances"), ("*", "{n} parts are {name} now"),
         ("Operator", "Seams"), ("*", "Which parts to use"), ("*", "Nothing is computed again"), ("*", "OBJ"),
     }  # fmt: skip
@@ -198,14 +198,14 @@ def test_notes_of_a_file_from_before_there_were_translations(obj, package):
 
 def test_switched_off_leaves_no_translations(said, package):
     assert iface_("Merge Parts", "Operator") == said["button"]
-    assert iface_("Close holes") == said["tooltip"]
+    assert iface_("Close Holes") == said["tooltip"]
     addon_utils.disable(package)
     try:
         assert iface_("Merge Parts", "Operator") == ENGLISH["button"]
-        assert iface_("Close holes") == ENGLISH["tooltip"]
+        assert iface_("Close Holes") == ENGLISH["tooltip"]
     finally:
         addon_utils.enable(package)
-    assert iface_("Close holes") == said["tooltip"]
+    assert iface_("Close Holes") == said["tooltip"]
 
 
 def test_translations_are_shipped(package):
