@@ -256,16 +256,26 @@ def browser():
 
 
 def folded_out():
-    """The panels Output and Overlay."""
+    """The panels Output and Overlay, with the sidebar scrolled to its end."""
     ui = pointer.region("UI")
-    left, _ = pointer.from_top(ui.x, ui.y)
-    for label, rows in (("Output", 10.5), ("Overlay", 6.5)):
-        _, y = yield from pointer.fold(label)
-        yield from pointer.rest(*pointer.in_view(0.1, 0.1))
-        yield 0.3
-        top = y - 0.7 * pointer.unit()
-        pointer.shot(f"{label.lower()}.png", (left + 9, top, left + 0.88 * ui.width, top + rows * pointer.unit()))
+    left, top = pointer.from_top(ui.x, ui.y + ui.height)
+    for label in ("Output", "Overlay"):
         yield from pointer.fold(label)
+        yield from scroll(5)
+        pointer.shot(f"{label.lower()}.png", (left + 9, top + 0.4 * ui.height, left + 0.88 * ui.width, top + ui.height))
+        yield from scroll(4)
+        yield from pointer.fold(label)
+
+
+def scroll(button):
+    """Turn the wheel over the sidebar, to its end (5) or its beginning (4)."""
+    ui = pointer.region("UI")
+    yield from pointer.rest(*pointer.from_top(ui.x + 0.04 * ui.width, ui.y + 0.5 * ui.height))
+    for _ in range(15):
+        pointer.xdo("click", button)
+        yield 0.05
+    pointer.PLACES.clear()
+    yield 0.5
 
 
 def seamed():
