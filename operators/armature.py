@@ -10,16 +10,23 @@ from ..scene.store import Stored
 
 
 class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
-    """Make an armature with a bone for each part, along the part's centre line, as a start for a rig"""
+    """Make an armature with a bone for each part, along the part's center line, that moves the mesh smoothly"""
 
     bl_idname = "reeb_parts.armature"
     bl_label = "Make Armature from Parts"
 
     deform: bpy.props.BoolProperty(
-        name="Move the Mesh", default=False,
+        name="Move the Mesh", default=True,
         description="Add an Armature modifier, so that posing the bones moves the parts",
+    )
+    weights: bpy.props.EnumProperty(
+        name="Weights", default="SMOOTH",
+        items=[("SMOOTH", "Smooth", "Change smoothly across the cuts, as far as the limb is thick"),
+               ("AUTOMATIC", "Automatic", "Blender's own, by heat from the bones"),
+               ("PARTS", "Parts", "Each part moves as a whole, by its own vertex group")],
+        description="How much each bone moves each vertex; at most four bones move one",
     )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
-        rig = armature.make(context, obj, stored, self.deform)
+        rig = armature.make(context, obj, stored, self.deform, self.weights)
         return rpt_("{name} has {n} bones").format(name=rig.name, n=len(rig.data.bones))

@@ -1,28 +1,46 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An armature with a bone for each part, as a start for a rig; the parts' vertex groups are its weights."""
+"""An armature with a bone for each part, and the weights with which it moves the mesh."""
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts
-from . import bridge, mesh_arrays, modifiers, outputs, part_names, piece_objects, quiet, store, targets, transaction
-from .modes import set_mode
+from . import (
+    bridge,
+    mesh_arrays,
+    modifiers,
+    outputs,
+    part_meshes,
+    part_names,
+    piece_objects,
+    quiet,
+    store,
+    targets,
+    transaction,
+)
+from .errors import SceneError
+from .modes import call_with, set_mode
 from .selection import nothing_selected
 from .store import Stored
-from .temporary import remove_object
+from .temporary import remove_object, removed
 
 if TYPE_CHECKING:
     from ..core.uses.bones import Bones
+    from ..core.uses.skinning import Weights
 
 NAME = "Reeb Parts Armature"
 ROLE = "reeb_parts_role"  # on the armature, "armature"
 MADE = "reeb_parts_looks"  # on the armature: what it was like when it was made
+WEIGHTS = "reeb_parts_weights"  # on the mesh: the names of the vertex groups that hold its weights, as JSON
+DEFORM = "DEF-"  # how their names begin, as Rigify's do; after that comes the name of the part
 
 
 def remove_modifier(obj: bpy.types.Object) -> None:
@@ -38,7 +56,26 @@ def _modifier(obj: bpy.types.Object) -> bpy.types.ArmatureModifier | None:
     return modifier if modifier is not None and modifier.type == "ARMATURE" else None
 
 
-def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, deform: bool) -> bpy.types.Object:
+def remove_weights(mesh: bpy.types.Mesh) -> None:
+    """Remove the vertex groups that hold our weights."""
+    transaction.keep_mesh(mesh)
+    transaction.keep_keys(mesh, WEIGHTS)
+    obj = targets.users(mesh)[0]
+    for name in _weight_groups(mesh):
+        outputs.vertex_groups.remove_one(obj, name)
+    if WEIGHTS in mesh:
+        del mesh[WEIGHTS]
+
+
+def _weight_groups(mesh: bpy.types.Mesh) -> list[str]:
+    try:
+        return [str(name) for name in json.loads(mesh.get(WEIGHTS, "[]"))]
+    except (ValueError, TypeError):  # not written by us
+        return []
+
+
+def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, deform: bool,
+         weights: str = "SMOOTH") -> bpy.types.Object:
     """Make an armature in place of an earlier one, unless the user has worked on that one; Object Mode.
 
     Parameters
@@ -48,15 +85,27 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     stored : Stored
     deform : bool
         Give the object a modifier, so that the bones move it.
+    weights : str
+        "SMOOTH" for weights that change smoothly across cuts and "AUTOMATIC" for Blender's, both in vertex groups of
+        their own; "PARTS" for the parts' vertex groups, so that each part moves as a whole.
 
     Returns
     -------
     rig : bpy.types.Object
+
+    Raises
+    ------
+    SceneError
+        Blender finds no weights.
     """
     numbered = stored.shown_parts()
     place, bones = _bones(obj, stored.decomposition, numbered)
-    names = [part_names.part_name(obj.data, number) for number in numbered.numbers.tolist()]
-    _write_groups(obj, numbered)
+    remove_weights(obj.data)
+    if weights == "PARTS":
+        _write_groups(obj, numbered)
+        groups = [part.group for part in obj.data.reeb_parts.parts]
+    else:
+        groups = _new_groups(obj, [part_names.part_name(obj.data, number) for number in numbered.numbers.tolist()])
     collection = piece_objects.make_collection(context, obj)
     _remove_earlier(collection)
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
@@ -65,8 +114,11 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     rig.show_in_front = True
     rig[ROLE] = "armature"
     collection.objects.link(rig)
-    _add_bones(context, rig, bones, [part.group for part in obj.data.reeb_parts.parts] or names)
+    _add_bones(context, rig, bones, groups)
     rig[MADE] = _looks(rig)
+    if weights != "PARTS":
+        found = _smooth_weights(obj, place, numbered, bones)
+        _write_weights(obj, groups, found if weights == "SMOOTH" else _automatic(context, obj, rig, groups, found))
     if deform:
         modifier = _modifier(obj) or modifiers.new(obj, NAME, "ARMATURE")
         transaction.keep(modifier, "object")
@@ -74,6 +126,70 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     else:
         remove_modifier(obj)
     return rig
+
+
+def _new_groups(obj: bpy.types.Object, parts: list[str]) -> list[str]:
+    """A vertex group for the weights of each part; their names."""
+    mesh = obj.data
+    transaction.keep_mesh(mesh)
+    active = obj.vertex_groups.active_index
+    names = [obj.vertex_groups.new(name=f"{DEFORM}{name}").name for name in parts]
+    obj.vertex_groups.active_index = max(active, 0)
+    mesh[WEIGHTS] = json.dumps(names)
+    return names
+
+
+def _smooth_weights(obj: bpy.types.Object, place: Matrix, numbered: NumberedParts, bones: Bones) -> Weights:
+    """Weights that change smoothly across cuts."""
+    from ..core.uses.skinning import smooth_weights  # imports SciPy
+
+    turn = np.array(place.inverted() @ obj.matrix_world, np.float64)
+    points = mesh_arrays.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3]
+    return smooth_weights(mesh_arrays.corner_table(obj.data, points), numbered.parts.labels, bones)
+
+
+def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.Object, groups: list[str],
+               smooth: Weights) -> Weights:
+    """Blender's own weights, found on a copy; where it finds none, the smooth ones."""
+    from ..core.uses.skinning import Weights, limited
+
+    copy = part_meshes.plain_copy(obj.data)
+    twin = bpy.data.objects.new(copy.name, copy)
+    with removed(bpy.data.meshes, copy), removed(bpy.data.objects, twin):
+        twin.vertex_groups.clear()
+        twin.matrix_world = obj.matrix_world
+        context.scene.collection.objects.link(twin)
+        with nothing_selected(context.view_layer):
+            for each in (twin, rig):
+                each.select_set(True)
+            context.view_layer.objects.active = rig
+            try:
+                call_with(bpy.ops.object.parent_set, rig, type="ARMATURE_AUTO")
+            except RuntimeError as error:
+                raise SceneError(rpt_(
+                    "Blender finds no automatic weights for {name}. Choose smooth weights.").format(
+                        name=obj.name)) from error
+            finally:
+                rig.select_set(False)
+        mass = np.zeros((len(copy.vertices), len(groups)))
+        column = {twin.vertex_groups[name].index: i for i, name in enumerate(groups) if name in twin.vertex_groups}
+        for vertex in copy.vertices:  # groups cannot be read in bulk
+            for entry in vertex.groups:
+                mass[vertex.index, column[entry.group]] = entry.weight
+    found, known = limited(mass), mass.any(axis=1)[:, None]
+    return Weights(np.where(known, found.bone, smooth.bone), np.where(known, found.weight, smooth.weight))
+
+
+def _write_weights(obj: bpy.types.Object, groups: list[str], weights: Weights) -> None:
+    """Write weights into their groups, all vertices of one weight at once."""
+    for index, name in enumerate(groups):
+        vertex, place = np.nonzero(weights.bone == index)
+        weight = weights.weight[vertex, place]
+        order = np.argsort(weight, kind="stable")
+        vertex, weight = vertex[order], weight[order]
+        starts = np.flatnonzero(np.diff(weight, prepend=-1.0))
+        for value, some in zip(weight[starts].tolist(), np.split(vertex, starts[1:]), strict=True):
+            obj.vertex_groups[name].add(some.tolist(), value, "REPLACE")
 
 
 def _bones(obj: bpy.types.Object, decomposition: Decomposition, numbered: NumberedParts) -> tuple[Matrix, Bones]:

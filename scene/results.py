@@ -99,6 +99,7 @@ def clear(obj: bpy.types.Object) -> None:
         explode.forget(user)
         armature.remove_modifier(user)
         graph_objects.remove(user)
+    armature.remove_weights(obj.data)
     uv_map.remove(obj.data)
     outputs.remove_outputs(obj)
     obj.data.property_unset("reeb_parts")

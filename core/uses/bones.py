@@ -29,12 +29,15 @@ class Bones:
         Parent of each bone; -1 for the root of the body and of every other connected group of parts.
     connected : (count,) bool
         Whether each bone starts where its parent ends.
+    order : tuple of int
+        All bones, parents before their children.
     """
 
     head: np.ndarray
     tail: np.ndarray
     parent: np.ndarray
     connected: np.ndarray
+    order: tuple[int, ...]
 
 
 def part_bones(
@@ -85,7 +88,7 @@ def part_bones(
             tail[part] = head[part] + (0.0, 0.0, max(shortest, 1e-6))
         elif len(children) == 1:
             connected[children] = True
-    return Bones(head, tail, parent, connected)
+    return Bones(head, tail, parent, connected, tuple(order))
 
 
 def _joints(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -554,8 +554,19 @@ TEXTS = {
     "3MF": "3MF",
     "glTF Binary": "glTF Binär",
     "With materials and textures": "Mit Materialien und Texturen",
-    "Make an armature with a bone for each part, along the part's centre line, as a start for a rig":
-        "Ein Skelett mit einem Knochen für jedes Teil erstellen, entlang seiner Mittellinie, als Anfang für ein Rig",
+    "Make an armature with a bone for each part, along the part's center line, that moves the mesh smoothly":
+        "Ein Skelett mit einem Knochen für jedes Teil erstellen, entlang seiner Mittellinie, das das Mesh weich bewegt",
+    "Weights": "Gewichte",
+    "How much each bone moves each vertex; at most four bones move one":
+        "Wie sehr jeder Knochen jeden Punkt bewegt; höchstens vier Knochen bewegen einen",
+    "Change smoothly across the cuts, as far as the limb is thick":
+        "Ändern sich weich über die Schnitte hinweg, so weit wie das Glied dick ist",
+    "Automatic": "Automatisch",
+    "Blender's own, by heat from the bones": "Blenders eigene, durch Wärme von den Knochen",
+    "Each part moves as a whole, by its own vertex group":
+        "Jedes Teil bewegt sich als Ganzes, durch seine eigene Punktgruppe",
+    "Blender finds no automatic weights for {name}. Choose smooth weights.":
+        "Blender findet keine automatischen Gewichte für {name}. Bitte weiche Gewichte wählen.",
     "Move the Mesh": "Mesh bewegen",
     "Add an Armature modifier, so that posing the bones moves the parts":
         "Einen Skelett-Modifikator hinzufügen, sodass die Posen der Knochen die Teile bewegen",

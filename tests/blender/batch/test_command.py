@@ -50,15 +50,17 @@ def test_the_answer_says_of_each_part_whether_its_piece_is_sound(run, model, tmp
 
 
 def test_what_is_made_of_the_parts(run, model, tmp_path):
-    """An UV map in the scene, and an assembly of the parts, all whole."""
-    ended = run(model, "--unwrap", "--threemf", tmp_path / "out.3mf", "--save", tmp_path / "out.blend")
+    """A UV map and an armature in the scene, and an assembly of the parts, all whole."""
+    ended = run(model, "--unwrap", "--armature", "--threemf", tmp_path / "out.3mf", "--save", tmp_path / "out.blend")
     assert ended.status == 0
     assert ended.answer["files"]["threemf"] == str(tmp_path / "out.3mf")
     bodies, places = read_3mf(tmp_path / "out.3mf")
     assert [body.name for body in bodies] == [f"Tree {part['name']}" for part in ended.answer["objects"][0]["parts"]]
     assert len(places) == 1
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
-    assert "Reeb Parts UV" in bpy.data.objects["Tree"].data.uv_layers
+    tree, parts = bpy.data.objects["Tree"], ended.answer["objects"][0]["parts"]
+    assert "Reeb Parts UV" in tree.data.uv_layers
+    assert sorted(tree.modifiers[0].object.data.bones.keys()) == [f"DEF-{part['name']}" for part in parts]
 
 
 def test_an_object_that_cannot_be_cut_costs_only_itself(run, two, tmp_path):

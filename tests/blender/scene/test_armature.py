@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""reeb_parts.armature: a bone for each part, which moves the part."""
+"""reeb_parts.armature: a bone for each part, which moves the part, smoothly across its cuts."""
 
 import bpy
 import numpy as np
@@ -7,6 +7,8 @@ import pytest
 import shapes
 from mathutils import Euler
 from snapshot import check_undo, snapshot
+
+DEFORM = "DEF-"
 
 
 def rig_of(obj):
@@ -34,9 +36,11 @@ def test_a_bone_for_each_part_in_one_tree(obj):
     bpy.ops.reeb_parts.decompose()
     assert bpy.ops.reeb_parts.armature() == {"FINISHED"}
     bones = rig_of(obj).data.bones
-    assert sorted(bones.keys()) == [part.group for part in obj.data.reeb_parts.parts]
+    assert sorted(bones.keys()) == [DEFORM + part.name for part in obj.data.reeb_parts.parts]
     assert sum(bone.parent is None for bone in bones) == 1
     assert min(bone.length for bone in bones) > 0.01
+    assert [modifier.object for modifier in obj.modifiers] == [rig_of(obj)]
+    bpy.ops.reeb_parts.armature(deform=False)
     assert not obj.modifiers
 
 
@@ -49,7 +53,7 @@ def test_a_bone_starts_at_the_cut_and_ends_in_the_tip(make):
     rig, points, numbers = rig_of(obj), world(obj), numbers_of(obj)
     assert tuple(rig.scale) == pytest.approx((1, 1, 1))
     for part in obj.data.reeb_parts.parts:
-        bone = rig.data.bones[part.group]
+        bone = rig.data.bones[DEFORM + part.name]
         if bone.parent is None or bone.children:
             continue
         mine = {v for p in obj.data.polygons if numbers[p.index] == part.number for v in p.vertices}
@@ -68,7 +72,7 @@ def test_at_rest_nothing_moves_and_a_turned_bone_moves_its_part(obj):
     obj.location = (1, 2, 3)
     bpy.ops.reeb_parts.decompose()
     before = world(obj)
-    bpy.ops.reeb_parts.armature(deform=True)
+    bpy.ops.reeb_parts.armature(weights="PARTS")
     assert world(obj) == pytest.approx(before, abs=1e-4)
     rig = rig_of(obj)
     leaf = next(bone for bone in rig.pose.bones if bone.parent and not bone.children)
@@ -81,9 +85,85 @@ def test_at_rest_nothing_moves_and_a_turned_bone_moves_its_part(obj):
     assert moved.sum() > 0.8 * len(mine)
 
 
+def weights_of(obj):
+    """Weight of each vertex in the group of each bone, and what all are called."""
+    names = [name for name in obj.vertex_groups.keys() if name in rig_of(obj).data.bones]
+    column = {obj.vertex_groups[name].index: i for i, name in enumerate(names)}
+    found = np.zeros((len(obj.data.vertices), len(names)))
+    for vertex in obj.data.vertices:
+        for entry in vertex.groups:
+            if entry.group in column:
+                found[vertex.index, column[entry.group]] = entry.weight
+    return found, names
+
+
+@pytest.mark.parametrize("weights", ["SMOOTH", "AUTOMATIC"])
+def test_weights_are_few_and_add_up(obj, weights):
+    bpy.ops.reeb_parts.decompose()
+    groups = obj.vertex_groups.keys()
+    bpy.ops.reeb_parts.armature(weights=weights)
+    found, names = weights_of(obj)
+    assert names == [DEFORM + part.name for part in obj.data.reeb_parts.parts]
+    assert found.sum(axis=1) == pytest.approx(1, abs=1e-6)
+    assert (found > 0).sum(axis=1).max() <= 4
+    assert obj.vertex_groups.keys() == [*groups, *names]
+    if weights == "SMOOTH":  # across an edge no weight changes by much
+        ends = np.array([edge.vertices[:] for edge in obj.data.edges])
+        assert np.abs(found[ends[:, 0]] - found[ends[:, 1]]).max() < 0.35
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_bent_by_60_degrees_no_face_is_turned_over(obj, mirrored):
+    """Each joint, to four sides, as Blender poses it; the volume stays within a tenth."""
+    obj.scale, obj.rotation_euler = (-1 if mirrored else 1, 1, 1), (0.1, 0.2, 0.3)
+    bpy.ops.reeb_parts.decompose()
+    before = world(obj)
+    bpy.ops.reeb_parts.armature()
+    assert world(obj) == pytest.approx(before, abs=1e-4)
+    rig, faces = rig_of(obj), np.array([polygon.vertices[:] for polygon in obj.data.polygons])
+    bones = [bone for bone in rig.pose.bones if bone.parent]
+    assert bones
+    for bone in bones:
+        bone.rotation_mode = "XYZ"
+        for turn in ((1, 0, 0), (-1, 0, 0), (0, 0, 1), (0, 0, -1)):
+            bone.rotation_euler = Euler(np.radians(60) * np.array(turn, float))
+            after = world(obj)
+            assert abs(volume(after, faces) / volume(before, faces) - 1) < 0.1
+            bend = np.array(rig.matrix_world @ bone.matrix @ bone.bone.matrix_local.inverted()
+                            @ rig.matrix_world.inverted())[:3, :3]
+            rest = normals(before, faces)
+            # A face looks as if it had not moved, or as if it had gone with the bone, or between the two.
+            seen = [(normals(after, faces) * (rest @ way.T)).sum(axis=1) for way in (np.eye(3), bend)]
+            assert (np.maximum(*seen) > 0).all()
+        bone.rotation_euler = Euler()
+
+
+def normals(points, faces):
+    a, b, c = points[faces].transpose(1, 0, 2)
+    return np.cross(b - a, c - a)
+
+
+def volume(points, faces):
+    a, b, c = (points - points.mean(axis=0))[faces].transpose(1, 0, 2)
+    return (a * np.cross(b, c)).sum() / 6
+
+
+def test_a_group_of_the_user_is_left_alone(obj):
+    bpy.ops.reeb_parts.decompose()
+    name = DEFORM + obj.data.reeb_parts.parts[0].name
+    mine = obj.vertex_groups.new(name=name)
+    mine.add([0, 1, 2], 0.25, "REPLACE")
+    bpy.ops.reeb_parts.armature()
+    assert name not in rig_of(obj).data.bones
+    assert weights_of(obj)[0].sum(axis=1) == pytest.approx(1, abs=1e-6)
+    bpy.ops.reeb_parts.clear()
+    assert obj.vertex_groups.keys() == [name]
+    assert [obj.vertex_groups[name].weight(index) for index in range(3)] == [0.25] * 3
+
+
 def test_groups_are_made_if_they_are_not_there(obj):
     bpy.ops.reeb_parts.decompose(vertex_groups=False)
-    bpy.ops.reeb_parts.armature()
+    bpy.ops.reeb_parts.armature(weights="PARTS")
     assert sorted(rig_of(obj).data.bones.keys()) == obj.vertex_groups.keys()
     assert len(obj.vertex_groups) == len(obj.data.reeb_parts.parts)
 

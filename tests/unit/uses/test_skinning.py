@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Weights of bones: smooth, few, fair to all sides of a joint; and what bending does to faces."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.surface.corners import CornerTable
+from core.uses.bones import Bones
+from core.uses.skinning import bends, limited, smooth_weights, turned_over
+
+
+def rod(length=12.0, around=24, along=97):
+    """A tube of radius 1 along x from -length/2 to length/2, its faces in three parts of equal length."""
+    angle, x = np.meshgrid(2 * np.pi * np.arange(around) / around, np.linspace(-length / 2, length / 2, along))
+    vertices = np.stack([x, np.cos(angle), np.sin(angle)], axis=2).reshape(-1, 3)
+    here = np.arange(around * (along - 1)).reshape(-1, around)
+    beside = np.roll(here, -1, axis=1)
+    faces = np.stack([here, beside, beside + around, here + around], axis=2).reshape(-1, 4)
+    middle = vertices[faces].mean(axis=1)[:, 0]
+    return CornerTable.of(vertices, faces), np.digitize(middle, [-length / 6, length / 6])
+
+
+def chain(*joints):
+    """Bones along x from joint to joint."""
+    head = np.array([(x, 0.0, 0.0) for x in joints[:-1]])
+    tail = np.array([(x, 0.0, 0.0) for x in joints[1:]])
+    parent = np.arange(len(head)) - 1
+    return Bones(head, tail, parent, parent >= 0, tuple(range(len(head))))
+
+
+def dense(weights, count):
+    full = np.zeros((len(weights.bone), count + 1))
+    np.add.at(full, (np.arange(len(full))[:, None], weights.bone), weights.weight)
+    return full[:, :count]
+
+
+def test_half_and_half_at_the_joint_all_far_from_it():
+    table, labels = rod()
+    found = dense(smooth_weights(table, labels, chain(-6, -2, 2, 6)), 3)
+    x = table.vertices[:, 0]
+    assert found.sum(axis=1) == pytest.approx(1, abs=1e-12)
+    assert found[np.isclose(x, -2), :2] == pytest.approx(0.5, abs=0.01)
+    assert found[x < -2 - 1.7, 0] == pytest.approx(1)
+    assert found[np.abs(x) < 0.3, 1] == pytest.approx(1)
+    # Along the rod what is beyond the first joint only grows, and no step is larger than 1 / (60 degrees).
+    rings = 1 - found[:, 0].reshape(-1, 24).mean(axis=1)
+    assert (np.diff(rings) > -1e-9).all()
+    assert np.diff(rings).max() < (x.reshape(-1, 24)[1, 0] - x[0]) / (np.pi / 3)
+    # The rod is the same from both ends.
+    assert found[:, 0].reshape(-1, 24) == pytest.approx(found[:, 2].reshape(-1, 24)[::-1], abs=0.002)
+
+
+def test_no_face_is_turned_over_by_60_degrees():
+    table, labels = rod()
+    bones = chain(-6, -2, 2, 6)
+    found = dense(smooth_weights(table, labels, bones), 3)
+    for bone, share in ((1, found[:, 1] + found[:, 2]), (2, found[:, 2])):
+        assert not turned_over(table, share, bones.head[bone], np.array([1.0, 0, 0]), np.pi / 3).any()
+        assert turned_over(table, (share > 0.5).astype(float), bones.head[bone], np.array([1.0, 0, 0]), 2.5).any()
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_weights_do_not_depend_on_order_pose_or_size(seed):
+    rng = np.random.default_rng(seed)
+    table, labels = rod(along=49)
+    bones = chain(-6, -2, 2, 6)
+    known = dense(smooth_weights(table, labels, bones), 3)
+    turn, shift = np.linalg.qr(rng.normal(size=(3, 3)))[0], rng.normal(size=3)
+    place, order = rng.permutation(len(table.vertices)), rng.permutation(len(labels))
+    points = np.empty_like(table.vertices)
+    points[place] = 9.0 * table.vertices @ turn.T + shift
+    faces = place[table.corner_vertex.reshape(-1, 4)][order]
+    moved = Bones(9.0 * bones.head @ turn.T + shift, 9.0 * bones.tail @ turn.T + shift, bones.parent, bones.connected,
+                  bones.order)
+    found = dense(smooth_weights(CornerTable.of(points, faces), labels[order], moved), 3)
+    assert found[place] == pytest.approx(known, abs=2 / 1024)
+
+
+def test_trees_apart_do_not_move_each_other():
+    vertices, faces = shapes.icosphere(1)
+    table = CornerTable.of(np.concatenate([vertices, vertices + 3]), np.concatenate([faces, faces + len(vertices)]))
+    apart = Bones(np.zeros((2, 3)), np.ones((2, 3)), np.array([-1, -1]), np.zeros(2, bool), (0, 1))
+    found = dense(smooth_weights(table, np.repeat([0, 1], len(faces)), apart), 2)
+    assert (found == np.repeat(np.eye(2), len(vertices), axis=0)).all()
+
+
+def test_only_the_four_largest_are_kept():
+    found = limited(np.array([[5.0, 1, 4, 2, 3], [0, 0, 0, 0, 0], [0, 0, 2, 0, 0]]))
+    assert found.bone.tolist() == [[0, 2, 4, 3], [-1] * 4, [2, -1, -1, -1]]
+    assert found.weight[0] == pytest.approx(np.array([5, 4, 3, 2]) / 14, abs=1 / 1024)
+    assert found.weight.sum(axis=1).tolist() == [1, 0, 1]
+
+
+def test_bends_are_rotations_across_the_bone():
+    for turn in bends(np.array([1.0, 2.0, 3.0]), np.pi / 3):
+        assert turn @ turn.T == pytest.approx(np.eye(3))
+        assert (np.trace(turn), np.linalg.det(turn)) == (pytest.approx(2), pytest.approx(1))
+        direction = np.array([1.0, 2.0, 3.0]) / np.sqrt(14)
+        assert direction @ turn @ direction == pytest.approx(0.5)
