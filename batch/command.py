@@ -28,7 +28,7 @@ import bpy
 from ..core.errors import ReebError
 from ..core.parameters import Parameters
 from ..core.uses.options import chosen_parameters
-from ..scene import armature, bridge, complete, export, graph_objects, results, store, targets, uv_map
+from ..scene import armature, bridge, complete, export, graph_objects, hulls, results, store, targets, uv_map
 from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
 from ..scene.whole_files import WholeFiles, reason, scene_files, together
@@ -188,6 +188,8 @@ def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> None:
         uv_map.unwrap(bpy.context, obj, stored, open_parts=True, method="MINIMUM_STRETCH", stack=False)
     if options.armature:
         armature.make(bpy.context, obj, stored, deform=True)
+    if options.hulls:
+        hulls.make(bpy.context, obj, stored, options.hulls.upper())
 
 
 def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bpy.types.Object], reports: list[dict],

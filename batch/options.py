@@ -46,6 +46,8 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     uses = made.add_argument_group("what is made of the parts")
     uses.add_argument("--unwrap", action="store_true", help="a UV map with an island for each part")
     uses.add_argument("--armature", action="store_true", help="a bone for each part, and weights to pose it with")
+    uses.add_argument("--hulls", choices=("unreal", "godot"), metavar="ENGINE",
+                      help="a convex hull of each part, named for unreal or godot")
     add_parameters(made.add_argument_group("parameters"))
     outputs = made.add_argument_group("what is written to the objects")
     for name, prop in (OutputProperties.__annotations__ | OverlayProperties.__annotations__).items():

@@ -15,6 +15,7 @@ from . import (
     edit,
     export,
     graph,
+    hulls,
     outputs,
     paint,
     parts,
@@ -26,7 +27,7 @@ from . import (
 )
 
 MODULES = (decompose, detail, clear, settings, parts, alike, pick, edit, slide, cut, paint, graph, separate, checks,
-           outputs, unwrap, export, armature)
+           outputs, unwrap, export, armature, hulls)
 #: Every operator that one of the modules defines.
 CLASSES = tuple(cls for module in MODULES for cls in vars(module).values()
                 if isinstance(cls, type) and issubclass(cls, bpy.types.Operator))

@@ -74,7 +74,8 @@ class REEB_PARTS_MT_main(bpy.types.Menu):
             ("reeb_parts.check_pieces", "NONE"), ("reeb_parts.select_faults", "NONE"),
             ("reeb_parts.repair_piece", "NONE"), ("reeb_parts.seams", "NONE"), ("reeb_parts.face_sets", "NONE"),
             ("reeb_parts.materials", "NONE"),
-            ("reeb_parts.unwrap", "UV"), ("reeb_parts.export", "EXPORT"), ("reeb_parts.armature", "ARMATURE_DATA"))
+            ("reeb_parts.unwrap", "UV"), ("reeb_parts.export", "EXPORT"), ("reeb_parts.armature", "ARMATURE_DATA"),
+            ("reeb_parts.hulls", "MESH_ICOSPHERE"))
         layout.separator()
         _draw_operators(
             layout, ("reeb_parts.reset_parameters", "LOOP_BACK"), ("reeb_parts.use_preferences", "PREFERENCES"))

@@ -42,6 +42,7 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         self.layout.operator("reeb_parts.unwrap", icon="UV")
         self.layout.operator("reeb_parts.export", text="Export to Files...", icon="EXPORT")
         self.layout.operator("reeb_parts.armature", text="Make Armature", icon="ARMATURE_DATA")
+        self.layout.operator("reeb_parts.hulls", text="Make Collision Hulls", icon="MESH_ICOSPHERE")
 
 
 class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):

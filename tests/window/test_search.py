@@ -33,6 +33,7 @@ DOES = {
     "Give Each Part a Material, OBJECT": "/data/materials",
     "Unwrap along Cuts, OBJECT": "/attributes/Reeb Parts UV",
     "Make Armature from Parts, OBJECT": "/data/armatures",
+    "Make Collision Hulls of Parts, OBJECT": "INFO: [0-9]+ hulls",
     "Separate Parts into Objects, OBJECT": "INFO: spot: [0-9]+ parts are objects now",
     "Show Original of Part, OBJECT": "/objects/spot/hidden",
     "Use Preferences in This Scene, OBJECT": "/settings",

@@ -77,6 +77,8 @@ OPERATORS = {
     "Unwrap along Cuts": "Entlang der Schnitte abwickeln",
     "Export to Files...": "In Dateien exportieren...",
     "Export Parts to Files": "Teile in Dateien exportieren",
+    "Make Collision Hulls": "Kollisionshüllen erstellen",
+    "Make Collision Hulls of Parts": "Kollisionshüllen aus Teilen erstellen",
     "Make Armature": "Skelett erstellen",
     "Make Armature from Parts": "Skelett aus Teilen erstellen",
 }
@@ -570,6 +572,15 @@ TEXTS = {
     "Move the Mesh": "Mesh bewegen",
     "Add an Armature modifier, so that posing the bones moves the parts":
         "Einen Skelett-Modifikator hinzufügen, sodass die Posen der Knochen die Teile bewegen",
+    "Make a convex hull of each part, of at most 64 corners, with which games and simulations collide":
+        "Eine konvexe Hülle jedes Teils erstellen, mit höchstens 64 Ecken, für Kollisionen in Spielen und Simulationen",
+    "Names": "Namen",
+    "How the hulls are called, so that the game engine finds them":
+        "Wie die Hüllen heißen, damit die Engine sie findet",
+    "Unreal": "Unreal",
+    "UCX_, the object and a number": "UCX_, das Objekt und eine Nummer",
+    "Godot": "Godot",
+    "The part, then -convcolonly": "Das Teil, dann -convcolonly",
     # Was über ein Mesh zu sagen ist
     "{n} edges join more than two faces (non-manifold).":
         "Kanten mit mehr als zwei Flächen (nicht mannigfaltig): {n}.",
@@ -787,6 +798,7 @@ TEXTS = {
     "0.3 to 3; angles {angle:.0f}° off on average":
         "In die UV-Map {name} abgewickelt: Flächen auf das {low:.1f}- bis {high:.1f}-Fache, {share:.0%} davon "
         "zwischen 0,3 und 3; Winkel im Mittel um {angle:.0f}° verändert",
+    "{n} hulls": "{n} Hüllen",
     "There is no folder to write to. Choose one and try again.":
         "Es ist kein Ordner angegeben. Bitte einen wählen und erneut versuchen.",
     "{path} could not be written: {reason}": "{path} konnte nicht geschrieben werden: {reason}",

@@ -51,7 +51,8 @@ def test_the_answer_says_of_each_part_whether_its_piece_is_sound(run, model, tmp
 
 def test_what_is_made_of_the_parts(run, model, tmp_path):
     """A UV map and an armature in the scene, and an assembly of the parts, all whole."""
-    ended = run(model, "--unwrap", "--armature", "--threemf", tmp_path / "out.3mf", "--save", tmp_path / "out.blend")
+    ended = run(model, "--unwrap", "--armature", "--hulls", "unreal", "--threemf", tmp_path / "out.3mf",
+                "--save", tmp_path / "out.blend")
     assert ended.status == 0
     assert ended.answer["files"]["threemf"] == str(tmp_path / "out.3mf")
     bodies, places = read_3mf(tmp_path / "out.3mf")
@@ -60,6 +61,7 @@ def test_what_is_made_of_the_parts(run, model, tmp_path):
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
     tree, parts = bpy.data.objects["Tree"], ended.answer["objects"][0]["parts"]
     assert "Reeb Parts UV" in tree.data.uv_layers
+    assert sum(name.startswith("UCX_Tree_") for name in bpy.data.objects.keys()) == len(parts)
     assert sorted(tree.modifiers[0].object.data.bones.keys()) == [f"DEF-{part['name']}" for part in parts]
 
 

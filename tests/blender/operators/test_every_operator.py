@@ -190,6 +190,7 @@ CASES = {
     "unwrap": Case(changes=("/active UV map",)),
     "export": Case({"directory": FOLDER, "format": "ply"}),
     "armature": Case(changes=("/modifiers",)),
+    "hulls": Case(),
     "show_colors": Case(),
     "suggest_names": Case(),
     "show_graph": Case(changes=("/settings",)),
@@ -278,7 +279,7 @@ def flag(mesh, name, vertices, rule):
         items.foreach_set(name, [rule(vertices[i] for i in item.vertices) for item in items])
 
 
-OURS = re.compile(r"\.?reeb_|Reeb |([\w.]+ |DEF-)?Parts? \d|Parts of |"
+OURS = re.compile(r"\.?reeb_|Reeb |([\w.]+ |DEF-)?Parts? \d|Parts of |UCX_|"
                   r"body|.*(limb|tip|piece|joint|middle)(\.\w+)*$")  # nodes, and names that are suggested
 RESULT = ("result", "made", "users")  # what an operator writes by rights, and what counts its pieces
 FLAGS = re.compile(r"\.select_|\.hide_|\.?uv_seam|\.uv_select|sharp_|material_index")

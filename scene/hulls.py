@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Convex hulls of parts as objects, named as game engines find them."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from . import mesh_arrays, part_names, piece_objects, transaction
+from .store import Stored
+from .temporary import remove_object
+
+ROLE = "reeb_parts_role"  # on a hull, "hull"
+MADE = "reeb_parts_looks"  # on a hull: what it was like when it was made
+_LONGEST = 59  # bytes of a name, with room for a number that Blender adds
+
+
+def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engine: str) -> list[bpy.types.Object]:
+    """Make a convex hull of each part, in place of earlier ones that the user has not worked on; Object Mode.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+    stored : Stored
+    engine : str
+        "UNREAL": UCX_ and the object, then a number. "GODOT": the part, then -convcolonly.
+
+    Returns
+    -------
+    made : list of bpy.types.Object
+    """
+    from ..core.uses.hulls import part_hulls  # imports SciPy
+
+    numbered = stored.shown_parts()
+    hulls = part_hulls(mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj)), numbered.parts.labels)
+    collection = piece_objects.make_collection(context, obj)
+    _remove_earlier(collection)
+    made = []
+    for place, (number, hull) in enumerate(zip(numbered.numbers.tolist(), hulls, strict=True), 1):
+        part = part_names.piece_name(obj, number)
+        name = _fitting("UCX_", obj.name, f"_{place:02d}") if engine == "UNREAL" else _fitting("", part, "-convcolonly")
+        mesh = bpy.data.meshes.new(name)
+        mesh.from_pydata(hull.vertices.tolist(), [], hull.triangles.tolist())
+        made.append(_placed(bpy.data.objects.new(name, mesh), obj))
+        collection.objects.link(made[-1])
+    for piece in made:
+        piece[MADE] = _looks(piece)
+    return made
+
+
+def _fitting(before: str, name: str, after: str) -> str:
+    """A name with what stands before and after it, short enough for Blender to keep its end."""
+    return before + name.encode()[: _LONGEST - len(before) - len(after)].decode(errors="ignore") + after
+
+
+def _placed(hull: bpy.types.Object, obj: bpy.types.Object) -> bpy.types.Object:
+    """A hull where its object is, shown as lines and not rendered."""
+    hull.matrix_world = obj.matrix_world
+    hull.display_type = "WIRE"
+    hull.hide_render = True
+    hull[ROLE] = "hull"
+    return hull
+
+
+def _remove_earlier(collection: bpy.types.Collection) -> None:
+    for hull in list(collection.objects):
+        if hull.get(ROLE) != "hull":
+            continue
+        if not hull.children and hull.mode == "OBJECT" and _looks(hull) == hull.get(MADE):
+            remove_object(hull)
+        else:
+            transaction.keep_keys(hull, ROLE, MADE)
+            del hull[ROLE], hull[MADE]
+
+
+def _looks(hull: bpy.types.Object) -> str:
+    """A text that differs once the user has worked on the hull."""
+    place = np.round(np.array(hull.matrix_basis), 5).tolist()
+    return str([hull.name, place, hull.parent is not None, hull.modifiers.keys(), hull.rigid_body is not None,
+                mesh_arrays.fingerprint(hull.data)])
