@@ -144,6 +144,10 @@ def _steps(arguments: argparse.Namespace, for_pytest: list[str], scratch: Path) 
             work = partial(work, REEB_PARTS_FUZZ=str(60 * arguments.fuzz / LONG[name]),
                            REEB_PARTS_FUZZ_COUNTS=str(scratch / COUNTS))
         after = ""
+        if name == "package":  # reads .blend files by a full Blender
+            work = partial(work, BLENDER=arguments.blender or "")
+            if not arguments.blender:
+                _left_out("package: .blend and .fbx, no --blender was given")
         if name == "documents":
             after = "build" if arguments.blender else ""
             work = partial(_documents, arguments.blender, scratch, for_pytest)

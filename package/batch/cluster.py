@@ -13,6 +13,7 @@ from itertools import islice
 from typing import Any
 
 import dask
+import dask.utils
 from distributed import Client, LocalCluster, as_completed
 
 from ..core.errors import ReebError
@@ -114,6 +115,8 @@ def spread(client: Client, function: Callable[[Any], Any], jobs: Iterable[Any]) 
     room, looked = 0, float("-inf")
     while True:
         if time.monotonic() > looked + LOOK:
+            # Dask keeps the names of the last 100,000 jobs, half a kilobyte each.
+            dask.utils.key_split.cache_clear()
             room, looked = AHEAD * max(sum(client.nthreads().values()), 1), time.monotonic()
         for job in islice(waiting, max(room - len(running), 0)):
             future = client.submit(function, job, pure=False)

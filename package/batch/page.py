@@ -74,6 +74,7 @@ function update() {
   main.replaceChildren(); count = 0; more();
 }
 models.forEach(m => { m.text = [m.name, m.status, m.reason, ...m.notes].join(' ').toLowerCase(); });
+words.value = decodeURIComponent(location.hash.slice(1));  // index.html#cow looks for cows
 words.addEventListener('input', update);
 key.addEventListener('change', update);
 down.addEventListener('click', () => {

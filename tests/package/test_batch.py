@@ -41,7 +41,7 @@ def save(shape, path):
 
 def many(folder, count):
     """So many models, each a little different."""
-    shape = shapes.tube_tree(step=0.2)
+    shape = shapes.dumbbell(20, 8)
     return [save((shape.vertices * (1 + 0.01 * n), shape.faces), folder / f"tree_{n:03d}.ply") for n in range(count)]
 
 
@@ -281,18 +281,18 @@ def finished(out):
 
 
 def test_a_killed_worker_a_killed_run_and_ctrl_c_lose_nothing(request, reeb_parts_command, tmp_path):
-    many(tmp_path / "in", 24)
+    many(tmp_path / "in", 16)
     out = tmp_path / "out"
     arguments = (tmp_path / "in", "--out", out, *LOCAL)
     run = start(request, *arguments)
-    wait_for(lambda: len(finished(out)) >= 4, run)
+    wait_for(lambda: len(finished(out)) >= 3, run)
     # One of the processes that has one for models is a worker.
     models = [process for process in psutil.Process(run.pid).children(recursive=True)
               if "reeb_parts.batch.model_process" in process.cmdline()]
     worker = models[0].parent()
     worker.kill()
     known = finished(out)
-    wait_for(lambda: len(finished(out)) >= len(known) + 4, run)
+    wait_for(lambda: len(finished(out)) >= len(known) + 3, run)
     children = psutil.Process(run.pid).children(recursive=True)
     os.killpg(run.pid, signal.SIGKILL)
     run.communicate()
@@ -301,23 +301,23 @@ def test_a_killed_worker_a_killed_run_and_ctrl_c_lose_nothing(request, reeb_part
         assert time.monotonic() < until
         time.sleep(0.05)
     known = {name: (out / "models" / name / RECORD).stat().st_mtime_ns for name in finished(out)}
-    assert 8 <= len(known) < 24
+    assert 6 <= len(known) < 16
 
     run = start(request, *arguments)
-    wait_for(lambda: len(finished(out)) >= len(known) + 4, run)
+    wait_for(lambda: len(finished(out)) >= len(known) + 3, run)
     os.killpg(run.pid, signal.SIGINT)  # as a terminal sends it: to all processes
     stdout, stderr = run.communicate(timeout=60)
     assert run.returncode == 130, stderr
     assert "Traceback" not in stderr
     answer = json.loads(stdout)
     assert answer["kept"] == len(known)
-    assert answer["models"]["done"] + answer["models"]["open"] == 24
-    assert len(rows(out / "models.parquet")) == 24
+    assert answer["models"]["done"] + answer["models"]["open"] == 16
+    assert len(rows(out / "models.parquet")) == 16
 
     done = reeb_parts_command("batch", *arguments)
     assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout)["models"] == {"done": 24}
-    assert finished(out) == {f"tree_{n:03d}.ply" for n in range(24)}
+    assert json.loads(done.stdout)["models"] == {"done": 16}
+    assert finished(out) == {f"tree_{n:03d}.ply" for n in range(16)}
     # What was done before is as it was, and nothing half done is left.
     assert {name: (out / "models" / name / RECORD).stat().st_mtime_ns for name in known} == known
     assert {path.name for path in (out / "models").iterdir()} == finished(out)
@@ -334,10 +334,10 @@ def address():
 
 
 def test_a_cluster_that_is_there_is_used_and_left_as_it_was(address, reeb_parts_command, tmp_path):
-    many(tmp_path / "in", 3)
+    many(tmp_path / "in", 2)
     done = reeb_parts_command("batch", tmp_path / "in", "--out", tmp_path / "out", "--scheduler", address)
     assert done.returncode == 0, done.stderr
-    assert len(finished(tmp_path / "out")) == 3
+    assert len(finished(tmp_path / "out")) == 2
     with Client(address) as client:
         assert len(client.nthreads()) == 2
         assert client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)) == 0
