@@ -85,7 +85,10 @@ def keep_keys(block: bpy.types.ID, *keys: str) -> None:
     """Some custom properties of a data block will change."""
     if _open:
         for key in keys:
-            on_failure(*((operator.setitem, block, key, block[key]) if key in block else (_drop_key, block, key)))
+            value = block.get(key)
+            if hasattr(value, "to_list"):  # else what is kept would change with the property
+                value = value.to_list()
+            on_failure(*((operator.setitem, block, key, value) if key in block else (_drop_key, block, key)))
 
 
 def _is_array(struct: bpy.types.bpy_struct, name: str) -> bool:
@@ -129,7 +132,7 @@ def discard(*blocks: bpy.types.ID) -> None:
             _open[0].discarded.append(block)
             for named in (block, getattr(block, "shape_keys", None)):
                 if named is not None:
-                    keep(named, "name")
+                    _open[0].renamed.append(partial(setattr, named, "name", named.name))
                     named.name = "Reeb Parts, to be removed"
     if at_once:
         bpy.data.batch_remove(at_once)
@@ -146,12 +149,15 @@ class Transaction:
         What cannot be taken back.
     discarded : list of bpy.types.ID
         What will be gone.
+    renamed : list of callable
+        What gives those their names back, when nothing that is new has these names any more.
     """
 
     def __init__(self) -> None:
         self.inverses: list[Callable[[], object]] = []
         self.last: list[Callable[[], object]] = []
         self.discarded: list[bpy.types.ID] = []
+        self.renamed: list[Callable[[], object]] = []
         self._meshes: dict[bpy.types.Mesh, MeshCopy] = {}
         self._groups: set[tuple[bpy.types.ID, str]] = set()
         self._there = {kind: {block.session_uid for block in getattr(bpy.data, kind)} for kind in _KINDS}
@@ -189,7 +195,8 @@ class Transaction:
     def take_back(self) -> None:
         """Have everything as it was before; what cannot be done does not keep the rest from being done."""
         steps: list[Callable[[], object]] = [
-            self._to_object_mode, *reversed(self.inverses), self._remove_new, self._restore_layer]
+            self._to_object_mode, *reversed(self.inverses), self._remove_new, *reversed(self.renamed),
+            self._restore_layer]
         with quiet.quiet():
             for step in steps:
                 try:
