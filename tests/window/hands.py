@@ -196,7 +196,7 @@ def graph_hidden(seen):
     """The eye beside Detail, off and on."""
     seen["graph"] = [graph_shown()]
     for _ in range(2):
-        yield from pointer.push("reeb_parts.graph", "detail")
+        yield from pointer.push("reeb_parts.show_graph", "detail")
         yield from pointer.until(lambda: graph_shown() != seen["graph"][-1])
         seen["graph"].append(graph_shown())
 
