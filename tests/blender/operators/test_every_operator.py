@@ -310,7 +310,7 @@ def set_up(package, name, situation, make, tree, tmp_path):
     case.prepare(obj)
     arguments = case.arguments(obj) if callable(case.arguments) else case.arguments
     node = next((item.name for item in obj.children if item.get("kind") == "saddle" and not item["folded"]), "")
-    active = {"mesh": obj.name, "node": node, "arcs": "Reeb arcs", "piece": f"{obj.name} Part 02"}[case.active]
+    active = {"mesh": obj.name, "node": node, "arcs": "Reeb arcs", "piece": f"{obj.name} Part 01"}[case.active]
     if situation == "linked from a file":
         link_from_file(tmp_path / "library.blend", active)
     elif case.active == "piece" or situation not in OTHER_MODES:
