@@ -188,7 +188,7 @@ def _write_weights(obj: bpy.types.Object, groups: list[str], weights: Weights) -
         order = np.argsort(weight, kind="stable")
         vertex, weight = vertex[order], weight[order]
         starts = np.flatnonzero(np.diff(weight, prepend=-1.0))
-        for value, some in zip(weight[starts].tolist(), np.split(vertex, starts[1:]), strict=True):
+        for value, some in zip(weight[starts].tolist(), np.split(vertex, starts)[1:], strict=True):
             obj.vertex_groups[name].add(some.tolist(), value, "REPLACE")
 
 
