@@ -17,6 +17,7 @@ _VALUES = {  # of an attribute: the name of its values, their type, how many
     "FLOAT_COLOR": ("color", np.float32, 4), "INT32_2D": ("value", np.int32, 2),
     "INT16_2D": ("value", np.int32, 2),
 }  # fmt: skip
+BRUSHES = "essentials_brushes"  # Blender's own, loaded when a mode for painting is entered
 _KINDS = ("objects", "meshes", "collections", "materials", "curves", "armatures", "shape_keys", "node_groups",
           "actions", "images", "texts", "libraries")
 
@@ -28,7 +29,8 @@ def snapshot() -> dict:
             obj.update_from_editmode()
     layer = bpy.context.view_layer
     return {
-        "data": {kind: sorted(item.name for item in getattr(bpy.data, kind) if item.name != "Render Result")
+        "data": {kind: sorted(item.name for item in getattr(bpy.data, kind)
+                              if item.name != "Render Result" and not item.name.startswith(BRUSHES))
                  for kind in _KINDS},
         "objects": {obj.name: _object(obj) for obj in bpy.data.objects},
         "meshes": {mesh.name: _mesh(mesh) for mesh in bpy.data.meshes[:]},

@@ -42,6 +42,8 @@ class Walk:
         return self.tree.data.reeb_parts
 
     def part(self):
+        if not self.tree.data.is_property_set("reeb_parts"):
+            return None  # to read from it would make it
         parts = self.result.parts
         return parts[int(self.rng.integers(len(parts)))] if len(parts) else None
 
@@ -82,13 +84,18 @@ class Walk:
             "palette": lambda: setattr(bpy.context.scene.reeb_parts, "palette", str(rng.choice(["Pastel", "Bright"]))),
             "graph": lambda: setattr(bpy.context.scene.reeb_parts, "graph", chance()),
             "symmetry": lambda: setattr(bpy.context.scene.reeb_parts, "symmetry", chance()),
-            "mode": lambda: bpy.ops.object.mode_set(mode=str(rng.choice(["OBJECT", "OBJECT", "EDIT", "SCULPT"]))),
+            "mode": self.mode,
             "activate": self.activate,
             "move": lambda: setattr(self.tree, "location", rng.normal(size=3).tolist()),
             "edit": self.edit,
             "delete": self.delete,
         }
         return done
+
+    def mode(self):
+        obj = bpy.context.object
+        modes = ["OBJECT", "OBJECT", "EDIT", "SCULPT"] if obj is not None and obj.type == "MESH" else ["OBJECT"]
+        bpy.ops.object.mode_set(mode=str(self.rng.choice(modes)))
 
     def activate(self):
         if bpy.context.mode == "OBJECT":
