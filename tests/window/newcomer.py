@@ -80,7 +80,8 @@ def facts():
         "faces": [list(face.vertices) for face in mesh.polygons],
         "matrix": [round(x, 6) for row in suzanne().matrix_world for x in row],
         "parts": [part.name for part in mesh.reeb_parts.parts],
-        "pieces": {obj.name: len(obj.data.polygons) for obj in pieces},
+        "pieces": {obj.name: sum(polygon.area for polygon in obj.data.polygons) for obj in pieces},
+        "area": sum(polygon.area for polygon in mesh.polygons),
         "shown": sorted(obj.name for obj in pieces if obj.visible_get()),
     }
 

@@ -185,6 +185,7 @@ COMMANDS = (
     Command("Give Each Part a Material"),
     Command("Unwrap along Cuts"),
     Command("Make Armature from Parts"),
+    Command("Make Collision Hulls of Parts"),
     Command("Separate Parts into Objects"),
     Command("Show Original of Part", separated),
     Command("Use Preferences in This Scene", other_overlay),

@@ -35,7 +35,8 @@ def test_every_part_is_an_object_that_is_seen(seen):
     separated = seen["separated"]
     assert sorted(separated["pieces"]) == separated["shown"]
     assert separated["shown"] == sorted(f"Suzanne {name}" for name in seen["decomposed"]["parts"])
-    assert sum(separated["pieces"].values()) == len(seen["added"]["faces"])
+    # Faces are divided where a smooth cut runs; those of Suzanne are bent a little.
+    assert sum(separated["pieces"].values()) == pytest.approx(seen["added"]["area"], rel=1e-3)
 
 
 def test_the_original_is_hidden_and_as_it_was(seen):
