@@ -19,7 +19,7 @@ from . import mesh_arrays
 from .temporary import freed
 
 if TYPE_CHECKING:
-    from ..core.uses.clean_cuts import CleanCuts
+    from ..core.uses.clean_cuts.method import CleanCuts
 
 _NUMBER = "reeb_parts_face_number"
 
@@ -60,7 +60,7 @@ def divide_faces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.nda
 
 
 def _cuts(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> CleanCuts:
-    from ..core.uses.clean_cuts import clean_cuts  # imports SciPy
+    from ..core.uses.clean_cuts.method import clean_cuts  # imports SciPy
 
     table = mesh_arrays.corner_table(mesh, mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T)
     sides = np.stack(table.edge_labels(face_numbers), axis=1)

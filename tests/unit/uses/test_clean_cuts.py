@@ -6,7 +6,8 @@ import pytest
 import shapes
 
 from core.surface.corners import CornerTable
-from core.uses.clean_cuts import clean_cuts, turning
+from core.uses.clean_cuts.method import clean_cuts
+from core.uses.clean_cuts.turning import turning
 
 NORMAL = np.array([0.3, 0.5, 0.8]) / np.linalg.norm([0.3, 0.5, 0.8])
 

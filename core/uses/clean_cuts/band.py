@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The faces near the borders between parts, with numbers of their own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...surface.arrays import renumbered, sums_by
+from ...surface.corners import CornerTable
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """The faces near the borders between parts, with numbers of their own.
+
+    Attributes
+    ----------
+    n_vertices : int
+        Of the whole mesh.
+    vertices, edges, faces : (v,), (e,), (f,) int64
+        Those of the mesh that are in the band.
+    points : (v, 3) float64
+    ends : (e, 2) int64
+    corner_vertex, corner_edge, corner_face : (c,) int64
+    labels : (f,) int64
+        0..n_labels-1.
+    names : (n_labels,) int64
+        The label in the mesh.
+    """
+
+    n_vertices: int
+    vertices: np.ndarray
+    edges: np.ndarray
+    faces: np.ndarray
+    points: np.ndarray
+    ends: np.ndarray
+    corner_vertex: np.ndarray
+    corner_edge: np.ndarray
+    corner_face: np.ndarray
+    labels: np.ndarray
+    names: np.ndarray
+
+    @classmethod
+    def of(cls, table: CornerTable, labels: np.ndarray, rings: int) -> Band | None:
+        """The faces less than so many faces away from a border between parts; None without a border."""
+        low, high = table.edge_labels(labels)
+        cut = low < high
+        if not cut.any():
+            return None
+        near = np.zeros(len(table.vertices), bool)
+        near[table.edges[cut]] = True
+        for _ in range(rings):
+            inside = np.zeros(table.n_faces, bool)
+            inside[table.corner_face[near[table.corner_vertex]]] = True
+            corner = inside[table.corner_face]
+            near[table.corner_vertex[corner]] = True
+        vertices, corner_vertex = renumbered(table.corner_vertex[corner])
+        edges, corner_edge = renumbered(table.corner_edge[corner])
+        faces, corner_face = renumbered(table.corner_face[corner])
+        names, own = renumbered(labels[faces])
+        ends = np.searchsorted(vertices, table.edges[edges])
+        return cls(len(table.vertices), vertices, edges, faces, table.vertices[vertices], ends, corner_vertex,
+                   corner_edge, corner_face, own, names)
+
+    @property
+    def n_corners(self) -> np.ndarray:
+        """(f,) int64, of each face."""
+        return np.bincount(self.corner_face, minlength=len(self.faces))
+
+    @property
+    def following(self) -> np.ndarray:
+        """(c,) int64, the next corner of the face of each corner."""
+        return next_of_owner(self.corner_face)
+
+    def edge_labels(self) -> tuple[np.ndarray, np.ndarray]:
+        """Smallest and largest label at each edge, (e,) int64 each."""
+        low = np.full(len(self.edges), len(self.names))
+        high = np.full(len(self.edges), -1)
+        np.minimum.at(low, self.corner_edge, self.labels[self.corner_face])
+        np.maximum.at(high, self.corner_edge, self.labels[self.corner_face])
+        return low, high
+
+    def triangles(self) -> tuple[np.ndarray, np.ndarray]:
+        """A fan of triangles for each face: (t, 3) vertices, and the face of each, (t,)."""
+        count = self.n_corners
+        first = np.cumsum(count) - count
+        face = np.repeat(np.arange(len(count)), count - 2)
+        step = np.arange(len(face)) - np.repeat(np.cumsum(count - 2) - (count - 2), count - 2)
+        corners = np.stack([first[face], first[face] + step + 1, first[face] + step + 2], axis=1)
+        return self.corner_vertex[corners], face
+
+    def normals(self) -> np.ndarray:
+        """Normal of each face as long as its area, (f, 3)."""
+        triangles, face = self.triangles()
+        a, b, c = self.points[triangles].transpose(1, 0, 2)
+        return sums_by(face, 0.5 * np.cross(b - a, c - a), len(self.faces))
+
+    def edge_length(self) -> np.ndarray:
+        """(e,) float64."""
+        return np.linalg.norm(self.points[self.ends[:, 0]] - self.points[self.ends[:, 1]], axis=1)
+
+
+def next_of_owner(owner: np.ndarray) -> np.ndarray:
+    """Index of the next element of the same owner, in a circle; owners rise. (c,) int64."""
+    count = np.bincount(owner)
+    following = np.arange(1, len(owner) + 1)
+    last = np.cumsum(count)[count > 0] - 1
+    following[last] = last - count[count > 0] + 1
+    return following

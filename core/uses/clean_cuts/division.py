@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces divided where curves run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...surface.labels import majority
+from .band import Band, next_of_owner
+from .sides import Sides
+
+
+@dataclass(frozen=True, eq=False)
+class Division:
+    """The outlines of the faces taken apart where a curve enters or leaves a face.
+
+    A portion is a stretch of an outline from one point to the next: from corner to corner, or to a crossed edge's
+    point. Points have numbers: 0..v-1 are the vertices, v + e is the point on edge e, v + e + f that inside face f.
+
+    Attributes
+    ----------
+    face : (o,) int64
+        Face of each portion, rising.
+    point : (o,) int64
+        Where the portion begins; it ends where the next one of its face does.
+    side : (o,) int64
+        Edge and half of it, the same for the portions of the faces that meet there.
+    label : (o,) int64
+        Part on the side of the face.
+    begins : (o,) bool
+        Whether the piece of the face that the portion is part of begins here.
+    piece : (o,) int64
+        Which piece, in the order of where they begin.
+    odd : (f,) bool
+        Faces that have to be triangles before they can be divided.
+    """
+
+    face: np.ndarray
+    point: np.ndarray
+    side: np.ndarray
+    label: np.ndarray
+    begins: np.ndarray
+    piece: np.ndarray
+    odd: np.ndarray
+
+
+def divide(band: Band, sides: Sides) -> Division:
+    """Divide the faces by the sides that their corners are on."""
+    face, point, side, low, high = _portions(band, sides)
+    label = _decided(band, face, low, high)
+    before = np.empty(len(face), np.int64)
+    before[next_of_owner(face)] = np.arange(len(face))
+    changes = label != label[before]
+    count = np.bincount(face[changes], minlength=len(band.faces))
+    # A piece that is one portion only would lie between the portion and itself: the face stays whole.
+    thin = changes & changes[next_of_owner(face)]
+    slim = (count == 2) & (np.bincount(face[thin], minlength=len(count)) > 0)
+    odd = (count > 1) & ~slim & (band.n_corners > 3) & (~_convex(band) | (count > 3))
+    whole = slim | odd | (count > 3)
+    label = np.where(whole[face], _most(band, face, label, len(count))[face], label)
+    changes &= ~whole[face]
+    begins = changes | ((np.bincount(face[changes], minlength=len(count)) == 0)[face] & (face != np.roll(face, 1)))
+    if len(face) and (face == face[0]).all():
+        begins[0] |= not changes.any()
+    last = np.searchsorted(face[begins], np.arange(len(count)), side="right") - 1
+    piece = np.cumsum(begins) - 1
+    wrapped = (piece < 0) | (face[np.flatnonzero(begins)[piece]] != face)
+    return Division(face, point, side, label, begins, np.where(wrapped, last[face], piece), odd)
+
+
+def _portions(band: Band, sides: Sides) -> tuple[np.ndarray, ...]:
+    """Face, first point, side and the one or two labels, the lower first, of each portion, (o,) int64 each."""
+    n, crossed = len(band.vertices), ~np.isnan(sides.share)
+    corner, following = np.arange(len(band.corner_face)), band.following
+    here, there = band.corner_vertex, band.corner_vertex[following]
+    cut = crossed[band.corner_edge]
+    forward = band.ends[band.corner_edge, 0] == here
+    low_here, high_here, low_there, high_there = sides.low[here], sides.high[here], sides.low[there], sides.high[there]
+    first_common = (low_here == low_there) | (low_here == high_there)
+    second_common = (high_here == low_there) | (high_here == high_there)
+    low = np.where(cut | first_common, low_here, high_here)
+    high = np.where(cut | second_common, high_here, low_here)
+    order = np.argsort(np.concatenate([2 * corner, 2 * corner[cut] + 1]), kind="stable")
+    edge = band.corner_edge
+    columns = (
+        (band.corner_face, band.corner_face[cut]),
+        (here, n + edge[cut]),
+        (2 * edge + (cut & ~forward), 2 * edge[cut] + forward[cut]),
+        (low, low_there[cut]),
+        (high, high_there[cut]),
+    )
+    return tuple(np.concatenate(column)[order].astype(np.int64) for column in columns)
+
+
+def _decided(band: Band, face: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+    """One label for each portion: along a curve that of two which more of the face's other portions have, (o,)."""
+    open_ = low < high
+    if not open_.any():
+        return low
+    width = len(band.names)
+    key, count = np.unique(face[~open_] * width + low[~open_], return_counts=True)
+
+    def number(label: np.ndarray) -> np.ndarray:
+        wanted = face * width + label
+        place = np.minimum(np.searchsorted(key, wanted), max(len(key) - 1, 0))
+        own = 0.5 * (band.labels[face] == label)  # of equal ones, what the face was before
+        return own + (np.where(key[place] == wanted, count[place], 0) if len(key) else 0)
+
+    return np.where(open_ & (number(high) > number(low)), high, low)
+
+
+def _most(band: Band, face: np.ndarray, label: np.ndarray, n_faces: int) -> np.ndarray:
+    """The label of most portions of each face, of equal ones that of the face before, (f,) int64."""
+    own = 0.5 * (label == band.labels[face]) / np.maximum(np.bincount(face, minlength=n_faces), 1)[face]
+    return majority(face, label, 1.0 + own, n_faces)
+
+
+def _convex(band: Band) -> np.ndarray:
+    """Whether each face has no corner that is turned in, (f,) bool."""
+    if (band.n_corners == 3).all():
+        return np.ones(len(band.faces), bool)
+    ahead = band.points[band.corner_vertex[band.following]] - band.points[band.corner_vertex]
+    behind = np.empty_like(ahead)
+    behind[band.following] = ahead
+    turn = (np.cross(behind, ahead) * band.normals()[band.corner_face]).sum(axis=1)
+    inward = np.zeros(len(band.faces), bool)
+    inward[band.corner_face[turn <= 0]] = True
+    return ~inward

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which curves are used: those that are smoother than the border, and tear no part."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...surface.arrays import components, renumbered, sums_by
+from .band import Band, next_of_owner
+from .division import Division
+from .sides import Sides
+from .turning import turning
+
+# A curve is used if it turns at most such a share of what the border along edges turns.
+WORTH = 0.85
+
+
+def judged(band: Band, sides: Sides, division: Division) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Put together what must be divided or left as a whole, and find what is better divided.
+
+    Returns
+    -------
+    group : (v,) int64
+        Group of each vertex of a face that is at a border before or after; -1 of others.
+    good : (groups,) bool
+        Whether the curves of the group turn less than its borders do, and no part is lost or torn by them.
+    broken : (groups,) bool
+        Whether a part would be lost or torn, or the borders branch into several surfaces.
+    """
+    low, high = band.edge_labels()
+    faces = np.zeros(len(band.faces), bool)
+    faces[band.corner_face[(low < high)[band.corner_edge]]] = True
+    several = np.bincount(division.face[division.begins], minlength=len(faces)) > 1
+    faces |= several
+    faces[division.face[division.label != band.labels[division.face]]] = True
+    group = _groups(band, faces)
+    before = _turning_by(group, band, low < high)
+    after = _turning_after(group, band, sides, division)
+    broken = np.zeros(len(before), bool)
+    branching = (low < high) & (np.bincount(band.corner_edge, minlength=len(low)) > 2)
+    broken[group[band.ends[branching]]] = True
+    here = (faces & _torn(band, division))[band.corner_face]
+    broken[group[band.corner_vertex[here]]] = True
+    return group, (after <= WORTH * before) & ~broken, broken
+
+
+def _groups(band: Band, faces: np.ndarray) -> np.ndarray:
+    """Connected groups of faces that share vertices: number of the group of each vertex, -1 for none, (v,) int64."""
+    corner = np.flatnonzero(faces[band.corner_face])
+    used, vertex = renumbered(band.corner_vertex[corner])
+    same = band.corner_face[corner[1:]] == band.corner_face[corner[:-1]]
+    _, label = components(len(used), vertex[1:][same], vertex[:-1][same])
+    group = np.full(len(band.vertices), -1)
+    group[used] = label
+    return group
+
+
+def _turning_by(group: np.ndarray, band: Band, cut: np.ndarray) -> np.ndarray:
+    """How much the cut edges of each group turn, (groups,) float64."""
+    point, angle = turning(band.points, band.ends[cut])
+    return np.bincount(group[point], angle, int(group.max(initial=-1)) + 1)
+
+
+def _turning_after(group: np.ndarray, band: Band, sides: Sides, division: Division) -> np.ndarray:
+    """How much the curves of each group turn, (groups,) float64."""
+    n, edges = len(band.vertices), len(band.ends)
+    a, b = band.ends.T
+    at = np.nan_to_num(sides.share, nan=0.5)[:, None]
+    crossings = (1 - at) * band.points[a] + at * band.points[b]
+    points = np.concatenate([band.points, crossings, np.zeros((len(band.faces), 3))])
+    segments, inner = _segments(band, division)
+    middle = sums_by(inner[:, 0], points[inner[:, 1]], len(band.faces))
+    points[n + edges :] = middle / np.maximum(np.bincount(inner[:, 0], minlength=len(middle)), 1)[:, None]
+    first = np.zeros(len(band.faces), np.int64)
+    first[band.corner_face] = band.corner_vertex
+    vertex = np.concatenate([np.arange(n), a, first])
+    point, angle = turning(points, segments)
+    of = group[vertex[point]]
+    return np.bincount(of[of >= 0], angle[of >= 0], int(group.max(initial=-1)) + 1)
+
+
+def _segments(band: Band, division: Division) -> tuple[np.ndarray, np.ndarray]:
+    """What curves consist of, (s, 2) points, and the faces with a point inside, each with its marks, (m, 2)."""
+    start = division.point[division.begins]
+    face = division.face[division.begins]
+    count = np.bincount(face, minlength=len(band.faces))
+    two = count[face] == 2
+    chords = start[two].reshape(-1, 2)
+    three = count[face] == 3
+    inner = np.stack([face[three], start[three]], axis=1)
+    spokes = np.stack([len(band.vertices) + len(band.ends) + face[three], start[three]], axis=1)
+    order = np.argsort(division.side, kind="stable")
+    same = division.side[order[1:]] == division.side[order[:-1]]
+    one, other = order[:-1][same], order[1:][same]
+    along = one[division.label[one] != division.label[other]]
+    stretch = np.stack([division.point[along], division.point[next_of_owner(division.face)[along]]], axis=1)
+    return np.concatenate([chords, spokes, stretch]), inner
+
+
+def _torn(band: Band, division: Division) -> np.ndarray:
+    """Faces of parts that are lost, and faces in what is torn off a part, (f,) bool."""
+    order = np.argsort(division.side, kind="stable")
+    same = division.side[order[1:]] == division.side[order[:-1]]
+    one, other = order[:-1][same], order[1:][same]
+    a, b = division.face[one], division.face[other]
+    kept = band.labels[a] == band.labels[b]
+    count, before = components(len(band.faces), a[kept], b[kept])
+    name = np.zeros(count, np.int64)
+    name[before] = band.labels
+    n_before = np.bincount(name, minlength=len(band.names))
+    label = division.label[division.begins]
+    kept = division.label[one] == division.label[other]
+    count, after = components(len(label), division.piece[one[kept]], division.piece[other[kept]])
+    name = np.zeros(count, np.int64)
+    name[after] = label
+    # Of each part as many of the largest as there were before are what is left of it; others are torn off.
+    size = np.bincount(after, minlength=count)
+    order = np.lexsort((np.arange(count), -size, name))
+    first = np.searchsorted(name[order], name[order])
+    off = np.zeros(count, bool)
+    off[order] = np.arange(count) - first >= n_before[name[order]]
+    torn = (np.bincount(name, minlength=len(band.names)) == 0)[band.labels]
+    torn[division.face[off[after[division.piece]]]] = True
+    return torn

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Smooth curves along the borders between parts, found, judged, and chosen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...surface.arrays import components, renumbered
+from ...surface.corners import CornerTable
+from .band import Band
+from .division import Division, divide
+from .judging import judged
+from .pins import Pins
+from .sides import Sides, sides_of
+
+# How often shares are diffused, half an edge each time; where that goes wrong, as often as the next says.
+STEPS = (10, 4, 2)
+
+
+@dataclass(frozen=True, eq=False)
+class CleanCuts:
+    """Where faces are divided.
+
+    Points have numbers: 0..n-1 are the vertices, n + e is the point on edge e.
+
+    Attributes
+    ----------
+    edge : (k,) int64
+        Edges that a curve crosses.
+    share : (k,) float64
+        Where, from the first vertex of the edge, 0, to the second, 1.
+    face : (q,) int64
+        Face of each piece, rising; faces that neither are divided nor change their part have none.
+    start : (q,) int64
+        Point on the outline of the face at which the piece begins, in the direction of the face's corners; it ends
+        where the next piece of the face begins. Two pieces are divided by a chord, three meet inside the face.
+    label : (q,) int64
+        Part of each piece.
+    odd : (o,) int64
+        Faces of more than three corners that must be triangles before they can be divided; if there are any, divide
+        these and ask again.
+    planes : int
+        Curves that lie in a plane.
+    kept : int
+        Groups of borders that stay along the edges of faces although they are not smooth, because a part would be
+        lost or torn, because more than two faces meet at one of their edges, or because it was asked for.
+    """
+
+    edge: np.ndarray
+    share: np.ndarray
+    face: np.ndarray
+    start: np.ndarray
+    label: np.ndarray
+    odd: np.ndarray
+    planes: int = 0
+    kept: int = 0
+
+
+def clean_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | None = None) -> CleanCuts:
+    """Find smooth curves along the borders between parts.
+
+    Parameters
+    ----------
+    table : CornerTable
+        n vertices, p faces. Any topology; borders where more than two faces meet at an edge are left alone.
+    labels : (p,) int64
+        Part of each face, 0 or more.
+    whole : (e,) bool, optional
+        Edges at which borders are to stay along edges, with all the borders that are connected with them.
+
+    Returns
+    -------
+    cuts : CleanCuts
+        The same for any numbers of vertices and faces, but for rounding.
+
+    Notes
+    -----
+    O(n) to find what lies near the borders; all else is for that only.
+    """
+    band = Band.of(table, labels, max(STEPS) + 2)
+    if band is None:
+        return CleanCuts(*(np.empty(0, kind) for kind in (np.int64, float, np.int64, np.int64, np.int64, np.int64)))
+    taken = np.zeros(len(band.vertices), bool)
+    failed = taken
+    found: list[CleanCuts] = []
+    pins = Pins.of(band)
+    low, high = band.edge_labels()
+    borders = np.unique(band.ends[low < high])
+    for steps in STEPS:
+        if taken[borders].all():
+            break
+        sides = sides_of(band, pins, steps)
+        division = divide(band, sides)
+        group, good, broken = judged(band, sides, division)
+        if whole is not None:
+            asked = group[band.ends[(low < high) & whole[band.edges]]]
+            broken[asked], good[asked] = True, False
+        # What is chosen must not come near a curve that has been chosen before.
+        good[np.unique(group[taken & (group >= 0)])] = False
+        used = (group >= 0) & good[group]
+        found.append(_chosen(band, sides, division, used))
+        taken |= used
+        failed = (group >= 0) & broken[group] & ~taken
+    return _together(band, found, failed)
+
+
+def _chosen(band: Band, sides: Sides, division: Division, used: np.ndarray) -> CleanCuts:
+    """What is divided around some vertices, (v,) bool, in numbers of the whole mesh."""
+    vertex = np.concatenate([band.vertices, band.n_vertices + band.edges])
+    active = np.zeros(len(band.faces), bool)
+    changed = division.label != band.labels[division.face]
+    several = np.bincount(division.face[division.begins], minlength=len(active)) > 1
+    active[division.face[changed]] = True
+    active |= several
+    inside = np.ones(len(active), bool)
+    inside[band.corner_face[~used[band.corner_vertex]]] = False
+    active &= inside
+    begins = division.begins & active[division.face]
+    edge = np.flatnonzero(~np.isnan(sides.share) & used[band.ends].all(axis=1))
+    planes = np.unique(sides.plane[used & (sides.plane >= 0)])
+    return CleanCuts(band.edges[edge], sides.share[edge], band.faces[division.face[begins]],
+                     vertex[division.point[begins]], band.names[division.label[begins]],
+                     band.faces[division.odd & inside], len(planes))
+
+
+def _together(band: Band, found: list[CleanCuts], failed: np.ndarray) -> CleanCuts:
+    """One answer of several, and how many groups of borders are at vertices that failed, (v,) bool."""
+    low, high = band.edge_labels()
+    left = (low < high) & failed[band.ends].all(axis=1)
+    _, vertex = renumbered(band.ends[left])
+    kept = components(int(vertex.max(initial=-1)) + 1, vertex[:, 0], vertex[:, 1])[0] if left.any() else 0
+    columns = {name: np.concatenate([getattr(one, name) for one in found])
+               for name in ("edge", "share", "face", "start", "label", "odd")}
+    order = np.argsort(columns["face"], kind="stable")
+    for name in ("face", "start", "label"):
+        columns[name] = columns[name][order]
+    return CleanCuts(**columns, planes=sum(one.planes for one in found), kept=kept)

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertices that curves go through, because borders follow a crease there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .band import Band
+from .turning import turning
+
+# Along a crease faces turn by such an angle or more, and the crease itself by less than the second from edge to edge. A
+# border that follows it may leave it for twice so many edges.
+CREASE, STRAIGHT, GAP = np.radians(30), np.radians(45), 2
+
+
+@dataclass(frozen=True, eq=False)
+class Pins:
+    """Vertices that curves go through, because borders follow a crease there.
+
+    Attributes
+    ----------
+    vertex : (k,) int64
+    pair : (k, 2) int64
+        The two labels that meet there, the lower first.
+    """
+
+    vertex: np.ndarray
+    pair: np.ndarray
+
+    @classmethod
+    def of(cls, band: Band) -> Pins:
+        """The vertices of creases that borders follow, also where they leave one for a few edges."""
+        low, high = band.edge_labels()
+        sharp = _sharp(band)
+        both = np.flatnonzero(sharp & (low < high))
+        point, angle = turning(band.points, band.ends[both])
+        ends = band.ends[both].ravel()
+        pair = np.full((2, len(band.vertices)), -1)
+        other = pair.copy()
+        for pairs, order in ((pair, slice(None)), (other, slice(None, None, -1))):
+            pairs[:, ends[order]] = np.repeat(np.stack([low[both], high[both]]), 2, axis=1)[:, order]
+        sure = np.zeros(len(band.vertices), bool)
+        sure[point[angle < STRAIGHT]] = True
+        sure &= (pair == other).all(axis=0)
+        pair[:, ~sure] = -1
+        member = sure.copy()
+        a, b = np.concatenate([band.ends[sharp], band.ends[sharp][:, ::-1]]).T
+        for _ in range(GAP):
+            reached = member[a] & ~member[b]
+            pair[:, b[reached]] = pair[:, a[reached]]
+            member[b[reached]] = True
+        for _ in range(GAP):
+            outside = np.zeros(len(member), bool)
+            outside[a[~member[b]]] = True
+            member &= sure | ~outside
+        vertex = np.flatnonzero(member)
+        return cls(vertex, pair[:, vertex].T)
+
+
+def _sharp(band: Band) -> np.ndarray:
+    """Whether the two faces at each edge turn by the angle of a crease, (e,) bool."""
+    normal = band.normals()
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    order = np.argsort(band.corner_edge, kind="stable")
+    edge, face = band.corner_edge[order], band.corner_face[order]
+    two = np.flatnonzero((edge[1:] == edge[:-1]) & (np.bincount(edge)[edge[1:]] == 2))
+    sharp = np.zeros(len(band.edges), bool)
+    sharp[edge[two]] = (normal[face[two]] * normal[face[two + 1]]).sum(axis=1) < np.cos(CREASE)
+    return sharp
+
+
+def are_between(band: Band, pins: Pins, top: np.ndarray) -> np.ndarray:
+    """Whether all neighbors of each pinned vertex are in one of its two parts, (k,) bool."""
+    place = np.full(len(band.vertices), -1)
+    place[pins.vertex] = np.arange(len(pins.vertex))
+    start, end = np.concatenate([band.ends, band.ends[:, ::-1]]).T
+    start, end = start[place[start] >= 0], end[place[start] >= 0]
+    strange = (pins.pair[place[start]] != top[end][:, None]).all(axis=1)
+    fine = np.ones(len(pins.vertex), bool)
+    fine[place[start[strange]]] = False
+    return fine

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Each part's share of the surface around a vertex, diffused [Merriman1992]."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import coo_array, csr_array, diags_array, eye_array
+
+from ...surface.arrays import distinct_pairs, last_of_each, sums_by
+from .band import Band
+from .pins import Pins
+
+
+@dataclass(frozen=True, eq=False)
+class Shares:
+    """How much of the surface around each vertex is in each part: an entry for each vertex and part nearby.
+
+    Attributes
+    ----------
+    n_labels : int
+    key : (s,) int64
+        Vertex times n_labels plus label, rising.
+    value : (s,) float64
+    """
+
+    n_labels: int
+    key: np.ndarray
+    value: np.ndarray
+
+    def of(self, vertex: np.ndarray, label: np.ndarray) -> np.ndarray:
+        """Shares of some vertices in some parts, (k,) float64."""
+        key = vertex * self.n_labels + label
+        place = np.minimum(np.searchsorted(self.key, key), len(self.key) - 1)
+        return np.where(self.key[place] == key, self.value[place], 0.0)
+
+    @property
+    def top(self) -> np.ndarray:
+        """(v,) int64, the label with the largest share at each vertex."""
+        vertex, label = np.divmod(self.key, self.n_labels)
+        return label[last_of_each(vertex, self.value, -label, count=int(vertex[-1]) + 1)]
+
+    def crossing(self, ends: np.ndarray) -> np.ndarray:
+        """Where between two vertices of different parts their shares are equal, (k,) float64 in 0..1.
+
+        ends : (k, 2) int64.
+        """
+        a, b = self.top[ends].T
+        first = self.of(ends[:, 0], a) - self.of(ends[:, 0], b)
+        second = self.of(ends[:, 1], b) - self.of(ends[:, 1], a)
+        total = first + second
+        return np.divide(first, total, out=np.full(len(ends), 0.5), where=total > 0).clip(0.0, 1.0)
+
+
+def diffused(band: Band, pins: Pins, steps: int) -> Shares:
+    """Shares after so many steps, with the middle of each border where it was."""
+    triangles, face = band.triangles()
+    a, b, c = band.points[triangles].transpose(1, 0, 2)
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    area += 1e-6 * area.mean()
+    shape = (len(band.vertices), len(band.names))
+    label = np.repeat(band.labels[face], 3)
+    shares = coo_array((np.repeat(area, 3), (triangles.ravel(), label)), shape=shape).tocsr()
+    shares = _rows_to_one(shares)
+    # What is pinned stays half and half, and nothing diffuses across it.
+    moving = np.ones(shape[0])
+    moving[pins.vertex] = 0.0
+    held = np.repeat(pins.vertex, 2), pins.pair.ravel()
+    halves = coo_array((np.full(len(held[0]), 0.5), held), shape=shape).tocsr()
+    moving = diags_array(moving).tocsr()
+    walk = moving @ _walk(band, triangles)
+    shares = moving @ shares + halves
+    for _ in range(steps):
+        shares = walk @ shares + halves
+    shares.sort_indices()
+    vertex = np.repeat(np.arange(shape[0]), np.diff(shares.indptr))
+    key = vertex * shape[1] + shares.indices
+    found = Shares(shape[1], key, shares.data)
+    return replace(found, value=shares.data + _shifts(band, found)[shares.indices])
+
+
+def _rows_to_one(matrix: csr_array) -> csr_array:
+    """The matrix with each row divided by its sum."""
+    total = matrix.sum(axis=1)
+    return csr_array((matrix.data / np.repeat(total, np.diff(matrix.indptr)), matrix.indices, matrix.indptr),
+                     shape=matrix.shape)
+
+
+def _walk(band: Band, triangles: np.ndarray) -> csr_array:
+    """One step of diffusion, (v, v): to neighbors by the cotangents of the angles that face the edges."""
+    rows, columns, weights = [], [], []
+    for i in range(3):
+        apex, p, q = (triangles[:, (i + k) % 3] for k in range(3))
+        u, v = band.points[p] - band.points[apex], band.points[q] - band.points[apex]
+        across = np.linalg.norm(np.cross(u, v), axis=1)
+        cotangent = np.divide((u * v).sum(axis=1), across, out=np.zeros(len(u)), where=across > 0).clip(-10, 10)
+        rows += [p, q]
+        columns += [q, p]
+        weights += [cotangent, cotangent]
+    n = len(band.vertices)
+    matrix = coo_array((np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns))), shape=(n, n)).tocsr()
+    # Where angles are obtuse a weight could be negative, and shares would not stay between 0 and 1.
+    matrix.data = np.maximum(matrix.data, 0.05)
+    return (0.5 * eye_array(n) + 0.5 * _rows_to_one(matrix)).tocsr()
+
+
+def _shifts(band: Band, shares: Shares) -> np.ndarray:
+    """What to add to the shares of each part so that on average they are equal on the borders, (n_labels,)."""
+    low, high = band.edge_labels()
+    cut = np.flatnonzero(low < high)
+    ends, length = band.ends[cut], band.edge_length()[cut]
+    pairs, pair = distinct_pairs(low[cut], high[cut])
+    gap = sum(shares.of(end, low[cut]) - shares.of(end, high[cut]) for end in ends.T) / 2
+    total = sums_by(pair, length, len(pairs))
+    total[total == 0] = 1.0
+    mean = sums_by(pair, length * gap, len(pairs)) / total
+    # As nearly as all borders allow, the shorter ones less.
+    system = np.zeros((len(pairs), len(band.names)))
+    weight = np.sqrt(total / total.max())
+    system[np.arange(len(pairs)), pairs[:, 0]] = -weight
+    system[np.arange(len(pairs)), pairs[:, 1]] = weight
+    return np.linalg.lstsq(system, weight * mean, rcond=None)[0]

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""In which part each vertex is, and where curves cross edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .band import Band
+from .pins import Pins, are_between
+from .planes import planes_of
+from .shares import diffused
+
+# A cut as near to a vertex as such a share of the edge goes through the vertex; in a plane, as the second says.
+SNAP, SNAP_IN_PLANE = 0.15, 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class Sides:
+    """In which part each vertex is, and where curves cross edges.
+
+    Attributes
+    ----------
+    low, high : (v,) int64
+        The label of the vertex; two labels if a curve goes through it.
+    share : (e,) float64
+        Where a curve crosses the edge; nan where none does.
+    plane : (v,) int64
+        Number of the plane of the curve nearby, -1 for none.
+    """
+
+    low: np.ndarray
+    high: np.ndarray
+    share: np.ndarray
+    plane: np.ndarray
+
+
+def sides_of(band: Band, pins: Pins, steps: int) -> Sides:
+    """The sides of smooth curves after so many steps of diffusion."""
+    shares = diffused(band, pins, steps)
+    top = shares.top
+    a, b = band.ends.T
+    share = np.full(len(a), np.nan)
+    apart = np.flatnonzero(top[a] != top[b])
+    share[apart] = shares.crossing(band.ends[apart])
+    planes = planes_of(band, top, share, steps)
+    top = np.where(planes.number >= 0, np.where(planes.height > 0, planes.above, planes.below), top)
+    flat = (planes.number[a] >= 0) & (planes.number[a] == planes.number[b])
+    gap = planes.height[a] - planes.height[b]
+    along = np.divide(planes.height[a], gap, out=np.full(len(a), 0.5), where=gap != 0)
+    share = np.where(top[a] != top[b], np.where(flat, along, share), np.nan)
+    return _snapped(band, pins, top, share, np.where(flat, SNAP_IN_PLANE, SNAP), planes.number)
+
+
+def _snapped(band: Band, pins: Pins, top: np.ndarray, share: np.ndarray, near: np.ndarray,
+             plane: np.ndarray) -> Sides:
+    """Let a curve go through the vertices that it passes closely, if only two parts are there.
+
+    near : (e,) float64, how closely.
+    """
+    n = len(band.vertices)
+    a, b = band.ends.T
+    apart = top[a] != top[b]
+    start, end = np.concatenate([band.ends[apart], band.ends[apart][:, ::-1]]).T
+    least, most = np.full(n, len(band.names)), np.full(n, -1)
+    np.minimum.at(least, start, top[end])
+    np.maximum.at(most, start, top[end])
+    close = np.zeros(n, bool)
+    with np.errstate(invalid="ignore"):
+        close[a[share < near]] = True
+        close[b[share > 1 - near]] = True
+    through = close & (least == most)
+    low = np.where(through, np.minimum(top, least), top)
+    high = np.where(through, np.maximum(top, most), top)
+    low[pins.vertex], high[pins.vertex] = np.where(are_between(band, pins, top)[:, None], pins.pair,
+                                                   top[pins.vertex][:, None]).T
+    meet = (low[a] == low[b]) | (low[a] == high[b]) | (high[a] == low[b]) | (high[a] == high[b])
+    # Where the curve could not be let through the vertex, it stays away from it by a little.
+    share = np.where(meet, np.nan, share.clip(0.02, 0.98))
+    return Sides(low, high, share, plane)
