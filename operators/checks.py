@@ -15,12 +15,7 @@ class PieceOperator(ReportingOperator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        piece = context.view_layer.objects.active
-        if piece is None or piece_objects.original(piece) is None:
-            raise SceneError(rpt_("The active object is not a part that was separated from another one"))
-        if context.mode != "OBJECT":
-            raise SceneError(rpt_("Go to Object Mode first"))
-        targets.check_object(piece)
+        targets.check_object(piece_objects.active_piece(context))
 
 
 class REEB_PARTS_OT_check_pieces(PieceOperator, bpy.types.Operator):
@@ -55,7 +50,6 @@ class REEB_PARTS_OT_select_faults(PieceOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> None:
         piece = context.view_layer.objects.active
         found, faults = piece_checks.check(piece.data, bridge.world_stretch(piece))
-        transaction.keep_keys(piece, piece_checks.CHECK)
         piece_checks.keep(piece, found)
         mask = getattr(faults, self.kind.lower())
         if not mask.any():

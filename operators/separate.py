@@ -5,7 +5,6 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import piece_objects, store, targets
-from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import wanted_numbers
@@ -80,12 +79,7 @@ class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        piece = context.view_layer.objects.active
-        if piece is None or piece_objects.original(piece) is None:
-            raise SceneError(rpt_("The active object is not a part that was separated from another one"))
-        if context.mode != "OBJECT":
-            raise SceneError(rpt_("Go to Object Mode first"))
-        targets.check_object(piece_objects.original(piece))
+        targets.check_object(piece_objects.original(piece_objects.active_piece(context)))
 
     def run(self, context: bpy.types.Context) -> None:
         obj = piece_objects.original(context.view_layer.objects.active)

@@ -32,17 +32,18 @@ class Mesh(Protocol):
 
 @overload
 def decompose(vertices: Mesh, *, parameters: Parameters | Mapping[str, Any] | None = None,
-              progress: Progress | None = None) -> Decomposition: ...
+              progress: Progress | None = None, mirror: ArrayLike | None = None) -> Decomposition: ...
 
 
 @overload
 def decompose(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]],
               parameters: Parameters | Mapping[str, Any] | None = None, polygon: ArrayLike | None = None,
-              progress: Progress | None = None) -> Decomposition: ...
+              progress: Progress | None = None, *, mirror: ArrayLike | None = None) -> Decomposition: ...
 
 
 def decompose(vertices: Any, faces: Any = None, parameters: Parameters | Mapping[str, Any] | None = None,
-              polygon: ArrayLike | None = None, progress: Progress | None = None) -> Decomposition:
+              polygon: ArrayLike | None = None, progress: Progress | None = None, *,
+              mirror: ArrayLike | None = None) -> Decomposition:
     """Cut a mesh into parts.
 
     Parameters
@@ -58,6 +59,9 @@ def decompose(vertices: Any, faces: Any = None, parameters: Parameters | Mapping
         polygon of each. The faces of the result are the polygons. A mesh that has a ``polygon`` brings it along.
     progress : callable, optional
         Called as progress(stage, share), share rising from 0 to 1. An exception that it raises ends the run.
+    mirror : (4,) array_like of float, optional
+        For a half model: a plane, as its normal and its distance from the origin along it. What is decomposed is the
+        mesh together with its image behind that plane; the parts are those of the mesh given.
 
     Returns
     -------
@@ -79,7 +83,7 @@ def decompose(vertices: Any, faces: Any = None, parameters: Parameters | Mapping
             raise MeshError(Sentence("{type} is no mesh: give vertices and faces.", type=type(mesh).__name__))
         vertices, faces = np.asarray(mesh.vertices), mesh.faces
         polygon = getattr(mesh, "polygon", None) if polygon is None else polygon
-    return pipeline.decompose(vertices, faces, parameters, polygon, progress)
+    return pipeline.decompose(vertices, faces, parameters, polygon, progress, mirror=mirror)
 
 
 def face_colors(parts: Parts) -> np.ndarray:

@@ -131,9 +131,7 @@ def _corresponding(source: bpy.types.Object, target: bpy.types.Object) -> tuple[
     shapes = [bridge.read_shape(obj) for obj in (source, target)]
     if np.array_equal(shapes[0].triangles, shapes[1].triangles):
         # The same mesh in another pose: face by face.
-        a, b, c = shapes[1].vertices[shapes[1].triangles].transpose(1, 0, 2)
-        area = np.bincount(shapes[1].polygon, np.linalg.norm(np.cross(b - a, c - a), axis=1))
-        label = majority(to_parts.parts.labels, from_parts.parts.labels, area, to_parts.parts.count)
+        label = majority(to_parts.parts.labels, from_parts.parts.labels, shapes[1].face_area, to_parts.parts.count)
         return from_parts.numbers[label].tolist(), np.ones(len(label))
     samples = [sample_surface(shape.vertices, shape.triangles, shape.polygon) for shape in shapes]
     label, share = carried_labels(samples[0], from_parts.parts.labels, samples[1], to_parts.parts.labels)

@@ -49,6 +49,12 @@ class Shape:
     digest: str
     notes: tuple[Sentence, ...]
 
+    @property
+    def face_area(self) -> np.ndarray:
+        """Area of each face of the mesh, (p,) float64."""
+        a, b, c = self.vertices[self.triangles].transpose(1, 0, 2)
+        return np.bincount(self.polygon, 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1))
+
 
 def read_shape(obj: bpy.types.Object) -> Shape:
     """Read the mesh of an object: all of it, hidden or not, before any modifier but what mirrors half a model."""
@@ -96,12 +102,9 @@ def face_graph(obj: bpy.types.Object) -> tuple[FaceGraph, CornerTable]:
     In coordinates of the shape, see ``Shape.vertices``.
     """
     shape, mesh = read_shape(obj), obj.data
-    a, b, c = shape.vertices[shape.triangles].transpose(1, 0, 2)
-    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
     table = mesh_arrays.corner_table(mesh, shape.vertices)
     pairs, edge = table.face_pairs()
-    area = np.bincount(shape.polygon, area, table.n_faces)
-    return FaceGraph(table.n_faces, pairs, table.edge_length(edge), area), table
+    return FaceGraph(table.n_faces, pairs, table.edge_length(edge), shape.face_area), table
 
 
 def face_centers(obj: bpy.types.Object) -> np.ndarray:

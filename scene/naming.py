@@ -30,7 +30,7 @@ def suggested(obj: bpy.types.Object, stored: Stored) -> dict[int, str]:
     vertex, face = mesh_arrays.face_corners(mesh)
     center = mesh_arrays.corner_table(mesh, points).face_means(points)
     turn = world[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
-    shapes = Shapes.of(numbered.parts, center, bridge.face_graph(obj)[0].area, points[vertex], face, turn)
+    shapes = Shapes.of(numbered.parts, center, bridge.read_shape(obj).face_area, points[vertex], face, turn)
     names = [_spoken(suggestion) for suggestion in suggestions(shapes)]
     return dict(zip(numbered.numbers.tolist(), names, strict=True))
 

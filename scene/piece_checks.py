@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from . import caps, mesh_arrays
+from . import caps, mesh_arrays, transaction
 
 CHECK = "reeb_parts_check"  # on a piece: what was found, as JSON
 
@@ -101,6 +101,7 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
 
 def keep(piece: bpy.types.Object, found: Check) -> None:
     """Keep with a piece what was found."""
+    transaction.keep_keys(piece, CHECK)
     piece[CHECK] = json.dumps(asdict(found))
 
 

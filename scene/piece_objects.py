@@ -11,9 +11,11 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from . import bridge, explode, graph_objects, mesh_arrays, modified, part_names, piece_checks, transaction
+from .errors import SceneError
 from .outputs.colors import linear
 from .part_meshes import piece_meshes
 from .settings import SeparateProperties
@@ -122,13 +124,22 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
     return Separated(made, found.left_open, found.along_faces, kept)
 
 
+def active_piece(context: bpy.types.Context) -> bpy.types.Object:
+    """The active object, in Object Mode; raises SceneError unless it is a piece that was separated."""
+    piece = context.view_layer.objects.active
+    if piece is None or original(piece) is None:
+        raise SceneError(rpt_("The active object is not a part that was separated from another one"))
+    if context.mode != "OBJECT":
+        raise SceneError(rpt_("Go to Object Mode first"))
+    return piece
+
+
 def check_pieces(pieces: list[bpy.types.Object], stretch: np.ndarray | None = None) -> None:
     """Check pieces and keep with each what was found; Object Mode.
 
     stretch : (3, 3) float64, what the objects do to their meshes, see bridge.world_stretch; found out without it.
     """
     for piece in pieces:
-        transaction.keep_keys(piece, piece_checks.CHECK)
         own = bridge.world_stretch(piece) if stretch is None else stretch
         piece_checks.keep(piece, piece_checks.check(piece.data, own)[0])
 

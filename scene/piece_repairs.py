@@ -6,7 +6,7 @@ from __future__ import annotations
 import bmesh
 import bpy
 import numpy as np
-from bmesh.types import BMesh, BMFace
+from bmesh.types import BMesh
 
 from . import caps, piece_checks, piece_objects, transaction
 from .piece_checks import Check
@@ -31,14 +31,14 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
     before, after : Check
     """
     old = piece.data
-    before, _ = found = piece_checks.check(old, stretch)
-    mesh, now = old, before
+    found = piece_checks.check(old, stretch)
+    before, mesh = found[0], old
     for step in (_turned, _closed, _without_crossing_caps):
         candidate = mesh.copy()
         step(candidate, found[1])
         checked = piece_checks.check(candidate, stretch)
-        if _faults(checked[0]) < _faults(now):
-            mesh, now, found = _replaced(mesh, candidate, old), checked[0], checked
+        if _faults(checked[0]) < _faults(found[0]):
+            mesh, found = _replaced(mesh, candidate, old), checked
         else:
             bpy.data.meshes.remove(candidate)
     if mesh != old:
@@ -51,9 +51,8 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
         if ours:
             transaction.keep_keys(piece, piece_objects.MADE)
             piece[piece_objects.MADE] = piece_objects.looks(piece)
-    transaction.keep_keys(piece, piece_checks.CHECK)
-    piece_checks.keep(piece, now)
-    return before, now
+    piece_checks.keep(piece, found[0])
+    return before, found[0]
 
 
 def _faults(found: Check) -> int:
@@ -99,7 +98,7 @@ def _without_crossing_caps(mesh: bpy.types.Mesh, faults: piece_checks.Faults) ->
         bm.to_mesh(mesh)
 
 
-def _fill_holes(bm: BMesh) -> list[BMFace]:
+def _fill_holes(bm: BMesh) -> None:
     """Close holes by triangles, which are caps."""
     layer = bm.faces.layers.int.get(caps.CAP) or bm.faces.layers.int.new(caps.CAP)
     before = set(bm.faces)
@@ -108,4 +107,3 @@ def _fill_holes(bm: BMesh) -> list[BMFace]:
     made = bmesh.ops.triangulate(bm, faces=made, ngon_method="BEAUTY")["faces"] if made else []
     for face in made:
         face[layer] = 1
-    return made

@@ -28,7 +28,6 @@ def show_detail(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> 
     result.by_number, result.asked = False, 0
     show(result, context)
     for other in _other_results(result, context):
-        keep_result(other.id_data)
         with quiet.quiet():
             other.by_number, other.asked, other.detail = False, 0, result.detail
         show(other, context)
@@ -41,7 +40,6 @@ def show_number(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> 
     show(result, context)
     result.asked = 0 if result.n_parts == asked else asked
     for other in _other_results(result, context):
-        keep_result(other.id_data)
         with quiet.quiet():
             other.by_number, other.asked, other.n_parts = True, 0, asked
         show(other, context)

@@ -87,7 +87,7 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, op
 
 def _images(table: CornerTable, stored: Stored) -> np.ndarray:
     """The corner that each corner of a part is the exact mirror image of, (c,), -1 for none."""
-    from ..core.surface.symmetry import MirrorPlane
+    from ..core.surface.mirror_plane import MirrorPlane
     from ..core.uses.stacking import image_corners
 
     decomposition, parts = stored.decomposition, stored.shown_parts().parts

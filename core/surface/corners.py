@@ -104,10 +104,7 @@ class CornerTable:
     @property
     def next_corner(self) -> np.ndarray:
         """Corner that follows each corner in its face, (c,) int64."""
-        new = np.append(True, np.diff(self.corner_face) != 0)[: len(self.corner_face)]
-        following = np.arange(1, len(new) + 1)
-        following[np.append(new[1:], True)[: len(new)]] = np.flatnonzero(new)
-        return following
+        return next_of_owner(self.corner_face)
 
     def face_vectors(self) -> np.ndarray:
         """Vector area of each face, (p, 3) float64: along its normal, as long as its area, 0 without corners."""
@@ -131,6 +128,14 @@ class CornerTable:
         cut; for an edge without faces the smallest is the largest int64 and the largest is -1.
         """
         return edge_labels(self.corner_edge, self.corner_face, labels, len(self.edges))
+
+
+def next_of_owner(owner: np.ndarray) -> np.ndarray:
+    """Index of the next element of the same owner, in a circle, (c,) int64; the elements of an owner are in a row."""
+    new = np.append(True, np.diff(owner) != 0)[: len(owner)]
+    following = np.arange(1, len(new) + 1)
+    following[np.append(new[1:], True)[: len(new)]] = np.flatnonzero(new)
+    return following
 
 
 def edge_labels(

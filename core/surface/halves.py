@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import MeshError
 from ..sentence import Sentence
 from .arguments import numbers
+from .mirror_plane import MirrorPlane
 from .polygons import PolygonMesh
 
 if TYPE_CHECKING:
@@ -65,7 +66,8 @@ def completed(half: PolygonMesh, plane: np.ndarray) -> Completed:
         A vertex of a border nearer to the plane than WELD is on it.
     """
     mesh = half.triangles
-    height = mesh.vertices @ plane[:3] - plane[3]
+    mirror = MirrorPlane(plane[:3], float(plane[3]))
+    height = mirror.heights(mesh.vertices)
     size = np.linalg.norm(np.ptp(mesh.vertices[mesh.used], axis=0))
     border = np.zeros(mesh.n_vertices, bool)
     border[mesh.edges.vertices[np.bincount(mesh.edges.face_edges.ravel()) == 1]] = True
@@ -74,8 +76,7 @@ def completed(half: PolygonMesh, plane: np.ndarray) -> Completed:
     beside = np.flatnonzero(~on_plane)
     image = np.arange(mesh.n_vertices)
     image[beside] = mesh.n_vertices + np.arange(len(beside))
-    mirrored = vertices[beside] - 2.0 * height[beside, None] * plane[:3]
-    return Completed(np.concatenate([vertices, mirrored]),
+    return Completed(np.concatenate([vertices, mirror.mirrored(vertices[beside])]),
                      np.concatenate([mesh.faces, image[mesh.faces[:, ::-1]]]),
                      np.concatenate([half.polygon, half.polygon + half.n_polygons]))
 
@@ -87,5 +88,5 @@ def is_one_side(vertices: np.ndarray, plane: np.ndarray) -> bool:
     """
     if not len(vertices):
         return False
-    height = vertices @ plane[:3] - plane[3]
+    height = MirrorPlane(plane[:3], float(plane[3])).heights(vertices)
     return bool(min(height.max(), -height.min()) <= WELD * np.linalg.norm(np.ptp(vertices, axis=0)))

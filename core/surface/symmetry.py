@@ -14,10 +14,11 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import inner_products, second_moments, spread_evenly, weighted_sum
+from .arrays import second_moments, spread_evenly, weighted_sum
 from .contact import diameter
 from .labels import majority
 from .mesh import TriMesh
+from .mirror_plane import MirrorPlane
 from .ordering import principal_axes
 
 # In units of the size: how far a mirrored point may lie beside the surface where a plane is judged, and where twins
@@ -45,36 +46,6 @@ MANY_FACES, MOSTLY = 3_000, 0.5
 # A face is the exact twin of another if their centers, mirrored, are nearer than this, in units of its area's root; and
 # a plane is exact if its share is less by this only.
 EXACT = 0.02
-
-
-@dataclass(frozen=True, eq=False)
-class MirrorPlane:
-    """A plane of symmetry: the points x of normal @ x == offset.
-
-    Attributes
-    ----------
-    normal : (3,) float64
-        Of length 1; its component of largest size is positive.
-    offset : float
-    share : float
-        Of the area whose mirror image lies on the surface, 0..1.
-    """
-
-    normal: np.ndarray
-    offset: float
-    share: float = 0.0
-
-    def heights(self, points: np.ndarray) -> np.ndarray:
-        """Signed distance of points, (k, 3), from the plane, (k,) float64."""
-        return inner_products(points, self.normal) - self.offset
-
-    def mirrored(self, points: np.ndarray) -> np.ndarray:
-        """Mirror images of points, (k, 3)."""
-        return points - 2.0 * self.heights(points)[:, None] * self.normal
-
-    def turned(self, directions: np.ndarray) -> np.ndarray:
-        """Mirror images of directions, (k, 3)."""
-        return directions - 2.0 * inner_products(directions, self.normal)[:, None] * self.normal
 
 
 @dataclass(frozen=True, eq=False)

@@ -70,8 +70,14 @@ class ConformalFactor:
         """
         scale = np.zeros(len(self.curvature))
         if len(free):
-            matrix = self.laplacian[free][:, free].tocsc()
-            factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
-                           options={"SymmetricMode": True})
-            scale[free] = factors.solve(-self.curvature[free])
+            scale[free] = solved(self.laplacian[free][:, free], -self.curvature[free])
         return scale
+
+
+def solved(matrix: csr_array, right: np.ndarray) -> np.ndarray:
+    """Solve a system whose matrix is symmetric and positive definite.
+
+    matrix : (k, k) scipy.sparse.csr_array. right : (k,) float64. Returns (k,) float64.
+    """
+    factors = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    return factors.solve(right)

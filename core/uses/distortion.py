@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import sums_by
+from ..surface.arrays import inverse, sums_by
 from ..surface.corners import CornerTable
 
 #: Areas between these, as multiples of their share of the whole map, are called even.
@@ -79,8 +79,6 @@ def _areas(table: CornerTable, flat: np.ndarray) -> np.ndarray:
 def _angles(table: CornerTable, points: np.ndarray) -> np.ndarray:
     """Angle between the two sides at each corner, (c,), in radians. points : (c, 2) or (c, 3)."""
     following = table.next_corner
-    before = np.empty_like(following)
-    before[following] = np.arange(len(following))
-    x, y = points[following] - points, points[before] - points
+    x, y = points[following] - points, points[inverse(following)] - points
     length = np.linalg.norm(x, axis=1) * np.linalg.norm(y, axis=1)
     return np.arccos(((x * y).sum(axis=1) / np.maximum(length, np.finfo(float).tiny)).clip(-1.0, 1.0))

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
-from scipy.sparse.linalg import splu
+from scipy.spatial.transform import Rotation
 
 from ..surface.arrays import symmetric_matrix
 from ..surface.corners import CornerTable
 from .bones import Bones
-from .conformal import ConformalFactor
+from .conformal import ConformalFactor, solved
 
 # Weights change within this many radii of a joint on either side. A joint of radius r that is bent by the angle t
 # shortens its inner side by t r; so that no face turns over there, the weights must not change faster than 1 / (t r).
@@ -135,9 +135,7 @@ def _harmonic(laplacian: csr_array, distance: np.ndarray, side: np.ndarray, reac
     free = np.flatnonzero(~known)
     if len(free):
         rows = laplacian[free]
-        factors = splu(rows[:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0,
-                       options={"SymmetricMode": True})
-        share[free] = factors.solve(-(rows @ np.where(known, share, 0.0)))
+        share[free] = solved(rows[:, free], -(rows @ np.where(known, share, 0.0)))
     return share.clip(0.0, 1.0)
 
 
@@ -216,11 +214,7 @@ def bends(along: np.ndarray, angle: float) -> list[np.ndarray]:
     first = np.cross(direction, np.eye(3)[np.abs(direction).argmin()])
     first /= np.linalg.norm(first)
     second = np.cross(direction, first)
-    made = []
-    for x, y, z in (first, second, -first, -second):
-        cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-        made.append(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
-    return made
+    return list(Rotation.from_rotvec(angle * np.stack([first, second, -first, -second])).as_matrix())
 
 
 def _roots(table: CornerTable, labels: np.ndarray, bones: Bones) -> np.ndarray:

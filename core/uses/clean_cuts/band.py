@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...surface.arrays import renumbered, sums_by
-from ...surface.corners import CornerTable
+from ...surface.corners import CornerTable, next_of_owner
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,12 +100,3 @@ class Band:
     def edge_length(self) -> np.ndarray:
         """(e,) float64."""
         return np.linalg.norm(self.points[self.ends[:, 0]] - self.points[self.ends[:, 1]], axis=1)
-
-
-def next_of_owner(owner: np.ndarray) -> np.ndarray:
-    """Index of the next element of the same owner, in a circle; owners rise. (c,) int64."""
-    count = np.bincount(owner)
-    following = np.arange(1, len(owner) + 1)
-    last = np.cumsum(count)[count > 0] - 1
-    following[last] = last - count[count > 0] + 1
-    return following

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...surface.arrays import inverse
+from ...surface.corners import next_of_owner
 from ...surface.labels import majority
-from .band import Band, next_of_owner
+from .band import Band
 from .sides import Sides
 
 
@@ -50,12 +52,11 @@ def divide(band: Band, sides: Sides) -> Division:
     """Divide the faces by the sides that their corners are on."""
     face, point, side, low, high = _portions(band, sides)
     label = _decided(band, face, low, high)
-    before = np.empty(len(face), np.int64)
-    before[next_of_owner(face)] = np.arange(len(face))
-    changes = label != label[before]
+    following = next_of_owner(face)
+    changes = label != label[inverse(following)]
     count = np.bincount(face[changes], minlength=len(band.faces))
     # A piece that is one portion only would lie between the portion and itself: the face stays whole.
-    thin = changes & changes[next_of_owner(face)]
+    thin = changes & changes[following]
     slim = (count == 2) & (np.bincount(face[thin], minlength=len(count)) > 0)
     odd = (count > 1) & ~slim & (band.n_corners > 3) & (~_convex(band) | (count > 3))
     whole = slim | odd | (count > 3)

@@ -6,7 +6,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...surface.arrays import components, renumbered, sums_by
-from .band import Band, next_of_owner
+from ...surface.corners import next_of_owner
+from .band import Band
 from .division import Division
 from .sides import Sides
 from .turning import turning

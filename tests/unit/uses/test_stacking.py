@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core.surface.corners import CornerTable
-from core.surface.symmetry import MirrorPlane
+from core.surface.mirror_plane import MirrorPlane
 from core.uses.stacking import image_corners
 
 ACROSS = MirrorPlane(np.array([1.0, 0.0, 0.0]), 2.0)

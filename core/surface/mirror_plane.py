@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A plane of symmetry and what it does to points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .arrays import inner_products
+
+
+@dataclass(frozen=True, eq=False)
+class MirrorPlane:
+    """A plane of symmetry: the points x of normal @ x == offset.
+
+    Attributes
+    ----------
+    normal : (3,) float64
+        Of length 1; its component of largest size is positive.
+    offset : float
+    share : float
+        Of the area whose mirror image lies on the surface, 0..1.
+    """
+
+    normal: np.ndarray
+    offset: float
+    share: float = 0.0
+
+    def heights(self, points: np.ndarray) -> np.ndarray:
+        """Signed distance of points, (k, 3), from the plane, (k,) float64."""
+        return inner_products(points, self.normal) - self.offset
+
+    def mirrored(self, points: np.ndarray) -> np.ndarray:
+        """Mirror images of points, (k, 3)."""
+        return points - 2.0 * self.heights(points)[:, None] * self.normal
+
+    def turned(self, directions: np.ndarray) -> np.ndarray:
+        """Mirror images of directions, (k, 3)."""
+        return directions - 2.0 * inner_products(directions, self.normal)[:, None] * self.normal
