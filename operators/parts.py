@@ -21,7 +21,7 @@ class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
     bl_label = "Select Faces of Parts"
 
     action: bpy.props.EnumProperty(
-        name="Action",
+        name="Action", translation_context="Reeb Parts",  # what Blender calls "Set" is a beginning in Chinese
         items=[("SET", "Set", "Select these faces and no others"),
                ("ADD", "Extend", "Add these faces to the selection"),
                ("SUBTRACT", "Subtract", "Take these faces from the selection")],

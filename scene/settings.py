@@ -173,7 +173,7 @@ class SeparateProperties(WhichProperties):
     """How parts become objects."""
 
     cut: EnumProperty(
-        name="Cuts", default="SMOOTH",
+        name="Cuts", default="SMOOTH", translation_context="Reeb Parts",  # to Blender, the number of cuts
         items=[("SMOOTH", "Smooth", "Along a smooth curve, which lies in a plane where one fits: the faces there are "
                 "divided in the pieces. Borders that are smooth already stay as they are"),
                ("FACES", "Along Faces", "Along the edges of faces, all of which stay whole")],

@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-import textwrap
-
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 from mathutils import Matrix
 
 from ..scene import graph_objects, jobs, notes, part_list, part_names, store
+from . import wrapping
 
 MODELS = 8  # so many selected models are listed
 NARROW = 215  # width of a sidebar, in pixels of a screen without scaling, that has no room for shares
@@ -198,7 +197,7 @@ def _draw_models(layout: bpy.types.UILayout, context: bpy.types.Context) -> None
 
 def _wrapped(column: bpy.types.UILayout, text: str, width: int, icon: str) -> None:
     """A text in lines of some letters, with an icon before the first one."""
-    for index, line in enumerate(textwrap.wrap(text, width)):
+    for index, line in enumerate(wrapping.lines(text, width)):
         column.label(text=line, icon="BLANK1" if index else icon)
 
 
@@ -211,9 +210,9 @@ def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, result:
     shown = graph_objects.is_shown(context, context.object)
     row.operator("reeb_parts.show_graph", text="", icon="HIDE_OFF" if shown else "HIDE_ON", depress=shown)
     row = column.row(align=True)
-    row.operator("reeb_parts.step_detail", text="Fewer").more = False
+    row.operator("reeb_parts.step_detail", text="Fewer", text_ctxt="Reeb Parts").more = False
     row.prop(result, "n_parts", text="Parts")
-    row.operator("reeb_parts.step_detail", text="More").more = True
+    row.operator("reeb_parts.step_detail", text="More", text_ctxt="Reeb Parts").more = True
     if result.asked:
         text = iface_("{n} parts cannot be had, only {fewest} to {most}")
         column.label(text=text.format(n=result.asked, fewest=result.fewest, most=result.most), icon="ERROR")

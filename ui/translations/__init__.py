@@ -2,8 +2,9 @@
 """What Reeb Parts says in other languages than English: a file for each, named by Blender's code for it.
 
 Such a file has three dictionaries from English to that language: OPERATORS for the names of operators and
-what stands on buttons, TOOLS for the buttons of tools, in short words, TEXTS for all else. Values in braces
-stay as they are; they may change places.
+what stands on buttons, TEXTS for all else, and TOOLS for short words by which Blender means something else:
+where Blender has a translation of its own, it shows that one. Values in braces stay as they are; they may
+change places.
 tests/blender/ui/test_translations.py lists what a language still lacks and what it no longer needs.
 """
 
@@ -12,9 +13,9 @@ from __future__ import annotations
 import bpy
 
 from ... import __package__ as base_package
-from . import de
+from . import de, zh_HANS
 
-LANGUAGES = {"de": de}
+LANGUAGES = {"de": de, "zh_HANS": zh_HANS}
 
 
 def dictionary() -> dict:

@@ -12,8 +12,6 @@ OPERATORS = {
     "Decompose into Parts": "In Teile zerlegen",
     "Cancel": "Abbrechen",
     "Clear Parts": "Zerlegung entfernen",
-    "Fewer": "Weniger",
-    "More": "Mehr",
     "Fewer Parts": "Weniger Teile",
     "More Parts": "Mehr Teile",
     "Fewer or More Parts": "Weniger oder mehr Teile",
@@ -84,10 +82,19 @@ OPERATORS = {
 }
 
 TOOLS = {
+    "Fewer": "Weniger",
+    "More": "Mehr",
     "Pick": "Anklicken",
     "Cut": "Schneiden",
     "Slide": "Schieben",
     "Paint": "Malen",
+    "Action": "Aktion",
+    "Set": "Setzen",
+    "Extend": "Erweitern",
+    "Subtract": "Abziehen",
+    "Cuts": "Schnitte",
+    "Smooth": "Glatt",
+    "Along Faces": "An Flächen",
 }
 
 TEXTS = {
@@ -100,7 +107,7 @@ TEXTS = {
     "Graph": "Graph",
     "Boundaries": "Grenzen",
     "Output": "Ausgabe",
-    "Overlay": "Überlagerung",
+    "Overlay": "Überlagern",
     "{n} part": "{n} Teil",
     "{n} parts": "{n} Teile",
     "{parts} in {seconds:.2f} s": "{parts} in {seconds:.2f} s",
@@ -139,7 +146,7 @@ TEXTS = {
     "The order of the parts in the list": "Die Reihenfolge der Teile in der Liste",
     "Show Small Parts": "Kleine Teile zeigen",
     "List the parts, too, that are smaller than the share set under Advanced, Overlay":
-        "Auch die Teile nennen, die kleiner sind als der Anteil unter „Erweitert“, „Überlagerung“",
+        "Auch die Teile nennen, die kleiner sind als der Anteil unter „Erweitert“, „Überlagern“",
     "Small Below": "Klein unter",
     "Parts of a smaller share of the surface are folded into one row where the list is long":
         "Teile mit einem kleineren Anteil an der Oberfläche stehen in langen Listen zusammen in einer Zeile",
@@ -193,7 +200,7 @@ TEXTS = {
     "Curvature Classes": "Krümmungsklassen",
     "Number of classes of curvature that the surface is sorted into; 0 chooses it from the data":
         "Anzahl der Krümmungsklassen, in die die Oberfläche eingeteilt wird; 0 wählt sie aus den Daten",
-    "Outline": "Umriss",
+    "Outline": "Umrandung",
     "How far the outline of a part, unfolded into the plane, counts when its cut is judged: 0 judges by the cut alone":
         "Wie sehr der Umriss eines in die Ebene ausgebreiteten Teils zählt, wenn sein Schnitt beurteilt wird: 0 "
         "urteilt nur nach dem Schnitt",
@@ -210,7 +217,7 @@ TEXTS = {
         "Ob Stücke, die sich berühren, ohne verbunden zu sein, gemeinsam Teile bilden, wie Ärmel und Arm, oder jedes "
         "Stück für sich zerlegt wird",
     "Together": "Gemeinsam",
-    "Separate": "Getrennt",
+    "Separate": "Trennen",
     "Detail": "Detail",
     "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate":
         "Wie bereitwillig die Oberfläche zerschnitten wird: 0 ergibt so wenige Teile wie möglich, 1 alle, die "
@@ -322,7 +329,7 @@ TEXTS = {
     "Locked": "Gesperrt",
     "The part stays as it is, whatever the detail and whatever is done to its neighbors":
         "Das Teil bleibt, wie es ist, unabhängig vom Detail und davon, was mit seinen Nachbarn geschieht",
-    "Pinned": "Angeheftet",
+    "Pinned": "Festgepinnt",
     "The part was changed by hand and stays whatever the detail":
         "Das Teil wurde von Hand geändert und bleibt, unabhängig vom Detail",
     "Selected": "Ausgewählt",
@@ -362,15 +369,12 @@ TEXTS = {
     "Turn faces that look inwards, close holes, and make caps anew that cross something, where that helps":
         "Flächen umdrehen, die nach innen zeigen, Löcher schließen und Deckel neu machen, die etwas durchdringen, wo "
         "das hilft",
-    "Cuts": "Schnitte",
     "Where the pieces are cut from each other; the mesh itself stays as it is":
         "Wo die Stücke voneinander getrennt werden; das Mesh selbst bleibt, wie es ist",
-    "Smooth": "Glatt",
     "Along a smooth curve, which lies in a plane where one fits: the faces there are divided in the pieces. Borders "
     "that are smooth already stay as they are":
         "An einer glatten Kurve, die in einer Ebene liegt, wo eine passt: die Flächen dort werden in den Stücken "
         "geteilt. Grenzen, die schon glatt sind, bleiben, wie sie sind",
-    "Along Faces": "An Flächen",
     "Along the edges of faces, all of which stay whole": "An den Kanten von Flächen, die alle ganz bleiben",
     "Close Holes": "Löcher schließen",
     "Close the holes where parts were joined, so that each piece is closed; borders that the mesh had before stay "
@@ -421,11 +425,9 @@ TEXTS = {
     "Select the faces of the parts chosen in the list, for Edit Mode":
         "Die Flächen der in der Liste gewählten Teile auswählen, für den Bearbeitungsmodus",
     "Action": "Aktion",
-    "Set": "Setzen",
     "Select these faces and no others": "Diese Flächen und keine anderen auswählen",
     "Extend": "Erweitern",
     "Add these faces to the selection": "Diese Flächen der Auswahl hinzufügen",
-    "Subtract": "Subtrahieren",
     "Take these faces from the selection": "Diese Flächen aus der Auswahl nehmen",
     "Part": "Teil",
     "Number of the part; 0 for those chosen in the list": "Nummer des Teils; 0 für die in der Liste gewählten",
@@ -436,7 +438,7 @@ TEXTS = {
     "Mark parts in the list": "Teile in der Liste ankreuzen",
     "Mark the parts that are like the active one in size, shape and place, on all objects of the scene":
         "Die Teile ankreuzen, die dem aktiven in Größe, Form und Lage ähneln, an allen Objekten der Szene",
-    "Difference": "Unterschied",
+    "Difference": "Differenz",
     "All Objects": "Alle Objekte",
     "Name the parts of all decomposed objects, not only of selected ones":
         "Die Teile aller zerlegten Objekte benennen, nicht nur der ausgewählten",
@@ -558,9 +560,10 @@ TEXTS = {
     "With materials and textures": "Mit Materialien und Texturen",
     "Make an armature with a bone for each part, along the part's center line, that moves the mesh smoothly":
         "Ein Skelett mit einem Knochen für jedes Teil erstellen, entlang seiner Mittellinie, das das Mesh weich bewegt",
-    "Weights": "Gewichte",
+    "Weights": "Gewichtungen",
     "How much each bone moves each vertex; at most four bones move one":
         "Wie sehr jeder Knochen jeden Punkt bewegt; höchstens vier Knochen bewegen einen",
+    "Smooth": "Weich",
     "Change smoothly across the cuts, as far as the limb is thick":
         "Ändern sich weich über die Schnitte hinweg, so weit wie das Glied dick ist",
     "Automatic": "Automatisch",
