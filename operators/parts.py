@@ -68,6 +68,12 @@ class REEB_PARTS_OT_frame(PartOperator, bpy.types.Operator):
     bl_label = "Frame Parts"
     bl_options = {"REGISTER"}
 
+    in_list: bpy.props.BoolProperty(options={"HIDDEN", "SKIP_SAVE"})  # only if the pointer is over the list
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        listed = getattr(context.ui_list, "bl_idname", "")
+        return {"PASS_THROUGH"} if self.in_list and listed != "REEB_PARTS_UL_parts" else self.execute(context)
+
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         mask = np.isin(stored.face_numbers, chosen_numbers(obj.data))
         framing.look_at(context, *part_places.box(obj, mask))

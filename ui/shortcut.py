@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shortcut of the menu "Reeb Parts" over a 3D viewport, which the preferences show and let change."""
+"""The shortcut of the menu "Reeb Parts" over a 3D viewport, which the preferences show and let change.
+
+And a double click on a part in the list, beside its name: on the name, Blender lets the user change it.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +18,10 @@ def register() -> None:
     keymap = keys.keymaps.new("3D View", space_type="VIEW_3D")
     item = keymap.keymap_items.new("wm.call_menu", "P", "PRESS", ctrl=True, alt=True)
     item.properties.name = "REEB_PARTS_MT_main"
+    _added.append((keymap, item))
+    keymap = keys.keymaps.new("User Interface")
+    item = keymap.keymap_items.new("reeb_parts.frame", "LEFTMOUSE", "DOUBLE_CLICK")
+    item.properties.in_list = True
     _added.append((keymap, item))
 
 

@@ -10,6 +10,7 @@ import sys
 import time
 
 import bpy
+from mathutils import Vector
 
 sys.path += [os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__))]
 import pointer
@@ -31,7 +32,8 @@ def steps():
     yield from clicked(seen)
     yield from slid(seen)
     yield from undone(seen, "slide undone", "drag undone")
-    for scene in (numbered, recolored, renamed, locked, merged_by_menu, exploded, graph_hidden, palette_chosen):
+    for scene in (numbered, recolored, renamed, locked, swept, framed, merged_by_menu, exploded, graph_hidden,
+                  palette_chosen):
         if scene in PANELS:  # Blender makes settings where there are none when it draws them
             yield from pointer.fold(PANELS[scene])
         bpy.context.view_layer.update()  # undo leaves that for the next redraw
@@ -168,6 +170,33 @@ def locked(seen):
     pointer.shot("11_locked.png")
 
 
+def swept(seen):
+    """Press on a box and draw the pointer over those below it."""
+    x, y = yield from pointer.entry(1, "selected")
+    _, last = yield from pointer.entry(4, "selected")
+    yield from pointer.drag([(x, y + 4 * step) for step in range((last - y) // 4 + 1)])
+    seen["swept"] = [part.name for part in mesh().reeb_parts.parts if part.selected]
+    seen["swept over"] = [part.name for part in mesh().reeb_parts.parts[1:5]]
+
+
+def framed(seen):
+    """A double click in the row of a part, beside its name."""
+    view = pointer.view_area().spaces.active.region_3d
+    before = view.view_distance, view.view_location.copy()
+    x, y = yield from pointer.entry(4, "locked")
+    yield from pointer.rest(x - round(1.5 * pointer.unit()), y)
+    pointer.xdo("click", "--repeat", 2, "--delay", 60, 1)
+    yield from pointer.until(lambda: view.view_distance != before[0])
+    yield 0.3
+    part = mesh().reeb_parts.parts[4]
+    middle = spot().matrix_world @ Vector(part.middle)
+    seen["framed"] = {"nearer": before[0] / view.view_distance, "share": part.share, "name": part.name,
+                      "off": (view.view_location - middle).length / view.view_distance,
+                      "active": mesh().reeb_parts.active, "names": facts()["groups"]}
+    pointer.shot("12_framed.png")
+    view.view_distance, view.view_location = before
+
+
 def merged_by_menu(seen):
     """Tick two parts, right click on the list, Merge Parts."""
     n_parts = len(mesh().reeb_parts.parts)
@@ -175,7 +204,7 @@ def merged_by_menu(seen):
         yield from press_entry(index, "selected")
     x, y = yield from press_entry(5, "name", button=3)
     yield 0.4
-    pointer.shot("12_menu.png")
+    pointer.shot("13_menu.png")
     yield from pointer.press(x + MERGE[0], y + MERGE[1])
     yield from pointer.until(lambda: len(mesh().reeb_parts.parts) < n_parts)
     seen["merged"] = facts()["shares"]

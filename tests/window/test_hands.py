@@ -72,6 +72,18 @@ def test_locks_and_ticks(seen):
     assert seen["ticked"] == ["Part 04", "Part 06"]
 
 
+def test_ticks_by_drawing_the_pointer_over_the_boxes(seen):
+    assert seen["swept"] == seen["swept over"]
+
+
+def test_a_double_click_beside_the_name_looks_at_the_part_from_near(seen):
+    framed = seen["framed"]
+    assert framed["active"] == 4
+    assert framed["nearer"] > 1.5
+    assert framed["off"] < 0.3
+    assert framed["names"] == seen["decomposed"]["groups"]
+
+
 def test_parts_are_merged_from_the_menu_of_the_list(seen):
     before, after = seen["decomposed"]["shares"], seen["merged"]
     assert len(after) == len(before) - 1
@@ -93,7 +105,7 @@ def test_another_palette_recolours_at_once(seen):
     assert changed
 
 
-@pytest.mark.parametrize("scene", ["numbered", "recolored", "renamed", "locked", "merged_by_menu", "exploded",
-                                   "graph_hidden", "palette_chosen"])
+@pytest.mark.parametrize("scene", ["numbered", "recolored", "renamed", "locked", "swept", "framed", "merged_by_menu",
+                                   "exploded", "graph_hidden", "palette_chosen"])
 def test_undo_takes_it_back(seen, scene):
     assert seen[f"{scene}, undone"] == []
