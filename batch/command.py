@@ -28,12 +28,25 @@ import bpy
 from ..core.errors import ReebError
 from ..core.parameters import Parameters
 from ..core.uses.options import chosen_parameters
-from ..scene import armature, bridge, complete, export, graph_objects, hulls, results, store, targets, uv_map
+from ..scene import (
+    armature,
+    bridge,
+    complete,
+    export,
+    graph_objects,
+    hulls,
+    joints,
+    piece_objects,
+    results,
+    store,
+    targets,
+    uv_map,
+)
 from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
 from ..scene.whole_files import WholeFiles, reason, scene_files, together
 from .interrupt import Interrupted, Interrupts
-from .options import MODELS, parser
+from .options import MODELS, parser, separate_style
 
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
@@ -177,19 +190,28 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
     if outcome.decomposition is None:
         raise SceneError(f"{obj.name}: {outcome.problem}")
     results.write_result(bpy.context, obj, outcome, options)
-    make_uses(obj, options)
-    return object_report(obj, options.labels, options.check)
+    made = make_uses(obj, options)
+    return object_report(obj, options.labels, options.check) | made
 
 
-def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> None:
-    """Make of the parts of an object what the options ask for."""
+def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
+    """Make of the parts of an object what the options ask for; what its entry in the JSON says of that."""
     stored = store.load(obj.data)
+    said = {}
+    if options.separate or options.caps or options.pegs:
+        style = separate_style(options)
+        numbers = stored.shown_parts().numbers.tolist()
+        separated = piece_objects.separate(bpy.context, obj, stored, numbers, style)
+        piece_objects.hide_original(bpy.context, obj)
+        if style.joints != "NONE":
+            said["joints"] = joints.as_dicts(separated.cuts, numbers)
     if options.unwrap:
         uv_map.unwrap(bpy.context, obj, stored, open_parts=True, method="MINIMUM_STRETCH", stack=False)
     if options.armature:
         armature.make(bpy.context, obj, stored, deform=True)
     if options.hulls:
         hulls.make(bpy.context, obj, stored, options.hulls.upper())
+    return said
 
 
 def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bpy.types.Object], reports: list[dict],

@@ -7,9 +7,10 @@ import argparse
 import math
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from ..core.uses.options import add_parameters, dashed
-from ..scene.settings import OutputProperties, OverlayProperties
+from ..scene.settings import JointProperties, OutputProperties, OverlayProperties, SeparateProperties
 
 #: Models that can be read besides scenes, see command.IMPORTERS.
 MODELS = (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
@@ -44,6 +45,17 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     files.add_argument("--picture-size", type=_size, default=(960, 540), metavar="WxH",
                        help="its width and height in pixels (default: 960x540)")
     uses = made.add_argument_group("what is made of the parts")
+    uses.add_argument("--separate", action="store_true", help="an object for each part, in the scene to save")
+    uses.add_argument("--caps", action="store_true", help="close the holes of these objects")
+    joint = JointProperties.__annotations__
+    kinds = [item[0].lower() for item in joint["joints"].keywords["items"][1:]]
+    uses.add_argument("--pegs", choices=kinds, nargs="?", const="round", metavar="KIND",
+                      help=f"join them for printing by {', '.join(kinds)} (default: round), closed")
+    for option, name in (("count", "joint_count"), ("size", "joint_size"), ("depth", "joint_depth"),
+                         ("clearance", "joint_clearance"), ("wall", "joint_wall")):
+        words = joint[name].keywords
+        uses.add_argument(f"--peg-{option}", dest=name, default=words["default"], metavar="N",
+                          type=_number(words["min"], words["max"]), help=words["description"])
     uses.add_argument("--unwrap", action="store_true", help="a UV map with an island for each part")
     uses.add_argument("--armature", action="store_true", help="a bone for each part, and weights to pose it with")
     uses.add_argument("--hulls", choices=("unreal", "godot"), metavar="ENGINE",
@@ -61,6 +73,25 @@ def parser(description: str | None) -> argparse.ArgumentParser:
             words |= {"type": _number(prop.keywords["min"], prop.keywords["max"]), "metavar": "N"}
         outputs.add_argument(f"--{dashed(name)}", **words)
     return made
+
+
+def separate_style(options: argparse.Namespace) -> Any:
+    """How parts become objects: the values of settings.SeparateProperties, by the options or their defaults."""
+    names = [name for cls in SeparateProperties.__mro__ for name in getattr(cls, "__annotations__", {})]
+    style = argparse.Namespace(**{name: _default(name) for name in names})
+    for name in JointProperties.__annotations__:
+        setattr(style, name, getattr(options, name, getattr(style, name)))
+    style.joint_count = round(style.joint_count)
+    style.joints = (options.pegs or "none").upper()
+    style.caps = options.caps
+    return style
+
+
+def _default(name: str) -> object:
+    """What one of settings.SeparateProperties is unless it is set."""
+    prop = next(cls.__annotations__[name] for cls in SeparateProperties.__mro__
+                if name in getattr(cls, "__annotations__", {}))
+    return prop.keywords["default"]
 
 
 def _number(low: float, high: float) -> Callable[[str], float]:

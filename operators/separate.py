@@ -4,7 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import piece_objects, store, targets
+from ..scene import joints, piece_objects, store, targets
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import wanted_numbers
@@ -33,7 +33,8 @@ class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProp
                     for obj, stored in found]
         if self.hide:
             self._hide(context, [obj for obj, _ in made])
-        self._show(context, [piece for _, separated in made for piece in separated.pieces], made[0][1].pieces)
+        every = [piece for _, separated in made for piece in (*separated.pieces, *separated.loose)]
+        self._show(context, every, made[0][1].pieces)
         for obj, separated in made:
             self._report(obj, separated)
 
@@ -64,11 +65,28 @@ class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProp
         if separated.along_faces:
             message = rpt_("{n} borders run along faces: a smooth cut would tear or cross a part there")
             self.report({"INFO"}, message.format(n=separated.along_faces))
-        if self.caps:
+        if self.joints != "NONE":
+            self._report_joints(obj, separated.cuts)
+        if self.caps or self.joints != "NONE":
             report_unsound(self, separated.pieces)
         if separated.left_open:
             self.report({"WARNING"}, rpt_("{n} edges stay open: more than two faces meet beside them").format(
                 n=separated.left_open))
+
+
+    def _report_joints(self, obj: bpy.types.Object, cuts: list[joints.CutJoints]) -> None:
+        """Say how many cuts have joints, and of which others why not."""
+        self.report({"INFO"}, rpt_("{n} of {total} cuts have joints").format(
+            n=sum(cut.count > 0 for cut in cuts), total=len(cuts)))
+        for why, sentence in (
+            ("ROOM", rpt_("No joint where there is no room for one with a wall around it: {cuts}")),
+            ("BENT", rpt_("No joint where a cut is so bent that it has no axis: {cuts}")),
+            ("BODY", rpt_("No joint where a part is not closed or crosses itself: {cuts}")),
+            ("RESULT", rpt_("No joint where it would have left a part open or pierced: {cuts}")),
+        ):
+            names = [joints.cut_name(obj, cut) for cut in cuts if cut.why == why]
+            if names:
+                self.report({"WARNING"}, sentence.format(cuts=", ".join(names)))
 
 
 class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):

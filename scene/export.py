@@ -16,6 +16,7 @@ from . import complete, mesh_arrays, part_names, store
 from .part_meshes import part_meshes
 from .selection import nothing_selected
 from .temporary import removed
+from .units import millimeters
 from .whole_files import WholeFiles
 
 EXPORTERS = {
@@ -114,12 +115,6 @@ def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], pat
             assemblies.append(Assembly(obj.name, _bodies(obj, pieces)))
     with files.writing(path, complete.model([], "3mf")) as place:
         write_3mf(place, assemblies)
-
-
-def millimeters() -> float:
-    """Length of a unit of the scene in millimeters; 1 in scenes without units."""
-    units = bpy.context.scene.unit_settings
-    return 1.0 if units.system == "NONE" else 1000.0 * units.scale_length
 
 
 def _export(obj: bpy.types.Object, meshes: dict[str, bpy.types.Mesh], path: Path, kind: str) -> None:

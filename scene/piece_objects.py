@@ -14,7 +14,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
-from . import bridge, explode, graph_objects, mesh_arrays, modified, part_names, piece_checks, transaction
+from . import bridge, explode, graph_objects, joints, mesh_arrays, modified, part_names, piece_checks, transaction
 from .errors import SceneError
 from .outputs.colors import linear
 from .part_meshes import piece_meshes
@@ -25,6 +25,7 @@ from .temporary import remove_object, removed
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: name of the object that the pieces come from
 NUMBER = "reeb_parts_number"  # on a piece: of its part
 MADE = "reeb_parts_looks"  # on a piece: what it was like when it was made
+DOWEL = "reeb_parts_dowel"  # on a loose dowel that joins two pieces
 
 # Modifiers that do the same to a mesh wherever the origin of its object is. Others, such as Mirror and Array, work
 # about the origin, and a piece with another one would change its shape.
@@ -67,18 +68,24 @@ class Separated:
     Attributes
     ----------
     pieces : list of bpy.types.Object
+    loose : list of bpy.types.Object
+        Dowels.
     left_open : int
         Edges of holes that could not be filled.
     along_faces : int
         Borders that were to be smooth and still run along faces.
     kept : int
         Earlier pieces that were left alone.
+    cuts : list of joints.CutJoints
+        What became of each cut that was to have joints; its keys are numbers of parts.
     """
 
     pieces: list[bpy.types.Object]
+    loose: list[bpy.types.Object]
     left_open: int
     along_faces: int
     kept: int
+    cuts: list[joints.CutJoints]
 
 
 def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: list[int],
@@ -105,23 +112,45 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
     face_numbers = stored.shown_parts().face_numbers
     seen = modified.seen_mesh(context, obj, face_numbers) if style.seen and modified.has_modifiers(obj) else None
     mesh, face_numbers = seen or (obj.data, face_numbers)
+    stretch = bridge.world_stretch(obj)
+    close = style.caps or style.joints != "NONE"
     with removed(bpy.data.meshes, *([mesh] if seen else [])):
-        stretch = bridge.world_stretch(obj) if style.cut == "SMOOTH" else None
-        found = piece_meshes(mesh, face_numbers, numbers, style.caps, stretch)
+        found = piece_meshes(mesh, face_numbers, numbers, close, stretch if style.cut == "SMOOTH" else None)
+    joined = joints.Joined(found.meshes, [], [])
+    if style.joints != "NONE":
+        joined = joints.join(context, found.meshes, stretch, joints.wanted_joints(style))
+    made = _objects(context, obj, joined.meshes, style)
+    dowels = [_dowel(context, obj, mesh, style) for mesh in joined.loose]
+    for piece in (*made, *dowels):
+        piece[MADE] = looks(piece)
+    if close:
+        check_pieces(made, stretch)
+    return Separated(made, dowels, found.left_open, found.along_faces, kept, joined.cuts)
+
+
+def _objects(context: bpy.types.Context, obj: bpy.types.Object, meshes: dict[int, bpy.types.Mesh],
+             style: SeparateProperties) -> list[bpy.types.Object]:
+    """An object for each piece, in the collection of the pieces, with the color of its part."""
     collection = make_collection(context, obj)
     colors = {part.number: part.color[:] for part in obj.data.reeb_parts.parts}
     made = []
-    for number, mesh in found.meshes.items():
+    for number, mesh in meshes.items():
         piece = _piece(obj, mesh, part_names.piece_name(obj, number), style)
         piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER] = number
         collection.objects.link(piece)
         made.append(piece)
-    for piece in made:
-        piece[MADE] = looks(piece)
-    if style.caps:
-        check_pieces(made, bridge.world_stretch(obj))
-    return Separated(made, found.left_open, found.along_faces, kept)
+    return made
+
+
+def _dowel(context: bpy.types.Context, obj: bpy.types.Object, mesh: bpy.types.Mesh,
+           style: SeparateProperties) -> bpy.types.Object:
+    """An object for a loose dowel, beside the pieces."""
+    dowel = _piece(obj, mesh, f"{obj.name} Dowel", style)
+    dowel.modifiers.clear()
+    dowel[DOWEL] = True
+    make_collection(context, obj).objects.link(dowel)
+    return dowel
 
 
 def active_piece(context: bpy.types.Context) -> bpy.types.Object:
@@ -162,14 +191,19 @@ def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.ty
 def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
     """Remove pieces of these parts unless the user has worked on them; how many stay."""
     kept = 0
-    for piece in piece_objects(obj):
-        if piece[NUMBER] not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
+    collection = collection_of(obj)
+    dowels = [dowel for dowel in collection.objects if DOWEL in dowel] if collection else []
+    for piece in [*piece_objects(obj), *dowels]:
+        number = piece.get(NUMBER)
+        if number is not None and number not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
             continue
         if piece.mode == "OBJECT" and not piece.children and looks(piece) == piece[MADE]:
             remove_object(piece)
             continue
-        transaction.keep_keys(piece, NUMBER, MADE)
-        del piece[NUMBER], piece[MADE]
+        own = [key for key in (NUMBER, MADE, DOWEL) if key in piece]
+        transaction.keep_keys(piece, *own)
+        for key in own:
+            del piece[key]
         kept += 1
     return kept
 

@@ -169,7 +169,45 @@ class WhichProperties:
     )
 
 
-class SeparateProperties(WhichProperties):
+class JointProperties:
+    """How pieces are joined."""
+
+    joints: EnumProperty(
+        name="Joints", default="NONE",
+        items=[("NONE", "None", "Pieces are closed and flat where they were joined"),
+               ("ROUND", "Round Pegs", "The smaller piece has a round peg, the other a hole for it"),
+               ("SQUARE", "Square Pegs", "Pegs that do not turn in their holes"),
+               ("KEY", "Keys", "Pegs like the tail of a dove, which fit into their holes one way round only"),
+               ("DOWEL", "Dowels", "Both pieces have a hole, and a loose dowel goes into both"),
+               ("MAGNET", "Magnets", "Both pieces have a round hole for a magnet, as deep as Depth says")],
+        description="What joins the pieces when they are printed, along the axis of each cut; holes are closed then. "
+        "A cut without room for it stays without",
+    )
+    joint_count: IntProperty(
+        name="Per Cut", default=1, min=1, max=3,
+        description="How many joints a cut gets where there is room for them; two or more keep pieces from turning",
+    )
+    joint_size: FloatProperty(
+        name="Width (mm)", default=0.0, min=0.0, max=1000.0, precision=2, step=10,
+        description="Width of the joints in millimeters; 0 for a third of each cut's. Where there is no room, they are "
+        "smaller",
+    )
+    joint_depth: FloatProperty(
+        name="Depth (mm)", default=0.0, min=0.0, max=1000.0, precision=2, step=10,
+        description="How deep joints go into a piece, in millimeters; 0 for what suits their width",
+    )
+    joint_clearance: FloatProperty(
+        name="Clearance (mm)", default=0.15, min=0.0, max=10.0, precision=3, step=1,
+        description="Gap between a joint and its hole all around, in millimeters",
+    )
+    joint_wall: FloatProperty(
+        name="Wall (mm)", default=1.2, min=0.0, max=100.0, precision=2, step=10,
+        description="The least thickness of what remains around a joint, in millimeters; at least a third of its "
+        "radius",
+    )
+
+
+class SeparateProperties(WhichProperties, JointProperties):
     """How parts become objects."""
 
     cut: EnumProperty(

@@ -24,8 +24,11 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         settings = context.scene.reeb_parts_use
         # How the button Separate, which is just above, makes objects.
         column.row().prop(settings, "which", expand=True)
-        for name in ("cut", "caps", "center", "modifiers", "seen", "parent", "hide"):
+        for name in ("cut", "caps", "center", "modifiers", "seen", "parent", "hide", "joints"):
             column.prop(settings, name)
+        if settings.joints != "NONE":
+            for name in ("joint_count", "joint_size", "joint_depth", "joint_clearance", "joint_wall"):
+                column.prop(settings, name)
         column.separator()
         column.prop(context.object.reeb_parts_made, "explode", slider=True)
         self._draw_outputs(context.object.data.reeb_parts)

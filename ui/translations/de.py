@@ -584,6 +584,53 @@ TEXTS = {
     "UCX_, the object and a number": "UCX_, das Objekt und eine Nummer",
     "Godot": "Godot",
     "The part, then -convcolonly": "Das Teil, dann -convcolonly",
+    # Verbindungen zum Drucken
+    "Joints": "Verbindungen",
+    "Pieces are closed and flat where they were joined": "Die Stücke sind geschlossen, ohne Zapfen und Löcher",
+    "Round Pegs": "Runde Zapfen",
+    "The smaller piece has a round peg, the other a hole for it":
+        "Das kleinere Stück hat einen runden Zapfen, das andere ein Loch dafür",
+    "Square Pegs": "Eckige Zapfen",
+    "Pegs that do not turn in their holes": "Zapfen, die sich in ihren Löchern nicht drehen",
+    "Keys": "Passfedern",
+    "Pegs like the tail of a dove, which fit into their holes one way round only":
+        "Zapfen wie ein Schwalbenschwanz, die nur in einer Lage in ihre Löcher passen",
+    "Dowels": "Dübel",
+    "Both pieces have a hole, and a loose dowel goes into both":
+        "Beide Stücke haben ein Loch, und ein loser Dübel steckt in beiden",
+    "Magnets": "Magnete",
+    "Both pieces have a round hole for a magnet, as deep as Depth says":
+        "Beide Stücke haben ein rundes Loch für einen Magneten, so tief, wie es die Tiefe sagt",
+    "What joins the pieces when they are printed, along the axis of each cut; holes are closed then. "
+    "A cut without room for it stays without":
+        "Was die Stücke verbindet, wenn sie gedruckt sind, entlang der Achse jedes Schnitts; Löcher werden dann "
+        "geschlossen. Ein Schnitt ohne Platz dafür bleibt ohne",
+    "Per Cut": "Je Schnitt",
+    "How many joints a cut gets where there is room for them; two or more keep pieces from turning":
+        "Wie viele Verbindungen ein Schnitt bekommt, wo Platz ist; zwei oder mehr verhindern, dass sich Stücke drehen",
+    "Width (mm)": "Breite (mm)",
+    "Width of the joints in millimeters; 0 for a third of each cut's. Where there is no room, they are smaller":
+        "Breite der Verbindungen in Millimetern; 0 für ein Drittel der Breite jedes Schnitts. Wo kein Platz ist, sind "
+        "sie kleiner",
+    "Depth (mm)": "Tiefe (mm)",
+    "How deep joints go into a piece, in millimeters; 0 for what suits their width":
+        "Wie tief Verbindungen in ein Stück reichen, in Millimetern; 0 für das, was zu ihrer Breite passt",
+    "Clearance (mm)": "Spiel (mm)",
+    "Gap between a joint and its hole all around, in millimeters":
+        "Abstand zwischen einer Verbindung und ihrem Loch ringsum, in Millimetern",
+    "Wall (mm)": "Wand (mm)",
+    "The least thickness of what remains around a joint, in millimeters; at least a third of its radius":
+        "Wie dick mindestens ist, was um eine Verbindung herum bleibt, in Millimetern; wenigstens ein Drittel ihres "
+        "Radius",
+    "{n} of {total} cuts have joints": "{n} von {total} Schnitten haben Verbindungen",
+    "No joint where there is no room for one with a wall around it: {cuts}":
+        "Keine Verbindung, wo kein Platz für eine mit einer Wand ringsum ist: {cuts}",
+    "No joint where a cut is so bent that it has no axis: {cuts}":
+        "Keine Verbindung, wo ein Schnitt so gebogen ist, dass er keine Achse hat: {cuts}",
+    "No joint where a part is not closed or crosses itself: {cuts}":
+        "Keine Verbindung, wo ein Teil nicht geschlossen ist oder sich durchdringt: {cuts}",
+    "No joint where it would have left a part open or pierced: {cuts}":
+        "Keine Verbindung, wo sie ein Teil geöffnet oder durchstoßen hätte: {cuts}",
     # Was über ein Mesh zu sagen ist
     "{n} edges join more than two faces (non-manifold).":
         "Kanten mit mehr als zwei Flächen (nicht mannigfaltig): {n}.",

@@ -550,6 +550,43 @@ TEXTS = {
     "UCX_, the object and a number": "UCX_、物体和编号",
     "Godot": "Godot",
     "The part, then -convcolonly": "部件，后接 -convcolonly",
+    # 打印用的接头
+    "Joints": "接头",
+    "Pieces are closed and flat where they were joined": "各块封闭，相连处没有插销和孔",
+    "Round Pegs": "圆形插销",
+    "The smaller piece has a round peg, the other a hole for it": "较小的一块带有圆形插销，另一块带有对应的孔",
+    "Square Pegs": "方形插销",
+    "Pegs that do not turn in their holes": "在孔中不会转动的插销",
+    "Keys": "楔形插销",
+    "Pegs like the tail of a dove, which fit into their holes one way round only":
+        "形如燕尾的插销，只能以一个方向插入孔中",
+    "Dowels": "圆棒",
+    "Both pieces have a hole, and a loose dowel goes into both": "两块都有孔，一根独立的圆棒插入两孔",
+    "Magnets": "磁铁",
+    "Both pieces have a round hole for a magnet, as deep as Depth says": "两块都有放置磁铁的圆孔，深度由“深度”决定",
+    "What joins the pieces when they are printed, along the axis of each cut; holes are closed then. "
+    "A cut without room for it stays without":
+        "打印后用什么连接各块，沿每个切口的轴线；此时会封闭孔洞。没有空间的切口不加接头",
+    "Per Cut": "每个切口",
+    "How many joints a cut gets where there is room for them; two or more keep pieces from turning":
+        "空间足够时每个切口有几个接头；两个或更多可防止各块转动",
+    "Width (mm)": "宽度（毫米）",
+    "Width of the joints in millimeters; 0 for a third of each cut's. Where there is no room, they are smaller":
+        "接头的宽度，以毫米为单位；0 表示每个切口宽度的三分之一。空间不足时会更小",
+    "Depth (mm)": "深度（毫米）",
+    "How deep joints go into a piece, in millimeters; 0 for what suits their width":
+        "接头伸入一块的深度，以毫米为单位；0 表示与宽度相称的深度",
+    "Clearance (mm)": "间隙（毫米）",
+    "Gap between a joint and its hole all around, in millimeters": "接头与孔之间四周的间隙，以毫米为单位",
+    "Wall (mm)": "壁厚（毫米）",
+    "The least thickness of what remains around a joint, in millimeters; at least a third of its radius":
+        "接头周围所剩部分的最小厚度，以毫米为单位；至少为其半径的三分之一",
+    "{n} of {total} cuts have joints": "{total} 个切口中有 {n} 个带接头",
+    "No joint where there is no room for one with a wall around it: {cuts}":
+        "没有空间容纳带壁的接头，因此无接头：{cuts}",
+    "No joint where a cut is so bent that it has no axis: {cuts}": "切口过于弯曲而没有轴线，因此无接头：{cuts}",
+    "No joint where a part is not closed or crosses itself: {cuts}": "部件未封闭或自相交，因此无接头：{cuts}",
+    "No joint where it would have left a part open or pierced: {cuts}": "接头会使部件开口或被穿透，因此无接头：{cuts}",
     # 关于网格的说明
     "{n} edges join more than two faces (non-manifold).": "{n} 条边连接两个以上的面（非流形）。",
     "{n} border edges: the surface is open there.": "{n} 条开放边：表面在此处开放。",

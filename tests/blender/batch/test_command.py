@@ -49,6 +49,22 @@ def test_the_answer_says_of_each_part_whether_its_piece_is_sound(run, model, tmp
     edited.free()
 
 
+def test_parts_are_separated_with_joints(run, model, tmp_path):
+    """The scene has the pieces, closed and pegged; the answer says of each cut what it has."""
+    ended = run(model, "--pegs", "square", "--peg-count", "2", "--peg-clearance", "0", "--save", tmp_path / "x.blend")
+    (answer,) = ended.answer["objects"]
+    assert len(answer["joints"]) == len(answer["parts"]) - 1
+    assert all(cut["count"] and cut["width"] >= 2.0 and cut["reason"] is None for cut in answer["joints"])
+    assert {index for cut in answer["joints"] for index in cut["parts"]} == set(range(len(answer["parts"])))
+    schema = json.loads((Path(__file__).resolve().parents[3] / "docs" / "reeb_parts.schema.json").read_text())
+    assert all(set(cut) == set(schema["$defs"]["joint"]["required"]) for cut in answer["joints"])
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "x.blend"))
+    pieces = [obj for obj in bpy.data.objects if "reeb_parts_number" in obj]
+    assert len(pieces) == len(answer["parts"])
+    assert all(json.loads(piece["reeb_parts_check"])["volume"] > 0 for piece in pieces)
+    assert bpy.data.objects["Tree"].hide_render
+
+
 def test_what_is_made_of_the_parts(run, model, tmp_path):
     """A UV map and an armature in the scene, and an assembly of the parts, all whole."""
     ended = run(model, "--unwrap", "--armature", "--hulls", "unreal", "--threemf", tmp_path / "out.3mf",
