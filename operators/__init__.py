@@ -23,11 +23,12 @@ from . import (
     separate,
     settings,
     slide,
+    tool,
     unwrap,
 )
 
-MODULES = (decompose, detail, clear, settings, parts, alike, pick, edit, slide, cut, paint, graph, separate, checks,
-           outputs, unwrap, export, armature, hulls)
+MODULES = (decompose, detail, clear, settings, parts, alike, pick, tool, edit, slide, cut, paint, graph, separate,
+           checks, outputs, unwrap, export, armature, hulls)
 #: Every operator that one of the modules defines.
 CLASSES = tuple(cls for module in MODULES for cls in vars(module).values()
                 if isinstance(cls, type) and issubclass(cls, bpy.types.Operator))

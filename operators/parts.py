@@ -3,6 +3,7 @@
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import naming, part_list, part_names, part_places, reactions, selection, store
@@ -12,6 +13,8 @@ from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.store import Stored
 from ..viewport import framing, shading
+
+SHOWN_ALL_THE_SAME = n_("Object Mode shows hidden faces all the same; Edit Mode and paint modes do not")
 
 
 class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
@@ -52,13 +55,29 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
         seen = self.show_all or context.mode != "OBJECT"
         super().run(context)
         if not seen:
-            self.report({"INFO"}, rpt_("Object Mode shows hidden faces all the same; Edit Mode and paint modes do not"))
+            self.report({"INFO"}, rpt_(SHOWN_ALL_THE_SAME))
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         mesh = obj.data
         numbers = stored.face_numbers
         shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(mesh))
         selection.hide_faces(mesh, ~shown)
+
+
+class REEB_PARTS_OT_hide(PartOperator, bpy.types.Operator):
+    """Hide the faces of the chosen parts, beside those that are hidden"""
+
+    bl_idname = "reeb_parts.hide"
+    bl_label = "Hide Parts"
+
+    def run(self, context: bpy.types.Context) -> None:
+        super().run(context)
+        if context.mode == "OBJECT":
+            self.report({"INFO"}, rpt_(SHOWN_ALL_THE_SAME))
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
+        mask = np.isin(stored.face_numbers, chosen_numbers(obj.data))
+        selection.hide_faces(obj.data, selection.hidden_faces(obj.data) | mask)
 
 
 class REEB_PARTS_OT_frame(PartOperator, bpy.types.Operator):

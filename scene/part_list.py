@@ -77,6 +77,19 @@ def toggle(mesh: bpy.types.Mesh, number: int) -> None:
                 result.active = index
 
 
+def choose_more(mesh: bpy.types.Mesh, numbers: list[int], mode: str) -> None:
+    """Choose some parts besides others. mode : "SET" for these alone, "ADD", or "SUB" for all but these."""
+    marked = [] if mode == "SET" else chosen_numbers(mesh)
+    if mode == "SUB":
+        numbers = [number for number in marked if number not in numbers]
+    elif numbers:
+        numbers = [*numbers, *(number for number in marked if number not in numbers)]
+    if numbers:
+        choose(mesh, numbers)
+    elif mode != "ADD":
+        mark(mesh, "NONE")
+
+
 # Up to so many parts there is no need to fold the small ones.
 _SHORT = 12
 

@@ -30,6 +30,11 @@ def select_faces(mesh: bpy.types.Mesh, mask: np.ndarray, mode: str = "SET") -> N
     _set_flags(mesh, "select", mask, edges, vertices)
 
 
+def hidden_faces(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Whether each face is hidden, (p,) bool; Object Mode."""
+    return mesh_arrays.read(mesh.polygons, "hide", bool)
+
+
 def hide_faces(mesh: bpy.types.Mesh, mask: np.ndarray) -> None:
     """Hide faces, and the edges and vertices of no other face; Object Mode. mask : (p,) bool."""
     edges, vertices = _touched(mesh, ~mask)

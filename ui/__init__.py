@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import advanced_panel, menus, panel, preferences, shortcut, translations, use_panel
+from . import advanced_panel, menus, panel, preferences, shortcut, toolbar, translations, use_panel
 
 # Sub-panels stand in the order of their registration: what is used often comes before the settings.
 CLASSES = (preferences.ReebPartsPreferences, *menus.CLASSES, *panel.CLASSES, *use_panel.CLASSES,
@@ -19,9 +19,11 @@ def register() -> None:
     _register_classes()
     menus.register()
     shortcut.register()
+    toolbar.register()
 
 
 def unregister() -> None:
+    toolbar.unregister()
     shortcut.unregister()
     menus.unregister()
     _unregister_classes()

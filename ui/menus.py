@@ -26,6 +26,7 @@ def draw_part_menu(layout: bpy.types.UILayout) -> None:
     _draw_operators(
         layout, ("reeb_parts.suggest_names", "SORTALPHA"), ("reeb_parts.names_from_active", "NONE"),
         ("reeb_parts.find_similar", "NONE"), ("reeb_parts.frame", "VIEWZOOM"))
+    _draw_operators(layout, ("reeb_parts.rename", "NONE"), ("reeb_parts.hide", "HIDE_ON"))
     layout.separator()
     _draw_operators(
         layout, ("reeb_parts.merge", "AUTOMERGE_ON"), ("reeb_parts.merge_neighbour", "NONE"),

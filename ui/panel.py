@@ -9,7 +9,7 @@ from bpy.app.translations import pgettext_n as n_
 from mathutils import Matrix
 
 from ..scene import graph_objects, jobs, notes, part_list, part_names, store
-from . import wrapping
+from . import toolbar, wrapping
 
 MODELS = 8  # so many selected models are listed
 NARROW = 215  # width of a sidebar, in pixels of a screen without scaling, that has no room for shares
@@ -247,7 +247,7 @@ def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, result: 
     column.operator("reeb_parts.frame", text="", icon="VIEWZOOM")
     column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT")
     _draw_small(layout, context, result)
-    _draw_tools(layout)
+    _draw_tools(layout, context)
     row = layout.row(align=True)
     row.operator("reeb_parts.select", text="Select")
     row.operator("reeb_parts.isolate", text="Isolate").show_all = False
@@ -270,14 +270,34 @@ def _draw_small(layout: bpy.types.UILayout, context: bpy.types.Context, result: 
     row.operator("reeb_parts.merge_small", text="Merge Small")
 
 
-def _draw_tools(layout: bpy.types.UILayout) -> None:
+def _draw_tools(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """What works with the pointer over the model; in two rows, since other languages have longer words."""
     flow = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
     # In a context of our own: by "Cut", Blender means the clipboard, and in some languages says so.
-    flow.operator("reeb_parts.pick", text="Pick", text_ctxt="Reeb Parts", icon="EYEDROPPER")
+    toolbar.draw_button(flow, context)
     flow.operator("reeb_parts.cut", text="Cut", text_ctxt="Reeb Parts", icon="MOD_BOOLEAN")
     flow.operator("reeb_parts.slide", text="Slide", text_ctxt="Reeb Parts", icon="ARROW_LEFTRIGHT")
     flow.operator("reeb_parts.paint", text="Paint", text_ctxt="Reeb Parts", icon="BRUSH_DATA")
 
 
-CLASSES = (REEB_PARTS_UL_parts, REEB_PARTS_PT_main)
+class REEB_PARTS_PT_rename(bpy.types.Panel):
+    """Opens at the pointer."""
+
+    bl_idname = "REEB_PARTS_PT_rename"
+    bl_label = "Rename Part"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "WINDOW"
+    bl_options = {"INSTANCED"}
+    bl_ui_units_x = 14
+
+    def draw(self, context: bpy.types.Context) -> None:
+        result = _result(context)
+        if result is None:
+            return
+        self.layout.label(text="Rename Part", text_ctxt="Operator")
+        row = self.layout.row()
+        row.activate_init = True
+        row.prop(result.parts[result.active], "name", text="")
+
+
+CLASSES = (REEB_PARTS_UL_parts, REEB_PARTS_PT_main, REEB_PARTS_PT_rename)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import brush, follow_active, graph_overlay, highlight
+from . import brush, follow_active, graph_overlay, highlight, hover, pointing
 
 _OVERLAYS = (highlight, graph_overlay)  # drawn in this order
 _handles: list[object] = []
@@ -13,16 +13,19 @@ _handles: list[object] = []
 
 def register() -> None:
     brush.register()
+    hover.register()
     follow_active.register()
     if not bpy.app.background:  # there is nothing to draw on
         _handles.extend(bpy.types.SpaceView3D.draw_handler_add(overlay.draw, (), "WINDOW", "POST_VIEW")
                         for overlay in _OVERLAYS)
+        _handles.append(bpy.types.SpaceView3D.draw_handler_add(hover.draw_name, (), "WINDOW", "POST_PIXEL"))
 
 
 def unregister() -> None:
     while _handles:
         bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
-    for overlay in _OVERLAYS:
-        overlay.forget()
+    for module in (*_OVERLAYS, hover, pointing):
+        module.forget()
     follow_active.unregister()
+    hover.unregister()
     brush.unregister()

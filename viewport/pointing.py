@@ -96,6 +96,8 @@ class Model:
     def under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
               mouse: tuple[float, float], graph: bool = True, surface: bool = True) -> Target | None:
         """What is at a (2,) place of a region, in its pixels: of the graph first; None beside the model."""
+        # Where the mesh was written within the event before, what Blender has evaluated is still of the mesh before.
+        context.view_layer.update()
         view = region.data  # each region of a quad view has its own
         target = self._graph_under(context, obj, region, view, mouse) if graph else None
         return target or (self._face_under(context, obj, region, view, mouse) if surface else None)
@@ -134,6 +136,29 @@ class Model:
 
     def _on_face(self, face: int, location: np.ndarray) -> Target:
         return Target(int(self.stored.decomposition.candidates[face]), location, float(self.face_value[face]), face)
+
+
+_models: list[tuple[tuple, Model]] = []  # the last one, with what it was read of
+
+
+def model_of(obj: bpy.types.Object) -> Model:
+    """What ``Model(obj)`` would be, read again only if the object or its parts have changed. Raises SceneError."""
+    key = result_key(obj)
+    if not _models or _models[0][0] != key or store.is_edited(obj.data):
+        _models[:] = []
+        _models[:] = [(key, Model(obj))]
+    return _models[0][1]
+
+
+def forget() -> None:
+    """Free what is kept in memory."""
+    _models.clear()
+
+
+def result_key(obj: bpy.types.Object) -> tuple:
+    """Changes with the object, its mesh and its parts."""
+    result = obj.data.reeb_parts
+    return obj.name, obj.data.session_uid, result.fingerprint, result.numbers
 
 
 def _on_line(lines: GraphLines, segment: int, share: float) -> Target:

@@ -11,7 +11,7 @@ from ..scene import redraw
 from ..scene.errors import SceneError
 from ..scene.reporting import ReportingOperator
 from ..scene.transaction import transaction
-from . import pointing
+from . import hover, pointing
 from .lines import Lines
 from .pointing import Target
 
@@ -86,6 +86,7 @@ class ViewTool(ReportingOperator):
             raise SceneError(rpt_("This works in Object Mode, where the parts can be seen."))
         self._read(context, obj)
         self.preview = Preview()
+        hover.clear()
         context.window.cursor_modal_set(self.cursor)
         context.workspace.status_text_set(self.hint())
         context.window_manager.modal_handler_add(self)
@@ -152,11 +153,11 @@ class ViewTool(ReportingOperator):
 
     def is_current(self, obj: bpy.types.Object | None) -> bool:
         """Whether an object is the one that was read, with the parts that it had then; it may be None."""
-        return obj is not None and obj.type == "MESH" and self._key == result_key(obj)
+        return obj is not None and obj.type == "MESH" and self._key == pointing.result_key(obj)
 
     def _read(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         self.model = pointing.Model(obj)
-        self._key = result_key(obj)
+        self._key = pointing.result_key(obj)
         self.begin(context, obj)
 
     def _end(self, context: bpy.types.Context) -> None:
@@ -165,12 +166,6 @@ class ViewTool(ReportingOperator):
         for workspace in bpy.data.workspaces:
             workspace.status_text_set(None)
         redraw.viewports()
-
-
-def result_key(obj: bpy.types.Object) -> tuple:
-    """Changes with the object, its mesh and its parts."""
-    result = obj.data.reeb_parts
-    return obj.name, obj.data.session_uid, result.fingerprint, result.numbers
 
 
 def turns_view(context: bpy.types.Context, event: bpy.types.Event) -> bool:

@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 OUT = Path(os.environ["GUI_OUT"])
 PATIENCE = 60.0  # seconds for a decomposition
 TAB = "Reeb Parts"
-F3 = 69  # the key's code; by its name, xdotool holds Alt as well
+F2, F3 = 68, 69  # codes of keys; by their names, xdotool holds Alt as well
 
 
 # The pointer and the keyboard

@@ -83,7 +83,7 @@ def test_picking_goes_on_beside_other_commands_and_without_the_sidebar(seen):
     assert seen["at work after Enter"] == []
 
 
-@pytest.mark.parametrize("name", ["Pick", "Cut", "Slide", "Paint"])
+@pytest.mark.parametrize("name", ["Cut", "Slide", "Paint"])
 def test_a_tool_starts_from_its_button(seen, name):
     assert seen[f"button {name}"] == [f"REEB_PARTS_OT_{name.lower()}"]
 

@@ -19,7 +19,7 @@ from snapshot import changes, snapshot
 SEEN = {}
 TOOLS = ("Pick Parts", "Cut Part", "Paint into", "Slide Boundary")
 # The buttons that start them, and what is beside those in the sidebar.
-BUTTONS = {"Pick": "reeb_parts.cut", "Cut": None, "Slide": "reeb_parts.paint", "Paint": None}
+BUTTONS = {"Cut": None, "Slide": "reeb_parts.paint", "Paint": None}
 
 
 def steps():

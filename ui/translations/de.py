@@ -79,6 +79,10 @@ OPERATORS = {
     "Make Collision Hulls of Parts": "Kollisionshüllen aus Teilen erstellen",
     "Make Armature": "Skelett erstellen",
     "Make Armature from Parts": "Skelett aus Teilen erstellen",
+    "Choose Parts": "Teile wählen",
+    "Hide Parts": "Teile verbergen",
+    "Keep Object": "Objekt behalten",
+    "Rename Part": "Teil umbenennen",
 }
 
 TOOLS = {
@@ -95,6 +99,11 @@ TOOLS = {
     "Cuts": "Schnitte",
     "Smooth": "Glatt",
     "Along Faces": "An Flächen",
+    "Merge": "Zusammenführen",
+    "Grow": "Wachsen",
+    "Rename": "Umbenennen",
+    "Hide": "Verbergen",
+    "Frame": "Heranholen",
 }
 
 TEXTS = {
@@ -862,4 +871,23 @@ TEXTS = {
         "{path} würde {other} überschreiben. Jede Datei braucht einen eigenen Namen.",
     "{n} files in {folder}": "{n} Dateien in {folder}",
     "{name} has {n} bones": "{name} hat {n} Knochen",
+    "A part needs a name.": "Ein Teil braucht einen Namen.",
+    "Rename Part": "Teil umbenennen",
+    "Add parts to those that are chosen; a click takes one away again":
+        "Teile zu den gewählten hinzunehmen; ein Klick nimmt eines wieder weg",
+    "Choose and change parts: what is under the pointer is filled and named":
+        "Teile wählen und ändern: Was unter dem Zeiger liegt, wird gefüllt und benannt",
+    "Choose the part that you click, or all parts that are seen in a box that you drag; beside parts, other objects":
+        "Das angeklickte Teil wählen oder alle, die in einem aufgezogenen Rahmen zu sehen sind; daneben andere Objekte",
+    "Choose these parts and no others": "Diese Teile und keine anderen wählen",
+    "Give another name to the part under the pointer, or else to the active one":
+        "Dem Teil unter dem Zeiger, sonst dem aktiven, einen anderen Namen geben",
+    "Hide the faces of the chosen parts, beside those that are hidden":
+        "Die Flächen der gewählten Teile verbergen, zu denen, die es schon sind",
+    "Say that a key which would move or delete the object does nothing while the tool is the active one":
+        "Sagen, dass eine Taste, die das Objekt bewegen oder löschen würde, mit diesem Werkzeug nichts tut",
+    "Take parts from those that are chosen": "Teile von den gewählten wegnehmen",
+    "The new name of the active part": "Der neue Name des aktiven Teils",
+    "This key does nothing to parts. Choose another tool to move or delete the object.":
+        "Diese Taste tut mit Teilen nichts. Zum Bewegen oder Löschen des Objekts bitte ein anderes Werkzeug wählen.",
 }

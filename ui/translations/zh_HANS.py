@@ -80,6 +80,10 @@ OPERATORS = {
     "Make Collision Hulls of Parts": "由部件创建碰撞凸壳",
     "Make Armature": "创建骨架",
     "Make Armature from Parts": "由部件创建骨架",
+    "Choose Parts": "选取部件",
+    "Hide Parts": "隐藏部件",
+    "Keep Object": "保留物体",
+    "Rename Part": "重命名部件",
 }
 
 TOOLS = {
@@ -96,6 +100,11 @@ TOOLS = {
     "Cuts": "切口",
     "Smooth": "平滑",
     "Along Faces": "沿面",
+    "Merge": "合并",
+    "Grow": "扩大",
+    "Rename": "重命名",
+    "Hide": "隐藏",
+    "Frame": "框显",
 }
 
 TEXTS = {
@@ -778,4 +787,21 @@ TEXTS = {
         "{path} 会覆盖 {other}。请为每个文件指定单独的名称。",
     "{n} files in {folder}": "{folder} 中有 {n} 个文件",
     "{name} has {n} bones": "{name} 有 {n} 根骨骼",
+    "A part needs a name.": "部件需要一个名称。",
+    "Rename Part": "重命名部件",
+    "Add parts to those that are chosen; a click takes one away again": "将部件加入所选部件；再次单击则移除",
+    "Choose and change parts: what is under the pointer is filled and named":
+        "选取并更改部件：指针下的部件会被填充并显示名称",
+    "Choose the part that you click, or all parts that are seen in a box that you drag; beside parts, other objects":
+        "选取所单击的部件，或拖出的框内可见的所有部件；部件之外则选择其他物体",
+    "Choose these parts and no others": "只选取这些部件",
+    "Give another name to the part under the pointer, or else to the active one":
+        "为指针下的部件重命名，否则为活动部件重命名",
+    "Hide the faces of the chosen parts, beside those that are hidden": "隐藏所选部件的面，已隐藏的面保持隐藏",
+    "Say that a key which would move or delete the object does nothing while the tool is the active one":
+        "说明此工具激活时，会移动或删除物体的按键不起作用",
+    "Take parts from those that are chosen": "从所选部件中移除部件",
+    "The new name of the active part": "活动部件的新名称",
+    "This key does nothing to parts. Choose another tool to move or delete the object.":
+        "此按键对部件不起作用。要移动或删除物体，请选择其他工具。",
 }

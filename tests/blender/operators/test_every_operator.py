@@ -26,6 +26,8 @@ OTHER_MODES = MODES[1:]
 FOLDER = "a folder for files"
 LINKED = {"linked from a file": "is linked from .* Make it local"}
 NO_NODE = {**LINKED, **dict.fromkeys(OTHER_MODES, "Select a node of a graph")}  # the mesh is active in its modes
+WAYS_OF_OBJECTS = ("linked duplicate", "shared by three", "shape keys", "modifiers", "negative scale",
+                   "hidden from render")
 OUTSIDE = {mode: "Go to Object Mode first" for mode in OTHER_MODES}
 SLOTS = ("/slots", "/attributes/material_index")
 
@@ -156,6 +158,10 @@ CASES = {
     "step_detail": Case(prepare=few_parts),
     "select": Case(prepare=choose(1), changes=("/flags/.* select", "/attributes/.select_.*")),
     "isolate": Case(prepare=choose(1), changes=("/flags/.* hide", "/attributes/.hide_.*")),
+    "hide": Case(prepare=choose(1), changes=("/flags/.* hide", "/attributes/.hide_.*")),
+    "rename": Case({"new_name": "Branch Part 1"}, prepare=choose(1)),
+    "choose": Case(refuses={**dict.fromkeys((*MODES, *WAYS_OF_OBJECTS), "This works over a 3D viewport"), **LINKED}),
+    "no_key": Case(),
     "mark": Case({"action": "FACES"}),
     "release": Case(prepare=pinned),
     "merge": Case(prepare=choose_neighbours),

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tool of the toolbar, in Blender's real window; toolbar.py says how.
+
+The pictures stay in out/toolbar, to be looked at.
+"""
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def seen(drive):
+    """What the driver saw after each step."""
+    return drive("toolbar.py", "toolbar", seconds=240)
+
+
+def test_the_button_of_the_sidebar_makes_it_the_active_tool(seen):
+    assert seen["tool"] == "reeb_parts.parts"
+
+
+def test_the_part_under_the_pointer_is_filled_and_named(seen):
+    assert seen["hover Part 06"] == "Part 06"
+    assert seen["hover Part 01"] == "Part 01"
+    assert seen["hover beside"] is None
+
+
+def test_a_click_chooses_a_part_and_shift_adds_another(seen):
+    assert seen["clicked"] == ["Part 06", []]
+    assert seen["shift-clicked"] == ["Part 03", ["Part 03", "Part 06"]]
+
+
+def test_a_click_beside_everything_changes_nothing(seen):
+    assert seen["clicked beside"] == [seen["shift-clicked"], True]
+
+
+def test_a_box_chooses_all_parts_that_are_seen_in_it_and_no_others(seen):
+    assert seen["box"][1] == seen["seen"]
+    assert len(seen["seen"]) < len(seen["merged"]) + 1  # one is behind the others
+
+
+def test_m_merges_the_chosen_parts(seen):
+    assert "Part 01" not in seen["merged"]
+    assert sum(seen["merged"].values()) == pytest.approx(1.0, abs=5e-3)
+
+
+def test_c_cuts_and_p_paints(seen):
+    assert seen["C"] == ["REEB_PARTS_OT_cut"]
+    assert len(seen["cut"]) == len(seen["merged"]) + 2
+    assert seen["P"] == ["REEB_PARTS_OT_paint"]
+    assert seen["painted"] > seen["before painting"]
+
+
+def test_f2_renames_the_part_under_the_pointer(seen):
+    names, active = seen["renamed"]
+    assert "Head" in names
+    assert "Part 06" not in names
+    assert active == "Head"
+
+
+def test_h_hides_and_alt_h_shows(seen):
+    assert seen["hidden"] == ["Part 06"]
+    assert seen["shown again"] == []
+
+
+def test_the_dot_of_the_numeric_pad_looks_from_near(seen):
+    assert seen["framed"]
+
+
+def test_no_key_moves_or_deletes_the_object(seen):
+    assert [seen[f"{key} at work"] for key in ("r", "x", "Delete")] == [[], [], []]
+    assert seen["kept"] == []
+
+
+def test_on_an_object_without_parts_the_keys_are_blenders(seen):
+    assert seen["g on a cube"] == ["TRANSFORM_OT_translate"]
+
+
+def test_a_click_selects_another_object(seen):
+    assert seen["to the cube"] == "Cube"
+
+
+@pytest.mark.parametrize("name", ["clicks undone", "box undone", "merge undone", "choice undone", "cut undone",
+                                  "cut escaped", "paint undone", "rename undone", "hiding undone"])
+def test_undo_is_exact(seen, name):
+    assert seen[name] == []
