@@ -6,12 +6,13 @@ import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import naming, part_list, part_names, part_places, reactions, selection, store
+from ..scene import graph_objects, naming, part_list, part_names, part_places, reactions, selection, store
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.store import Stored
+from ..scene.targets import users
 from ..viewport import framing, shading
 
 SHOWN_ALL_THE_SAME = n_("Object Mode shows hidden faces all the same; Edit Mode and paint modes do not")
@@ -62,6 +63,8 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
         numbers = stored.face_numbers
         shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(mesh))
         selection.hide_faces(mesh, ~shown)
+        for user in users(mesh):
+            graph_objects.update_parts(user, stored.shown_parts())
 
 
 class REEB_PARTS_OT_hide(PartOperator, bpy.types.Operator):

@@ -17,7 +17,7 @@ import numpy as np
 from ..core.graph.fold import unfolded
 from ..core.graph.reeb import ReebGraph
 from ..core.result.numbering import NumberedParts
-from . import bridge, part_names, store, transaction
+from . import bridge, mesh_arrays, part_names, store, transaction
 from .outputs.colors import linear
 from .temporary import remove_object
 
@@ -136,13 +136,8 @@ def _curve(graph: ReebGraph, back: np.ndarray, shown: np.ndarray) -> bpy.types.C
     curve = bpy.data.curves.new("Reeb arcs", "CURVE")
     curve.dimensions = "3D"
     scale = float(np.cbrt(abs(np.linalg.det(back)))) or 1.0
-    nodes, points, radii = graph.node_position @ back, graph.point_position @ back, graph.point_radius * scale
-    for arc in np.flatnonzero(shown).tolist():
-        low, high = graph.arcs[arc]
-        inner = slice(graph.arc_points[arc], graph.arc_points[arc + 1])
-        line = np.ones((len(points[inner]) + 2, 4), np.float32)
-        line[:, :3] = np.concatenate([nodes[low : low + 1], points[inner], nodes[high : high + 1]])
-        radius = radii[inner] if len(points[inner]) else np.zeros(1)
+    for arc, line in _lines(graph, places(graph, back), shown):
+        radius = graph.point_radius[graph.arc_points[arc] : graph.arc_points[arc + 1]] * scale
         spline = curve.splines.new("POLY")
         spline.points.add(len(line) - 1)
         spline.points.foreach_set("co", line.ravel())
@@ -151,8 +146,51 @@ def _curve(graph: ReebGraph, back: np.ndarray, shown: np.ndarray) -> bpy.types.C
     return curve
 
 
+def places(graph: ReebGraph, back: np.ndarray) -> np.ndarray:
+    """Positions of the nodes, then of the center points, (k + r, 3) float64. back : (3, 3), from the graph's space."""
+    return np.concatenate([graph.node_position, graph.point_position]) @ back
+
+
+def _lines(graph: ReebGraph, points: np.ndarray, shown: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
+    """Each arc that is shown, with its points in Blender's four coordinates; points : as of ``places``."""
+    for arc in np.flatnonzero(shown).tolist():
+        low, high = graph.arcs[arc]
+        inner = graph.n_nodes + np.arange(graph.arc_points[arc], graph.arc_points[arc + 1])
+        line = points[np.concatenate([[low], inner, [high]])]
+        yield arc, np.concatenate([line, np.ones((len(line), 1))], axis=1).astype(np.float32)
+
+
+def shift(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, seen: np.ndarray) -> bool:
+    """Show the graph of an object elsewhere than it is; whether anything has changed.
+
+    back : as of ``places``, where the graph is. seen : (k + r, 3) float64, where it is to be seen.
+    """
+    nodes, item = list(_items(obj, "node")), arcs(obj)
+    if not all(0 <= node.get("node", -1) < graph.n_nodes for node in nodes):
+        return False
+    offset = (seen - places(graph, back)).astype(np.float32)
+    moved = [node for node in nodes if node.delta_location[:] != tuple(offset[node["node"]].tolist())]
+    for node in moved:
+        node.delta_location = offset[node["node"]]
+    if item is not None and (moved or not nodes):
+        shown = np.isin(np.arange(graph.n_arcs), item.get("arcs", range(graph.n_arcs)))
+        for spline, (_, line) in zip(item.data.splines, _lines(graph, seen, shown), strict=False):
+            if len(spline.points) == len(line):
+                spline.points.foreach_set("co", line.ravel())
+        item.data.update_tag()
+    return bool(moved)
+
+
+def hidden_parts(mesh: bpy.types.Mesh, face_numbers: np.ndarray) -> list[int]:
+    """Numbers of the parts of which every face is hidden. face_numbers : (p,) int64, the part of each face."""
+    hidden = mesh_arrays.read(mesh.polygons, "hide", bool)
+    if len(hidden) != len(face_numbers) or not hidden.any():
+        return []
+    return np.setdiff1d(face_numbers[hidden], face_numbers[~hidden]).tolist()
+
+
 def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
-    """Tell the nodes which part they are in now, and show those that the parts need.
+    """Tell the nodes which part they are in now, and show those that the parts need, but for those of hidden parts.
 
     A graph of another result, as of a mesh that was replaced, goes.
     """
@@ -164,7 +202,13 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     if not all(0 <= node.get("node", -1) < len(numbers) for node in nodes):
         remove(obj)
         return
-    shown, arcs_shown = unfolded(parts.decomposition.graph, parts.node_part, parts.point_part)
+    graph = parts.decomposition.graph
+    shown, arcs_shown = unfolded(graph, parts.node_part, parts.point_part)
+    hidden = hidden_parts(obj.data, numbered.numbers[parts.labels])
+    if hidden:
+        seen, points_seen = (~np.isin(numbered.numbers[part], hidden) for part in (parts.node_part, parts.point_part))
+        shown &= seen
+        arcs_shown &= seen[graph.arcs].any(axis=1) | np.isin(np.arange(graph.n_arcs), graph.point_arc[points_seen])
     colors = part_names.number_colors(obj.data)
     for node in nodes:
         transaction.keep_keys(node, "part")
@@ -172,7 +216,7 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
         node["part"] = numbers[node["node"]]
         node.color = (*linear(colors[node["part"], :3].tolist()), 1.0)
         _fold(node, not shown[node["node"]])
-    _show_arcs(obj, parts.decomposition.graph, arcs_shown)
+    _show_arcs(obj, graph, arcs_shown)
     update_names(obj)
 
 

@@ -11,7 +11,7 @@ import time
 import bpy
 from bpy.app.handlers import persistent
 
-from . import graph_objects, mesh_arrays, redraw, store, transaction
+from . import graph_follow, graph_objects, mesh_arrays, redraw, store, transaction
 
 REST = 0.3  # seconds
 
@@ -35,18 +35,39 @@ def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if deleted and any(graph_objects.left_behind()) and not bpy.app.timers.is_registered(_tidy):
         # Not within Blender's own deletion, which has yet to become a step of undo.
         bpy.app.timers.register(_tidy, first_interval=0.0)
-    found = {
-        update.id.original.data.session_uid
-        for update in depsgraph.updates
-        if update.is_updated_geometry and isinstance(update.id, bpy.types.Object)
-        and update.id.type == "MESH" and store.has_result(update.id.original.data)
-    }
+    found = _changed_objects(depsgraph)
     if not found:
         return
-    _waiting.update(found)
+    for obj in found:
+        graph_follow.soon(obj)
+    _waiting.update(obj.data.session_uid for obj in found)
     _last = time.monotonic()
     if not bpy.app.timers.is_registered(_look):
         bpy.app.timers.register(_look, first_interval=REST)
+
+
+def _changed_objects(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
+    """Decomposed objects whose shape was evaluated anew."""
+    return [update.id.original for update in depsgraph.updates
+            if update.is_updated_geometry and isinstance(update.id, bpy.types.Object)
+            and update.id.type == "MESH" and store.has_result(update.id.original.data)]
+
+
+@persistent
+def _animated(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    """Another frame is shown, which is no edit."""
+    for obj in _changed_objects(depsgraph):
+        graph_follow.soon(obj)
+
+
+@persistent
+def _opened(*_: object) -> None:
+    """A file was opened: where graphs are seen is not stored."""
+    graph_follow.forget()
+    for collection in bpy.data.collections:
+        source = collection.get(graph_objects.SOURCE)
+        if source is not None and any(modifier.show_viewport for modifier in source.modifiers):
+            graph_follow.soon(source)
 
 
 def _look() -> float | None:
@@ -70,10 +91,15 @@ def _tidy() -> None:
 
 def register() -> None:
     bpy.app.handlers.depsgraph_update_post.append(_changed)
+    bpy.app.handlers.frame_change_post.append(_animated)
+    bpy.app.handlers.load_post.append(_opened)
 
 
 def unregister() -> None:
+    bpy.app.handlers.load_post.remove(_opened)
+    bpy.app.handlers.frame_change_post.remove(_animated)
     bpy.app.handlers.depsgraph_update_post.remove(_changed)
+    graph_follow.stop()
     if bpy.app.timers.is_registered(_look):
         bpy.app.timers.unregister(_look)
     if bpy.app.timers.is_registered(_tidy):

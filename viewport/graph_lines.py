@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -56,6 +56,11 @@ class GraphLines:
         parts = stored.shown_parts().parts
         graph = stored.decomposition.graph
         return cls.of(stored.decomposition, stretch, unfolded(graph, parts.node_part, parts.point_part)[1])
+
+    def without(self, numbers: np.ndarray, hidden: list[int]) -> GraphLines:
+        """These lines but for those in hidden parts. numbers : (c,), the part of each candidate."""
+        seen = ~np.isin(numbers[self.candidate], hidden)
+        return replace(self, segments=self.segments[seen[self.segments].any(axis=1)])
 
 
 def _segments(graph: ReebGraph, arcs: np.ndarray) -> np.ndarray:

@@ -13,7 +13,7 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..scene import graph_objects, part_names, store
+from ..scene import graph_follow, graph_objects, part_names, store
 from .graph_lines import GraphLines
 from .lines import Lines
 
@@ -100,7 +100,7 @@ def _draw_graph(context: bpy.types.Context, source: bpy.types.Object, items: lis
     gpu.state.depth_test_set("NONE" if items[0].show_in_front else "LESS_EQUAL")
     gpu.state.blend_set("ALPHA")
     if any(item.get(graph_objects.ROLE) == "arcs" for item in items):
-        _draw_arcs(source)
+        _draw_arcs(source, items)
     nodes = [item for item in items if item.get(graph_objects.ROLE) == "node" and not graph_objects.is_folded(item)]
     if nodes:
         _draw_nodes(context, source, nodes)
@@ -108,18 +108,23 @@ def _draw_graph(context: bpy.types.Context, source: bpy.types.Object, items: lis
     gpu.state.depth_test_set("NONE")
 
 
-def _draw_arcs(source: bpy.types.Object) -> None:
+def _draw_arcs(source: bpy.types.Object, items: list[bpy.types.Object]) -> None:
     result = source.data.reeb_parts
-    key = (source.data.is_editmode, result.fingerprint, result.numbers, [part.color[:] for part in result.parts])
+    moved, places = graph_follow.places(source)
+    folded = [graph_objects.is_folded(item) for item in items]  # other ones, when parts are hidden
+    key = (source.data.is_editmode, result.fingerprint, result.numbers, [part.color[:] for part in result.parts],
+           moved, folded)
     if _lines.get(source.session_uid, (None,))[0] != key:
-        _lines[source.session_uid] = key, Lines.of(colored_arcs, source.data)
+        _lines[source.session_uid] = key, Lines.of(colored_arcs, source.data, places)
     lines = _lines[source.session_uid][1]
     if lines is not None:
         lines.draw(source.matrix_world, WIDTH * bpy.context.preferences.system.ui_scale)
 
 
-def colored_arcs(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """The arcs of a graph as lines in the colors of their parts.
+def colored_arcs(mesh: bpy.types.Mesh, places: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """The arcs of a graph as lines in the colors of their parts, but for parts that are hidden.
+
+    places : where its nodes and points are seen, if not where they are; as of graph_follow.
 
     Returns
     -------
@@ -137,11 +142,13 @@ def colored_arcs(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     else:
         stored = store.load(mesh)
     lines = GraphLines.shown(stored, store.stretch_of(mesh))
+    lines = lines.without(stored.shown, graph_objects.hidden_parts(mesh, stored.face_numbers))
+    position = places if places is not None and len(places) == len(lines.position) else lines.position
     colors = part_names.number_colors(mesh)[stored.shown[lines.candidate]]
     ends = lines.segments
-    middle = lines.position[ends].mean(axis=1)
+    middle = position[ends].mean(axis=1)
     # Each half of a segment is in the part that its end is in.
-    points = np.stack([lines.position[ends[:, 0]], middle, middle, lines.position[ends[:, 1]]], axis=1)
+    points = np.stack([position[ends[:, 0]], middle, middle, position[ends[:, 1]]], axis=1)
     shades = np.repeat(colors[ends], 2, axis=1)
     return points.reshape(-1, 3).astype(np.float32), shades.reshape(-1, 4).astype(np.float32)
 

@@ -12,7 +12,7 @@ import numpy as np
 from bpy_extras import view3d_utils
 from mathutils import Matrix, Vector
 
-from ..scene import graph_objects, mesh_arrays, store
+from ..scene import graph_follow, graph_objects, mesh_arrays, store
 from .graph_lines import GraphLines, nearest
 
 if TYPE_CHECKING:
@@ -61,7 +61,8 @@ class Model:
         self.stored = store.load(obj.data)
         self.stretch = store.stretch_of(obj.data)
         self.lines = GraphLines.of(self.stored.decomposition, self.stretch)
-        self.shown_lines = GraphLines.shown(self.stored, self.stretch)
+        self.shown_lines = GraphLines.shown(self.stored, self.stretch).without(
+            self.stored.shown, graph_objects.hidden_parts(obj.data, self.stored.face_numbers))
         table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
         self.face_value = table.face_means(np.nan_to_num(self.stored.decomposition.field))
         self.face_center = table.face_means(table.vertices)
@@ -107,7 +108,9 @@ class Model:
         arcs = graph_objects.arcs(obj)
         if arcs is None or not arcs.visible_get():
             return None
-        points = on_screen(self.shown_lines.position, obj.matrix_world, region, view)
+        _, places = graph_follow.places(obj)
+        moved = places is not None and len(places) == len(self.shown_lines.position)
+        points = on_screen(places if moved else self.shown_lines.position, obj.matrix_world, region, view)
         segment, share, distance = nearest(points, self.shown_lines.segments, mouse)
         if segment < 0 or distance > REACH * context.preferences.system.ui_scale:
             return None

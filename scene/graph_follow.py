@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The graph goes with the shape that is seen: apart with Explode, along with a pose and other modifiers.
+
+Each node and each point of an arc moves as the candidate part around it does, which is fitted to the evaluated mesh.
+The nodes keep their locations, which are the graph's; a delta of theirs takes them to where they are seen. A mesh whose
+modifiers make other faces than its own has its graph where it was.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ..core.surface.arrays import sums_by
+from ..core.uses.motion import rigid_motions
+from . import bridge, graph_objects, mesh_arrays, redraw, store
+from .errors import SceneError
+
+_RESTS = 1e-6  # a graph that moves less than this share of the model's size stays where it is
+
+_waiting: set[int] = set()  # objects by session_uid
+_places: dict[int, tuple[int, np.ndarray]] = {}  # by session_uid, of graphs that are not where they were: when, places
+_count = 0
+
+
+def forget() -> None:
+    """Free what is kept in memory."""
+    _places.clear()
+    _waiting.clear()
+
+
+def places(obj: bpy.types.Object) -> tuple[int, np.ndarray | None]:
+    """Where the nodes and the points of the arcs are seen, (k + r, 3) float64 in the object's coordinates.
+
+    None if that is where the graph has them. With a number that tells whether they have changed.
+    """
+    return _places.get(obj.session_uid, (0, None))
+
+
+def soon(obj: bpy.types.Object) -> None:
+    """Let the graph of an object follow once Blender has time: not within its own step of undo."""
+    _waiting.add(obj.session_uid)
+    if not bpy.app.timers.is_registered(_follow_waiting):
+        bpy.app.timers.register(_follow_waiting, first_interval=0.0)
+
+
+def stop() -> None:
+    """Follow no more."""
+    if bpy.app.timers.is_registered(_follow_waiting):
+        bpy.app.timers.unregister(_follow_waiting)
+    forget()
+
+
+def _follow_waiting() -> None:
+    waiting = set(_waiting)
+    _waiting.clear()
+    for obj in bpy.context.view_layer.objects if bpy.context.view_layer else ():
+        if obj.session_uid in waiting and store.has_parts(obj) and not obj.data.is_editmode:
+            follow(bpy.context, obj)
+
+
+def follow(context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    """Move the graph of an object that has parts to where its shape is seen; not in Edit Mode."""
+    global _count
+    collection = graph_objects.find(obj)
+    if collection is None or not obj.is_editable:
+        _places.pop(obj.session_uid, None)
+        return
+    try:
+        stored = store.load(obj.data)
+    except SceneError:  # the mesh was edited: the panel says so
+        return
+    decomposition = stored.decomposition
+    graph = decomposition.graph
+    back = bridge.unstretch(store.stretch_of(obj.data)).T
+    rest = graph_objects.places(graph, back)
+    seen = _seen(context, obj)
+    moved = rest
+    if seen is not None:
+        label = np.concatenate([decomposition.node_candidate, decomposition.point_candidate])
+        table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
+        before = table.face_means(table.vertices)
+        area = mesh_arrays.read(obj.data.polygons, "area", np.float32).astype(np.float64)
+        motions = rigid_motions(before, seen, area, decomposition.candidates, decomposition.n_candidates)
+        size = np.ptp(before, axis=0).max()
+        moved = motions.moved(rest, label)
+        if np.abs(moved - rest).max(initial=0.0) <= _RESTS * size:
+            moved = rest
+    _, known = places(obj)
+    if moved is rest:
+        _places.pop(obj.session_uid, None)
+    elif known is None or not np.array_equal(known, moved):
+        _count += 1
+        _places[obj.session_uid] = _count, moved
+    if graph_objects.shift(obj, graph, back, moved):
+        redraw.viewports()
+
+
+def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray | None:
+    """The middle of each face as it is seen, (p, 3) float64; None if modifiers leave it, or make other faces."""
+    if not any(modifier.show_viewport for modifier in obj.modifiers):
+        return None
+    mesh = obj.evaluated_get(context.evaluated_depsgraph_get()).data
+    own = obj.data
+    if (len(mesh.polygons), len(mesh.loops)) != (len(own.polygons), len(own.loops)):
+        return None
+    points = mesh_arrays.basis_points(mesh).astype(np.float64)
+    vertex = mesh_arrays.read(mesh.attributes[".corner_vert"].data, "value", np.int32)
+    _, face = mesh_arrays.face_corners(own)
+    corners = np.bincount(face, minlength=len(own.polygons))
+    return sums_by(face, points[vertex], len(own.polygons)) / corners[:, None]
