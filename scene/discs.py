@@ -54,8 +54,6 @@ class Discs:
 
     def __init__(self, points: np.ndarray, triangles: np.ndarray) -> None:
         self._points, self._triangles = points, triangles
-        corners = points[triangles]
-        self._low, self._high = corners.min(axis=1), corners.max(axis=1)
         self._found: dict[bytes, Disc | None] = {}
         #: Vertices of the curves across which the surface crosses the mesh or itself, and how often all of them do.
         self.crossing: list[np.ndarray] = []
@@ -91,16 +89,29 @@ class Discs:
         """The surface of the mesh around a curve."""
         low, high = curve.min(axis=0), curve.max(axis=0)
         margin = 0.2 * np.linalg.norm(high - low)
-        near = np.flatnonzero(((self._low <= high + margin) & (self._high >= low - margin)).all(axis=1))
+        near = self._triangles[self._within(low - margin, high + margin)]
         if not len(near):
             return None
-        used, triangles = np.unique(self._triangles[near], return_inverse=True)
-        points = self._points[used]
-        place = {point: index for index, point in enumerate(map(bytes, np.ascontiguousarray(points)))}
-        triangles = triangles.reshape(-1, 3)
+        on = np.zeros(len(self._points), bool)
+        on[near] = True
+        used = np.flatnonzero(on)
+        number = np.empty(len(on), np.int64)
+        number[used] = np.arange(len(used))
+        points, triangles = self._points[used], number[near]
+        maybe = np.flatnonzero(np.isin(points[:, 0], curve[:, 0]))
+        place = {bytes(points[index]): index for index in maybe.tolist()}
         tree = BVHTree.FromPolygons(points.tolist(), triangles.tolist(), all_triangles=True)
         own = np.array([place.get(bytes(point), -1) for point in np.ascontiguousarray(curve)])
         return _Body(tree, triangles, own, used)
+
+    def _within(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """Triangles whose bounding box meets a box; (k,) int64."""
+        side = np.zeros(len(self._points), np.uint8)  # a bit for each side of the box that a point is beyond
+        for axis in range(3):
+            side |= (self._points[:, axis] < low[axis]).astype(np.uint8) << 2 * axis
+            side |= (self._points[:, axis] > high[axis]).astype(np.uint8) << 2 * axis + 1
+        a, b, c = side[self._triangles].T
+        return np.flatnonzero((a & b & c) == 0)
 
 
 @dataclass(frozen=True, eq=False)

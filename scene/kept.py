@@ -10,17 +10,8 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-import numpy as np
 
 from . import mesh_arrays, targets
-
-_VALUES = {  # of an attribute: the name of its values, their type, how many
-    "FLOAT": ("value", np.float32, 1), "INT": ("value", np.int32, 1), "BOOLEAN": ("value", bool, 1),
-    "INT8": ("value", np.int32, 1), "FLOAT_VECTOR": ("vector", np.float32, 3), "FLOAT2": ("vector", np.float32, 2),
-    "BYTE_COLOR": ("color_srgb", np.float32, 4), "FLOAT_COLOR": ("color", np.float32, 4),
-    "INT32_2D": ("value", np.int32, 2), "INT16_2D": ("value", np.int32, 2), "QUATERNION": ("value", np.float32, 4),
-    "FLOAT4X4": ("value", np.float32, 16),
-}  # fmt: skip
 
 
 def values_of(group: bpy.types.PropertyGroup) -> dict[str, Any]:
@@ -85,7 +76,7 @@ class MeshCopy:
         self._restore_materials()
         self._restore_groups()
         self._restore_attributes()
-        self._restore_active()
+        mesh_arrays.set_active(self.mesh, self.copy)
         self.mesh.update()
 
     def _restore_materials(self) -> None:
@@ -142,19 +133,6 @@ class MeshCopy:
             if name in mesh.attributes:
                 _copy_values(copy.attributes[name], mesh.attributes[name])
 
-    def _restore_active(self) -> None:
-        mesh, copy = self.mesh, self.copy
-        for name in ("active_color_name", "default_color_name"):
-            if getattr(mesh.attributes, name) != getattr(copy.attributes, name):
-                setattr(mesh.attributes, name, getattr(copy.attributes, name))
-        if mesh.uv_layers.active_index != copy.uv_layers.active_index:
-            mesh.uv_layers.active_index = copy.uv_layers.active_index
-        for now, then in zip(mesh.uv_layers, copy.uv_layers, strict=False):
-            if now.active_render != then.active_render and then.active_render:
-                now.active_render = True
-        active = copy.attributes.active
-        mesh.attributes.active = mesh.attributes.get(active.name) if active else None
-
 
 def _names(mesh: bpy.types.Mesh) -> dict[tuple[str, str], list[str]]:
     """The names of the attributes that can be removed, in their order, which Blender 4 keeps by type and domain."""
@@ -167,12 +145,6 @@ def _names(mesh: bpy.types.Mesh) -> dict[tuple[str, str], list[str]]:
 
 
 def _copy_values(source: bpy.types.Attribute, target: bpy.types.Attribute) -> None:
-    if source.data_type not in _VALUES:  # text, one by one
-        for then, now in zip(source.data, target.data, strict=True):
-            if now.value != then.value:
-                now.value = then.value
-        return
-    key, kind, width = _VALUES[source.data_type]
-    before, after = mesh_arrays.read(source.data, key, kind, width), mesh_arrays.read(target.data, key, kind, width)
-    if before.tobytes() != after.tobytes():
-        target.data.foreach_set(key, before.ravel())
+    before, after = mesh_arrays.attribute_values(source), mesh_arrays.attribute_values(target)
+    if before.tobytes() != after.tobytes() or before.dtype == object:
+        mesh_arrays.set_attribute_values(target, before)

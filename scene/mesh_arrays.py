@@ -15,6 +15,14 @@ from numpy.typing import DTypeLike
 
 from ..core.surface.corners import CornerTable, edge_labels
 
+_VALUES = {  # of an attribute: the name of its values, their type, how many
+    "FLOAT": ("value", np.float32, 1), "INT": ("value", np.int32, 1), "BOOLEAN": ("value", bool, 1),
+    "INT8": ("value", np.int32, 1), "FLOAT_VECTOR": ("vector", np.float32, 3), "FLOAT2": ("vector", np.float32, 2),
+    "FLOAT4": ("vector", np.float32, 4), "BYTE_COLOR": ("color_srgb", np.float32, 4),
+    "FLOAT_COLOR": ("color", np.float32, 4), "INT32_2D": ("value", np.int32, 2), "INT16_2D": ("value", np.int32, 2),
+    "QUATERNION": ("value", np.float32, 4), "FLOAT4X4": ("value", np.float32, 16),
+}  # fmt: skip
+
 _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
 _digested: list[tuple[tuple[np.ndarray, ...], str]] = []
 
@@ -25,6 +33,41 @@ def read(items: Any, key: str, kind: DTypeLike, width: int = 1) -> np.ndarray:
     if len(items):
         items.foreach_get(key, values)
     return values if width == 1 else values.reshape(-1, width)
+
+
+def attribute_values(attribute: bpy.types.Attribute) -> np.ndarray:
+    """What an attribute says of all elements, (k,) or (k, width); text, which is rare, as objects."""
+    if attribute.data_type in _VALUES:
+        return read(attribute.data, *_VALUES[attribute.data_type])
+    values = np.empty(len(attribute.data), object)
+    values[:] = [item.value for item in attribute.data]
+    return values
+
+
+def set_attribute_values(attribute: bpy.types.Attribute, values: np.ndarray) -> None:
+    """Write what ``attribute_values`` gave of as many elements; of text, 0 stands for none."""
+    if attribute.data_type in _VALUES:
+        if len(values):
+            attribute.data.foreach_set(_VALUES[attribute.data_type][0], values.ravel())
+        return
+    for item, value in zip(attribute.data, values.tolist(), strict=True):
+        if value != 0 and item.value != value:
+            item.value = value
+
+
+def set_active(mesh: bpy.types.Mesh, like: bpy.types.Mesh) -> None:
+    """Have the same attributes active as on another mesh with the same ones."""
+    for name in ("active_color_name", "default_color_name"):
+        if getattr(mesh.attributes, name) != getattr(like.attributes, name):
+            setattr(mesh.attributes, name, getattr(like.attributes, name))
+    if mesh.uv_layers.active_index != like.uv_layers.active_index:
+        mesh.uv_layers.active_index = like.uv_layers.active_index
+    for now, then in zip(mesh.uv_layers, like.uv_layers, strict=False):
+        for name in ("active_render", "active_clone"):
+            if getattr(then, name) and not getattr(now, name):
+                setattr(now, name, True)
+    active = like.attributes.active
+    mesh.attributes.active = mesh.attributes.get(active.name) if active else None
 
 
 def forget() -> None:
@@ -67,12 +110,17 @@ def face_corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     if key not in _face_corners:
         total = read(mesh.polygons, "loop_total", np.int32)
         face = np.repeat(np.arange(len(total), dtype=np.int32), total)
-        corners = _corners(mesh, ".corner_vert"), face
+        corners = corner_vertices(mesh), face
         if not result.fingerprint:
             return corners
         _face_corners.clear()
         _face_corners[key] = corners
     return _face_corners[key]
+
+
+def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Vertex of each corner, (c,) int32; not in Edit Mode."""
+    return _corners(mesh, ".corner_vert")
 
 
 def corner_edges(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -87,7 +135,7 @@ def _corners(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
 
 def edge_ends(mesh: bpy.types.Mesh) -> np.ndarray:
     """The vertices of each edge, (e, 2) int32; not in Edit Mode."""
-    return read(mesh.edges, "vertices", np.int32, 2)
+    return read(mesh.attributes[".edge_verts"].data if len(mesh.edges) else (), "value", np.int32, 2)
 
 
 def corner_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> CornerTable:

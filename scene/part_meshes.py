@@ -7,21 +7,20 @@ these were asked for.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from functools import partial
 
-import bmesh
 import bpy
 import numpy as np
 
 from ..core.surface.corners import edge_labels
-from . import caps, mesh_arrays, outputs, quiet, smooth_faces
+from . import caps, element_layers, mesh_arrays, outputs, quiet, smooth_faces
+from .elements import Elements
+from .holes import Holes
 from .outputs import kept_aside, materials
-from .temporary import freed, removed
-
-if TYPE_CHECKING:
-    from .discs import Discs
+from .sculpted_pieces import SculptedMesh, is_sculpted
+from .temporary import removed
 
 _NORMAL = "reeb_parts_normal"  # corner attribute: the user's normals, while faces are taken apart
 
@@ -103,20 +102,22 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
     wanted = [number for number in wanted if (face_numbers == number).any()]
     with removed(bpy.data.meshes, plain):
         _keep_normals(plain)
-        made = _made(plain, face_numbers, wanted, close, smooth, np.empty((0, 2), np.int64))
+        source = partial(SculptedMesh, plain) if is_sculpted(mesh) else partial(
+            PlainMesh, plain, element_layers.read(plain))
+        made = _made(source(), face_numbers, wanted, close, smooth, np.empty((0, 2), np.int64))
         if smooth is not None and len(made.crossing):
-            made = _with_whole_faces(plain, face_numbers, wanted, smooth, made)
+            made = _with_whole_faces(source, face_numbers, wanted, smooth, made)
     for number, piece in made.meshes.items():
         materials.drop_slots(piece, [material for other, material in others if other != number])
     return made
 
 
-def _with_whole_faces(plain: bpy.types.Mesh, face_numbers: np.ndarray, wanted: list[int], smooth: np.ndarray,
-                      made: PieceMeshes) -> PieceMeshes:
+def _with_whole_faces(source: Callable[[], PlainMesh | SculptedMesh], face_numbers: np.ndarray, wanted: list[int],
+                      smooth: np.ndarray, made: PieceMeshes) -> PieceMeshes:
     """The pieces with some borders along faces, if fewer of their caps cross something then; else those given."""
     along = made.crossing
     for _ in range(2):
-        other = _made(plain, face_numbers, wanted, True, smooth, along)
+        other = _made(source(), face_numbers, wanted, True, smooth, along)
         better = other.n_crossings < made.n_crossings
         worse = made if better else other
         bpy.data.batch_remove(list(worse.meshes.values()))
@@ -134,110 +135,66 @@ def _rows_in(rows: np.ndarray, others: np.ndarray) -> np.ndarray:
     return (rows[:, None] == others[None]).all(axis=2).any(axis=1)
 
 
-def _made(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: list[int], close: bool, smooth: np.ndarray | None,
-          along: np.ndarray) -> PieceMeshes:
-    """The pieces of a mesh without anything of ours; along : (k, 2), parts whose border stays along faces."""
-    plain, along_faces = mesh.copy(), 0
-    with removed(bpy.data.meshes, plain):
+class PlainMesh:
+    """A mesh without anything of ours, of which pieces are made; whole : its elements, read without."""
+
+    def __init__(self, mesh: bpy.types.Mesh, whole: Elements | None = None) -> None:
+        self._mesh = mesh
+        self.whole = whole or element_layers.read(mesh)
+
+    def divide(self, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> tuple[np.ndarray, int]:
+        """Divide faces where smooth cuts run, see smooth_faces.divide_faces.
+
+        Returns the number of each face's part, of the faces that there are now, and how many borders stay along faces.
+        """
+        self.whole, face_numbers, cuts = smooth_faces.divide_faces(self.whole, self._mesh, face_numbers, stretch, along)
+        return face_numbers, cuts.kept
+
+    def piece(self, faces: np.ndarray, holes: Holes | None) -> tuple[bpy.types.Mesh, int]:
+        """A mesh of some faces, (k,) int64, rising, with its holes filled, and how many edges were not."""
+        chosen, left = self.whole.selection(faces), 0
+        piece = self.whole.taken(chosen)
+        if holes is not None:
+            piece, left = holes.closed(piece, chosen, self._mesh)
+        return element_layers.made(piece, self._mesh), left
+
+    def free(self) -> None:
+        """Nothing has to be removed."""
+
+
+def _made(source: PlainMesh | SculptedMesh, face_numbers: np.ndarray, wanted: list[int], close: bool,
+          smooth: np.ndarray | None, along: np.ndarray) -> PieceMeshes:
+    """The pieces of a mesh; along : (k, 2), parts whose border stays along faces."""
+    along_faces = 0
+    try:
         if smooth is not None:
-            face_numbers, cuts = smooth_faces.divide_faces(plain, face_numbers, smooth, along)
-            along_faces = cuts.kept
-        edge, (vertex, face) = mesh_arrays.corner_edges(plain), mesh_arrays.face_corners(plain)
-        cut = mesh_arrays.cut_edges(plain, face_numbers)
-        meeting, joined, middles = _around_cuts(plain, cut)
-        made, left_open, discs = {}, 0, _discs(plain) if close else None
-        for number, piece in _divide(plain, face_numbers, wanted, _has_loose(plain)):
-            if discs is not None:
-                # Elements keep their order, so that those of the piece are those of its faces, rising.
-                corner = (face_numbers == number)[face]
-                mine = np.unique(vertex[corner])
-                here = np.searchsorted(mine, joined[np.isin(joined, mine).all(axis=1)])
-                opened = cut[np.unique(edge[corner])]
-                left_open += caps.close_cuts(piece, opened, meeting[mine], here, middles[mine], discs)[1]
-            _set_normals(piece)
-            made[number] = piece
-        crossing = _pairs(plain, face_numbers, discs.crossing) if discs is not None else np.empty((0, 2), np.int64)
-    return PieceMeshes(made, left_open, along_faces, crossing, discs.n_crossings if discs is not None else 0)
+            face_numbers, along_faces = source.divide(face_numbers, smooth, along)
+        order = np.argsort(face_numbers, kind="stable")
+        first = np.searchsorted(face_numbers[order], [[number, number + 1] for number in wanted])
+        holes = Holes.of(source.whole, face_numbers) if close else None
+        made, left_open = {}, 0
+        for number, (start, end) in zip(wanted, first.tolist(), strict=True):
+            made[number], left = source.piece(order[start:end], holes)
+            left_open += left
+            _set_normals(made[number])
+        if holes is None:
+            return PieceMeshes(made, left_open, along_faces, np.empty((0, 2), np.int64), 0)
+        crossing = _pairs(source.whole, face_numbers, holes.discs.crossing)
+        return PieceMeshes(made, left_open, along_faces, crossing, holes.discs.n_crossings)
+    finally:
+        source.free()
 
 
-def _pairs(mesh: bpy.types.Mesh, face_numbers: np.ndarray, curves: list[np.ndarray]) -> np.ndarray:
+def _pairs(whole: Elements, face_numbers: np.ndarray, curves: list[np.ndarray]) -> np.ndarray:
     """The parts on both sides of some curves, vertices each, the lower number first; (k, 2) int64, each pair once."""
-    low, high = edge_labels(mesh_arrays.corner_edges(mesh), mesh_arrays.face_corners(mesh)[1], face_numbers,
-                            len(mesh.edges))
-    on = np.zeros(len(mesh.vertices), bool)
+    if not curves:
+        return np.empty((0, 2), np.int64)
+    low, high = edge_labels(whole.corner_edge, whole.corner_face, face_numbers, len(whole.ends))
+    on = np.zeros(len(whole.points), bool)
     for curve in curves:
         on[curve] = True
-    here = on[mesh_arrays.edge_ends(mesh)].all(axis=1) & (low < high)
+    here = on[whole.ends].all(axis=1) & (low < high)
     return np.unique(np.stack([low[here], high[here]], axis=1), axis=0)
-
-
-def _discs(mesh: bpy.types.Mesh) -> Discs:
-    """Surfaces across the cuts of a mesh."""
-    from .discs import Discs  # imports SciPy
-
-    return Discs(mesh_arrays.basis_points(mesh).astype(np.float64), mesh_arrays.triangles(mesh)[0])
-
-
-def _around_cuts(mesh: bpy.types.Mesh, cut: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices where more than two edges of cuts meet, (v,) bool; edges from cut to cut, (k, 2); and middles, (v, 3).
-
-    cut : (e,) bool. A middle is that of all such vertices that cuts connect with a vertex.
-    """
-    ends = mesh_arrays.edge_ends(mesh)
-    count = np.bincount(ends[cut].ravel(), minlength=len(mesh.vertices))
-    meeting = count > 2
-    middles = mesh_arrays.basis_points(mesh).astype(np.float64)
-    if meeting.any():
-        from ..core.surface.arrays import components, renumbered, sums_by
-
-        used, place = renumbered(ends[cut])
-        n_networks, network = components(len(used), *place.T)
-        here = meeting[used]
-        total = sums_by(network[here], middles[used[here]], n_networks)
-        total /= np.maximum(np.bincount(network[here], minlength=n_networks), 1)[:, None]
-        middles[used[here]] = total[network[here]]
-    return meeting, ends[(count[ends] > 0).all(axis=1)], middles
-
-
-def _divide(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: list[int],
-            loose: bool) -> Iterator[tuple[int, bpy.types.Mesh]]:
-    """Number and mesh of each part, by halves: every face is copied log(number of parts) times."""
-    for half in (wanted[: len(wanted) // 2], wanted[len(wanted) // 2 :]):
-        if not half:
-            continue
-        mask = np.isin(face_numbers, half)
-        some = _with_faces(mesh, mask, loose)
-        if len(half) == 1:
-            yield half[0], some
-        else:
-            yield from _divide(some, face_numbers[mask], half, False)
-            bpy.data.meshes.remove(some)
-
-
-def _with_faces(mesh: bpy.types.Mesh, mask: np.ndarray, loose: bool) -> bpy.types.Mesh:
-    """A copy of a mesh with some of its faces only; elements keep their order.
-
-    mask : (p,) bool. loose : whether there are edges and vertices of no face, which are left out.
-    """
-    copy = mesh.copy()
-    with freed(bmesh.new()) as bm:
-        bm.from_mesh(copy, face_normals=False, vertex_normals=False)
-        bm.faces.ensure_lookup_table()
-        bmesh.ops.delete(bm, geom=[bm.faces[i] for i in np.flatnonzero(~mask).tolist()], context="FACES")
-        if loose:
-            bmesh.ops.delete(bm, geom=[edge for edge in bm.edges if edge.is_wire], context="EDGES")
-            bmesh.ops.delete(bm, geom=[v for v in bm.verts if not v.link_faces], context="VERTS")
-        bm.to_mesh(copy)
-    return copy
-
-
-def _has_loose(mesh: bpy.types.Mesh) -> bool:
-    """Whether there are edges or vertices of no face."""
-    vertex, _ = mesh_arrays.face_corners(mesh)
-    return any(
-        np.bincount(corner, minlength=len(items)).min(initial=1) == 0
-        for corner, items in ((mesh_arrays.corner_edges(mesh), mesh.edges), (vertex, mesh.vertices))
-    )
 
 
 def _keep_normals(mesh: bpy.types.Mesh) -> None:
@@ -251,6 +208,8 @@ def _keep_normals(mesh: bpy.types.Mesh) -> None:
     if kept is not None and kept.data_type == "FLOAT_VECTOR":
         return  # Blender 4.5 and later can keep them as they are
     normals = mesh_arrays.read(mesh.corner_normals, "vector", np.float32, 3)
+    if kept is not None:
+        mesh.attributes.remove(kept)
     mesh.attributes.new(_NORMAL, "FLOAT_VECTOR", "CORNER").data.foreach_set("vector", normals.ravel())
 
 

@@ -2,12 +2,13 @@
 """Faces divided where smooth cuts run, with all that they carry.
 
 Blender's own functions split edges and faces: they interpolate what vertices and corners carry, also shape keys and
-weights, and hand on what faces and edges do.
+weights, and hand on what faces and edges do. Only the faces around the cuts are given to them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bmesh
@@ -15,23 +16,27 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMFace, BMVert
 
-from . import mesh_arrays
-from .temporary import freed
+from ..core.surface.corners import CornerTable
+from . import element_layers
+from .elements import FACE, Elements, Layer, Selection
+from .temporary import freed, removed
 
 if TYPE_CHECKING:
     from ..core.uses.clean_cuts.method import CleanCuts
 
-_NUMBER = "reeb_parts_face_number"
+#: Face attribute, while faces are divided: number of the part.
+NUMBER = "reeb_parts_face_number"
 
 
-def divide_faces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray,
-                 along: np.ndarray) -> tuple[np.ndarray, CleanCuts]:
-    """Divide the faces of a mesh where smooth cuts between its parts run; Object Mode.
+def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray,
+                 along: np.ndarray) -> tuple[Elements, np.ndarray, CleanCuts]:
+    """Divide the faces of a mesh where smooth cuts between its parts run.
 
     Parameters
     ----------
-    mesh : bpy.types.Mesh
-        Is changed.
+    whole : Elements
+    like : bpy.types.Mesh
+        Where they come from.
     face_numbers : (p,) int64
         Number of each face's part.
     stretch : (3, 3) float64
@@ -41,65 +46,108 @@ def divide_faces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.nda
 
     Returns
     -------
+    divided : Elements
+        New faces are at the end, as are new edges and vertices.
     face_numbers : (q,) int64
         Number of each face's part, of the faces that there are now.
     cuts : CleanCuts
     """
-    cuts = _cuts(mesh, face_numbers, stretch, along)
-    if not (len(cuts.face) or len(cuts.odd)):
-        return face_numbers, cuts
-    mesh.attributes.new(_NUMBER, "INT", "FACE").data.foreach_set("value", face_numbers.astype(np.int32))
+    cuts = find_cuts(whole, face_numbers, stretch, along)
     if len(cuts.odd):
-        _with_bmesh(mesh, lambda bm: _triangulate(bm, cuts.odd))
-        cuts = _cuts(mesh, _numbers(mesh), stretch, along)
+        whole, face_numbers = _changed(whole, like, face_numbers, cuts.odd,
+                                       lambda bm, _, odd: triangulate(bm, odd))
+        cuts = find_cuts(whole, face_numbers, stretch, along)
         assert not len(cuts.odd)
-    _with_bmesh(mesh, lambda bm: _divide(bm, cuts))
-    numbers = _numbers(mesh)
-    mesh.attributes.remove(mesh.attributes[_NUMBER])
-    return numbers, cuts
+    if not len(cuts.face):
+        return whole, face_numbers, cuts
+    crossed = np.zeros(len(whole.ends), bool)
+    crossed[cuts.edge] = True
+    faces = np.unique(np.concatenate([cuts.face, whole.corner_face[crossed[whole.corner_edge]]]))
+    whole, face_numbers = _changed(whole, like, face_numbers, faces,
+                                   lambda bm, here, _: divide(bm, _numbered(cuts, len(whole.points), here)))
+    return whole, face_numbers, cuts
 
 
-def _cuts(mesh: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> CleanCuts:
+def find_cuts(whole: Elements, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> CleanCuts:
+    """Where smooth cuts run; arguments as of ``divide_faces``."""
     from ..core.uses.clean_cuts.method import clean_cuts  # imports SciPy
 
-    table = mesh_arrays.corner_table(mesh, mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T)
+    table = CornerTable(whole.points.astype(np.float64) @ stretch.T, whole.ends, whole.corner_vertex,
+                        whole.corner_edge, whole.corner_face, len(whole.count))
+    if not len(along):
+        return clean_cuts(table, face_numbers)
     sides = np.stack(table.edge_labels(face_numbers), axis=1)
-    whole = (sides[:, None] == along[None]).all(axis=2).any(axis=1) if len(along) else None
-    return clean_cuts(table, face_numbers, whole)
+    return clean_cuts(table, face_numbers, (sides[:, None] == along[None]).all(axis=2).any(axis=1))
 
 
-def _numbers(mesh: bpy.types.Mesh) -> np.ndarray:
-    return mesh_arrays.read(mesh.attributes[_NUMBER].data, "value", np.int32).astype(np.int64)
+def _changed(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray, faces: np.ndarray,
+             work: Callable[[BMesh, Selection, np.ndarray], None]) -> tuple[Elements, np.ndarray]:
+    """The elements and the numbers of the faces after some work on some of the faces as a BMesh.
+
+    faces : (k,) int64. work gets the faces around these, what they are of the whole, and the places of the k faces.
+    """
+    on = np.zeros(len(whole.points), bool)
+    on[whole.corner_vertex[whole.selection(faces).corners]] = True
+    here = whole.selection(whole.around(on))
+    numbers = Layer("INT", FACE, face_numbers[here.faces].astype(np.int32))
+    some = element_layers.made(whole.taken(here).with_layer(NUMBER, numbers), like)
+    with removed(bpy.data.meshes, some):
+        with freed(bmesh.new()) as bm:
+            bm.from_mesh(some, face_normals=False, vertex_normals=False)
+            work(bm, here, np.searchsorted(here.faces, faces))
+            _select_made(bm)
+            bm.to_mesh(some)
+        now = element_layers.read(some)
+    numbers = now.layers[NUMBER].values.astype(np.int64)
+    n, n_here, n_now = len(whole.count), len(here.faces), len(now.count)
+    whole = whole.grafted(now.without_layer(NUMBER), here.vertices, here.edges, 0)
+    # The faces that there were keep their places.
+    order = np.arange(n)
+    order[here.faces] = n + np.arange(n_here)
+    order = np.concatenate([order[order < n + n_now], np.arange(n + n_here, n + n_now)])
+    return whole.taken(whole.selection(order)), np.concatenate([face_numbers, numbers])[order]
 
 
-def _with_bmesh(mesh: bpy.types.Mesh, work: Callable[[BMesh], None]) -> None:
-    """Do some work on a mesh as a BMesh."""
-    with freed(bmesh.new()) as bm:
-        bm.from_mesh(mesh, face_normals=False, vertex_normals=False)
-        work(bm)
-        bm.to_mesh(mesh)
+def _numbered(cuts: CleanCuts, n_vertices: int, here: Selection) -> CleanCuts:
+    """The cuts in the numbers that vertices, edges and faces have among those that were selected."""
+    at_edge = cuts.start >= n_vertices
+    start = np.where(at_edge, len(here.vertices) + np.searchsorted(here.edges, cuts.start - n_vertices),
+                     np.searchsorted(here.vertices, cuts.start))
+    return replace(cuts, edge=np.searchsorted(here.edges, cuts.edge), start=start,
+                   face=np.searchsorted(here.faces, cuts.face))
 
 
-def _triangulate(bm: BMesh, faces: np.ndarray) -> None:
+def _select_made(bm: BMesh) -> None:
+    """Have what was made of selected faces selected."""
+    for face in bm.faces:
+        if face.select:
+            face.select = True  # selects its vertices and edges, too
+    for item in (*bm.edges, *bm.faces):
+        if not item.select and all(vertex.select for vertex in item.verts):
+            item.select = True
+
+
+def triangulate(bm: BMesh, faces: np.ndarray) -> None:
+    """Divide some faces, (k,) int64, into triangles."""
     bm.faces.ensure_lookup_table()
     bm.normal_update()
     bmesh.ops.triangulate(bm, faces=[bm.faces[i] for i in faces.tolist()])
 
 
-def _divide(bm: BMesh, cuts: CleanCuts) -> None:
+def divide(bm: BMesh, cuts: CleanCuts) -> None:
     """Split the edges, then the faces; write the number of its part to each face."""
-    layer = bm.faces.layers.int[_NUMBER]
+    layer = bm.faces.layers.int[NUMBER]
     for items in (bm.verts, bm.edges, bm.faces):
         items.ensure_lookup_table()
     n = len(bm.verts)
     points = {}
-    # The edges that are split get new halves at the end of the table, the others keep their places.
+    first = np.flatnonzero(np.append(True, cuts.face[1:] != cuts.face[:-1])) if len(cuts.face) else np.empty(0, int)
+    # All are looked up first: to split edges may change the tables.
+    faces = [bm.faces[i] for i in cuts.face[first].tolist()]
     edges = [bm.edges[i] for i in cuts.edge.tolist()]
+    verts = bm.verts[:]
     for index, edge, share in zip(cuts.edge.tolist(), edges, cuts.share.tolist(), strict=True):
         points[n + index] = bmesh.utils.edge_split(edge, edge.verts[0], share)[1]
-    verts = bm.verts[:n]
-    first = np.flatnonzero(np.append(True, cuts.face[1:] != cuts.face[:-1])) if len(cuts.face) else np.empty(0, int)
-    faces = [bm.faces[i] for i in cuts.face[first].tolist()]
     starts = [verts[i] if i < n else points[i] for i in cuts.start.tolist()]
     labels = cuts.label.tolist()
     for face, begin, end in zip(faces, first.tolist(), [*first[1:].tolist(), len(labels)], strict=True):

@@ -157,8 +157,17 @@ def edge_labels(
     low, high : (e,) int64
         Equal inside a part, different on a cut; for an edge without faces the largest int64 and -1.
     """
-    low = np.full(n_edges, np.iinfo(np.int64).max)
-    high = np.full(n_edges, -1, np.int64)
-    np.minimum.at(low, corner_edge, labels[corner_face])
-    np.maximum.at(high, corner_edge, labels[corner_face])
+    own = labels[corner_face]
+    first = np.full(n_edges, np.iinfo(np.int64).max)
+    last = np.full(n_edges, -1, np.int64)
+    # Of what is assigned to one element, the last stays; that is all there is at edges of one or two faces, and much
+    # faster in old versions of NumPy than minimum.at, which the others need.
+    first[corner_edge[::-1]] = own[::-1]
+    last[corner_edge] = own
+    count = np.bincount(corner_edge, minlength=n_edges)
+    low, high = np.where(count > 0, np.minimum(first, last), first), np.where(count > 0, np.maximum(first, last), last)
+    if (count > 2).any():
+        several = (count > 2)[corner_edge]
+        np.minimum.at(low, corner_edge[several], own[several])
+        np.maximum.at(high, corner_edge[several], own[several])
     return low, high

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import renumbered, sums_by
+from ...surface.arrays import expanded, renumbered, sums_by
 from ...surface.corners import CornerTable, next_of_owner
 
 
@@ -49,13 +49,7 @@ class Band:
         cut = low < high
         if not cut.any():
             return None
-        near = np.zeros(len(table.vertices), bool)
-        near[table.edges[cut]] = True
-        for _ in range(rings):
-            inside = np.zeros(table.n_faces, bool)
-            inside[table.corner_face[near[table.corner_vertex]]] = True
-            corner = inside[table.corner_face]
-            near[table.corner_vertex[corner]] = True
+        corner = np.flatnonzero(_around(table, table.edges[cut], rings)[table.corner_face])
         vertices, corner_vertex = renumbered(table.corner_vertex[corner])
         edges, corner_edge = renumbered(table.corner_edge[corner])
         faces, corner_face = renumbered(table.corner_face[corner])
@@ -100,3 +94,26 @@ class Band:
     def edge_length(self) -> np.ndarray:
         """(e,) float64."""
         return np.linalg.norm(self.points[self.ends[:, 0]] - self.points[self.ends[:, 1]], axis=1)
+
+
+def _around(table: CornerTable, vertices: np.ndarray, rings: int) -> np.ndarray:
+    """The faces less than so many faces away from some vertices, (p,) bool."""
+    from scipy.sparse import coo_array  # imported here for the reason that surface.arrays.components gives
+
+    n_corners = len(table.corner_vertex)
+    at = coo_array((np.ones(n_corners, np.int8), (table.corner_vertex, np.arange(n_corners))),
+                   shape=(len(table.vertices), n_corners)).tocsr()  # the corners at each vertex
+    count = np.bincount(table.corner_face, minlength=table.n_faces)
+    first = np.cumsum(count) - count
+    near, inside = np.zeros(len(table.vertices), bool), np.zeros(table.n_faces, bool)
+    reached = np.unique(vertices)
+    near[reached] = True
+    for _ in range(rings):
+        corners = at.indices[expanded(at.indptr[reached], np.diff(at.indptr)[reached])[1]]
+        faces = np.unique(table.corner_face[corners])
+        faces = faces[~inside[faces]]
+        inside[faces] = True
+        reached = np.unique(table.corner_vertex[expanded(first[faces], count[faces])[1]])
+        reached = reached[~near[reached]]
+        near[reached] = True
+    return inside

@@ -818,8 +818,90 @@ def test_where_a_smooth_cut_goes_wrong_faces_stay_whole(make, separate, seed):
     seeds = centers[rng.choice(len(centers), 30, replace=False)]
     numbers = 1 + np.linalg.norm(centers[:, None] - seeds[None], axis=2).argmin(axis=1)
     made = separate.piece_meshes(obj.data, numbers, range(1, 31), True, np.eye(3))
-    plain = separate.plain_copy(obj.data)
+    plain = separate.PlainMesh(separate.plain_copy(obj.data))
     smooth = separate._made(plain, numbers, list(range(1, 31)), True, np.eye(3), np.empty((0, 2), np.int64))
     assert made.n_crossings < smooth.n_crossings
     assert made.along_faces > smooth.along_faces
     assert all(borders(mesh) == (set(), 0) for mesh in made.meshes.values())
+
+
+@pytest.mark.parametrize("style", [WHOLE, {}])
+def test_what_is_rare_is_carried_too(obj, style):
+    """Text, weights of 0, locked groups, the skin of a modifier, a driven shape key, the map that is rendered."""
+    mesh = obj.data
+    labels = mesh.attributes.new("label", "STRING", "FACE")
+    for index, item in enumerate(labels.data):
+        item.value = f"face {index}".encode() if isinstance(item.value, bytes) else f"face {index}"
+    mesh.attributes.new("pair", "INT32_2D", "POINT").data.foreach_set("value", np.arange(2 * len(mesh.vertices)))
+    for name, lock in (("Empty", True), ("Bone", False)):
+        obj.vertex_groups.new(name=name).lock_weight = lock
+    obj.vertex_groups["Bone"].add(range(0, len(mesh.vertices), 2), 0.0, "REPLACE")
+    obj.vertex_groups["Bone"].add(range(0, len(mesh.vertices), 3), 0.25, "REPLACE")
+    bpy.ops.mesh.customdata_skin_add()
+    size = np.arange(2 * len(mesh.vertices), dtype=np.float32)
+    mesh.skin_vertices[0].data.foreach_set("radius", size)
+    for name in ("Map", "Light"):
+        mesh.uv_layers.new(name=name)
+    mesh.uv_layers["Light"].active_render = True
+    mesh.uv_layers.active = mesh.uv_layers["Map"]
+    if style != WHOLE:  # shape keys make another way of it
+        obj.shape_key_add(name="Basis")
+        key = obj.shape_key_add(name="Fat")
+        key.vertex_group, key.slider_max = "Bone", 2.0
+        key.driver_add("value").driver.expression = "0.5"
+    weights = [{entry.group: entry.weight for entry in vertex.groups} for vertex in mesh.vertices]
+    bpy.ops.reeb_parts.decompose()
+    numbers = numbers_of(obj)
+    bpy.ops.reeb_parts.separate(caps=False, **{**KEEP, **style})
+    for piece in pieces():
+        made = piece.data
+        assert [(group.name, group.lock_weight) for group in piece.vertex_groups] == [("Empty", True), ("Bone", False)]
+        assert (made.uv_layers.active.name, [layer.active_render for layer in made.uv_layers]) == ("Map", [False, True])
+        known = read(made.attributes["pair"].data, "value", np.int32, 2)[:, 0] // 2
+        radius = read(made.skin_vertices[0].data, "radius", np.float32, 2)
+        if style == WHOLE:
+            assert [item.value for item in made.attributes["label"].data] == [
+                labels_of for labels_of, number in zip((i.value for i in obj.data.attributes["label"].data), numbers,
+                                                       strict=True) if number == piece["reeb_parts_number"]]
+            assert [{e.group: e.weight for e in v.groups} for v in made.vertices] == [weights[i] for i in known]
+            np.testing.assert_array_equal(radius, size.reshape(-1, 2)[known])
+        else:
+            fat = made.shape_keys.key_blocks["Fat"]
+            assert (fat.vertex_group, fat.slider_max, fat.relative_key.name) == ("Bone", 2.0, "Basis")
+            assert made.shape_keys.animation_data.drivers[0].driver.expression == "0.5"
+            assert {item.value for item in made.attributes["label"].data} <= {
+                item.value for item in obj.data.attributes["label"].data}
+            assert all(0 <= entry.weight <= 0.25 for vertex in made.vertices for entry in vertex.groups)
+
+
+def seen_points(obj):
+    """Where the points of what is seen of an object are in the world."""
+    seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    matrix = np.array(obj.matrix_world)
+    return read(seen.data.vertices, "co", np.float32, 3) @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+@pytest.mark.parametrize("style", [WHOLE, {}])
+def test_what_is_sculpted_with_multires_stays(obj, style):
+    """Its displacement can be read as no array. Away from the cuts a piece is seen where the model is."""
+    modifier = obj.modifiers.new("Multires", "MULTIRES")
+    bpy.ops.object.multires_subdivide(modifier=modifier.name, mode="SIMPLE")
+    flat = seen_points(obj)
+    bumpy = obj.copy()
+    bumpy.data = bpy.data.meshes.new_from_object(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()))
+    bumpy.modifiers.clear()
+    points = read(bumpy.data.vertices, "co", np.float32, 3)
+    bumpy.data.vertices.foreach_set("co", (points * (1 + 0.05 * np.sin(9 * points))).astype(np.float32).ravel())
+    bpy.context.scene.collection.objects.link(bumpy)
+    bumpy.select_set(True)
+    bpy.ops.object.multires_reshape(modifier=modifier.name)
+    bpy.data.objects.remove(bumpy)
+    whole = seen_points(obj)
+    assert np.median(np.linalg.norm(whole - flat, axis=1)) > 0.01
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(caps=False, modifiers=True, **{**KEEP, **style})
+    for piece in pieces():
+        bpy.context.view_layer.update()
+        points = seen_points(piece)
+        assert len(points) > 2 * len(piece.data.vertices)
+        assert np.median(cKDTree(whole).query(points)[0]) < 1e-5

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads the elements of a Blender mesh as arrays, with all that they carry, and makes meshes of such arrays.
+
+Blender gives and takes attributes as whole arrays. Weights it gives one by one only, and they are read only where a
+mesh has vertex groups. What is in no array - the displacement of Multires - is in scene/sculpted_pieces.py.
+"""
+
+from __future__ import annotations
+
+import bmesh
+import bpy
+import numpy as np
+
+from . import mesh_arrays
+from .elements import CORNER, EDGE, FACE, POINT, Elements, Layer, Ragged
+from .temporary import freed, removed
+
+#: What is no attribute. Their layers have names that no attribute can have.
+SPECIAL = KEY, WEIGHTS, SKIN, FREESTYLE = "shape key", "weights", "skin", "Freestyle"
+
+_TOPOLOGY = {".edge_verts", ".corner_vert", ".corner_edge"}
+_ITEMS = {POINT: "vertices", EDGE: "edges", FACE: "polygons", CORNER: "loops"}
+_WEIGHT = np.dtype([("group", np.int32), ("weight", np.float32)])
+_SKIN = (("radius", np.float32, 2), ("use_root", bool, 1), ("use_loose", bool, 1))
+
+
+def read(mesh: bpy.types.Mesh) -> Elements:
+    """The elements of a mesh in Object Mode, with all that they carry."""
+    layers = {a.name: Layer(a.data_type, a.domain, mesh_arrays.attribute_values(a))
+              for a in mesh.attributes if a.name not in _TOPOLOGY}
+    for index, key in enumerate(mesh.shape_keys.key_blocks if mesh.shape_keys else ()):
+        layers[f"\0{KEY} {index}"] = Layer(KEY, POINT, mesh_arrays.read(key.data, "co", np.float32, 3))
+    for layer in mesh.skin_vertices:
+        for name, kind, width in _SKIN:
+            layers[f"\0{SKIN} {name}"] = Layer(SKIN, POINT, mesh_arrays.read(layer.data, name, kind, width))
+    for domain in (EDGE, FACE) if bpy.app.version < (5, 0) else ():  # later they are attributes
+        marks = mesh_arrays.read(getattr(mesh, _ITEMS[domain]), "use_freestyle_mark", bool)
+        if marks.any():
+            layers[f"\0{FREESTYLE} {domain}"] = Layer(FREESTYLE, domain, marks)
+    if (weights := _weights(mesh)) is not None:
+        layers[f"\0{WEIGHTS}"] = Layer(WEIGHTS, POINT, weights)
+    return Elements(mesh_arrays.edge_ends(mesh), mesh_arrays.read(mesh.polygons, "loop_total", np.int32),
+                    mesh_arrays.corner_vertices(mesh), mesh_arrays.corner_edges(mesh), layers)
+
+
+def made(elements: Elements, like: bpy.types.Mesh) -> bpy.types.Mesh:
+    """A new mesh of some elements; all else is as in another mesh, from which what they carry comes."""
+    mesh = like.copy()
+    _resize(mesh, elements)
+    if len(elements.ends):
+        mesh.attributes[".edge_verts"].data.foreach_set("value", elements.ends.ravel())
+    if len(elements.count):
+        mesh.polygons.foreach_set("loop_start", np.cumsum(elements.count, dtype=np.int32) - elements.count)
+        mesh.attributes[".corner_vert"].data.foreach_set("value", elements.corner_vertex)
+        mesh.attributes[".corner_edge"].data.foreach_set("value", elements.corner_edge)
+    for attribute in [a.name for a in mesh.attributes if a.name not in {*_TOPOLOGY, *elements.layers}]:
+        mesh.attributes.remove(mesh.attributes[attribute])
+    _set_layers(mesh, elements)
+    mesh_arrays.set_active(mesh, like)
+    mesh.update()
+    return mesh
+
+
+def triangles(elements: Elements) -> np.ndarray:
+    """The triangles that Blender divides the faces into, (t, 3) int32."""
+    if (elements.count == 3).all():
+        return elements.corner_vertex.reshape(-1, 3)
+    bare = bpy.data.meshes.new("Reeb Parts")
+    with removed(bpy.data.meshes, bare):
+        mesh = made(Elements(elements.ends, elements.count, elements.corner_vertex, elements.corner_edge,
+                             {"position": elements.layers["position"]}), bare)
+        with removed(bpy.data.meshes, mesh):
+            return mesh_arrays.triangles(mesh)[0]
+
+
+def _resize(mesh: bpy.types.Mesh, elements: Elements) -> None:
+    """Give a mesh so many elements, which carry nothing."""
+    n, skin = len(elements.points), any(layer.kind == SKIN for layer in elements.layers.values())
+    points = bpy.data.meshes.new("Reeb Parts")
+    with removed(bpy.data.meshes, points), freed(bmesh.new()) as bm:
+        # Only from a BMesh shape keys take over the number of vertices, and skin comes; it leaves the names of groups.
+        if mesh.shape_keys or skin:
+            points.vertices.add(n)
+            bm.from_mesh(points)
+        if skin:
+            bm.verts.layers.skin.verify()
+        bm.to_mesh(mesh)
+    mesh.vertices.add(n - len(mesh.vertices))
+    mesh.edges.add(len(elements.ends))
+    mesh.loops.add(len(elements.corner_vertex))
+    mesh.polygons.add(len(elements.count))
+
+
+def _set_layers(mesh: bpy.types.Mesh, elements: Elements) -> None:
+    """Write what the elements carry."""
+    for name, layer in elements.layers.items():
+        if layer.kind not in SPECIAL and name not in mesh.attributes:
+            mesh.attributes.new(name, layer.kind, layer.domain)
+    for name, layer in elements.layers.items():
+        values = layer.values
+        if layer.kind == KEY:
+            mesh.shape_keys.key_blocks[int(name.rsplit(" ", 1)[1])].data.foreach_set("co", values.ravel())
+        elif layer.kind == SKIN:
+            mesh.skin_vertices[0].data.foreach_set(name.rsplit(" ", 1)[1], values.ravel())
+        elif layer.kind == FREESTYLE:
+            getattr(mesh, _ITEMS[layer.domain]).foreach_set("use_freestyle_mark", values)
+        elif layer.kind == WEIGHTS:
+            _set_weights(mesh, values)
+        else:
+            mesh_arrays.set_attribute_values(mesh.attributes[name], values)
+
+
+def _weights(mesh: bpy.types.Mesh) -> Ragged | None:
+    """Groups and weights of each vertex; None without vertex groups."""
+    twin = bpy.data.objects.new("Reeb Parts", mesh)
+    with removed(bpy.data.objects, twin):
+        n_groups = len(twin.vertex_groups)
+    if not n_groups:
+        return None
+    lists = [[(entry.group, entry.weight) for entry in vertex.groups if entry.group < n_groups]
+             for vertex in mesh.vertices]  # cannot be read in bulk
+    items = np.array([pair for pairs in lists for pair in pairs], _WEIGHT)
+    return Ragged(np.fromiter(map(len, lists), np.int64, len(lists)), items)
+
+
+def _set_weights(mesh: bpy.types.Mesh, weights: Ragged) -> None:
+    """Give vertices their weights: in bulk where these are equal."""
+    vertex = np.repeat(np.arange(len(weights)), weights.count)
+    group, weight = weights.items["group"], weights.items["weight"]
+    order = np.lexsort((vertex, weight, group))
+    group, weight, vertices = group[order], weight[order], vertex[order].tolist()
+    new = np.append(True, (group[1:] != group[:-1]) | (weight[1:] != weight[:-1]))[: len(group)]
+    first = np.flatnonzero(new)
+    twin = bpy.data.objects.new("Reeb Parts", mesh)
+    with removed(bpy.data.objects, twin):
+        groups = list(twin.vertex_groups)
+        runs = zip(group[first].tolist(), weight[first].tolist(), first.tolist(), [*first[1:].tolist(), len(vertices)],
+                   strict=True)
+        for index, value, start, end in runs:
+            groups[index].add(vertices[start:end], value, "REPLACE")
