@@ -61,18 +61,6 @@ def made(elements: Elements, like: bpy.types.Mesh) -> bpy.types.Mesh:
     return mesh
 
 
-def triangles(elements: Elements) -> np.ndarray:
-    """The triangles that Blender divides the faces into, (t, 3) int32."""
-    if (elements.count == 3).all():
-        return elements.corner_vertex.reshape(-1, 3)
-    bare = bpy.data.meshes.new("Reeb Parts")
-    with removed(bpy.data.meshes, bare):
-        mesh = made(Elements(elements.ends, elements.count, elements.corner_vertex, elements.corner_edge,
-                             {"position": elements.layers["position"]}), bare)
-        with removed(bpy.data.meshes, mesh):
-            return mesh_arrays.triangles(mesh)[0]
-
-
 def _resize(mesh: bpy.types.Mesh, elements: Elements) -> None:
     """Give a mesh so many elements, which carry nothing."""
     n, skin = len(elements.points), any(layer.kind == SKIN for layer in elements.layers.values())

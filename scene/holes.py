@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from ..core.surface.corners import edge_labels
-from . import caps, element_layers
+from . import caps, element_layers, mesh_arrays
 from .elements import Elements, Selection
 from .temporary import removed
 
@@ -62,7 +62,7 @@ class Holes:
             total /= np.maximum(np.bincount(network[here], minlength=n_networks), 1)[:, None]
             middles[used[here]] = total[network[here]]
         return cls(cut, meeting, ends[(count[ends] > 0).all(axis=1)], middles,
-                   Discs(points, element_layers.triangles(whole)))
+                   Discs(points, mesh_arrays.triangulated(whole.points, whole.count, whole.corner_vertex)[0]))
 
     def closed(self, piece: Elements, chosen: Selection, like: bpy.types.Mesh) -> tuple[Elements, int]:
         """A piece with its holes filled, see caps.close_cuts, and how many edges of holes were not.

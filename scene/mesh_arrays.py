@@ -161,10 +161,51 @@ def basis_points(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Blender's own triangulation, and the face of each triangle."""
-    mesh.calc_loop_triangles()
-    items = mesh.loop_triangles
-    return read(items, "vertices", np.int32, 3), read(items, "polygon_index", np.int32)
+    """Blender's own triangulation, and the face of each triangle; not in Edit Mode."""
+    if len(mesh.loops) == 3 * len(mesh.polygons):
+        return corner_vertices(mesh).reshape(-1, 3), np.arange(len(mesh.polygons), dtype=np.int32)
+    return triangulated(basis_points(mesh), read(mesh.polygons, "loop_total", np.int32), corner_vertices(mesh))
+
+
+def triangulated(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Blender's own triangulation of faces.
+
+    Parameters
+    ----------
+    points : (n, 3) float32
+    count : (p,) int32
+        Number of corners of each face.
+    corner_vertex : (c,) int32
+        Vertex of each corner.
+
+    Returns
+    -------
+    triangles : (t, 3) int32
+    face : (t,) int32
+        Rising.
+    """
+    three = count == 3
+    corner = np.repeat(three, count)
+    found, face = corner_vertex[corner].reshape(-1, 3), np.flatnonzero(three).astype(np.int32)
+    if three.all():
+        return found, face
+    used, place = np.unique(corner_vertex[~corner], return_inverse=True)
+    mesh = bpy.data.meshes.new("Reeb Parts")
+    try:
+        mesh.vertices.add(len(used))
+        mesh.loops.add(len(place))
+        mesh.polygons.add(len(count) - len(face))
+        mesh.attributes["position"].data.foreach_set("vector", points[used].ravel())
+        mesh.attributes[".corner_vert"].data.foreach_set("value", place.astype(np.int32))
+        mesh.polygons.foreach_set("loop_start", np.cumsum(count[~three], dtype=np.int32) - count[~three])
+        mesh.calc_loop_triangles()
+        others = used[read(mesh.loop_triangles, "vertices", np.int32, 3)]
+        of = np.flatnonzero(~three)[read(mesh.loop_triangles, "polygon_index", np.int32)]
+    finally:
+        bpy.data.meshes.remove(mesh)
+    found, face = np.concatenate([found, others]), np.concatenate([face, of.astype(np.int32)])
+    order = np.argsort(face, kind="stable")
+    return found[order], face[order]
 
 
 def shown_points(obj: bpy.types.Object) -> np.ndarray:

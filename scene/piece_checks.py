@@ -10,6 +10,8 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
+from ..core.surface.arrays import renumbered
+from ..core.surface.reach import within_reach
 from . import caps, mesh_arrays, transaction
 
 CHECK = "reeb_parts_check"  # on a piece: what was found, as JSON
@@ -81,18 +83,24 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
 
     stretch : (3, 3), what the object does to its mesh, see bridge.world_stretch. Numbers are in units of the world.
     """
-    points = mesh_arrays.read(mesh.vertices, "co", np.float32, 3).astype(np.float64) @ stretch.T
+    points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
     triangles, face = mesh_arrays.triangles(mesh)
     n_faces = len(mesh.polygons)
     open_, branching = _edge_faults(mesh)
     none = np.zeros(n_faces, bool)
     if not len(triangles):
         return Check(), Faults(none, none, none, none)
-    tree = BVHTree.FromPolygons(points.tolist(), triangles.tolist(), all_triangles=True)
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    vector = np.cross(b - a, c - a)  # as long as twice the area
+    places = _Places.of(points, triangles, vector)
     tried = _tried(mesh, face)
-    crossing = _marked(n_faces, face[_crossing(tree, points, triangles, tried)])
-    thinnest, where = _thinnest(tree, points, triangles)
-    volume = None if open_[1].any() or branching[1].any() else _volume(points, triangles)
+    near = np.arange(len(triangles))
+    if not tried.all():
+        near = np.flatnonzero(within_reach(points, triangles, tried, places.start, -places.out))
+    tree = _tree(points, triangles[near])
+    crossing = _marked(n_faces, face[_crossing(tree, points, triangles, tried, near)])
+    thinnest, where = _thinnest(tree, places)
+    volume = None if open_[1].any() or branching[1].any() else float(((a - points.mean(axis=0)) * vector).sum() / 6)
     found = Check(int(open_[0]), int(branching[0]), int(crossing.sum()), bool(tried.all()),
                   volume is not None and volume < 0, volume, thinnest)
     thin = _marked(n_faces, face[[where]] if thinnest is not None else np.empty(0, np.int64))
@@ -122,11 +130,13 @@ def _marked(count: int, indices: np.ndarray) -> np.ndarray:
 
 def _edge_faults(mesh: bpy.types.Mesh) -> tuple[tuple[int, np.ndarray], tuple[int, np.ndarray]]:
     """Edges of one face, and of more than two: how many, and which faces are there."""
-    edge, (_, face) = mesh_arrays.corner_edges(mesh), mesh_arrays.face_corners(mesh)
+    edge = mesh_arrays.corner_edges(mesh)
     count = np.bincount(edge, minlength=len(mesh.edges))
     found = []
     for wrong in (count == 1, count > 2):
-        found.append((int(wrong.sum()), _marked(len(mesh.polygons), face[wrong[edge]])))
+        some = wrong[edge]
+        face = mesh_arrays.face_corners(mesh)[1][some] if some.any() else np.empty(0, np.int32)
+        found.append((int(wrong.sum()), _marked(len(mesh.polygons), face)))
     return found[0], found[1]
 
 
@@ -140,44 +150,70 @@ def _tried(mesh: bpy.types.Mesh, face: np.ndarray) -> np.ndarray:
     return mesh_arrays.read(cap.data, "value", np.int32)[face] == 1
 
 
-def _crossing(tree: BVHTree, points: np.ndarray, triangles: np.ndarray, tried: np.ndarray) -> np.ndarray:
-    """Triangles that cross another one, one of the two being tried; (k,) int64."""
+def _tree(points: np.ndarray, triangles: np.ndarray) -> BVHTree:
+    """A tree of some triangles."""
+    used, place = renumbered(triangles) if len(triangles) < len(points) else (slice(None), triangles)
+    return BVHTree.FromPolygons(points[used].tolist(), place.tolist(), all_triangles=True)
+
+
+def _crossing(tree: BVHTree, points: np.ndarray, triangles: np.ndarray, tried: np.ndarray,
+              near: np.ndarray) -> np.ndarray:
+    """Triangles that cross another one, one of the two being tried; (k,) int64.
+
+    near : (m,) int64, the triangles that the tree is of.
+    """
     index = np.flatnonzero(tried)
     if not len(index):
         return index
-    some = tree if tried.all() else BVHTree.FromPolygons(points.tolist(), triangles[index].tolist(),
-                                                         all_triangles=True)
+    some = tree if tried.all() else _tree(points, triangles[index])
     pairs = np.array(some.overlap(tree), np.int64).reshape(-1, 2)
-    pairs = np.stack([index[pairs[:, 0]], pairs[:, 1]], axis=1)
+    pairs = np.stack([index[pairs[:, 0]], near[pairs[:, 1]]], axis=1)
     apart = (triangles[pairs[:, 0]][:, :, None] != triangles[pairs[:, 1]][:, None]).all(axis=(1, 2))
     return np.unique(pairs[apart])
 
 
-def _volume(points: np.ndarray, triangles: np.ndarray) -> float:
-    """What a closed surface encloses."""
-    a, b, c = (points - points.mean(axis=0))[triangles].transpose(1, 0, 2)
-    return float((a * np.cross(b, c)).sum() / 6)
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """Where the thickness is measured.
+
+    Attributes
+    ----------
+    triangle : (k,) int64
+    start : (k, 3) float64
+        A little inside the middle of each.
+    out : (k, 3) float64
+        The direction it looks in, of length 1.
+    depth : float
+        How far inside.
+    """
+
+    triangle: np.ndarray
+    start: np.ndarray
+    out: np.ndarray
+    depth: float
+
+    @classmethod
+    def of(cls, points: np.ndarray, triangles: np.ndarray, vector: np.ndarray) -> _Places:
+        """Triangles of all sizes; vector : (t, 3), as long as twice the area."""
+        area = np.sqrt(np.einsum("ij,ij->i", vector, vector))
+        # Large triangles first: what is thin is thin over some area.
+        some = np.sort(np.argsort(-area, kind="stable")[:: max(len(area) // _PLACES, 1)][:_PLACES])
+        some = some[area[some] > 0]
+        out = vector[some] / area[some, None]
+        depth = 1e-5 * float(np.linalg.norm(np.ptp(points, axis=0)))
+        return cls(some, points[triangles[some]].mean(axis=1) - depth * out, out, depth)
 
 
-def _thinnest(tree: BVHTree, points: np.ndarray, triangles: np.ndarray) -> tuple[float | None, int]:
+def _thinnest(tree: BVHTree, places: _Places) -> tuple[float | None, int]:
     """The smallest distance from the middle of a triangle straight through to the other side, and that triangle.
 
     Only where the other side looks away: across an edge there is no thickness to measure.
     """
-    a, b, c = points[triangles].transpose(1, 0, 2)
-    normal = np.cross(b - a, c - a)
-    area = np.linalg.norm(normal, axis=1)
-    # Large triangles first: what is thin is thin over some area.
-    some = np.sort(np.argsort(-area, kind="stable")[:: max(len(area) // _PLACES, 1)][:_PLACES])
-    some = some[area[some] > 0]
-    normal = normal[some] / area[some, None]
-    size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    start = points[triangles[some]].mean(axis=1) - 1e-5 * size * normal
     thinnest, where = None, -1
-    for index, place, out in zip(some.tolist(), start.tolist(), normal.tolist(), strict=True):
+    for index, place, out in zip(places.triangle.tolist(), places.start.tolist(), places.out.tolist(), strict=True):
         _, other, _, distance = tree.ray_cast(place, [-x for x in out])
         if other is None or -sum(x * y for x, y in zip(out, other, strict=True)) < 0.7:
             continue
         if thinnest is None or distance < thinnest:
-            thinnest, where = distance + 1e-5 * size, index
+            thinnest, where = distance + places.depth, index
     return thinnest, where
