@@ -96,8 +96,9 @@ def assemble(
     decomposition : Decomposition
     """
     face_graph = face_graph_of(given, working)
-    contacts = _contacts(given, working, results)
+    contacts = _contacts(given, working, results, face_graph)
     label, hierarchy = _face_candidates(given, working, results, face_graph, parameters)
+    label, hierarchy = _apart(working, face_graph, label, hierarchy)
     mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
     for mirror in mirrors:
         label, hierarchy = symmetric_candidates(face_graph, contacts, label, hierarchy, mirror.twin, mirror.height,
@@ -270,29 +271,57 @@ def _join_bodies(hierarchy: Hierarchy) -> Hierarchy:
     return Hierarchy.of(hierarchy.n_candidates, np.concatenate([hierarchy.merges, merges]), salience)
 
 
-def _contacts(given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]) -> np.ndarray:
+def _apart(
+    working: WorkingMesh, graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy
+) -> tuple[np.ndarray, Hierarchy]:
+    """Make candidates of their own of what lies apart from the rest of its candidate, as small pieces may.
+
+    label : (p,) int64. Returns new labels, (p,) int64, and the hierarchy in which these merge first.
+    """
+    same = label[graph.pairs[:, 0]] == label[graph.pairs[:, 1]]
+    count, piece = components(graph.n_faces, *graph.pairs[same].T)
+    solid = np.zeros(count, bool)  # a face that the copy lacks and that touches nothing stays where it is
+    solid[piece[working.polygon]] = True
+    name = np.empty(count, np.int64)
+    name[piece] = label
+    main = last_of_each(name, solid, np.bincount(piece, graph.area, count), -np.arange(count),
+                        count=hierarchy.n_candidates)
+    solid[main] = False
+    apart = np.flatnonzero(solid)
+    if not len(apart):
+        return label, hierarchy
+    merges = np.stack([name[apart], hierarchy.n_candidates + np.arange(len(apart))], axis=1)
+    name[apart] = merges[:, 1]
+    return name[piece], Hierarchy.of(hierarchy.n_candidates + len(apart), np.concatenate([merges, hierarchy.merges]),
+                                     np.concatenate([np.zeros(len(apart)), hierarchy.salience]))
+
+
+def _contacts(
+    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], graph: FaceGraph
+) -> np.ndarray:
     """(k, 2) int64, faces of the caller that touch without an edge; bodies hang on the nearest that is larger."""
     inside = [r.component.polygon[r.contacts] for r in results]
-    mesh = working.mesh
-    count, piece = mesh.face_components
     pairs = np.concatenate([np.empty((0, 2), np.int64), *inside])
-    at = np.full(given.n_polygons, -1)
-    at[working.polygon] = piece
-    joined, body = components(count, *at[pairs].T)
+    joined, body = components(given.n_polygons, *np.concatenate([graph.pairs, pairs]).T)
     if joined == 1:
         return pairs
-    area = np.bincount(body[piece], mesh.face_area, joined)
-    center = sums_by(body[piece], mesh.face_area[:, None] * mesh.face_centroids, joined) / area[:, None]
+    mesh = working.mesh
+    face_body = body[working.polygon]
+    weight = mesh.face_area + LEAST_WEIGHT * mesh.area
+    area = np.bincount(face_body, weight, joined)
+    center = sums_by(face_body, weight[:, None] * mesh.face_centroids, joined)
+    center /= np.where(area > 0, area, 1.0)[:, None]
     order = np.argsort(-area, kind="stable")
+    order = order[area[order] > 0]  # without those of faces that the copy lacks
     links = []
     for place, mine in enumerate(order[1:].tolist(), start=1):
         larger = order[:place]
         other = larger[np.linalg.norm(center[larger] - center[mine], axis=1).argmin()]
         links.append((mine, int(other)))
     # A face of each body: the nearest to its middle.
-    offset = np.linalg.norm(mesh.face_centroids - center[body[piece]], axis=1)
-    face = last_of_each(body[piece], -offset, count=joined)
-    return np.concatenate([pairs, working.polygon[face[np.array(links)]]])
+    offset = np.linalg.norm(mesh.face_centroids - center[face_body], axis=1)
+    face = last_of_each(face_body, -offset, count=joined)
+    return np.concatenate([pairs, working.polygon[face[np.array(links, np.int64).reshape(-1, 2)]]])
 
 
 def settle(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -> tuple[np.ndarray, Hierarchy]:

@@ -38,6 +38,9 @@ LARGEST = 0.6  # radius at which these begin to shrink, in units of the square r
 # each other, where straight distances mislead.
 LOWEST, HIGHEST = 0.5, 1.5
 WRINKLES = 0.15  # width over which a sheet is smoothed, in units of the square root of its area
+# Share of their diagonal that is added to the matrices of linear systems: among needles, whose cotangents are as large
+# as numbers of this precision can tell apart, they would have no solution.
+ROUNDING = 1e-12
 CHUNK = 4_000_000  # number of distances that are computed at once
 
 
@@ -222,7 +225,9 @@ def _membrane(stiffness: csr_array, area: np.ndarray, within: np.ndarray) -> np.
     """
     inside = np.flatnonzero(within)
     height = np.zeros(len(within))
-    height[inside] = spsolve(stiffness[inside][:, inside].tocsc(), 2 * area[inside])
+    matrix = stiffness[inside][:, inside]
+    matrix = matrix + diags_array(ROUNDING * np.abs(matrix.diagonal()))
+    height[inside] = spsolve(matrix.tocsc(), 2 * area[inside])
     return np.maximum(np.nan_to_num(height), 0.0)
 
 
@@ -237,8 +242,9 @@ def _without_wrinkles(
     width = np.zeros(mesh.n_vertices)
     width[mesh.faces] = WRINKLES * np.sqrt(np.bincount(piece, mesh.face_area, count))[piece][:, None]
     of_sheet = np.unique(mesh.faces[thin])
-    mass = area[of_sheet] + 1e-12 * mesh.area
-    system = diags_array(mass) + diags_array(width[of_sheet] ** 2) @ stiffness[of_sheet][:, of_sheet]
+    flow = diags_array(width[of_sheet] ** 2) @ stiffness[of_sheet][:, of_sheet]
+    mass = area[of_sheet] + 1e-12 * mesh.area + ROUNDING * np.abs(flow.diagonal())
+    system = diags_array(mass) + flow
     normal = sums_by(mesh.faces[thin].ravel(), np.repeat(mesh.area_normals[thin], 3, axis=0), mesh.n_vertices)
     start = np.hstack([mass[:, None] * mesh.vertices[of_sheet], normal[of_sheet]])
     smooth = splu(system.tocsc()).solve(start)

@@ -80,14 +80,11 @@ def assert_sound(result, vertices, faces, polygon):
     assert result.vertex_candidates.max() < count
     assert np.isfinite(result.candidate_area).all()
     # Candidates hang together along edges; vertices at one place count as one.
-    # Polygons made at random may lie apart themselves; of small loose pieces several may be one candidate, which is an
-    # open violation of docs/reliability.md.
-    if polygon is None and not any("small piece" in str(note) for note in result.notes):
+    if polygon is None:  # polygons made at random may lie apart themselves
         _, place = np.unique(vertices + 0.0, axis=0, return_inverse=True)
         assert connected(result.candidates, place.reshape(-1)[faces])
     former = None
-    least = result.hierarchy.n_loose  # 1, but for another open violation
-    for n in sorted({1, 2, 3, count // 2, count - 1, count} & set(range(least, count + 1))):
+    for n in sorted({1, 2, 3, count // 2, count - 1, count} & set(range(1, count + 1))):
         parts = result.parts(n_parts=n)
         assert parts.count == n
         assert np.unique(parts.labels).tolist() == list(range(n))
@@ -105,7 +102,7 @@ def assert_sound(result, vertices, faces, polygon):
         assert parts.share.sum() == pytest.approx(1)
     by_detail = [result.parts(detail) for detail in (0.0, 0.3, 0.5, 0.8, 1.0)]
     assert [parts.count for parts in by_detail] == sorted(parts.count for parts in by_detail)
-    assert (by_detail[0].count, by_detail[-1].count) == (least, count)
+    assert (by_detail[0].count, by_detail[-1].count) == (1, count)
     for coarse, fine in zip(by_detail, by_detail[1:], strict=False):
         assert len({*zip(coarse.labels.tolist(), fine.labels.tolist(), strict=True)}) == fine.count
     graph = result.graph
