@@ -11,6 +11,7 @@ from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
+from ..viewport.ring_tool import RingTool, move
 
 
 class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
@@ -38,13 +39,14 @@ class ChosenPartsOperator(PartOperator):
 
     edit: Callable[[bpy.types.Mesh, Stored, int], Stored]
 
-    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
         numbers = chosen_numbers(obj.data)
         edits.check_unlocked(obj.data, numbers)
         after = stored
         for number in edits.one_of_each_pair(stored, numbers):
             after = self.edit(obj.data, after, number)
         edits.write(context, obj.data, stored, after)
+        return None
 
 
 class REEB_PARTS_OT_merge_neighbour(ChosenPartsOperator, bpy.types.Operator):
@@ -78,20 +80,44 @@ class REEB_PARTS_OT_split(ChosenPartsOperator, bpy.types.Operator):
     edit = staticmethod(edits.halved)
 
 
-class REEB_PARTS_OT_grow(ChosenPartsOperator, bpy.types.Operator):
-    """Move the boundary of each chosen part outwards, to the next crease beyond its weakest stretch"""
+class MovedPartsOperator(RingTool, ChosenPartsOperator):
+    """For Grow and Shrink: over a view ring by ring, for scripts by a number of rings or as far as the next crease."""
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        in_view = context.area is not None and context.area.type == "VIEW_3D" and context.mode == "OBJECT"
+        return super().invoke(context, event) if in_view else self.execute(context)
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
+        if not self.rings:
+            return super().work(context, obj, stored)
+        return move(context, obj, stored, self.boundaries(obj, stored), self.rings)
+
+
+class REEB_PARTS_OT_grow(MovedPartsOperator, bpy.types.Operator):
+    """Move the boundary of each chosen part outwards, ring by ring"""
 
     bl_idname = "reeb_parts.grow"
     bl_label = "Grow Parts"
     edit = staticmethod(edits.grown)
 
+    rings: bpy.props.IntProperty(
+        name="Rings", default=0, options={"SKIP_SAVE"},
+        description="How many rings, negative inwards; 0 for as far as the next crease beyond the weakest stretch",
+    )
 
-class REEB_PARTS_OT_shrink(ChosenPartsOperator, bpy.types.Operator):
-    """Move the boundary of each chosen part inwards, to the next crease"""
+
+class REEB_PARTS_OT_shrink(MovedPartsOperator, bpy.types.Operator):
+    """Move the boundary of each chosen part inwards, ring by ring"""
 
     bl_idname = "reeb_parts.shrink"
     bl_label = "Shrink Parts"
+    way = -1
     edit = staticmethod(edits.shrunk)
+
+    rings: bpy.props.IntProperty(
+        name="Rings", default=0, options={"SKIP_SAVE"},
+        description="How many rings, positive outwards; 0 for as far as the next crease",
+    )
 
 
 class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):

@@ -6,6 +6,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
+from ..scene import part_names
 from ..scene.part_list import active_number
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
@@ -35,7 +36,8 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         return paint(context, obj, brush)
 
     def hint(self) -> str:
-        return rpt_("Drag over the model to paint    Ctrl and wheel, [ ]: size    Enter: confirm    Esc: cancel")
+        keys = rpt_("Drag over the model to paint    Ctrl and wheel, [ ]: size    Enter: confirm    Esc: cancel")
+        return "    ".join((self.told, keys))
 
     def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         if not self.radius:
@@ -44,6 +46,9 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         self.stroke.clear()
         self.brush = Brush(obj, self.model, self.number)
         self.painting = False
+        # Not as bright as the part, which has light and shade.
+        self.color = (*part_names.number_colors(obj.data)[self.number, :3].tolist(), 0.7)
+        self.told = rpt_("Into {name}").format(name=part_names.part_name(obj.data, self.number))
 
     def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
         self._show_brush(target)
@@ -78,9 +83,9 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         self.show(context.view_layer.objects.active, self.brush.numbers())
 
     def _show_brush(self, target: Target | None) -> None:
-        """A circle as large as the brush, lying on the surface."""
+        """A disc as large as the brush, lying on the surface, in the color that it gives."""
         if target is None:
-            self.preview.lines = None
+            self.preview.lines = self.preview.disc = None
             return
         angle = np.linspace(0.0, 2 * np.pi, 49)
         normal = Vector(self._normal(target.face))
@@ -88,6 +93,7 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         axes = np.array([first, normal.cross(first)])
         ring = target.location + self.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1) @ axes
         self.preview.lines = np.stack([ring[:-1], ring[1:]], axis=1)
+        self.preview.disc, self.preview.disc_color = np.concatenate([[target.location], ring]), self.color
 
     def _normal(self, face: int) -> Vector:
         return bpy.data.objects[self.model.name].data.polygons[face].normal

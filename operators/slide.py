@@ -5,12 +5,13 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import edits
+from ..scene import part_names
 from ..scene.errors import SceneError
 from ..scene.part_list import active_number
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
-from ..viewport.boundary import Boundary
+from ..viewport import pointing
+from ..viewport.boundary import Boundary, write_moved
 from ..viewport.colored_tool import ColoredTool
 from ..viewport.pointing import Target
 from ..viewport.view_tool import turns_view
@@ -30,25 +31,58 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
         description="How far along the surface; negative inwards",
     )
 
-    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
-        boundary = Boundary(obj, stored, active_number(obj.data))
+    neighbor: bpy.props.IntProperty(
+        name="Neighbor", default=0, min=0, options={"SKIP_SAVE"},
+        description="Number of the part at which the boundary slides; 0 for all of the boundary",
+    )
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
+        boundary = Boundary(obj, stored, active_number(obj.data), self.neighbor)
         numbers = boundary.slid(self.offset)
         if (numbers == boundary.number).sum() == 0:
             raise SceneError(rpt_("Nothing would be left of the part. Slide the boundary less far."))
-        edits.assign_faces(context, obj, stored, numbers)
+        return write_moved(context, obj, stored, numbers, [boundary.number])
 
     def hint(self) -> str:
-        return rpt_("Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel")
+        keys = rpt_("Move the mouse left and right to slide it    A: all of it    Enter: confirm    Esc: cancel")
+        return "    ".join((self.told, keys))
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        self.place = event.mouse_x, event.mouse_y
+        return super().invoke(context, event)
 
     def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         """Read everything once; each move of the mouse is a comparison of distances then."""
         super().begin(context, obj)
-        self.boundary = Boundary(obj, self.model.stored, self.number)
+        self.whole = self.boundary = Boundary(obj, self.model.stored, self.number)
+        self._keep_to(obj, self._pointed(context, obj))
         self.offset = 0.0
         # The whole width of the view is half the size of the object.
         size = float(np.linalg.norm(np.array(obj.dimensions)))
         self.unit = 0.5 * size / max(context.area.width if context.area else 1000, 1)
         self.last_x = None  # of the pointer, unless it was used for something else since
+
+    def _pointed(self, context: bpy.types.Context, obj: bpy.types.Object) -> int:
+        """The neighbor whose stretch of the boundary is nearest to the pointer; 0 where that does not tell."""
+        view = pointing.viewport_region(context.window.screen, *self.place)
+        target = self.model.under(context, obj, *view, graph=False) if view is not None else None
+        if target is None or len(self.whole.neighbors) < 2:
+            return 0
+        number = self.model.number(target)
+        if number == self.number:
+            return self.whole.nearest_neighbor(self.whole.center[target.face])
+        return number if number in self.whole.neighbors else 0
+
+    def _keep_to(self, obj: bpy.types.Object, neighbor: int) -> None:
+        """Slide the boundary where it meets a neighbor, or all of it."""
+        self.neighbor = neighbor
+        self.boundary = Boundary(obj, self.model.stored, self.number, neighbor) if neighbor else self.whole
+        name = part_names.part_name(obj.data, self.number)
+        if neighbor:
+            text, other = rpt_("Boundary of {name} at {other}"), part_names.part_name(obj.data, neighbor)
+            self.told = text.format(name=name, other=other)
+        else:
+            self.told = rpt_("All of the boundary of {name}").format(name=name)
 
     def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
         if event.type != "MOUSEMOVE":  # those between would only make it late
@@ -61,6 +95,11 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
 
     def other(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> bool:
         """Only the view can be turned meanwhile."""
+        if event.type == "A" and event.value == "PRESS" and self.neighbor:
+            obj = context.view_layer.objects.active
+            self._keep_to(obj, 0)
+            self.show(obj, self.boundary.slid(self.offset))
+            context.workspace.status_text_set(self.hint())
         if not turns_view(context, event):
             return True
         self.last_x = None

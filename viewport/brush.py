@@ -24,6 +24,8 @@ class Brush:
         The part that is painted.
     chosen : (p,) bool
         Faces painted so far.
+    n_locked : int
+        How many faces under the brush stay, since their parts are locked.
     """
 
     def __init__(self, obj: bpy.types.Object, model: Model, number: int) -> None:
@@ -35,6 +37,7 @@ class Brush:
         self.start = np.append(0, np.cumsum(np.bincount(first, minlength=count)))
         self.place = np.full(count, -1)
         self.chosen = np.zeros(count, bool)
+        self._locked = np.zeros(count, bool)
         self.free = ~np.isin(model.numbers, edits.locked_others(obj.data, number))
 
     def dab(self, location: Sequence[float], radius: float) -> None:
@@ -52,6 +55,11 @@ class Brush:
         hit = near[piece == piece[self.place[first]]]
         self.place[near] = -1
         self.chosen[hit[self.free[hit]]] = True
+        self._locked[hit[~self.free[hit]]] = True
+
+    @property
+    def n_locked(self) -> int:
+        return int(self._locked.sum())
 
     def numbers(self) -> np.ndarray:
         """The part of each face once it is painted, (p,) int64."""
@@ -59,17 +67,34 @@ class Brush:
 
 
 def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> str:
-    """Give the painted faces to the part; what happened, in a sentence. Raises SceneError if none were painted."""
+    """Give the painted faces to the part; what became of the stroke, in a sentence. Raises SceneError if none were."""
     moved = brush.numbers() != brush.model.numbers
-    if not moved.any():
-        raise SceneError(rpt_("No faces were painted."))
-    edits.assign_faces(context, obj, brush.model.stored, brush.numbers())
-    joined = int((store.load(obj.data).face_numbers[moved] == brush.number).sum())
     name = part_names.part_name(obj.data, brush.number)
+    if not moved.any():
+        raise SceneError(_why_nothing(brush).format(name=name))
+    before = brush.model.numbers
+    givers = ", ".join(part_names.part_name(obj.data, number) for number in np.unique(before[moved]).tolist())
+    edits.assign_faces(context, obj, brush.model.stored, brush.numbers())
+    after = store.load(obj.data).face_numbers
+    joined = int((after[moved] == brush.number).sum())
+    told = [rpt_("{n} faces of {givers} are {name} now").format(n=joined, givers=givers, name=name)]
     if joined < moved.sum():
-        text = rpt_("{n} of {total} faces are {name} now; the others do not touch it and are parts of their own")
-        return text.format(n=joined, total=int(moved.sum()), name=name)
-    return rpt_("{n} faces are {name} now").format(n=joined, name=name)
+        told.append(rpt_("{n} do not touch it and are parts of their own").format(n=int(moved.sum()) - joined))
+    left = len(np.setdiff1d(after[~moved], before))
+    if left:
+        told.append(rpt_("what is left is in {n} parts more").format(n=left))
+    if brush.n_locked:
+        told.append(rpt_("{n} are locked and stay").format(n=brush.n_locked))
+    return "; ".join(told)
+
+
+def _why_nothing(brush: Brush) -> str:
+    """Why a stroke changes nothing."""
+    if brush.chosen.any():
+        return rpt_("All that was painted is {name} already.")
+    if brush.n_locked:
+        return rpt_("All that was painted is locked. Unlock it in the list first.")
+    return rpt_("No faces were painted.")
 
 
 class ReebDab(bpy.types.PropertyGroup):

@@ -47,3 +47,14 @@ class Lines:
         with gpu.matrix.push_pop():
             gpu.matrix.multiply_matrix(matrix)
             self.batch.draw(self.shader)
+
+
+def fill(corners: np.ndarray, matrix: Matrix, color: tuple[float, ...]) -> None:
+    """Draw a flat area over everything. corners : (t, 3), around its middle, which comes first."""
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    shader.uniform_float("color", color)
+    gpu.state.blend_set("ALPHA")
+    with gpu.matrix.push_pop():
+        gpu.matrix.multiply_matrix(matrix)
+        batch_for_shader(shader, "TRI_FAN", {"pos": corners.astype("float32")}).draw(shader)
+    gpu.state.blend_set("NONE")

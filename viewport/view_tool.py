@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import bpy
+import gpu
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
@@ -12,7 +13,7 @@ from ..scene.errors import SceneError
 from ..scene.reporting import ReportingOperator
 from ..scene.transaction import transaction
 from . import hover, pointing
-from .lines import Lines
+from .lines import Lines, fill
 from .pointing import Target
 
 _CONFIRM = {"RET", "NUMPAD_ENTER"}
@@ -27,6 +28,9 @@ class Preview:
 
     def __init__(self) -> None:
         self.lines = None  # (k, 2, 3) float, in coordinates of the mesh
+        self.faint_lines = None  # the same, of what comes next
+        self.disc = None  # (t, 3) float, corners around its middle, which comes first
+        self.disc_color = (1.0, 1.0, 1.0, 1.0)
         self.matrix = None  # of the object, in the world
         self.color = (1.0, 1.0, 1.0, 1.0)
         self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
@@ -35,8 +39,14 @@ class Preview:
         bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
 
     def _draw(self) -> None:
-        if self.lines is not None and len(self.lines):
-            Lines(self.lines.reshape(-1, 3).astype("float32")).draw(self.matrix, 3.0, self.color)
+        if self.disc is not None:
+            fill(self.disc, self.matrix, self.disc_color)
+        for lines, width, opacity in ((self.faint_lines, 1.0, 0.4), (self.lines, 3.0, 1.0)):
+            if lines is not None and len(lines):
+                gpu.state.blend_set("ALPHA")
+                color = (*self.color[:3], opacity)
+                Lines(lines.reshape(-1, 3).astype("float32")).draw(self.matrix, width, color)
+                gpu.state.blend_set("NONE")
 
 
 class ViewTool(ReportingOperator):
@@ -86,6 +96,7 @@ class ViewTool(ReportingOperator):
             raise SceneError(rpt_("This works in Object Mode, where the parts can be seen."))
         self._read(context, obj)
         self.preview = Preview()
+        self.preview.matrix = obj.matrix_world.copy()
         hover.clear()
         context.window.cursor_modal_set(self.cursor)
         context.workspace.status_text_set(self.hint())

@@ -136,6 +136,12 @@ def slide(obj):
     pointer.xdo("click", 1)
 
 
+def confirm(obj):
+    """Enter, once the tool is at work."""
+    yield from pointer.until(lambda: len(bpy.context.window.modal_operators) > 0)
+    yield from pointer.tap("Return")
+
+
 def to_folder(obj):
     """In the file browser: the folder, Enter."""
     yield from pointer.until(lambda: browser() is not None)
@@ -168,8 +174,8 @@ COMMANDS = (
     Command("Merge into Neighbor", mark(EAR)),
     Command("Split Parts", mark(HEAD)),
     Command("Cut Part at Point", mark(HEAD), click_cut),
-    Command("Grow Parts", mark(EAR)),
-    Command("Shrink Parts", mark(HEAD)),
+    Command("Grow Parts", mark(EAR), confirm),
+    Command("Shrink Parts", mark(HEAD), confirm),
     Command("Slide Boundary", mark(HEAD), slide),
     Command("Paint into Part", mark(BODY), stroke),
     Command("Assign Faces to Part", some_faces),

@@ -19,7 +19,7 @@ DOES = {
     "Grow Parts, OBJECT": "/attributes/reeb_part",
     "Shrink Parts, OBJECT": "/attributes/reeb_part",
     "Slide Boundary, OBJECT": "/attributes/reeb_part",
-    "Paint into Part, OBJECT": "INFO: [0-9]+ faces are Part 01 now",
+    "Paint into Part, OBJECT": "INFO: [0-9]+ faces of .*Part 06.* are Part 01 now",
     "Assign Faces to Part, EDIT_MESH": "INFO: [0-9]+ faces are Part 01 now",
     "New Part of Selected Faces, EDIT_MESH": "INFO: [0-9]+ faces are Part [0-9]+ now",
     "Parts from Face Sets, OBJECT": "INFO: 40 faces are in other parts now",

@@ -49,6 +49,23 @@ def test_c_cuts_and_p_paints(seen):
     assert seen["painted"] > seen["before painting"]
 
 
+def test_g_grows_by_the_wheel_or_a_number_and_the_view_stays(seen):
+    assert seen["G"] == [["REEB_PARTS_OT_grow"], 1]
+    assert seen["G and the wheel"] == [4, True]
+    assert seen["G and a number"] == 10
+    before, after = seen["before growing"], seen["grown"]
+    assert after["Part 03"] > before["Part 03"]
+    changed = {name for name in before if before[name] != after[name]}
+    assert changed == {"Part 01", "Part 03"}
+    assert seen["G and the wheel back"] == -2
+
+
+def test_s_slides_the_boundary_that_is_pointed_at_and_no_other(seen):
+    before, after = seen["before sliding"], seen["slid"]
+    assert {name for name in before if before[name] != after[name]} == {"Part 01", "Part 03"}
+    assert after["Part 01"] > before["Part 01"]
+
+
 def test_f2_renames_the_part_under_the_pointer(seen):
     names, active = seen["renamed"]
     assert "Head" in names
@@ -79,6 +96,7 @@ def test_a_click_selects_another_object(seen):
 
 
 @pytest.mark.parametrize("name", ["clicks undone", "box undone", "merge undone", "choice undone", "cut undone",
-                                  "cut escaped", "paint undone", "rename undone", "hiding undone"])
+                                  "cut escaped", "paint undone",
+                                  "grow undone", "grow escaped", "slide undone", "rename undone", "hiding undone"])
 def test_undo_is_exact(seen, name):
     assert seen[name] == []

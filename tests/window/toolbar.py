@@ -25,7 +25,8 @@ def steps():
     yield from pointer.until(lambda: "reeb_part" in spot().data.attributes, pointer.PATIENCE)
     yield 0.5
     pointer.view_area().spaces.active.show_region_toolbar = True
-    for scene in (started, hovered, clicked, boxed, merged, cut, painted, renamed, hidden, framed, kept, elsewhere):
+    for scene in (started, hovered, clicked, boxed, merged, cut, painted, grown, slid, renamed, hidden, framed,
+                  kept, elsewhere):
         yield from scene()
         (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
 
@@ -121,6 +122,65 @@ def painted():
     yield 0.3
     note("painted", shares()["Part 01"])
     yield from undo_to("paint undone", before)
+
+
+def grown():
+    """G, the wheel, a number, Enter; then G, the wheel backwards, Esc."""
+    yield from choose("Part 03")
+    before = snapshot()
+    note("before growing", shares())
+    yield from pointer.tap("g")
+    yield 0.2
+    note("G", [at_work(), rings()])
+    view = pointer.view_area().spaces.active.region_3d.view_distance
+    for _ in range(3):
+        pointer.xdo("click", 4)
+        yield 0.1
+    yield 0.2
+    note("G and the wheel", [rings(), pointer.view_area().spaces.active.region_3d.view_distance == view])
+    pointer.shot("10_rings.png")
+    yield from pointer.tap("1", "0")
+    yield 0.2
+    note("G and a number", rings())
+    pointer.shot("10_ten_rings.png")
+    yield from pointer.tap("Return")
+    yield 0.3
+    note("grown", shares())
+    yield from undo_to("grow undone", before)
+    yield from pointer.tap("g")
+    for _ in range(3):
+        pointer.xdo("click", 5)
+        yield 0.1
+    note("G and the wheel back", rings())
+    pointer.shot("10_rings_inwards.png")
+    yield from pointer.tap("x", "Delete")  # nothing but what it says
+    yield from pointer.tap("Escape")
+    yield 0.2
+    note("grow escaped", differences(before))
+
+
+def slid():
+    """S over a leg, with the body chosen: only the leg's boundary slides."""
+    yield from choose("Part 01")
+    before = snapshot()
+    note("before sliding", shares())
+    x, y = pointer.surface_places(spot())[number("Part 03")]
+    yield from pointer.rest(x, y)
+    yield from pointer.tap("s")
+    yield 0.2
+    for step in range(16):
+        pointer.xdo("mousemove", x + 8 * step, y)
+        yield 0.05
+    pointer.shot("11_sliding.png")
+    yield from pointer.tap("Return")
+    yield 0.3
+    note("slid", shares())
+    yield from undo_to("slide undone", before)
+
+
+def rings():
+    (operator,) = bpy.context.window.modal_operators
+    return operator.properties.rings
 
 
 def renamed():

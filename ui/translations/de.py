@@ -83,6 +83,8 @@ OPERATORS = {
     "Hide Parts": "Teile verbergen",
     "Keep Object": "Objekt behalten",
     "Rename Part": "Teil umbenennen",
+    "Grow to Next Crease": "Wachsen bis zur nächsten Falte",
+    "Shrink to Next Crease": "Schrumpfen bis zur nächsten Falte",
 }
 
 TOOLS = {
@@ -483,11 +485,6 @@ TEXTS = {
         "Ein Teil dort schneiden, wo geklickt wird, auf dem Graphen oder der Oberfläche; ein Ring zeigt, wo der "
         "Schnitt verlaufen wird",
     "Where to cut, in the world": "Wo geschnitten wird, in der Welt",
-    "Move the boundary of each chosen part outwards, to the next crease beyond its weakest stretch":
-        "Die Grenze jedes gewählten Teils nach außen verschieben, bis zur nächsten Falte jenseits ihrer schwächsten "
-        "Stelle",
-    "Move the boundary of each chosen part inwards, to the next crease":
-        "Die Grenze jedes gewählten Teils nach innen verschieben, bis zur nächsten Falte",
     "Slide the boundary of the active part over the surface with the mouse":
         "Die Grenze des aktiven Teils mit der Maus über die Oberfläche schieben",
     "Distance": "Abstand",
@@ -802,8 +799,6 @@ TEXTS = {
     "{name} cannot give away anything more.": "{name} kann nichts mehr abgeben.",
     "Nothing would be left of the part. Slide the boundary less far.":
         "Von dem Teil bliebe nichts übrig. Bitte die Grenze weniger weit verschieben.",
-    "Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel":
-        "Maus nach links und rechts bewegen, um die Grenze zu verschieben    Eingabe: bestätigen    Esc: abbrechen",
     "Drag over the model to paint    Ctrl and wheel, [ ]: size    Enter: confirm    Esc: cancel":
         "Zum Malen über das Modell ziehen    Strg und Mausrad, [ ]: Größe    Eingabe: bestätigen    Esc: abbrechen",
     "Click the graph or the surface to cut the part there    Enter, Esc: end":
@@ -819,8 +814,6 @@ TEXTS = {
         "Es sind keine Flächen ausgewählt. Bitte im Bearbeitungsmodus welche auswählen.",
     "{n} faces are {name} now": "{n} Flächen sind jetzt {name}",
     "{n} faces are in other parts now": "{n} Flächen sind jetzt in anderen Teilen",
-    "{n} of {total} faces are {name} now; the others do not touch it and are parts of their own":
-        "{n} von {total} Flächen sind jetzt {name}; die anderen berühren es nicht und sind eigene Teile",
     "The parts are not face sets yet. Press Face Sets, then paint them in Sculpt Mode.":
         "Die Teile sind noch keine Face Sets. Bitte auf Face Sets drücken, dann im Skulpturmodus malen.",
     "Select a node of a graph": "Einen Knoten eines Graphen auswählen",
@@ -890,4 +883,34 @@ TEXTS = {
     "The new name of the active part": "Der neue Name des aktiven Teils",
     "This key does nothing to parts. Choose another tool to move or delete the object.":
         "Diese Taste tut mit Teilen nichts. Zum Bewegen oder Löschen des Objekts bitte ein anderes Werkzeug wählen.",
+    "All of the boundary of {name}": "Die ganze Grenze von {name}",
+    "All that was painted is locked. Unlock it in the list first.":
+        "Alles Bemalte ist gesperrt. Bitte zuerst in der Liste entsperren.",
+    "All that was painted is {name} already.": "Alles Bemalte gehört schon zu {name}.",
+    "Boundary of {name} at {other}": "Grenze von {name} zu {other}",
+    "How many rings, negative inwards; 0 for as far as the next crease beyond the weakest stretch":
+        "Wie viele Ringe, negativ nach innen; 0 bis zur nächsten Falte hinter der schwächsten Strecke",
+    "How many rings, positive outwards; 0 for as far as the next crease":
+        "Wie viele Ringe, positiv nach außen; 0 bis zur nächsten Falte",
+    "Into {name}": "Zu {name}",
+    "Move the boundary of each chosen part inwards, ring by ring":
+        "Die Grenze jedes gewählten Teils Ring für Ring nach innen schieben",
+    "Move the boundary of each chosen part outwards, ring by ring":
+        "Die Grenze jedes gewählten Teils Ring für Ring nach außen schieben",
+    "Move the mouse left and right to slide it    A: all of it    Enter: confirm    Esc: cancel":
+        "Maus nach links und rechts: schieben    A: die ganze    Enter: bestätigen    Esc: abbrechen",
+    "Neighbor": "Nachbar",
+    "Nothing beyond the boundary can be taken or given: it is locked, or all there is.":
+        "An der Grenze lässt sich nichts nehmen oder geben: Es ist gesperrt oder schon alles.",
+    "Number of the part at which the boundary slides; 0 for all of the boundary":
+        "Nummer des Teils, an dem die Grenze geschoben wird; 0 für die ganze Grenze",
+    "Rings": "Ringe",
+    "what is left is in {n} parts more": "der Rest zerfiel in {n} Teile mehr",
+    "{names} gave away {n} faces": "{names}: {n} Flächen abgegeben",
+    "{names} took {n} faces": "{names}: {n} Flächen dazugekommen",
+    "{n} are locked and stay": "{n} sind gesperrt und bleiben",
+    "{n} do not touch it and are parts of their own": "{n} berühren es nicht und sind eigene Teile",
+    "{n} faces of {givers} are {name} now": "{n} Flächen von {givers} gehören jetzt zu {name}",
+    "{rings} rings, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm    Esc: cancel":
+        "{rings} Ringe, {low} bis {high}    Rad, Zahl: Ringe, minus nach innen    Klick, Enter: fertig    Esc: zurück",
 }

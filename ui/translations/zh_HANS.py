@@ -84,6 +84,8 @@ OPERATORS = {
     "Hide Parts": "隐藏部件",
     "Keep Object": "保留物体",
     "Rename Part": "重命名部件",
+    "Grow to Next Crease": "扩大到下一条折痕",
+    "Shrink to Next Crease": "缩小到下一条折痕",
 }
 
 TOOLS = {
@@ -463,9 +465,6 @@ TEXTS = {
     "Cut a part where you click, on the graph or on the surface; a ring shows where the cut will be":
         "在图或表面上单击处切割部件；圆环显示切口的位置",
     "Where to cut, in the world": "切割的位置，世界坐标",
-    "Move the boundary of each chosen part outwards, to the next crease beyond its weakest stretch":
-        "将每个所选部件的边界向外移动，越过其最不明显的一段到下一条折痕",
-    "Move the boundary of each chosen part inwards, to the next crease": "将每个所选部件的边界向内移动到下一条折痕",
     "Slide the boundary of the active part over the surface with the mouse": "用鼠标在表面上滑移活动部件的边界",
     "Distance": "距离",
     "How far along the surface; negative inwards": "沿表面的距离；负值为向内",
@@ -725,8 +724,6 @@ TEXTS = {
     "Nothing is left around {name} that is not locked.": "{name} 周围没有未锁定的部分。",
     "{name} cannot give away anything more.": "{name} 无法再让出任何部分。",
     "Nothing would be left of the part. Slide the boundary less far.": "部件将不剩任何部分。请减小边界的滑移距离。",
-    "Move the mouse left and right to slide the boundary    Enter: confirm    Esc: cancel":
-        "左右移动鼠标以滑移边界    回车：确认    Esc：取消",
     "Drag over the model to paint    Ctrl and wheel, [ ]: size    Enter: confirm    Esc: cancel":
         "在模型上拖动以绘制    Ctrl 加滚轮，[ ]：大小    回车：确认    Esc：取消",
     "Click the graph or the surface to cut the part there    Enter, Esc: end":
@@ -740,8 +737,6 @@ TEXTS = {
     "No faces are selected. Select some in Edit Mode.": "没有选择任何面。请在编辑模式中选择一些面。",
     "{n} faces are {name} now": "{n} 个面现属于 {name}",
     "{n} faces are in other parts now": "{n} 个面现属于其他部件",
-    "{n} of {total} faces are {name} now; the others do not touch it and are parts of their own":
-        "{total} 个面中有 {n} 个现属于 {name}；其余的面不与其相接，各为单独的部件",
     "The parts are not face sets yet. Press Face Sets, then paint them in Sculpt Mode.":
         "部件还不是面组。请按“面组”，然后在雕刻模式中绘制。",
     "Select a node of a graph": "请选择图的一个节点",
@@ -804,4 +799,30 @@ TEXTS = {
     "The new name of the active part": "活动部件的新名称",
     "This key does nothing to parts. Choose another tool to move or delete the object.":
         "此按键对部件不起作用。要移动或删除物体，请选择其他工具。",
+    "All of the boundary of {name}": "{name} 的全部边界",
+    "All that was painted is locked. Unlock it in the list first.": "所绘制的面均已锁定。请先在列表中解锁。",
+    "All that was painted is {name} already.": "所绘制的面已全部属于 {name}。",
+    "Boundary of {name} at {other}": "{name} 与 {other} 的边界",
+    "How many rings, negative inwards; 0 for as far as the next crease beyond the weakest stretch":
+        "圈数，负数向内；0 表示到最弱一段之外的下一条折痕",
+    "How many rings, positive outwards; 0 for as far as the next crease": "圈数，正数向外；0 表示到下一条折痕",
+    "Into {name}": "绘入 {name}",
+    "Move the boundary of each chosen part inwards, ring by ring": "将每个所选部件的边界逐圈向内移动",
+    "Move the boundary of each chosen part outwards, ring by ring": "将每个所选部件的边界逐圈向外移动",
+    "Move the mouse left and right to slide it    A: all of it    Enter: confirm    Esc: cancel":
+        "左右移动鼠标以滑移    A：全部边界    Enter：确认    Esc：取消",
+    "Neighbor": "相邻部件",
+    "Nothing beyond the boundary can be taken or given: it is locked, or all there is.":
+        "边界处没有可取得或让出的面：已锁定，或已是全部。",
+    "Number of the part at which the boundary slides; 0 for all of the boundary":
+        "边界在其处滑移的部件编号；0 表示全部边界",
+    "Rings": "圈数",
+    "what is left is in {n} parts more": "剩余部分多分成 {n} 个部件",
+    "{names} gave away {n} faces": "{names} 让出 {n} 个面",
+    "{names} took {n} faces": "{names} 取得 {n} 个面",
+    "{n} are locked and stay": "{n} 个已锁定，保持不变",
+    "{n} do not touch it and are parts of their own": "{n} 个与其不相接，成为单独的部件",
+    "{n} faces of {givers} are {name} now": "{givers} 的 {n} 个面现属于 {name}",
+    "{rings} rings, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm    Esc: cancel":
+        "{rings} 圈，{low} 至 {high}    滚轮或数字：圈数，负数向内    单击、Enter：确认    Esc：取消",
 }

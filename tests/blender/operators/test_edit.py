@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts changed by hand: locked, merged, split, grown, shrunk, painted; kept when the detail changes."""
 
+import importlib
+
 import bpy
 import numpy as np
 import pytest
@@ -234,6 +236,69 @@ def test_a_boundary_slides_by_a_distance(obj, result, offset):
     far = np.linalg.norm(moved[:, None] - points[None], axis=2).min(axis=1)
     assert far.max() < abs(offset) + 0.1
     check(obj)
+
+
+@pytest.mark.parametrize("operator", ["grow", "shrink"])
+def test_rings_are_as_far_as_the_same_distance_slid(obj, result, operator, package):
+    number = next(p.number for p in result.parts if len(neighbours(obj.data, p.number)) == 1)
+    choose(result, number)
+    rings = 3 if operator == "grow" else -3
+    width = boundary(package, obj, number).width
+    before = numbers(obj.data)
+    bpy.ops.ed.undo_push(message="before")
+    getattr(bpy.ops.reeb_parts, operator)(rings=rings)
+    by_rings = numbers(obj.data)
+    assert ((by_rings == number).sum() > (before == number).sum()) == (rings > 0)
+    check(obj)
+    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Tree"]
+    bpy.ops.reeb_parts.slide(offset=rings * width)
+    assert (numbers(obj.data) == by_rings).all()
+
+
+def test_each_ring_holds_the_ones_before(obj, result, package):
+    number = next(p.number for p in result.parts if len(neighbours(obj.data, p.number)) == 1)
+    moving = boundary(package, obj, number)
+    low, high = moving.most
+    sizes = [(moving.slid(moving.offset(rings)) == number).sum() for rings in range(low, high + 1)]
+    assert (np.diff(sizes) >= 0).all()
+    assert 0 < sizes[0] < sizes[-low] == (moving.numbers == number).sum() < sizes[-1]
+
+
+def test_growing_never_reaches_through_to_another_limb(obj, result):
+    number = next(p.number for p in result.parts if len(neighbours(obj.data, p.number)) == 1)
+    (trunk,) = neighbours(obj.data, number)
+    choose(result, number)
+    before = numbers(obj.data)
+    bpy.ops.reeb_parts.grow(rings=10_000)
+    after = numbers(obj.data)
+    assert set(before[before != after].tolist()) == {trunk}
+    assert (after[before == trunk] == number).all()
+
+
+def test_a_boundary_slides_at_one_neighbor_only(obj, result, package):
+    number = max((p.number for p in result.parts), key=lambda n: len(neighbours(obj.data, n)))
+    around = sorted(neighbours(obj.data, number))
+    assert len(around) > 2
+    choose(result, number)
+    before = numbers(obj.data)
+    bpy.ops.reeb_parts.slide(offset=0.2, neighbor=around[1])
+    after = numbers(obj.data)
+    moved = before != after
+    assert moved.any()
+    assert (before[moved] == around[1]).all()
+    assert (after[moved] == number).all()
+    moving = boundary(package, obj, number)
+    for other in around[1:]:
+        face = moving.rim[(moving.numbers[moving.rim] == other).any(axis=1)][0, 0]
+        assert moving.nearest_neighbor(moving.center[face]) == other
+
+
+def boundary(package, obj, number):
+    """As the tools read it."""
+    stored = importlib.import_module(f"{package}.scene.store").load(obj.data)
+    return importlib.import_module(f"{package}.viewport.boundary").Boundary(obj, stored, number)
 
 
 def test_a_boundary_stops_at_a_locked_part(obj, result):

@@ -197,8 +197,18 @@ def test_painting_leaves_locked_parts_alone(obj, result):
     other.locked = True
     before = snapshot()
     face = np.flatnonzero(numbers(obj.data) == other.number)[0]
-    with pytest.raises(RuntimeError, match="No faces were painted"):
+    with pytest.raises(RuntimeError, match="All that was painted is locked"):
         bpy.ops.reeb_parts.paint(stroke=dabs(centers(obj)[face], size=0.01))
+    assert snapshot() == before
+
+
+def test_painting_says_why_nothing_came_of_it(obj, result):
+    before = snapshot()
+    mine = np.flatnonzero(numbers(obj.data) == result.parts[result.active].number)[0]
+    with pytest.raises(RuntimeError, match=f"is {result.parts[result.active].name} already"):
+        bpy.ops.reeb_parts.paint(stroke=dabs(centers(obj)[mine], size=0.01))
+    with pytest.raises(RuntimeError, match="No faces were painted"):
+        bpy.ops.reeb_parts.paint(stroke=[])
     assert snapshot() == before
 
 
