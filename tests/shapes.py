@@ -257,6 +257,21 @@ def tube_tree(n_branches: int = 4, step: float = 0.11) -> Shape:
     return level_surface(distance, (-2.217, -2.413, -0.811), (2.5, 1.5, 2.1), step)
 
 
+def horse(step: float = 0.06) -> Shape:
+    """A horse that looks along x and stands along z: body, legs, neck, head, ears and a tail, blended."""
+    def distance(points):
+        solid = _capsule(points, (-0.9, 0, 0), (0.8, 0, 0.05), (0.45, 0.42))
+        for x, y in ((-0.9, 0.25), (-0.9, -0.25), (0.75, 0.22), (0.75, -0.22)):
+            solid = _blend(solid, _capsule(points, (x, y, -0.1), (x, y, -1.4), (0.2, 0.11)), 0.12)
+        solid = _blend(solid, _capsule(points, (0.85, 0, 0.2), (1.45, 0, 0.95), (0.3, 0.2)), 0.15)
+        solid = _blend(solid, _capsule(points, (1.4, 0, 1.05), (2.0, 0, 0.75), (0.21, 0.13)), 0.1)
+        for y in (0.1, -0.1):
+            solid = _blend(solid, _capsule(points, (1.35, y, 1.15), (1.3, 1.6 * y, 1.5), (0.07, 0.04)), 0.04)
+        return _blend(solid, _capsule(points, (-1.3, 0, 0.15), (-1.6, 0, -0.9), (0.12, 0.07)), 0.08)
+
+    return level_surface(distance, (-2.017, -1.013, -1.711), (2.4, 1.0, 1.7), step)
+
+
 def genus_two(step: float = 0.045) -> Shape:
     """An amphora: body, foot, neck with a lip, and two handles. Our own model of genus 2."""
     def distance(points):

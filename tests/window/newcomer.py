@@ -2,7 +2,8 @@
 """The newcomer's path, in a real window: from Blender's default scene to separate parts of Suzanne.
 
 Executed inside Blender as driver.py is, which says how. Each picture is taken while the pointer rests where the
-next click goes. Those of docs/user.md, in docs/images/first, are copies of them.
+next click goes. Those of docs/user.md, in docs/images/first, are copies of them. Then tasks.py goes on
+in the same window.
 """
 
 import json
@@ -14,6 +15,7 @@ from mathutils import Euler, Vector
 
 sys.path.append(os.path.dirname(__file__))
 import pointer
+import tasks
 
 CLICKS = []  # what was clicked since Suzanne was selected
 
@@ -46,6 +48,8 @@ def steps():
     seen["separated"] = facts()
     seen["clicks"] = CLICKS
     pointer.shot("5_separated.png", (300, 60, 1280, 560))
+    tasks.TAB = tab
+    yield from tasks.steps(seen)
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
 

@@ -45,7 +45,35 @@ def test_the_original_is_hidden_and_as_it_was(seen):
     assert [seen["separated"][key] for key in SHAPE] == [seen["added"][key] for key in SHAPE]
 
 
+def test_a_horse_becomes_named_pieces_in_at_most_twelve_actions(seen):
+    named = {f"Horse {name}" for name in ("head", "neck", "body", "tail", "front leg.L", "front leg.R", "back leg.L",
+                                          "back leg.R")}
+    assert named <= set(seen["pieces"])
+    assert len(seen["pieces"]) == len(seen["ten"]) == 10
+    assert len(seen["named_pieces, actions"]) == 5 <= 12
+
+
+def test_two_parts_are_merged_and_one_is_cut_in_five_actions(seen):
+    before, merged, cut = seen["before"], seen["merged"], seen["cut"]
+    assert before.keys() - merged.keys() == {"tail"}
+    assert merged["body"] == pytest.approx(before["body"] + before["tail"], abs=2e-4)
+    new = cut.keys() - merged.keys()
+    assert {name[-2:] for name in new} == {".L", ".R"}
+    for name in new:  # each twin of what was cut off
+        leg = f"front leg{name[-2:]}"
+        assert cut[leg] + cut[name] == pytest.approx(before[leg], abs=2e-4)
+        assert min(cut[leg], cut[name]) > 0.01
+    assert len(seen["merged_and_cut, actions"]) == 5
+
+
+def test_of_65_parts_the_ten_that_matter_are_left_in_four_actions(seen):
+    assert seen["65"] == 65
+    assert sorted(seen["few"].values()) == pytest.approx(sorted(seen["ten"].values()), abs=2e-4)
+    assert len(seen["few_of_many, actions"]) == 3 <= 4
+
+
 def test_pictures_are_left(seen):
-    assert [path.name for path in sorted(OUT.glob("*.png"))] == [
-        "1_add.png", "2_added.png", "3_tab.png", "4_decomposed.png", "5_separated.png",
-    ]  # fmt: skip
+    assert {path.name for path in OUT.glob("*.png")} == {
+        "1_add.png", "2_added.png", "3_tab.png", "4_decomposed.png", "5_separated.png", "6_horse_named.png",
+        "7_horse_pieces.png", "8_horse_cut.png", "9_horse_65.png", "10_horse_10.png",
+    }  # fmt: skip
