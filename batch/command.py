@@ -178,7 +178,7 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
 
     targets.check_object(obj)
     assert obj is not None
-    shape = bridge.read_shape(obj)
+    shape = bridge.read_shape(obj, options.hints.upper())
     last = [-1]
 
     def progress(stage: str, share: float) -> None:

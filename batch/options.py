@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.uses.options import add_parameters, dashed
-from ..scene.settings import JointProperties, OutputProperties, OverlayProperties, SeparateProperties
+from ..scene.settings import HintProperties, JointProperties, OutputProperties, OverlayProperties, SeparateProperties
 
 #: Models that can be read besides scenes, see command.IMPORTERS.
 MODELS = (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
@@ -60,7 +60,11 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     uses.add_argument("--armature", action="store_true", help="a bone for each part, and weights to pose it with")
     uses.add_argument("--hulls", choices=("unreal", "godot"), metavar="ENGINE",
                       help="a convex hull of each part, named for unreal or godot")
-    add_parameters(made.add_argument_group("parameters"))
+    parameters = made.add_argument_group("parameters")
+    add_parameters(parameters)
+    hints = HintProperties.__annotations__["hints"].keywords
+    parameters.add_argument("--hints", choices=[item[0].lower() for item in hints["items"]], default="none",
+                            help=hints["description"] + " (default: %(default)s)")
     outputs = made.add_argument_group("what is written to the objects")
     for name, prop in (OutputProperties.__annotations__ | OverlayProperties.__annotations__).items():
         words = {"default": prop.keywords.get("default"), "help": prop.keywords["description"].replace("%", "%%")}

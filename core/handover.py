@@ -22,18 +22,17 @@ from .result.decomposition import Decomposition
 from .sentence import Sentence
 
 #: Names of the arrays of a shape.
-_SHAPE = ("vertices", "triangles", "polygon", "mirror")
+_SHAPE = ("vertices", "triangles", "polygon", "mirror", "hints")
 
 
-def write_request(folder: Path, shapes: list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]],
-                  parameters: Parameters) -> None:
+def write_request(folder: Path, shapes: list[tuple[np.ndarray, ...]], parameters: Parameters) -> None:
     """Write what is to be decomposed.
 
     Parameters
     ----------
     folder : Path
-    shapes : list of (vertices, triangles, polygon, mirror)
-        As ``decompose`` takes them; the last is empty for none.
+    shapes : list of (vertices, triangles, polygon, mirror, hints)
+        As ``decompose`` takes them; the last two are empty for none.
     parameters : Parameters
 
     Raises
@@ -53,11 +52,10 @@ def read_request(folder: Path) -> tuple[int, Parameters]:
     return request["shapes"], Parameters(**request["parameters"])
 
 
-def read_shape(folder: Path, number: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices, triangles, polygons and mirror plane of a shape."""
+def read_shape(folder: Path, number: int) -> tuple[np.ndarray, ...]:
+    """Vertices, triangles, polygons, mirror plane and hints of a shape."""
     arrays = _arrays(folder / f"shape_{number}.npz")
-    vertices, triangles, polygon, mirror = (arrays[name] for name in _SHAPE)
-    return vertices, triangles, polygon, mirror
+    return tuple(arrays[name] for name in _SHAPE)
 
 
 def write_result(folder: Path, number: int, result: Decomposition) -> None:

@@ -22,6 +22,7 @@ from .progress import Progress, Stopwatch
 from .result.assemble import ComponentResult, assemble
 from .result.decomposition import Decomposition
 from .result.half import of_half
+from .surface.arguments import hints_of
 from .surface.coarsening import Pyramid
 from .surface.halves import completed, plane_of
 from .surface.ordering import sorted_by_place
@@ -45,6 +46,7 @@ def decompose(
     model: BoostedTrees | None = None,
     join_model: BoostedTrees | None = None,
     mirror: ArrayLike | None = None,
+    hints: ArrayLike | None = None,
 ) -> Decomposition:
     """Cut a mesh into parts.
 
@@ -69,6 +71,9 @@ def decompose(
     mirror : (4,) array_like of float, optional
         For a half model: a plane, as its normal and its distance from the origin along it. What is decomposed is the
         mesh together with its image behind that plane; the parts are those of the mesh given.
+    hints : (p,) array_like of int, optional
+        A label for each of the p faces, or polygons, that the mesh brings along, such as its material: parts end there
+        more likely than elsewhere, see ``cuts.hinted``.
 
     Returns
     -------
@@ -96,11 +101,13 @@ def decompose(
     if mirror is not None:
         half, plane = PolygonMesh.of(vertices, faces, polygon), plane_of(mirror)
         whole = completed(half, plane * np.array([1.0, 1.0, 1.0, 2.0**-half.exponent]))
+        both = None if hints is None else np.tile(hints_of(hints, half.n_polygons), 2)
         return of_half(decompose(np.ldexp(whole.vertices, half.exponent), whole.triangles, parameters, whole.polygon,
-                                 progress, model, join_model), half)
+                                 progress, model, join_model, hints=both), half)
     watch = Stopwatch(progress)
     with watch.stage("mesh", MESH_SHARE):
         given, ordering = sorted_by_place(PolygonMesh.of(vertices, faces, polygon))
+        hint = np.zeros(0, np.int64) if hints is None else hints_of(hints, given.n_polygons)[ordering.polygon]
         working = repair(given)
         chosen = bodies(working, parameters.pieces == TOGETHER, parameters.loose_part)
     results = []
@@ -111,7 +118,7 @@ def decompose(
         found = decompose_component(component, parameters, watch, begin, width, model)
         results.append(join_pieces(found, join_model))
     with watch.stage("parts", 1.0):
-        result = assemble(given, working, results, parameters, watch.seconds)
+        result = assemble(given, working, results, parameters, watch.seconds, hint)
         result = result.scaled(given.exponent).reordered(ordering)
     watch.progress("done", 1.0)
     return result

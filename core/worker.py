@@ -74,7 +74,7 @@ def say(**message: Any) -> None:
 
 def _arguments(folder: Path, number: int, parameters: Any) -> dict[str, Any]:
     """What ``decompose`` is called with for a shape."""
-    vertices, triangles, polygon, mirror = read_shape(folder, number)
+    vertices, triangles, polygon, mirror, hints = read_shape(folder, number)
     said: list[Any] = ["", 0.0]  # the last stage, and when
 
     def progress(stage: str, share: float) -> None:
@@ -85,7 +85,7 @@ def _arguments(folder: Path, number: int, parameters: Any) -> dict[str, Any]:
             say(shape=number, stage=stage, share=float(share))
 
     return {"vertices": vertices, "faces": triangles, "parameters": parameters, "polygon": polygon,
-            "progress": progress, "mirror": mirror if len(mirror) else None}
+            "progress": progress, "mirror": mirror if len(mirror) else None, "hints": hints if len(hints) else None}
 
 
 def _end_with_parent(folder: Path) -> None:

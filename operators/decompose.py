@@ -13,10 +13,12 @@ from ..scene.modes import object_mode
 from ..scene.reporting import ReportingOperator
 from ..scene.results import check_unchanged, write_result
 from ..scene.settings import (
+    HINTS,
     OUTPUTS,
     OVERLAY,
     PARAMETERS,
     FormerArguments,
+    HintProperties,
     OutputProperties,
     OverlayProperties,
     ParameterProperties,
@@ -26,7 +28,8 @@ from ..viewport import shading
 
 
 class REEB_PARTS_OT_decompose(
-    ReportingOperator, bpy.types.Operator, FormerArguments, ParameterProperties, OutputProperties, OverlayProperties
+    ReportingOperator, bpy.types.Operator, FormerArguments, ParameterProperties, HintProperties, OutputProperties,
+    OverlayProperties
 ):
     """Cut the selected mesh into the parts a person would name, and show its Reeb graph"""
 
@@ -49,7 +52,7 @@ class REEB_PARTS_OT_decompose(
         """From the panel: with the panel's settings, in a process of its own, so that the window stays alive."""
         self._take_over_former_names()
         defaults.adopt(context.scene)
-        values = {name: getattr(context.scene.reeb_parts, name) for name in (*PARAMETERS, *OUTPUTS, *OVERLAY)}
+        values = {name: getattr(context.scene.reeb_parts, name) for name in (*PARAMETERS, *HINTS, *OUTPUTS, *OVERLAY)}
         values |= results.detail_of(context.view_layer.objects.active)
         for name, value in values.items():
             if not self.properties.is_property_set(name):
@@ -70,7 +73,7 @@ class REEB_PARTS_OT_decompose(
     def draw(self, context: bpy.types.Context) -> None:
         """The redo panel: how many parts, and what differs from the defaults."""
         self.layout.use_property_split = True
-        for names in (PARAMETERS, OUTPUTS, OVERLAY):
+        for names in (PARAMETERS, HINTS, OUTPUTS, OVERLAY):
             column = self.layout.column(align=True)
             for name in names:
                 if name in {"detail", "n_parts"} or getattr(self, name) != self.rna_type.properties[name].default:
@@ -80,7 +83,7 @@ class REEB_PARTS_OT_decompose(
         """The parameters and the shapes; raises SceneError or ReebError."""
         load_core()
         parameters = self.parameters()
-        return parameters, [(obj.name, bridge.read_shape(obj)) for obj in targets.chosen_objects(context)]
+        return parameters, [(obj.name, bridge.read_shape(obj, self.hints)) for obj in targets.chosen_objects(context)]
 
     def _write(self, context: bpy.types.Context, outcomes: list[Outcome]) -> None:
         """Write what was computed and report on it."""

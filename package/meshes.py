@@ -32,18 +32,20 @@ class Mesh(Protocol):
 
 @overload
 def decompose(vertices: Mesh, *, parameters: Parameters | Mapping[str, Any] | None = None,
-              progress: Progress | None = None, mirror: ArrayLike | None = None) -> Decomposition: ...
+              progress: Progress | None = None, mirror: ArrayLike | None = None,
+              hints: ArrayLike | None = None) -> Decomposition: ...
 
 
 @overload
 def decompose(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]],
               parameters: Parameters | Mapping[str, Any] | None = None, polygon: ArrayLike | None = None,
-              progress: Progress | None = None, *, mirror: ArrayLike | None = None) -> Decomposition: ...
+              progress: Progress | None = None, *, mirror: ArrayLike | None = None,
+              hints: ArrayLike | None = None) -> Decomposition: ...
 
 
 def decompose(vertices: Any, faces: Any = None, parameters: Parameters | Mapping[str, Any] | None = None,
               polygon: ArrayLike | None = None, progress: Progress | None = None, *,
-              mirror: ArrayLike | None = None) -> Decomposition:
+              mirror: ArrayLike | None = None, hints: ArrayLike | None = None) -> Decomposition:
     """Cut a mesh into parts.
 
     Parameters
@@ -62,6 +64,9 @@ def decompose(vertices: Any, faces: Any = None, parameters: Parameters | Mapping
     mirror : (4,) array_like of float, optional
         For a half model: a plane, as its normal and its distance from the origin along it. What is decomposed is the
         mesh together with its image behind that plane; the parts are those of the mesh given.
+    hints : (p,) array_like of int, optional
+        A label for each face that the mesh brings along, such as its material: parts end there more likely than
+        elsewhere.
 
     Returns
     -------
@@ -83,7 +88,7 @@ def decompose(vertices: Any, faces: Any = None, parameters: Parameters | Mapping
             raise MeshError(Sentence("{type} is no mesh: give vertices and faces.", type=type(mesh).__name__))
         vertices, faces = np.asarray(mesh.vertices), mesh.faces
         polygon = getattr(mesh, "polygon", None) if polygon is None else polygon
-    return pipeline.decompose(vertices, faces, parameters, polygon, progress, mirror=mirror)
+    return pipeline.decompose(vertices, faces, parameters, polygon, progress, mirror=mirror, hints=hints)
 
 
 def face_colors(parts: Parts) -> np.ndarray:

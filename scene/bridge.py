@@ -15,7 +15,7 @@ import numpy as np
 from ..core.sentence import Sentence
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
-from . import mesh_arrays, targets
+from . import face_hints, mesh_arrays, targets
 from .half_models import half_plane
 from .mesh_arrays import shown_points
 from .temporary import freed, removed
@@ -36,6 +36,8 @@ class Shape:
         Symmetric; takes the mesh's coordinates to ``vertices``.
     mirror : (4,) float64 or (0,)
         Of a half model the plane behind which its other half is, see ``half_models``.
+    hints : (p,) int64 or (0,)
+        Of each face of the mesh, see ``face_hints``; empty for none.
     digest : str
         Equal for equal vertices, triangles and polygons.
     notes : tuple of Sentence
@@ -46,6 +48,7 @@ class Shape:
     polygon: np.ndarray
     stretch: np.ndarray
     mirror: np.ndarray
+    hints: np.ndarray
     digest: str
     notes: tuple[Sentence, ...]
 
@@ -56,8 +59,11 @@ class Shape:
         return np.bincount(self.polygon, 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1))
 
 
-def read_shape(obj: bpy.types.Object) -> Shape:
-    """Read the mesh of an object: all of it, hidden or not, before any modifier but what mirrors half a model."""
+def read_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Shape:
+    """Read the mesh of an object: all of it, hidden or not, before any modifier but what mirrors half a model.
+
+    hints : one of face_hints.KINDS, what to read besides its geometry.
+    """
     mesh = obj.data
     if obj.mode == "EDIT":
         # A copy as a mesh of its own can be read in bulk; the edit mesh itself cannot.
@@ -66,15 +72,17 @@ def read_shape(obj: bpy.types.Object) -> Shape:
             with freed(bmesh.from_edit_mesh(mesh).copy()) as edit:
                 edit.to_mesh(copy)
             points, (triangles, polygon) = mesh_arrays.basis_points(copy), mesh_arrays.triangles(copy)
+            hint = face_hints.read(copy, hints)
     else:
         points, (triangles, polygon) = shown_points(obj), mesh_arrays.triangles(mesh)
+        hint = face_hints.read(mesh, hints)
     stretch = world_stretch(obj)
     vertices = points.astype(np.float64)
     if not np.array_equal(stretch, np.eye(3)):
         vertices = vertices @ stretch.T
     mirror = half_plane(obj, vertices, stretch)
     digest = mesh_arrays.digest(vertices, triangles, polygon)
-    return Shape(vertices, triangles, polygon, stretch, mirror, digest, _notes(obj, len(mirror) > 0))
+    return Shape(vertices, triangles, polygon, stretch, mirror, hint, digest, _notes(obj, len(mirror) > 0))
 
 
 def world_stretch(obj: bpy.types.Object) -> np.ndarray:

@@ -99,15 +99,16 @@ def decomposition(shape: Shape, parameters: Parameters,
     core = load_core()
     found = known(shape, parameters)
     if found is None:
-        mirror = shape.mirror if len(shape.mirror) else None
-        found = core.decompose(shape.vertices, shape.triangles, parameters, shape.polygon, progress, mirror=mirror)
+        found = core.decompose(
+            shape.vertices, shape.triangles, parameters, shape.polygon, progress,
+            mirror=shape.mirror if len(shape.mirror) else None, hints=shape.hints if len(shape.hints) else None)
         remember(shape, parameters, found)
     return found
 
 
 def key_of(shape: Shape, parameters: Parameters) -> tuple:
     """What a decomposition depends on."""
-    return shape.digest, shape.mirror.tobytes(), replace(parameters, detail=0.5, n_parts=0)
+    return shape.digest, shape.mirror.tobytes(), shape.hints.tobytes(), replace(parameters, detail=0.5, n_parts=0)
 
 
 def known(shape: Shape, parameters: Parameters) -> Decomposition | None:

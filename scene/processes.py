@@ -73,7 +73,7 @@ class Worker:
         # Only its owner can open it.
         self.folder = Path(tempfile.mkdtemp(prefix="reeb_parts_", dir=bpy.app.tempdir or None))
         try:
-            given = [(s.vertices, s.triangles, s.polygon, s.mirror) for s in shapes]
+            given = [(s.vertices, s.triangles, s.polygon, s.mirror, s.hints) for s in shapes]
             handover.write_request(self.folder, given, parameters)
             self._process = self._start(python)
         except BaseException:

@@ -87,6 +87,22 @@ def take_over_former_names(holder: Any) -> list[str]:
     return [translated(note) for note in notes]
 
 
+class HintProperties:
+    """What is read of the mesh besides its shape."""
+
+    hints: EnumProperty(
+        name="Hints", default="NONE",
+        items=[("NONE", "None", "The shape alone decides"),
+               ("MATERIALS", "Materials", "Where the material changes"),
+               ("SEAMS", "Seams", "Along UV seams"),
+               ("SHARP", "Sharp Edges", "Along edges that are marked sharp")],
+        description="What you have marked on the mesh yourself that parts should follow, besides its shape",
+    )
+
+
+HINTS = tuple(HintProperties.__annotations__)
+
+
 class OutputProperties:
     """What is written to the object."""
 
@@ -289,7 +305,8 @@ class FormerArguments:
 
 
 class ReebPartsSettings(
-    bpy.types.PropertyGroup, FormerParameters, ParameterProperties, OutputProperties, OverlayProperties, Settled
+    bpy.types.PropertyGroup, FormerParameters, ParameterProperties, HintProperties, OutputProperties, OverlayProperties,
+    Settled
 ):
     """What the next run will do; on the scene."""
 

@@ -52,7 +52,7 @@ class REEB_PARTS_PT_graph(SettingsPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = settings_column(self, context)
         own = {LAVOUE: ("n_clusters",), LIU: ("outline_weight",)}.get(settings.method, ("small_region",))
-        for name in ("method", "pieces", "symmetry", *own, "loose_part"):
+        for name in ("method", "hints", "pieces", "symmetry", *own, "loose_part"):
             column.prop(settings, name)
 
 

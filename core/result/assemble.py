@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from ..cuts.hierarchy import Candidates, Dendrogram, Hierarchy
+from ..cuts.hinted import hinted_candidates
 from ..cuts.joining.method import LAST
 from ..cuts.symmetric import symmetric_candidates
 from ..field.agd import ScalarField
@@ -76,6 +77,7 @@ def assemble(
     results: list[ComponentResult],
     parameters: Parameters,
     seconds: dict[str, float],
+    hint: np.ndarray,
 ) -> Decomposition:
     """Bring candidates, field and graph back to the caller's faces and vertices.
 
@@ -90,6 +92,8 @@ def assemble(
     parameters : Parameters
     seconds : dict of str -> float
         Seconds that each stage has taken so far.
+    hint : (p,) int64 or (0,)
+        Hint of each of the caller's faces; empty for none.
 
     Returns
     -------
@@ -103,6 +107,8 @@ def assemble(
     for mirror in mirrors:
         label, hierarchy = symmetric_candidates(face_graph, contacts, label, hierarchy, mirror.twin, mirror.height,
                                                 mirror.first)
+    if len(hint):  # after symmetry: of what was marked on one side only, the other knows nothing
+        label, hierarchy = hinted_candidates(face_graph, contacts, label, hierarchy, hint)
     mirror = Mirror.joined(mirrors)
     label, hierarchy = settle(face_graph.with_contacts(contacts), label, hierarchy)
     face_graph = face_graph.with_contacts(contacts)

@@ -90,3 +90,11 @@ def _rows(faces: Sequence) -> tuple[np.ndarray, np.ndarray]:
             Sentence("{n} faces are no rows of whole numbers (first: face {first}).", n=len(wrong), first=wrong[0]),
             faces=wrong)
     return np.concatenate(rows), np.array([len(row) for row in rows], np.int64)
+
+
+def hints_of(hints: Any, n_faces: int) -> np.ndarray:
+    """Labels of faces that the caller has, (n_faces,) int64; raises MeshError if they are anything else."""
+    array = whole_numbers(hints)
+    if array is None or array.shape != (n_faces,):
+        raise MeshError(Sentence("Hints must be one whole number for each of the {n} faces.", n=n_faces))
+    return array

@@ -9,12 +9,19 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
-from .. import transaction
+from .. import mesh_arrays, transaction
 from .colors import linear
 from .kept_aside import PREFIX, bring_back, keep_aside, remove_attribute
 
 _MATERIAL_INDEX = "material_index"
 _KEPT = f"{PREFIX}_material"
+
+
+def own_slots(mesh: bpy.types.Mesh) -> np.ndarray:
+    """The material slot of each face, (p,) int32, as the user has it."""
+    if mesh.reeb_parts.has_materials and _KEPT in mesh.attributes:
+        return mesh_arrays.attribute_values(mesh.attributes[_KEPT])
+    return mesh_arrays.read(mesh.polygons, _MATERIAL_INDEX, np.int32)
 
 
 def add(obj: bpy.types.Object) -> None:

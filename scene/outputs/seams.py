@@ -4,12 +4,20 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from .. import mesh_arrays, transaction
 from .kept_aside import PREFIX, bring_back, keep_aside, remove_attribute
 
 _KEPT = f"{PREFIX}_seam"
+
+
+def own(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Which edges are seams of the user, (e,) bool."""
+    if mesh.reeb_parts.has_seams and _KEPT in mesh.attributes:
+        return mesh_arrays.attribute_values(mesh.attributes[_KEPT])
+    return mesh_arrays.read(mesh.edges, "use_seam", bool)
 
 
 def add(obj: bpy.types.Object) -> None:

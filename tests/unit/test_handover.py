@@ -37,8 +37,9 @@ def test_results(shape, tmp_path):
 
 def test_requests(tmp_path):
     tree, torus = shapes.tube_tree(step=0.13), shapes.torus()
-    given = [(s.vertices, s.faces.astype(np.int32), np.arange(len(s.faces), dtype=np.int32), mirror)
-             for s, mirror in ((tree, np.empty(0)), (torus, np.array([1.0, 0, 0, 0.5])))]
+    given = [(s.vertices, s.faces.astype(np.int32), np.arange(len(s.faces), dtype=np.int32), mirror, hints)
+             for s, mirror, hints in ((tree, np.empty(0), np.empty(0, np.int64)),
+                                     (torus, np.array([1.0, 0, 0, 0.5]), np.arange(len(torus.faces))))]
     parameters = Parameters.preset("Berretti 2009", n_parts=3, base_spacing=1 / 300)
     handover.write_request(tmp_path, given, parameters)
     assert handover.read_request(tmp_path) == (2, parameters)

@@ -22,7 +22,7 @@ OWN = Path(sys.modules["core"].__path__[0]).parent
 
 def start(folder, *given, parameters=None):
     """The process for some shapes, with its standard input and output."""
-    arrays = [(s.vertices, s.faces, np.arange(len(s.faces)), np.empty(0)) for s in given]
+    arrays = [(s.vertices, s.faces, np.arange(len(s.faces)), np.empty(0), np.empty(0, np.int64)) for s in given]
     handover.write_request(folder, arrays, parameters or Parameters())
     libraries = sorted({str(Path(module.__path__[0]).parent) for module in (np, scipy)})
     code = f"import sys; sys.path[:] = [{str(OWN)!r}, *sys.path, *{libraries}]; import pathlib; " \

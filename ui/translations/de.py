@@ -223,6 +223,17 @@ TEXTS = {
         "Wo das Modell sein eigenes Spiegelbild ist, ganz oder zum größten Teil, die Teile ebenso bilden. Änderungen "
         "von Hand geschehen auf beiden Seiten",
     "Pieces": "Stücke",
+    "Hints": "Hinweise",
+    "Along UV seams": "Entlang von UV-Nähten",
+    "Along edges that are marked sharp": "Entlang von Kanten, die als scharf markiert sind",
+    "Hints must be one whole number for each of the {n} faces.":
+        "Hinweise müssen eine ganze Zahl für jede der {n} Flächen sein.",
+    "Seams": "Nähte",
+    "Sharp Edges": "Scharfe Kanten",
+    "The shape alone decides": "Die Form allein entscheidet",
+    "What you have marked on the mesh yourself that parts should follow, besides its shape":
+        "Was Sie selbst auf dem Mesh markiert haben und dem Teile außer der Form folgen sollen",
+    "Where the material changes": "Wo das Material wechselt",
     "Whether pieces that touch without being joined form parts together, like a sleeve and an arm, or each piece is "
     "decomposed on its own":
         "Ob Stücke, die sich berühren, ohne verbunden zu sein, gemeinsam Teile bilden, wie Ärmel und Arm, oder jedes "

@@ -233,6 +233,16 @@ TEXTS = {
     "both sides":
         "当模型整体或大部分与自身镜像相同时，其部件也相应对称。手动更改会在两侧同时进行",
     "Pieces": "块",
+    "Hints": "提示",
+    "Along UV seams": "沿 UV 缝合边",
+    "Along edges that are marked sharp": "沿标记为锐边的边",
+    "Hints must be one whole number for each of the {n} faces.": "提示必须为 {n} 个面中的每个面各给出一个整数。",
+    "Seams": "缝合边",
+    "Sharp Edges": "锐边",
+    "The shape alone decides": "仅由形状决定",
+    "What you have marked on the mesh yourself that parts should follow, besides its shape":
+        "除形状之外，部件还应遵循您自己在网格上标记的内容",
+    "Where the material changes": "在材质变化处",
     "Whether pieces that touch without being joined form parts together, like a sleeve and an arm, or each piece is "
     "decomposed on its own":
         "相互接触但未连接的块是共同构成部件（如衣袖与手臂），还是各自单独分解",

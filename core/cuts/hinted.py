@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Candidates and their hierarchy as they are with a hint: labels that the mesh brings along, such as its materials.
+
+Where the hint changes a cut becomes possible, whatever the shape, and it is likelier; where it does not a cut is less
+likely. What the method of cutting says of two candidates and what the hint says are added as log-odds, and average
+linkage makes a hierarchy of that, as over the pieces of a body: without a hint, the same one.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..surface.arrays import both_ways, components, last_of_each, renumbered
+from ..surface.labels import FaceGraph, majority, spread
+from .hierarchy import Hierarchy
+from .joining.linkage import average_linkage
+from .joining.method import LAST
+
+# What it adds to the log-odds that two candidates belong together if their hints are the same, and takes from them if
+# they differ.
+SAME, OTHER = 0.5, 1.5
+# Share of the area below which what a hint cuts out of a candidate stays in it.
+SMALL = 0.002
+# Salience at least of what parts two places of different hints: that the method saw nothing there says no more.
+LEAST = 0.2
+ROUNDING = 1e-6  # bounds of saliences, whose log-odds are to be finite
+
+
+def hinted_candidates(
+    graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, hint: np.ndarray
+) -> tuple[np.ndarray, Hierarchy]:
+    """Let candidates end where a hint changes, and merge in the order that follows from both.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+        Faces that share an edge.
+    contacts : (k, 2) int64
+        Faces that touch though they share no edge.
+    label : (p,) int64
+        Candidate of each face, all in use; every candidate is connected.
+    hierarchy : Hierarchy
+        Of the candidates; all of them merge in the end.
+    hint : (p,) int64
+        Hint of each face, such as its material.
+
+    Returns
+    -------
+    label : (p,) int64
+        Candidate of each face, each of one hint but for small places, and in one of those given but for small places.
+    hierarchy : Hierarchy
+        Of these.
+    """
+    if (hint == hint[0]).all():
+        return label, hierarchy
+    cell = _cells(graph, label, hint)
+    area = np.bincount(cell, graph.area)
+    own, said = (majority(cell, named, graph.area + ROUNDING * area.sum(), len(area)) for named in (label, hint))
+    pairs, _ = graph.with_contacts(contacts).boundaries(cell)
+    a, b = pairs.T
+    salience = hierarchy.salience[hierarchy.merge_of(own[a], own[b]).clip(max=len(hierarchy.salience) - 1)]
+    other = said[a] != said[b]
+    salience = np.where(own[a] == own[b], 0.0, salience).clip(np.where(other, LEAST, ROUNDING), 1.0 - ROUNDING)
+    score = np.log(1.0 / salience - 1.0) + np.where(other, -OTHER, SAME)
+    weight = np.sqrt(area[pairs].min(axis=1) / area.sum()) + 1e-9
+    merges, joined, _ = average_linkage(len(area), pairs, score, weight)
+    return cell, Hierarchy.of(len(area), merges, np.minimum(1.0 / (1.0 + np.exp(joined)), LAST))
+
+
+def _cells(graph: FaceGraph, label: np.ndarray, hint: np.ndarray) -> np.ndarray:
+    """The connected places of one candidate and one hint, (p,) int64, 0..c-1.
+
+    What little a hint cuts off a candidate joins a neighbor of the same hint: there the candidate ends at the hint.
+    """
+    least = SMALL * graph.area.sum()
+    a, b = graph.pairs.T
+    alike = hint[a] == hint[b]
+    region = components(len(hint), *graph.pairs[alike].T)[1]
+    # A region of a hint that is small as a whole is none.
+    speck = (np.bincount(region, graph.area) < least)[region]
+    alike |= speck[a] | speck[b]
+    within = label[a] == label[b]
+    cell = components(len(label), *graph.pairs[alike & within].T)[1]
+    area, own = np.bincount(cell, graph.area), np.empty(int(cell.max()) + 1, np.int64)
+    own[cell] = label
+    kept = area >= least
+    kept[last_of_each(own, area, -np.arange(len(area)), count=int(label.max()) + 1)] = True
+    cell = np.where(kept[cell], cell, -1)
+    for chosen in (alike, within):
+        cell = spread(cell, *both_ways(graph.pairs[chosen]).T)
+    return renumbered(cell)[1]

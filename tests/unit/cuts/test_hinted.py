@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hints: parts end where what the mesh brings along changes."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import MeshError, decompose
+
+
+@pytest.fixture(scope="module")
+def tree():
+    return shapes.tube_tree()
+
+
+def same_partition(one, two):
+    pairs = set(zip(one.tolist(), two.tolist(), strict=True))
+    return len(pairs) == len(set(one.tolist())) == len(set(two.tolist()))
+
+
+def centers(shape):
+    return shape.vertices[shape.faces].mean(axis=1)
+
+
+def test_where_the_shape_says_nothing_the_hint_decides():
+    ball = shapes.icosphere(3)
+    upper = (centers(ball)[:, 2] > 0).astype(int)
+    found = decompose(*ball, hints=7 * upper)
+    assert found.parts(0.0).count == 1
+    assert same_partition(found.parts(n_parts=2).labels, upper)
+    assert same_partition(found.parts(0.5).labels, upper)
+
+
+def test_one_hint_for_all_is_none(tree):
+    plain, hinted = decompose(*tree), decompose(*tree, hints=np.full(len(tree.faces), -3))
+    assert (hinted.candidates == plain.candidates).all()
+    assert (hinted.hierarchy.merges == plain.hierarchy.merges).all()
+    assert (hinted.hierarchy.salience == plain.hierarchy.salience).all()
+
+
+def test_every_candidate_has_one_hint(tree):
+    hints = (centers(tree)[:, 0] > 0.3).astype(int)
+    found = decompose(*tree, hints=hints)
+    corner = tree.vertices[tree.faces]
+    area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
+    of = np.zeros((found.n_candidates, hints.max() - hints.min() + 1))
+    np.add.at(of, (found.candidates, hints - hints.min()), area)
+    assert of.max(axis=1).sum() == pytest.approx(of.sum())
+    for n in (1, 2, found.n_candidates):
+        assert found.parts(n_parts=n).count == n
+
+
+def test_a_speck_of_another_material_is_no_part():
+    ball = shapes.icosphere(4)
+    speck = np.zeros(len(ball.faces), int)
+    speck[100] = 1
+    assert decompose(*ball, hints=speck).parts(1.0).labels[100] in np.delete(decompose(*ball).parts(1.0).labels, 100)
+    assert same_partition(decompose(*ball, hints=speck).candidates, decompose(*ball).candidates)
+
+
+def test_the_order_of_faces_does_not_matter(tree):
+    hints = (centers(tree)[:, 0] > 0.1).astype(int)
+    expected = decompose(*tree, hints=hints)
+    shuffled, _, face = shapes.shuffled(tree, np.random.default_rng(1))
+    found = decompose(*shuffled, hints=hints[face])
+    for detail in (0.3, 0.5, 0.9):
+        assert same_partition(found.parts(detail).labels, expected.parts(detail).labels[face])
+
+
+def test_half_models_take_them_along():
+    figure = shapes.mirrored_figure()
+    kept = figure.faces[(figure.vertices[figure.faces, 0] >= -1e-9).all(axis=1)]
+    half = shapes.Shape(figure.vertices, kept)
+    hints = (centers(half)[:, 2] > np.median(centers(half)[:, 2])).astype(int)
+    plane = np.array([1.0, 0, 0, 0])
+    found = decompose(*half, mirror=plane, hints=hints)
+    assert (found.candidates != decompose(*half, mirror=plane).candidates).any()
+    assert found.n_faces == len(kept)
+
+
+@pytest.mark.parametrize("hints", [[0, 1], 3, [0.5] * 320, ["a"] * 320, np.zeros((320, 1))], ids=str)
+def test_what_is_no_hint_is_refused(hints):
+    with pytest.raises(MeshError, match="Hints must be one whole number for each of the 320 faces"):
+        decompose(*shapes.icosphere(2), hints=hints)
