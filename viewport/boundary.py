@@ -45,7 +45,8 @@ class Boundary:
 
         self.number = number
         self.numbers = stored.face_numbers
-        pairs, _ = mesh_arrays.corner_table(obj.data).face_pairs()
+        pairs, edges = mesh_arrays.corner_table(obj.data).face_pairs()
+        self.pairs, self.edges = pairs, edges  # (e, 2) faces that meet, and (e,) the edges where they do
         self.center = bridge.face_centers(obj)
         length = np.linalg.norm(self.center[pairs[:, 0]] - self.center[pairs[:, 1]], axis=1)
         size = float(np.linalg.norm(np.ptp(self.center, axis=0)))
@@ -91,17 +92,19 @@ class Boundary:
         low, high = self.reach / self.width
         return int(np.ceil(low)), int(np.ceil(high))
 
-    def ring_labels(self, rings: int, ahead: int) -> np.ndarray:
-        """Labels of faces, (p,) int64, that differ where the boundary is after so many rings and a few more.
-
-        0 and more: 0 on this side of the boundary after so many rings, 1 and so on ring by ring beyond it.
+    def ring_edges(self, rings: int, ahead: int) -> tuple[np.ndarray, np.ndarray]:
+        """Edges where the boundary is after so many rings, and where it would be after a few more.
 
         ahead : 1 for more rings outwards, -1 inwards.
         """
         far = np.where(self.numbers == self.number, -np.inf, np.inf)
         ring = np.where(np.isnan(self.distance), far, self.distance) / self.width
         ring = np.where(ring > 0, np.ceil(ring), np.floor(ring))
-        return np.clip(ahead * (ring - rings), 0, AHEAD).astype(np.int64)
+        # 0 on this side of the boundary, 1 and so on ring by ring beyond it.
+        label = np.clip(ahead * (ring - rings), 0, AHEAD).astype(np.int8)
+        first, second = label[self.pairs[:, 0]], label[self.pairs[:, 1]]
+        differ, on_boundary = first != second, np.minimum(first, second) == 0
+        return self.edges[differ & on_boundary], self.edges[differ & ~on_boundary]
 
 
 def write_moved(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: np.ndarray,

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
 from ..scene import bridge, edits, mesh_arrays, part_list, part_names
 from ..scene.errors import SceneError
@@ -24,7 +25,7 @@ class Knife:
     def __init__(self, obj: bpy.types.Object, model: Model) -> None:
         self.model = model
         self.table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
-        self._number, self._part = 0, self.table  # the part that was asked for last, and its corners
+        self._parts: dict[int, CornerTable] = {}  # corners of the parts that were asked for
 
     def contour(self, target: Target) -> tuple[Contours, int]:
         """The contour that a target asks for: all contours of its level in its part, and which one it is.
@@ -38,9 +39,9 @@ class Knife:
         from ..core.graph.contours import contours
 
         number = self.model.number(target)
-        if number != self._number:
-            self._number, self._part = number, self.table.within(self.model.numbers == number)
-        found = contours(self.model.stored.decomposition.field, target.level, self._part)
+        if number not in self._parts:
+            self._parts[number] = self.table.within(self.model.numbers == number)
+        found = contours(self.model.stored.decomposition.field, target.level, self._parts[number])
         return found, found.around(target.location) if target.on_graph else found.through(target.face)
 
     def ring(self, target: Target) -> np.ndarray:

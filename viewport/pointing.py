@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 from bpy_extras import view3d_utils
 from mathutils import Matrix, Vector
+from mathutils.bvhtree import BVHTree
 
 from ..scene import graph_follow, graph_objects, mesh_arrays, store
 from .graph_lines import GraphLines, nearest
@@ -128,17 +129,55 @@ class Model:
         ahead = back.to_3x3() @ direction
         if not ahead.length:
             return None
-        seen = obj.evaluated_get(context.evaluated_depsgraph_get())
-        hit, location, _, face = seen.ray_cast(back @ start, ahead)
-        if not hit:
+        surface = _surface_of(context, obj)
+        location, _, face, _ = surface.tree.ray_cast(back @ start, ahead)
+        if face is None:
             return None
         location = np.array(location)
-        if len(seen.data.polygons) != len(self.face_value):  # a modifier has made other faces
+        if surface.n_faces != len(self.face_value):  # a modifier has made other faces
             face = int(self.tree.query(location)[1])
         return self._on_face(face, location)
 
     def _on_face(self, face: int, location: np.ndarray) -> Target:
         return Target(int(self.stored.decomposition.candidates[face]), location, float(self.face_value[face]), face)
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """The surface of an object as it is shown, with its modifiers, ready for rays in the object's coordinates.
+
+    Attributes
+    ----------
+    uid : int
+        Of the object.
+    points : (k, 3) float32
+    n_faces : int
+    tree : BVHTree
+    """
+
+    uid: int
+    points: np.ndarray
+    n_faces: int
+    tree: BVHTree
+
+
+_surfaces: list[Surface] = []  # the last one
+
+
+def _surface_of(context: bpy.types.Context, obj: bpy.types.Object) -> Surface:
+    """The surface of an object, read again only once its points have moved.
+
+    Blender's own rays want a new tree whenever something was written to the mesh, be it the color of one face: of
+    200,000 faces that takes 60 to 200 ms.
+    """
+    depsgraph = context.evaluated_depsgraph_get()
+    seen = obj.evaluated_get(depsgraph).data
+    points, n_faces = mesh_arrays.basis_points(seen), len(seen.polygons)
+    if not _surfaces or (_surfaces[0].uid, _surfaces[0].n_faces) != (obj.session_uid, n_faces) or not np.array_equal(
+            _surfaces[0].points, points):
+        _surfaces.clear()
+        _surfaces.append(Surface(obj.session_uid, points, n_faces, BVHTree.FromObject(obj, depsgraph)))
+    return _surfaces[0]
 
 
 _models: list[tuple[tuple, Model]] = []  # the last one, with what it was read of
@@ -156,6 +195,7 @@ def model_of(obj: bpy.types.Object) -> Model:
 def forget() -> None:
     """Free what is kept in memory."""
     _models.clear()
+    _surfaces.clear()
 
 
 def result_key(obj: bpy.types.Object) -> tuple:

@@ -75,12 +75,16 @@ class RingTool(ColoredTool):
 
     def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         super().begin(context, obj)
+        self.read(obj)
+        self._go_to(context, obj, self.way)
+
+    def read(self, obj: bpy.types.Object) -> None:
+        """Read everything once; each ring is a comparison of distances then."""
         self.moving = self.boundaries(obj, self.model.stored)
         lows, highs = zip(*(boundary.most for boundary in self.moving), strict=True)
         self.limits = max(lows), max(highs)
         self.points, self.edges = mesh_arrays.shown_points(obj), mesh_arrays.edge_ends(obj.data)
         self.typed = ""
-        self._go_to(context, obj, self.way)
 
     def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
         """The place of the pointer means nothing."""
@@ -108,19 +112,17 @@ class RingTool(ColoredTool):
         return self.rings + _STEPS[event.type]
 
     def _go_to(self, context: bpy.types.Context, obj: bpy.types.Object, rings: int) -> None:
-        self.rings = int(np.clip(rings, *self.limits))
-        self.show(obj, moved(self.moving, self.rings))
-        ahead = (1 if self.rings > 0 else -1) if self.rings else self.way
-        labels = [boundary.ring_labels(self.rings, ahead) for boundary in self.moving]
-        self.rim, self.next = (self._lines(obj, [shorten(label) for label in labels]) for shorten in (
-            lambda label: np.minimum(label, 1), lambda label: np.maximum(label, 1)))
+        self.go_to(obj, rings)
         if self.at_work:
             self._show_rings(context)
 
-    def _lines(self, obj: bpy.types.Object, labels: list[np.ndarray]) -> np.ndarray:
-        """Where any of some labels of faces differ, (s, 2, 3)."""
-        differ = np.any([mesh_arrays.cut_edges(obj.data, label) for label in labels], axis=0)
-        return self.points[self.edges[differ]]
+    def go_to(self, obj: bpy.types.Object, rings: int) -> None:
+        """Show where the boundaries would be after so many rings."""
+        self.rings = int(np.clip(rings, *self.limits))
+        self.show(obj, moved(self.moving, self.rings))
+        ahead = (1 if self.rings > 0 else -1) if self.rings else self.way
+        found = [boundary.ring_edges(self.rings, ahead) for boundary in self.moving]
+        self.rim, self.next = (self.points[self.edges[np.concatenate(some)]] for some in zip(*found, strict=True))
 
     def _show_rings(self, context: bpy.types.Context) -> None:
         self.preview.lines, self.preview.faint_lines = self.rim, self.next

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts chosen, cut and painted where somebody points; by location here, with the pointer in tests/window."""
 
+import importlib
 import sys
 
 import bpy
@@ -259,3 +260,33 @@ def test_face_sets_painted_by_hand_become_parts(obj, result):
     # The ball is not connected with the rest of part 1: it is a part of its own.
     (other,) = set(after[ball].tolist())
     assert other not in (before[ball][0], new)
+
+
+def test_rays_meet_the_surface_as_it_is_shown(obj, result, package):
+    """Colors written to the mesh leave the tree of it as it is; a shape key, a modifier or another object do not."""
+    pointing = importlib.import_module(f"{package}.viewport.pointing")
+
+    def seen(obj):
+        bpy.context.view_layer.update()
+        target = pointing.Model(obj).along(bpy.context, obj, Vector((0.0, 0.0, 50.0)), Vector((0.0, 0.0, -1.0)))
+        return target.location[2], pointing._surfaces[0]
+
+    height, surface = seen(obj)
+    ray = obj.ray_cast(obj.matrix_world.inverted() @ Vector((0.0, 0.0, 50.0)), Vector((0.0, 0.0, -1.0)))
+    assert height == pytest.approx(ray[1].z, abs=1e-5)
+    obj.data.color_attributes["Reeb Parts"].data[0].color = (1.0, 0.0, 0.0, 1.0)
+    obj.data.update()
+    assert seen(obj)[1] is surface
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Up")
+    for point in key.data:
+        point.co.z += 1.0
+    key.value = 0.5
+    assert seen(obj)[0] == pytest.approx(height + 0.5, abs=1e-5)
+    modifier = obj.modifiers.new("Displace", "DISPLACE")
+    modifier.direction, modifier.strength, modifier.mid_level = "Z", 1.0, 0.0
+    assert seen(obj)[0] == pytest.approx(height + 1.5, abs=1e-5)
+    obj.modifiers.remove(modifier)
+    other = obj.copy()
+    bpy.context.scene.collection.objects.link(other)
+    assert seen(other)[1].uid != obj.session_uid
