@@ -35,7 +35,6 @@ from ..scene import (
     export,
     graph_objects,
     hulls,
-    joints,
     piece_objects,
     results,
     store,
@@ -198,13 +197,15 @@ def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
     """Make of the parts of an object what the options ask for; what its entry in the JSON says of that."""
     stored = store.load(obj.data)
     said = {}
-    if options.separate or options.caps or options.pegs:
+    if options.separate or options.caps or options.pegs or options.bed:
         style = separate_style(options)
         numbers = stored.shown_parts().numbers.tolist()
         separated = piece_objects.separate(bpy.context, obj, stored, numbers, style)
         piece_objects.hide_original(bpy.context, obj)
         if style.joints != "NONE":
-            said["joints"] = joints.as_dicts(separated.cuts, numbers)
+            said["joints"] = [
+                {"parts": sorted(numbers.index(separated.part.get(key, key)) for key in cut.keys), "count": cut.count,
+                 "width": cut.width, "reason": cut.why.lower() or None} for cut in separated.cuts]
     if options.unwrap:
         uv_map.unwrap(bpy.context, obj, stored, open_parts=True, method="MINIMUM_STRETCH", stack=False)
     if options.armature:

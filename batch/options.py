@@ -56,6 +56,8 @@ def parser(description: str | None) -> argparse.ArgumentParser:
         words = joint[name].keywords
         uses.add_argument(f"--peg-{option}", dest=name, default=words["default"], metavar="N",
                           type=_number(words["min"], words["max"]), help=words["description"])
+    uses.add_argument("--bed", nargs=3, type=_number(1.0, 100000.0), metavar=("X", "Y", "Z"),
+                      help="cut them further where they do not fit into a box of so many millimeters")
     uses.add_argument("--unwrap", action="store_true", help="a UV map with an island for each part")
     uses.add_argument("--armature", action="store_true", help="a bone for each part, and weights to pose it with")
     uses.add_argument("--hulls", choices=("unreal", "godot"), metavar="ENGINE",
@@ -88,6 +90,7 @@ def separate_style(options: argparse.Namespace) -> Any:
     style.joint_count = round(style.joint_count)
     style.joints = (options.pegs or "none").upper()
     style.caps = options.caps
+    style.fit_bed, style.bed = bool(options.bed), options.bed or style.bed
     return style
 
 

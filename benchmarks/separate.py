@@ -19,7 +19,10 @@ Voids are what lies between the caps of neighbors, and are only shown. For that,
 stay whole. With --sound, models are separated as by default instead, with smooth cuts, and the table tells how many
 pieces are closed and cross nothing, by how much their volume together differs from the model's, by how many degrees
 rims turn from edge to edge, along faces and smoothly, and by how much per length, the diagonal of the model being 1;
-MODELS may then be .npz files with vertices and faces, too. docs/separate.md has the figures.
+MODELS may then be .npz files with vertices and faces, too. With --joints KIND, closed models are separated with such
+joints, and the table tells how many cuts got them, why the others did not, how many pieces are sound without and with
+them, and by how much the volume of the pieces together differs, with no clearance, from the model's. docs/separate.md
+has the figures.
 """
 
 from __future__ import annotations
@@ -56,10 +59,11 @@ def main() -> int:
     parser.add_argument("--preset", default="Perceptual", metavar="NAME")
     parser.add_argument("--detail", type=float, metavar="D", help="0..1, instead of the preset's")
     parser.add_argument("--sound", action="store_true", help="how good pieces are, as they are made by default")
+    parser.add_argument("--joints", metavar="KIND", help="how many cuts get joints")
     arguments = parser.parse_args(checkout.arguments())
     with tempfile.TemporaryDirectory() as folder:
         checkout.enable(Path(folder))
-        if arguments.sound:
+        if arguments.sound or arguments.joints:
             return sound(arguments)
         print("| model | faces | parts | caps | new borders | edges of 3 faces | lost | area | normals | all else |"
               " volume | voids | s |\n" + "| --- " * 13 + "|")
@@ -113,8 +117,12 @@ def add(name, vertices, faces):
 
 def sound(arguments) -> int:
     """Say of each model how good its pieces are; returns the exit status."""
-    print("| model | faces | closed | pieces | sound | volume | degrees along faces | smooth | turning along faces |"
-          " smooth | s |\n" + "| --- " * 11 + "|")
+    if arguments.joints:
+        print("| model | faces | cuts | with joints | no room | bent | not closed | unsound result | pieces | sound "
+              "without | sound with | volume | s without | s with |\n" + "| --- " * 14 + "|")
+    else:
+        print("| model | faces | closed | pieces | sound | volume | degrees along faces | smooth | turning along "
+              "faces | smooth | s |\n" + "| --- " * 11 + "|")
     for name, make in models(arguments.models):
         bpy.ops.wm.read_homefile(use_empty=True)
         make()
@@ -123,8 +131,33 @@ def sound(arguments) -> int:
         bpy.context.scene.reeb_parts.preset = arguments.preset
         values = asdict(bpy.context.scene.reeb_parts.parameters())
         bpy.ops.reeb_parts.decompose(**values if arguments.detail is None else {**values, "detail": arguments.detail})
-        print(sound_row(name, obj), flush=True)
+        if arguments.joints and pieces.closed_volume(obj.data) is None:
+            continue
+        print(joints_row(name, obj, arguments.joints) if arguments.joints else sound_row(name, obj), flush=True)
     return 0
+
+
+def joints_row(name, obj, kind) -> str:
+    """A row of the table for a closed model that has parts."""
+    fine, seconds = [], []
+    for more in ({"caps": True}, {"joints": kind.upper(), "joint_clearance": 0.0}):
+        start = time.perf_counter()
+        bpy.ops.reeb_parts.separate(hide=False, center=False, **more)
+        seconds.append(time.perf_counter() - start)
+        checks = [json.loads(piece["reeb_parts_check"]) for piece in bpy.data.objects if "reeb_parts_number" in piece]
+        fine.append(sum(is_sound(found) for found in checks))
+        activate(obj)
+    cuts = obj.reeb_parts_made.cuts
+    why = [sum(cut.why == reason for cut in cuts) for reason in ("ROOM", "BENT", "BODY", "RESULT")]
+    joined = sum(cut.count > 0 for cut in cuts)
+    volume = sum(found["volume"] or 0.0 for found in checks) / pieces.closed_volume(obj.data) - 1
+    return (f"| {name} | {len(obj.data.polygons):,} | {joined + sum(why)} | {joined} | {' | '.join(map(str, why))} | "
+            f"{len(checks)} | {fine[0]} | {fine[1]} | {volume:.1e} | {seconds[0]:.2f} | {seconds[1]:.2f} |")
+
+
+def is_sound(found) -> bool:
+    """Whether a check has found nothing."""
+    return not (found["open_edges"] or found["branching_edges"] or found["crossing_faces"] or found["inside_out"])
 
 
 def sound_row(name, obj) -> str:
@@ -139,8 +172,7 @@ def sound_row(name, obj) -> str:
         rims.append(pieces.rims([piece.data for piece in made], size))
         activate(obj)
     checks = [json.loads(piece["reeb_parts_check"]) for piece in made]
-    fine = sum(not (found["open_edges"] or found["branching_edges"] or found["crossing_faces"] or found["inside_out"])
-               for found in checks)
+    fine = sum(map(is_sound, checks))
     whole = pieces.closed_volume(obj.data)
     volume = "" if whole is None or not all(found["volume"] for found in checks) else (
         f"{sum(found['volume'] for found in checks) / whole - 1:.1e}")

@@ -4,7 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import joints, piece_objects, store, targets
+from ..scene import piece_objects, store, targets
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import wanted_numbers
@@ -58,7 +58,12 @@ class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProp
 
     def _report(self, obj: bpy.types.Object, separated: piece_objects.Separated) -> None:
         self.report({"INFO"}, rpt_("{name}: {n} parts are objects now").format(
-            name=obj.name, n=len(separated.pieces)))
+            name=obj.name, n=len(separated.pieces) - len(separated.part)))
+        if separated.part:
+            self.report({"INFO"}, rpt_("{n} more pieces, so that they fit the bed").format(n=len(separated.part)))
+        if separated.too_long:
+            self.report({"WARNING"}, rpt_("Not closed, so not cut to fit the bed: {names}").format(
+                names=", ".join(separated.names[key] for key in separated.too_long)))
         if separated.kept:
             self.report({"INFO"}, rpt_("{n} earlier pieces that were edited since are left as they are").format(
                 n=separated.kept))
@@ -66,7 +71,7 @@ class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProp
             message = rpt_("{n} borders run along faces: a smooth cut would tear or cross a part there")
             self.report({"INFO"}, message.format(n=separated.along_faces))
         if self.joints != "NONE":
-            self._report_joints(obj, separated.cuts)
+            self._report_joints(separated)
         if self.caps or self.joints != "NONE":
             report_unsound(self, separated.pieces)
         if separated.left_open:
@@ -74,8 +79,9 @@ class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProp
                 n=separated.left_open))
 
 
-    def _report_joints(self, obj: bpy.types.Object, cuts: list[joints.CutJoints]) -> None:
+    def _report_joints(self, separated: piece_objects.Separated) -> None:
         """Say how many cuts have joints, and of which others why not."""
+        cuts = separated.cuts
         self.report({"INFO"}, rpt_("{n} of {total} cuts have joints").format(
             n=sum(cut.count > 0 for cut in cuts), total=len(cuts)))
         for why, sentence in (
@@ -84,7 +90,7 @@ class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProp
             ("BODY", rpt_("No joint where a part is not closed or crosses itself: {cuts}")),
             ("RESULT", rpt_("No joint where it would have left a part open or pierced: {cuts}")),
         ):
-            names = [joints.cut_name(obj, cut) for cut in cuts if cut.why == why]
+            names = [separated.cut_name(cut) for cut in cuts if cut.why == why]
             if names:
                 self.report({"WARNING"}, sentence.format(cuts=", ".join(names)))
 

@@ -8,7 +8,7 @@ would leave a piece open, crossing itself or pierced stays without one.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,7 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from . import bridge, caps, mesh_arrays, part_names, piece_checks
+from . import bridge, caps, mesh_arrays, piece_checks
 from .temporary import removed
 from .units import millimeters
 
@@ -39,22 +39,22 @@ class CutJoints:
     ----------
     keys : (int, int)
         Of the pieces.
+    kind : str
+        What it was to have, of settings.JOINTS.
     count : int
         How many joints it has.
     width : float
         How wide they are, in millimeters.
     why : str
-        Why there are none: one of WHY; "" where there are some.
+        Why there are none: "ROOM", "BENT", "BODY" or "RESULT", see operators.separate; "" where there are some, or
+        where none were wanted.
     """
 
     keys: tuple[int, int]
+    kind: str
     count: int
     width: float
     why: str
-
-
-#: Why a cut has no joint.
-WHY = ("ROOM", "BENT", "BODY", "RESULT")
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,19 +85,8 @@ def wanted_joints(style: SeparateProperties) -> Wanted:
         style.joint_clearance, style.joint_size, style.joint_depth, style.joint_wall, _LEAST)))
 
 
-def cut_name(obj: bpy.types.Object, cut: CutJoints) -> str:
-    """The name of a cut: those of its two parts."""
-    return " - ".join(part_names.part_name(obj.data, key) for key in cut.keys)
-
-
-def as_dicts(cuts: list[CutJoints], numbers: list[int]) -> list[dict]:
-    """For JSON; numbers : of the parts, in the order in which they are listed there."""
-    return [{"parts": sorted(numbers.index(key) for key in cut.keys), "count": cut.count, "width": cut.width,
-             "reason": cut.why.lower() or None} for cut in cuts]
-
-
 def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray,
-         wanted: Wanted) -> Joined:
+         wanted: Wanted, kind_of: Callable[[int, int], str] = lambda one, other: "") -> Joined:
     """Give pieces joints at the cuts between them; Object Mode.
 
     Parameters
@@ -108,12 +97,15 @@ def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch:
     stretch : (3, 3) float64
         What the object does to its mesh, see bridge.world_stretch.
     wanted : Wanted
+    kind_of : callable(int, int) -> str
+        The kind of joint between two pieces where it is another one, "NONE" for none; "" where it is not.
 
     Returns
     -------
     joined : Joined
     """
     from ..core.uses.joint_places import joint_places
+    from ..core.uses.joint_shapes import Kind
 
     cuts = _cuts(meshes, stretch)
     keys = sorted({key for cut in cuts for key in cut.keys})
@@ -121,25 +113,28 @@ def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch:
     bodies = {key: _Body(meshes[key], stretch) for key, found in checks.items() if found.volume and found.volume > 0}
     planned: list[_Plan] = []
     for cut in sorted(cuts, key=lambda cut: -cut.cap.area()):
-        if not all(key in bodies for key in cut.keys):
-            planned.append(_Plan(cut, None, "BODY"))
+        kind = kind_of(*cut.keys) or wanted.kind.name
+        own = replace(wanted, kind=Kind(kind)) if kind != "NONE" else None
+        if own is None or not all(key in bodies for key in cut.keys):
+            planned.append(_Plan(cut, own, None, "BODY" if own else "NONE"))
             continue
         # The smaller piece has the peg, the larger one has room for it.
         first = int(checks[cut.keys[0]].volume < checks[cut.keys[1]].volume)  # type: ignore[operator]
         pair = (_Side(bodies, cut, 0), _Side(bodies, cut, 1))
-        places = joint_places(cut.cap, pair, wanted, first)
-        planned.append(_Plan(cut, places, "" if places.joints else "BENT" if places.bent else "ROOM"))
+        places = joint_places(cut.cap, pair, own, first)
+        planned.append(_Plan(cut, own, places, "" if places.joints else "BENT" if places.bent else "ROOM"))
         for joint in places.joints:
             for side in (0, 1):
-                if side == places.into or wanted.kind.both_sides:
-                    bodies[cut.keys[side]].add_hole(_solid(joint, wanted, True))
-    made, planned = _fitted(_Work(context, meshes, checks, stretch, wanted), planned)
+                if side == places.into or own.kind.both_sides:
+                    bodies[cut.keys[side]].add_hole(_solid(joint, own, True))
+    made, planned = _fitted(_Work(context, meshes, checks, stretch), planned)
     for key, mesh in made.items():
         _spread_shape_keys(meshes[key], mesh)
         mesh.name = meshes[key].name
     bpy.data.batch_remove([meshes[key] for key in made])
-    loose = [_dowel(joint, wanted, bridge.unstretch(stretch)) for plan in planned if not plan.why and plan.places
-             for joint in plan.places.joints if wanted.kind.name == "DOWEL"]
+    loose = [_dowel(joint, plan.wanted, bridge.unstretch(stretch)) for plan in planned
+             if not plan.why and plan.places and plan.wanted and plan.wanted.kind is Kind.DOWEL
+             for joint in plan.places.joints]
     return Joined({**meshes, **made}, loose, [plan.said() for plan in planned])
 
 
@@ -167,6 +162,7 @@ class _Plan:
     """What a cut is to have, or why it has nothing; tries : how often it has been made smaller."""
 
     cut: _Cut
+    wanted: Wanted | None
     places: Places | None
     why: str
     tries: int = 0
@@ -181,7 +177,8 @@ class _Plan:
     def said(self) -> CutJoints:
         joints = self.places.joints if self.places is not None and not self.why else ()
         width = 2 * joints[0].radius * millimeters() if joints else 0.0
-        return CutJoints(self.cut.keys, len(joints), width, self.why)
+        kind = self.wanted.kind.name if self.wanted is not None else "NONE"
+        return CutJoints(self.cut.keys, kind, len(joints), width, "" if self.why == "NONE" else self.why)
 
 
 def _cuts(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray) -> list[_Cut]:
@@ -240,15 +237,26 @@ def _cap_faces(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray
 
 def _names(corners: np.ndarray, faces: list[np.ndarray]) -> np.ndarray:
     """A number for each face that faces with corners at the same places share, (f,) uint64."""
-    _, place = np.unique(corners + np.float32(0.0), axis=0, return_inverse=True)
+    place = _places(corners.astype(np.float64))
     # Sums of scattered numbers: those of different sets of places differ.
     scattered = np.random.default_rng(0).integers(0, 1 << 63, int(place.max()) + 1, dtype=np.uint64)
     count = [int(some.max(initial=-1)) + 1 for some in faces]
     start = np.cumsum([0, *count])
     face = np.concatenate([some + first for some, first in zip(faces, start, strict=False)])
     total = np.zeros(start[-1], np.uint64)
-    np.add.at(total, face, scattered[place.ravel()])
+    np.add.at(total, face, scattered[place])
     return total
+
+
+def _places(points: np.ndarray) -> np.ndarray:
+    """A number for each place; points, (n, 3), that differ by rounding are at one."""
+    from scipy.spatial import cKDTree
+
+    from ..core.surface.arrays import components
+
+    own, place = np.unique(points, axis=0, return_inverse=True)
+    near = cKDTree(own).query_pairs(2e-6 * float(np.linalg.norm(np.ptp(own, axis=0))), output_type="ndarray")
+    return components(len(own), *near.T)[1][place.ravel()]
 
 
 class _Body:
@@ -312,7 +320,6 @@ class _Work:
     meshes: dict[int, bpy.types.Mesh]
     checks: dict[int, piece_checks.Check]
     stretch: np.ndarray
-    wanted: Wanted
 
 
 def _fitted(work: _Work, planned: list[_Plan]) -> tuple[dict[int, bpy.types.Mesh], list[_Plan]]:
@@ -352,18 +359,20 @@ def _with_joints(work: _Work, key: int, plans: Iterable[_Plan]) -> bpy.types.Mes
     pegs, holes = [], []
     for plan in plans:
         assert plan.places is not None
+        assert plan.wanted is not None
         receives = plan.cut.keys[plan.places.into] == key
-        for joint in plan.places.joints:
-            (holes if receives or work.wanted.kind.both_sides else pegs).append((joint, receives))
-    solids = [([_solid(joint, work.wanted, receives) for joint, receives in some], operation)
+        some = holes if receives or plan.wanted.kind.both_sides else pegs
+        some += [(joint, plan.wanted, receives) for joint in plan.places.joints]
+    solids = [([_solid(*one) for one in some], operation)
               for some, operation in ((pegs, "UNION"), (holes, "DIFFERENCE")) if some]
-    made = _boolean(work.context, work.meshes[key], solids, bridge.unstretch(work.stretch))
-    more, less = (np.sum([_beyond(joint, work.wanted, receives) for joint, receives in some] or [(0.0, 0.0)], axis=0)
-                  for some in (pegs, holes))
-    if not _is_fine(work, key, made, more[0] - less[1], more[1] - less[0]):
+    more, less = (np.sum([_beyond(*one) for one in some] or [(0.0, 0.0)], axis=0) for some in (pegs, holes))
+    # The solver takes some pieces for their outside; with more patience it does not.
+    for patient in (False, True):
+        made = _boolean(work.context, work.meshes[key], solids, bridge.unstretch(work.stretch), patient)
+        if _is_fine(work, key, made, more[0] - less[1], more[1] - less[0]):
+            return made
         bpy.data.meshes.remove(made)
-        return None
-    return made
+    return None
 
 
 def _is_fine(work: _Work, key: int, made: bpy.types.Mesh, least: float, most: float) -> bool:
@@ -448,8 +457,11 @@ def _solid(joint: Joint, wanted: Wanted, hole: bool) -> Solid:
 
 
 def _boolean(context: bpy.types.Context, mesh: bpy.types.Mesh, tools: list[tuple[list[Solid], str]],
-             to_mesh: np.ndarray) -> bpy.types.Mesh:
-    """A mesh with solids added or taken away, which are caps; to_mesh : (3, 3), from the world to the mesh."""
+             to_mesh: np.ndarray, patient: bool) -> bpy.types.Mesh:
+    """A mesh with solids added or taken away, which are caps.
+
+    to_mesh : (3, 3), from the world to the mesh. patient : whether the solver is to expect crossings and holes.
+    """
     material = Counter(mesh_arrays.read(mesh.polygons, "material_index", np.int32)[_is_cap(mesh)].tolist())
     index = material.most_common(1)[0][0] if material else 0
     base = bpy.data.objects.new("Reeb Parts", mesh)
@@ -464,6 +476,7 @@ def _boolean(context: bpy.types.Context, mesh: bpy.types.Mesh, tools: list[tuple
         for obj, operation in solids:
             modifier = base.modifiers.new("Reeb Parts", "BOOLEAN")
             modifier.object, modifier.operation, modifier.solver = obj, operation, "EXACT"
+            modifier.use_self = modifier.use_hole_tolerant = patient
         context.view_layer.update()
         depsgraph = context.evaluated_depsgraph_get()
         made = bpy.data.meshes.new_from_object(base.evaluated_get(depsgraph), preserve_all_data_layers=True,

@@ -7,6 +7,7 @@ constraints and parent.
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 
 import bpy
@@ -14,13 +15,26 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
-from . import bridge, explode, graph_objects, joints, mesh_arrays, modified, part_names, piece_checks, transaction
+from . import (
+    beds,
+    bridge,
+    cut_list,
+    explode,
+    graph_objects,
+    joints,
+    mesh_arrays,
+    modified,
+    part_names,
+    piece_checks,
+    transaction,
+)
 from .errors import SceneError
 from .outputs.colors import linear
 from .part_meshes import piece_meshes
 from .settings import SeparateProperties
 from .store import Stored
 from .temporary import remove_object, removed
+from .units import millimeters
 
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: name of the object that the pieces come from
 NUMBER = "reeb_parts_number"  # on a piece: of its part
@@ -77,7 +91,13 @@ class Separated:
     kept : int
         Earlier pieces that were left alone.
     cuts : list of joints.CutJoints
-        What became of each cut that was to have joints; its keys are numbers of parts.
+        What became of each cut that was to have joints.
+    names : dict of int -> str
+        What pieces are called, by the keys that the cuts have for them.
+    part : dict of int -> int
+        The number of the part that a piece comes from, by its key, where that is another one.
+    too_long : list of int
+        Keys of pieces that do not fit the bed and could not be cut.
     """
 
     pieces: list[bpy.types.Object]
@@ -86,6 +106,13 @@ class Separated:
     along_faces: int
     kept: int
     cuts: list[joints.CutJoints]
+    names: dict[int, str]
+    part: dict[int, int]
+    too_long: list[int]
+
+    def cut_name(self, cut: joints.CutJoints) -> str:
+        """What a cut is called: by its two pieces."""
+        return " - ".join(self.names[key] for key in cut.keys)
 
 
 def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: list[int],
@@ -113,29 +140,47 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
     seen = modified.seen_mesh(context, obj, face_numbers) if style.seen and modified.has_modifiers(obj) else None
     mesh, face_numbers = seen or (obj.data, face_numbers)
     stretch = bridge.world_stretch(obj)
-    close = style.caps or style.joints != "NONE"
+    close = style.caps or style.fit_bed or style.joints != "NONE"
     with removed(bpy.data.meshes, *([mesh] if seen else [])):
         found = piece_meshes(mesh, face_numbers, numbers, close, stretch if style.cut == "SMOOTH" else None)
-    joined = joints.Joined(found.meshes, [], [])
+    fitted = beds.Fitted(found.meshes, {}, [])
+    if style.fit_bed:
+        fitted = beds.fitted(found.meshes, stretch, np.array(style.bed[:]) / millimeters())
+    part, names = fitted.part, _names(obj, sorted(fitted.meshes), fitted.part)
+    joined = joints.Joined(fitted.meshes, [], [])
     if style.joints != "NONE":
-        joined = joints.join(context, found.meshes, stretch, joints.wanted_joints(style))
-    made = _objects(context, obj, joined.meshes, style)
+        joined = joints.join(context, fitted.meshes, stretch, joints.wanted_joints(style), cut_list.chosen(obj, part))
+        cut_list.write(obj, joined.cuts, part)
+    made = _objects(context, obj, joined.meshes, names, part, style)
     dowels = [_dowel(context, obj, mesh, style) for mesh in joined.loose]
     for piece in (*made, *dowels):
         piece[MADE] = looks(piece)
     if close:
         check_pieces(made, stretch)
-    return Separated(made, dowels, found.left_open, found.along_faces, kept, joined.cuts)
+    return Separated(made, dowels, found.left_open, found.along_faces, kept, joined.cuts, names, part, fitted.left)
+
+
+def _names(obj: bpy.types.Object, keys: list[int], part: dict[int, int]) -> dict[int, str]:
+    """What pieces are called without the name of the object: as their parts, with a number if one comes in several."""
+    count = Counter(part.get(key, key) for key in keys)
+    names, place = {}, Counter()
+    for key in keys:
+        number = part.get(key, key)
+        place[number] += 1
+        name = part_names.part_name(obj.data, number)
+        names[key] = name if count[number] == 1 else f"{name} {place[number]}"
+    return names
 
 
 def _objects(context: bpy.types.Context, obj: bpy.types.Object, meshes: dict[int, bpy.types.Mesh],
-             style: SeparateProperties) -> list[bpy.types.Object]:
+             names: dict[int, str], part: dict[int, int], style: SeparateProperties) -> list[bpy.types.Object]:
     """An object for each piece, in the collection of the pieces, with the color of its part."""
     collection = make_collection(context, obj)
-    colors = {part.number: part.color[:] for part in obj.data.reeb_parts.parts}
+    colors = {listed.number: listed.color[:] for listed in obj.data.reeb_parts.parts}
     made = []
-    for number, mesh in meshes.items():
-        piece = _piece(obj, mesh, part_names.piece_name(obj, number), style)
+    for key, mesh in meshes.items():
+        number = part.get(key, key)
+        piece = _piece(obj, mesh, part_names.with_object(obj, names[key]), style)
         piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER] = number
         collection.objects.link(piece)

@@ -10,6 +10,7 @@ import bpy
 from bpy.props import (
     BoolProperty,
     CollectionProperty,
+    EnumProperty,
     FloatProperty,
     FloatVectorProperty,
     IntProperty,
@@ -18,7 +19,7 @@ from bpy.props import (
 )
 
 from . import explode, part_list, reactions
-from .settings import ReebPartsSettings, ReebPartsUse
+from .settings import JOINTS, ReebPartsSettings, ReebPartsUse
 from .settled import Settled
 
 
@@ -116,8 +117,26 @@ class ReebPartsResult(bpy.types.PropertyGroup, Settled):
                 "parts": [{"name": part.name, "color": part.color[:], "locked": part.locked} for part in self.parts]}
 
 
+class ReebCut(bpy.types.PropertyGroup):
+    """A cut between two parts that were separated, and what joins the pieces there; see cut_list."""
+
+    low: IntProperty()  # numbers of the two parts
+    high: IntProperty()
+    place: IntProperty()  # among the cuts between these
+    joint: EnumProperty(
+        name="Joint", default="ALL", items=[("ALL", "As All", "What Joints says"), *JOINTS],
+        description="What joins these two pieces when the parts are separated the next time",
+    )
+    count: IntProperty()  # of joints
+    width: FloatProperty()  # of these, in millimeters
+    why: StringProperty()  # there are none, see joints.CutJoints
+
+
 class ReebPartsMade(bpy.types.PropertyGroup, Settled):
     """What was made from an object's parts; on the object."""
+
+    cuts: CollectionProperty(type=ReebCut)
+    cut: IntProperty(options=set())  # the active one
 
     pieces: PointerProperty(type=bpy.types.Collection, description="Where the separated parts are")
     explode: FloatProperty(
@@ -130,7 +149,7 @@ class ReebPartsMade(bpy.types.PropertyGroup, Settled):
         return {"explode": self.explode}
 
 
-CLASSES = (ReebPartsSettings, ReebPartsUse, ReebPart, ReebName, ReebPartsResult, ReebPartsMade)
+CLASSES = (ReebPartsSettings, ReebPartsUse, ReebPart, ReebName, ReebPartsResult, ReebCut, ReebPartsMade)
 POINTERS = (
     (bpy.types.Scene, "reeb_parts", ReebPartsSettings),
     (bpy.types.Scene, "reeb_parts_use", ReebPartsUse),

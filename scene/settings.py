@@ -9,7 +9,7 @@ from dataclasses import Field, asdict, fields
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty
 
 from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
 from ..core.uses.colors import LABELS, PALETTES
@@ -185,17 +185,22 @@ class WhichProperties:
     )
 
 
+#: What can join two pieces.
+JOINTS = (
+    ("NONE", "None", "Pieces are closed and flat where they were joined"),
+    ("ROUND", "Round Pegs", "The smaller piece has a round peg, the other a hole for it"),
+    ("SQUARE", "Square Pegs", "Pegs that do not turn in their holes"),
+    ("KEY", "Keys", "Pegs like the tail of a dove, which fit into their holes one way round only"),
+    ("DOWEL", "Dowels", "Both pieces have a hole, and a loose dowel goes into both"),
+    ("MAGNET", "Magnets", "Both pieces have a round hole for a magnet, as deep as Depth says"),
+)
+
+
 class JointProperties:
     """How pieces are joined."""
 
     joints: EnumProperty(
-        name="Joints", default="NONE",
-        items=[("NONE", "None", "Pieces are closed and flat where they were joined"),
-               ("ROUND", "Round Pegs", "The smaller piece has a round peg, the other a hole for it"),
-               ("SQUARE", "Square Pegs", "Pegs that do not turn in their holes"),
-               ("KEY", "Keys", "Pegs like the tail of a dove, which fit into their holes one way round only"),
-               ("DOWEL", "Dowels", "Both pieces have a hole, and a loose dowel goes into both"),
-               ("MAGNET", "Magnets", "Both pieces have a round hole for a magnet, as deep as Depth says")],
+        name="Joints", default="NONE", items=JOINTS,
         description="What joins the pieces when they are printed, along the axis of each cut; holes are closed then. "
         "A cut without room for it stays without",
     )
@@ -225,6 +230,15 @@ class JointProperties:
 
 class SeparateProperties(WhichProperties, JointProperties):
     """How parts become objects."""
+
+    fit_bed: BoolProperty(
+        name="Fit the Bed", default=False,
+        description="Cut parts that are longer than the printer's bed further, in planes across them",
+    )
+    bed: FloatVectorProperty(
+        name="Bed (mm)", default=(220.0, 220.0, 250.0), size=3, min=1.0, max=100000.0, precision=1, step=1000,
+        description="Width, depth and height that can be printed, in millimeters; pieces may be turned to fit",
+    )
 
     cut: EnumProperty(
         name="Cuts", default="SMOOTH", translation_context="Reeb Parts",  # to Blender, the number of cuts

@@ -7,7 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
-from ..scene import piece_checks, piece_objects, store
+from ..scene import cut_list, piece_checks, piece_objects, store
 from .panel import SubPanel, settings_column
 
 
@@ -24,14 +24,25 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         settings = context.scene.reeb_parts_use
         # How the button Separate, which is just above, makes objects.
         column.row().prop(settings, "which", expand=True)
-        for name in ("cut", "caps", "center", "modifiers", "seen", "parent", "hide", "joints"):
+        for name in ("cut", "caps", "center", "modifiers", "seen", "parent", "hide", "fit_bed"):
             column.prop(settings, name)
+        if settings.fit_bed:
+            column.prop(settings, "bed")
+        column.prop(settings, "joints")
         if settings.joints != "NONE":
             for name in ("joint_count", "joint_size", "joint_depth", "joint_clearance", "joint_wall"):
                 column.prop(settings, name)
+            self._draw_cuts(column, context.object)
         column.separator()
         column.prop(context.object.reeb_parts_made, "explode", slider=True)
         self._draw_outputs(context.object.data.reeb_parts)
+
+    def _draw_cuts(self, column: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+        """The cuts of the last time, each with what joins it and a choice for the next time."""
+        made = obj.reeb_parts_made
+        if made.cuts:
+            rows = min(max(len(made.cuts), 2), 6)
+            column.template_list("REEB_PARTS_UL_cuts", "", made, "cuts", made, "cut", rows=rows)
 
     def _draw_outputs(self, result: bpy.types.PropertyGroup) -> None:
         """Buttons that stay pressed for as long as there is what they make."""
@@ -46,6 +57,20 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         self.layout.operator("reeb_parts.export", text="Export to Files...", icon="EXPORT")
         self.layout.operator("reeb_parts.armature", text="Make Armature", icon="ARMATURE_DATA")
         self.layout.operator("reeb_parts.hulls", text="Make Collision Hulls", icon="MESH_ICOSPHERE")
+
+
+class REEB_PARTS_UL_cuts(bpy.types.UIList):
+    def draw_item(self, context: bpy.types.Context, layout: bpy.types.UILayout, data: bpy.types.PropertyGroup,
+                  item: bpy.types.PropertyGroup, icon: int, active_data: bpy.types.PropertyGroup,
+                  active_property: str) -> None:
+        row = layout.row(align=True)
+        obj = item.id_data
+        joined = {"icon": "CHECKMARK" if item.count else "ERROR" if item.why else "BLANK1"}
+        row.label(text=cut_list.cut_name(obj, item), translate=False, **joined)
+        if item.count:
+            text = iface_("{n} of {width} mm").format(n=item.count, width=f"{item.width:.1f}")
+            row.label(text=text, translate=False)
+        row.prop(item, "joint", text="")
 
 
 class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
@@ -88,4 +113,4 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
             row.operator("reeb_parts.repair_piece", text="Repair")
 
 
-CLASSES = (REEB_PARTS_PT_use, REEB_PARTS_PT_piece)
+CLASSES = (REEB_PARTS_UL_cuts, REEB_PARTS_PT_use, REEB_PARTS_PT_piece)

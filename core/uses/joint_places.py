@@ -193,7 +193,9 @@ def joint_places(cap: Cap, bodies: tuple[Body, Body], wanted: Wanted, first: int
 def _axes(cap: Cap, along: np.ndarray | None) -> np.ndarray | None:
     """Rows: along the longer side of the cap, across, and out of the first piece; None without an axis."""
     normal, total = cap.normals().sum(axis=0), cap.area()
-    if np.linalg.norm(normal) < _STRAIGHT * total or not total > 0:
+    if not total > 1e-12 * np.ptp(cap.corners(), axis=(0, 1)).max(initial=0.0) ** 2:
+        return None
+    if np.linalg.norm(normal) < _STRAIGHT * total:
         if along is None:
             return None
         normal = along
@@ -246,7 +248,8 @@ class _Grid:
             v, w = _turn(p - a[:, :2], (c - a)[:, :2]) / twice, _turn((b - a)[:, :2], p - a[:, :2]) / twice
             over = (v >= -1e-9) & (w >= -1e-9) & (v + w <= 1 + 1e-9)
             height = a[:, 2] + v * (b - a)[:, 2] + w * (c - a)[:, 2]
-            least, most = np.where(over, height, np.inf).min(axis=1), np.where(over, height, -np.inf).max(axis=1)
+            least = np.where(over, height, np.inf).min(axis=1, initial=np.inf)
+            most = np.where(over, height, -np.inf).max(axis=1, initial=-np.inf)
             low[part], high[part] = np.where(over.any(axis=1), [least, most], np.nan)
         return low, high
 

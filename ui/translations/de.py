@@ -648,6 +648,23 @@ TEXTS = {
         "Keine Verbindung, wo ein Teil nicht geschlossen ist oder sich durchdringt: {cuts}",
     "No joint where it would have left a part open or pierced: {cuts}":
         "Keine Verbindung, wo sie ein Teil geöffnet oder durchstoßen hätte: {cuts}",
+    "Joint": "Verbindung",
+    "As All": "Wie alle",
+    "What Joints says": "Was unter Verbindungen steht",
+    "What joins these two pieces when the parts are separated the next time":
+        "Was diese beiden Stücke verbindet, wenn die Teile das nächste Mal getrennt werden",
+    "{n} of {width} mm": "{n} zu {width} mm",
+    "Fit the Bed": "Passend zum Druckbett",
+    "Cut parts that are longer than the printer's bed further, in planes across them":
+        "Teile, die länger als das Bett des Druckers sind, weiter schneiden, in Ebenen quer durch sie",
+    "Bed (mm)": "Druckbett (mm)",
+    "Width, depth and height that can be printed, in millimeters; pieces may be turned to fit":
+        "Breite, Tiefe und Höhe, die gedruckt werden können, in Millimetern; Stücke dürfen dafür gedreht werden",
+    "{n} more pieces, so that they fit the bed": "{n} Stücke mehr, damit sie ins Druckbett passen",
+    "Not closed, so not cut to fit the bed: {names}":
+        "Nicht geschlossen und darum nicht für das Druckbett geschnitten: {names}",
+    "There would be more than {n} pieces. Is the bed in millimeters?":
+        "Es würden mehr als {n} Stücke. Ist das Druckbett in Millimetern angegeben?",
     # Was über ein Mesh zu sagen ist
     "{n} edges join more than two faces (non-manifold).":
         "Kanten mit mehr als zwei Flächen (nicht mannigfaltig): {n}.",

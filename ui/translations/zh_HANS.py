@@ -605,6 +605,20 @@ TEXTS = {
     "No joint where a cut is so bent that it has no axis: {cuts}": "切口过于弯曲而没有轴线，因此无接头：{cuts}",
     "No joint where a part is not closed or crosses itself: {cuts}": "部件未封闭或自相交，因此无接头：{cuts}",
     "No joint where it would have left a part open or pierced: {cuts}": "接头会使部件开口或被穿透，因此无接头：{cuts}",
+    "Joint": "接头",
+    "As All": "同全部",
+    "What Joints says": "按“接头”的设置",
+    "What joins these two pieces when the parts are separated the next time": "下次分离部件时用什么连接这两块",
+    "{n} of {width} mm": "{n} 个，宽 {width} 毫米",
+    "Fit the Bed": "适合打印床",
+    "Cut parts that are longer than the printer's bed further, in planes across them":
+        "将长于打印床的部件沿横向平面继续切开",
+    "Bed (mm)": "打印床（毫米）",
+    "Width, depth and height that can be printed, in millimeters; pieces may be turned to fit":
+        "可打印的宽度、深度和高度，以毫米为单位；各块可以旋转以放入",
+    "{n} more pieces, so that they fit the bed": "为适合打印床而多出 {n} 块",
+    "Not closed, so not cut to fit the bed: {names}": "未封闭，因此未按打印床切开：{names}",
+    "There would be more than {n} pieces. Is the bed in millimeters?": "将超过 {n} 块。打印床是以毫米为单位吗？",
     # 关于网格的说明
     "{n} edges join more than two faces (non-manifold).": "{n} 条边连接两个以上的面（非流形）。",
     "{n} border edges: the surface is open there.": "{n} 条开放边：表面在此处开放。",

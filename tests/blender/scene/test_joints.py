@@ -262,3 +262,43 @@ def test_a_second_run_makes_the_same_again(make):
 def test_undo(obj):
     bpy.ops.reeb_parts.decompose(n_parts=3)
     check_undo(lambda: bpy.ops.reeb_parts.separate(joints="DOWEL", joint_count=2))
+
+
+def test_each_cut_can_have_its_own(make):
+    """Chosen in the list, kept by the next run, and by one that does not have the cut."""
+    obj = make(shapes.dumbbell(), "Tree")
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    bpy.ops.reeb_parts.separate(joints="ROUND", **KEEP)
+    cuts = obj.reeb_parts_made.cuts
+    assert [(cut.joint, cut.count > 0, cut.why) for cut in cuts] == [("ALL", True, "")] * 2
+    cuts[0].joint, cuts[1].joint = "DOWEL", "NONE"
+    names = [(cut.low, cut.high) for cut in cuts]
+    activate(obj)
+    bpy.ops.reeb_parts.separate(joints="ROUND", **KEEP)
+    assert [(cut.low, cut.high) for cut in cuts] == names
+    assert [(cut.joint, cut.count, cut.why) for cut in cuts] == [("DOWEL", 1, ""), ("NONE", 0, "")]
+    assert len(dowels()) == 1
+    activate(obj)
+    bpy.ops.reeb_parts.separate(joints="NONE", **KEEP)
+    assert dowels() == []
+    assert [cut.joint for cut in cuts] == ["DOWEL", "NONE"]
+
+
+def test_an_error_leaves_all_as_it_was(make, joined, monkeypatch):
+    """Even in the midst of making joints."""
+    make(shapes.dumbbell(), "Tree")
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    before = snapshot()
+    whole = joined._is_fine
+    asked = []
+
+    def stumble(*arguments):
+        asked.append(arguments)
+        if len(asked) == 3:
+            raise KeyError("something unforeseen")
+        return whole(*arguments)
+
+    monkeypatch.setattr(joined, "_is_fine", stumble)
+    with pytest.raises(RuntimeError, match="something unforeseen"):
+        bpy.ops.reeb_parts.separate(joints="DOWEL", **KEEP)
+    assert changes(before, snapshot()) == []
