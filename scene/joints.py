@@ -297,10 +297,14 @@ class _Side:
                       axis=0, initial=np.inf) if len(points) else np.empty(0)
 
     def inside(self, points: np.ndarray) -> np.ndarray:
-        # Three directions that no mesh has for its own; most of them are right.
-        ways = ((0.287, 0.513, 0.809), (-0.743, 0.431, -0.512), (0.339, -0.871, 0.355))
-        odd = [[self._crossings(point, way) % 2 for way in ways] for point in points.tolist()]
-        return np.array(odd, np.int64).reshape(-1, 3).sum(axis=1) >= 2
+        return np.array([self._is_inside(point) for point in points.tolist()], bool)
+
+    def _is_inside(self, point: list[float]) -> bool:
+        # Directions that no mesh has for its own; most of the three are right.
+        first, second, third = (0.287, 0.513, 0.809), (-0.743, 0.431, -0.512), (0.339, -0.871, 0.355)
+        odd = self._crossings(point, first) % 2
+        same = self._crossings(point, second) % 2 == odd
+        return bool(odd if same else self._crossings(point, third) % 2)
 
     def _crossings(self, point: list[float], way: tuple[float, float, float]) -> int:
         count, step = 0, 1e-6 * self._size
