@@ -2,6 +2,7 @@
 """Parts as objects, and back to the object that they come from."""
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import piece_objects, store, targets
@@ -11,26 +12,36 @@ from ..scene.part_list import wanted_numbers
 from ..scene.reporting import ReportingOperator
 from ..scene.selection import select_objects
 from ..scene.settings import SeparateProperties
+from ..scene.stepped import SteppedOperator
+from ..scene.steps import Steps, stretched
 from ..viewport import shading
 from .checks import report_unsound
 
+# With so many vertices it takes about a second: then there is progress, and Esc.
+_LARGE = 40_000
 
-class REEB_PARTS_OT_separate(ReportingOperator, bpy.types.Operator, SeparateProperties):
+
+class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProperties):
     """Make separate objects of the parts, with all that the mesh carries; the original stays as it is"""
 
     bl_idname = "reeb_parts.separate"
     bl_label = "Separate Parts into Objects"
+    stage = n_("separating parts")
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, SeparateProperties, context)
-        return self.execute(context)
+        n_vertices = sum(len(obj.data.vertices) for obj in targets.chosen_objects(context))
+        return self.start(context) if n_vertices >= _LARGE else self.execute(context)
 
-    def run(self, context: bpy.types.Context) -> None:
+    def steps(self, context: bpy.types.Context) -> Steps[None]:
         objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
+        made = []
         with object_mode(context):
             found = [(obj, store.load(obj.data)) for obj in objects]
-            made = [(obj, piece_objects.separate(context, obj, stored, wanted_numbers(obj.data, self.which), self))
-                    for obj, stored in found]
+            for index, (obj, stored) in enumerate(found):
+                steps = piece_objects.separating(context, obj, stored, wanted_numbers(obj.data, self.which), self)
+                separated = yield from stretched(steps, index / len(found), (index + 1) / len(found))
+                made.append((obj, separated))
         if self.hide:
             self._hide(context, [obj for obj, _ in made])
         every = [piece for _, separated in made for piece in (*separated.pieces, *separated.loose)]

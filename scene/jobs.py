@@ -190,11 +190,33 @@ class Job:
             self._worker = None
 
 
-# The job that the window shows, if any.
-current: Job | None = None
+class Progress:
+    """Work that Blender itself does in steps, see stepped.SteppedOperator; the window shows it as it shows a job.
+
+    Parameters
+    ----------
+    stage : str
+        What it is doing.
+    """
+
+    def __init__(self, stage: str) -> None:
+        self.stage, self.share, self.cancelled = stage, 0.0, False
+
+    @property
+    def text(self) -> str:
+        """What it is doing, in the language of the interface."""
+        return rpt_(self.stage)
+
+    def cancel(self) -> None:
+        """End it at the next step."""
+        self.cancelled = True
+
+
+# What the window shows, if anything.
+current: Job | Progress | None = None
 
 
 def cancel() -> None:
-    """End the job that the window shows, if there is one."""
+    """End what the window shows, if there is anything."""
     if current is not None:
         current.cancel()

@@ -164,7 +164,16 @@ def triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Blender's own triangulation, and the face of each triangle; not in Edit Mode."""
     if len(mesh.loops) == 3 * len(mesh.polygons):
         return corner_vertices(mesh).reshape(-1, 3), np.arange(len(mesh.polygons), dtype=np.int32)
+    if len(mesh.loops) > 3.1 * len(mesh.polygons):
+        return _loop_triangles(mesh)
     return triangulated(basis_points(mesh), read(mesh.polygons, "loop_total", np.int32), corner_vertices(mesh))
+
+
+def _loop_triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Blender's list, which is slow to read."""
+    mesh.calc_loop_triangles()
+    items = mesh.loop_triangles
+    return read(items, "vertices", np.int32, 3), read(items, "polygon_index", np.int32)
 
 
 def triangulated(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -189,18 +198,20 @@ def triangulated(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarra
     found, face = corner_vertex[corner].reshape(-1, 3), np.flatnonzero(three).astype(np.int32)
     if three.all():
         return found, face
-    used, place = np.unique(corner_vertex[~corner], return_inverse=True)
+    on = np.zeros(len(points), bool)
+    on[corner_vertex[~corner]] = True
+    used = np.flatnonzero(on).astype(np.int32)
+    place = (np.cumsum(on, dtype=np.int32) - 1)[corner_vertex[~corner]]
     mesh = bpy.data.meshes.new("Reeb Parts")
     try:
         mesh.vertices.add(len(used))
         mesh.loops.add(len(place))
         mesh.polygons.add(len(count) - len(face))
         mesh.attributes["position"].data.foreach_set("vector", points[used].ravel())
-        mesh.attributes[".corner_vert"].data.foreach_set("value", place.astype(np.int32))
+        mesh.attributes[".corner_vert"].data.foreach_set("value", place)
         mesh.polygons.foreach_set("loop_start", np.cumsum(count[~three], dtype=np.int32) - count[~three])
-        mesh.calc_loop_triangles()
-        others = used[read(mesh.loop_triangles, "vertices", np.int32, 3)]
-        of = np.flatnonzero(~three)[read(mesh.loop_triangles, "polygon_index", np.int32)]
+        others, of = _loop_triangles(mesh)
+        others, of = used[others], np.flatnonzero(~three)[of]
     finally:
         bpy.data.meshes.remove(mesh)
     found, face = np.concatenate([found, others]), np.concatenate([face, of.astype(np.int32)])

@@ -20,6 +20,7 @@ from .elements import Elements
 from .holes import Holes
 from .outputs import kept_aside, materials
 from .sculpted_pieces import SculptedMesh, is_sculpted
+from .steps import Steps, finished, stretched
 from .temporary import removed
 
 _NORMAL = "reeb_parts_normal"  # corner attribute: the user's normals, while faces are taken apart
@@ -97,6 +98,12 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
     -------
     made : PieceMeshes
     """
+    return finished(making_pieces(mesh, face_numbers, wanted, close, smooth))
+
+
+def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int], close: bool = False,
+                  smooth: np.ndarray | None = None) -> Steps[PieceMeshes]:
+    """What ``piece_meshes`` does, in steps."""
     plain = plain_copy(mesh)
     others = [(part.number, part.material) for part in mesh.reeb_parts.parts if part.material is not None]
     wanted = [number for number in wanted if (face_numbers == number).any()]
@@ -104,20 +111,22 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
         _keep_normals(plain)
         source = partial(SculptedMesh, plain) if is_sculpted(mesh) else partial(
             PlainMesh, plain, element_layers.read(plain))
-        made = _made(source(), face_numbers, wanted, close, smooth, np.empty((0, 2), np.int64))
+        yield 0.1
+        made = yield from stretched(_made(source(), face_numbers, wanted, close, smooth, np.empty((0, 2), np.int64)),
+                                    0.1, 0.8)
         if smooth is not None and len(made.crossing):
-            made = _with_whole_faces(source, face_numbers, wanted, smooth, made)
+            made = yield from stretched(_with_whole_faces(source, face_numbers, wanted, smooth, made), 0.8, 1.0)
     for number, piece in made.meshes.items():
         materials.drop_slots(piece, [material for other, material in others if other != number])
     return made
 
 
 def _with_whole_faces(source: Callable[[], PlainMesh | SculptedMesh], face_numbers: np.ndarray, wanted: list[int],
-                      smooth: np.ndarray, made: PieceMeshes) -> PieceMeshes:
+                      smooth: np.ndarray, made: PieceMeshes) -> Steps[PieceMeshes]:
     """The pieces with some borders along faces, if fewer of their caps cross something then; else those given."""
     along = made.crossing
-    for _ in range(2):
-        other = _made(source(), face_numbers, wanted, True, smooth, along)
+    for start in (0.0, 0.5):
+        other = yield from stretched(_made(source(), face_numbers, wanted, True, smooth, along), start, start + 0.5)
         better = other.n_crossings < made.n_crossings
         worse = made if better else other
         bpy.data.batch_remove(list(worse.meshes.values()))
@@ -163,12 +172,13 @@ class PlainMesh:
 
 
 def _made(source: PlainMesh | SculptedMesh, face_numbers: np.ndarray, wanted: list[int], close: bool,
-          smooth: np.ndarray | None, along: np.ndarray) -> PieceMeshes:
+          smooth: np.ndarray | None, along: np.ndarray) -> Steps[PieceMeshes]:
     """The pieces of a mesh; along : (k, 2), parts whose border stays along faces."""
     along_faces = 0
     try:
         if smooth is not None:
             face_numbers, along_faces = source.divide(face_numbers, smooth, along)
+        yield 0.3
         order = np.argsort(face_numbers, kind="stable")
         first = np.searchsorted(face_numbers[order], [[number, number + 1] for number in wanted])
         holes = Holes.of(source.whole, face_numbers) if close else None
@@ -177,6 +187,7 @@ def _made(source: PlainMesh | SculptedMesh, face_numbers: np.ndarray, wanted: li
             made[number], left = source.piece(order[start:end], holes)
             left_open += left
             _set_normals(made[number])
+            yield 0.3 + 0.7 * end / len(order)
         if holes is None:
             return PieceMeshes(made, left_open, along_faces, np.empty((0, 2), np.int64), 0)
         crossing = _pairs(source.whole, face_numbers, holes.discs.crossing)

@@ -30,8 +30,9 @@ from . import (
 )
 from .errors import SceneError
 from .outputs.colors import linear
-from .part_meshes import piece_meshes
+from .part_meshes import making_pieces
 from .settings import SeparateProperties
+from .steps import Steps, finished, stretched
 from .store import Stored
 from .temporary import remove_object, removed
 from .units import millimeters
@@ -135,6 +136,12 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
     -------
     separated : Separated
     """
+    return finished(separating(context, obj, stored, numbers, style))
+
+
+def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: list[int],
+               style: SeparateProperties) -> Steps[Separated]:
+    """What ``separate`` does, in steps."""
     kept = _remove_earlier(obj, numbers)
     face_numbers = stored.shown_parts().face_numbers
     seen = modified.seen_mesh(context, obj, face_numbers) if style.seen and modified.has_modifiers(obj) else None
@@ -142,7 +149,8 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
     stretch = bridge.world_stretch(obj)
     close = style.caps or style.fit_bed or style.joints != "NONE"
     with removed(bpy.data.meshes, *([mesh] if seen else [])):
-        found = piece_meshes(mesh, face_numbers, numbers, close, stretch if style.cut == "SMOOTH" else None)
+        found = yield from stretched(
+            making_pieces(mesh, face_numbers, numbers, close, stretch if style.cut == "SMOOTH" else None), 0.0, 0.7)
     fitted = beds.Fitted(found.meshes, {}, [])
     if style.fit_bed:
         fitted = beds.fitted(found.meshes, stretch, np.array(style.bed[:]) / millimeters())
@@ -151,12 +159,14 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
     if style.joints != "NONE":
         joined = joints.join(context, fitted.meshes, stretch, joints.wanted_joints(style), cut_list.chosen(obj, part))
         cut_list.write(obj, joined.cuts, part)
+        yield 0.8
     made = _objects(context, obj, joined.meshes, names, part, style)
     dowels = [_dowel(context, obj, mesh, style) for mesh in joined.loose]
     for piece in (*made, *dowels):
         piece[MADE] = looks(piece)
-    if close:
-        check_pieces(made, stretch)
+    for index, piece in enumerate(made if close else ()):
+        yield 0.8 + 0.2 * index / len(made)
+        check_pieces([piece], stretch)
     return Separated(made, dowels, found.left_open, found.along_faces, kept, joined.cuts, names, part, fitted.left)
 
 

@@ -123,7 +123,8 @@ def _draw_decompose(layout: bpy.types.UILayout, again: bool) -> None:
     if jobs.current is not None:
         text = jobs.current.text
         row.progress(factor=jobs.current.share, text=text[:1].upper() + text[1:])
-        row.operator("reeb_parts.cancel", text="", icon="X")
+        if isinstance(jobs.current, jobs.Job):  # in steps of Blender's own only keys reach it
+            row.operator("reeb_parts.cancel", text="", icon="X")
         return
     row.operator("reeb_parts.decompose", text="Decompose", icon="MOD_EXPLODE")
     if again:

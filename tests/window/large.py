@@ -49,7 +49,37 @@ def steps():
     yield from pointer.tap("ctrl+z")
     yield 1.0
     seen["drag undone"] = facts()
+    yield from separated(seen)
     (pointer.OUT / "seen.json").write_text(json.dumps(seen))
+
+
+def separated(seen):
+    """Separate, with caps, ended by Esc, then left to its end, and undone."""
+    bpy.context.scene.reeb_parts_use.caps = True
+    for name, key in (("ended", "Escape"), ("separated", None)):
+        yield from pointer.push("reeb_parts.separate")
+        if key:
+            pointer.xdo("key", key)
+        shares = set()
+        while bpy.ops.reeb_parts.cancel.poll():
+            shares.add(jobs().current.share)
+            if len(shares) == 2:
+                pointer.shot(f"2_{name}.png")
+            yield 0.01
+        yield 0.5
+        seen[name] = {**facts(), "shares": sorted(shares), "objects": sorted(bpy.data.objects.keys()),
+                      "meshes": sorted(bpy.data.meshes.keys())}
+    pointer.shot("3_separated.png")
+    pointer.xdo("mousemove", *pointer.in_view())
+    yield 0.2
+    yield from pointer.tap("ctrl+z")
+    yield 1.0
+    seen["separation undone"] = {**facts(), "objects": sorted(bpy.data.objects.keys())}
+
+
+def jobs():
+    """The extension's module, wherever it is installed."""
+    return next(module for name, module in sys.modules.items() if name.endswith("reeb_parts.scene.jobs"))
 
 
 def mesh():

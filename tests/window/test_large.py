@@ -29,3 +29,13 @@ def test_each_is_one_exact_step_of_undo(seen):
     assert seen["redone"] == seen["typed"]
     assert seen["dragged"]["detail"] != 0.9
     assert seen["drag undone"] == seen["typed"]
+
+
+def test_separate_shows_how_far_it_is_and_esc_ends_it_with_nothing_changed(seen):
+    ended, separated = seen["ended"], seen["separated"]
+    assert len(ended["shares"]) < len(separated["shares"])
+    assert ended["objects"] == seen["separation undone"]["objects"]
+    assert ended["meshes"] == ["spot"]
+    for name in ("ended", "separated", "separation undone"):
+        assert seen[name]["digest"] == seen["drag undone"]["digest"]
+    assert len(separated["objects"]) == len(ended["objects"]) + separated["parts"]

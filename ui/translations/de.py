@@ -191,6 +191,7 @@ TEXTS = {
     "distances": "Abstände",
     "reeb graph": "Reeb-Graph",
     "cuts": "Schnitte",
+    "separating parts": "Teile werden getrennt",
     "parts": "Teile",
     "done": "fertig",
     # Parameter

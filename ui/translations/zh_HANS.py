@@ -205,6 +205,7 @@ TEXTS = {
     "distances": "距离",
     "reeb graph": "Reeb 图",
     "cuts": "切口",
+    "separating parts": "正在分离部件",
     "parts": "部件",
     "done": "完成",
     # 参数

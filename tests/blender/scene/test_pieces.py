@@ -2,6 +2,7 @@
 """reeb_parts.separate: pieces are what their faces were, and nothing of the user's is lost."""
 
 import importlib
+import itertools
 from pathlib import Path
 
 import bmesh
@@ -819,7 +820,8 @@ def test_where_a_smooth_cut_goes_wrong_faces_stay_whole(make, separate, seed):
     numbers = 1 + np.linalg.norm(centers[:, None] - seeds[None], axis=2).argmin(axis=1)
     made = separate.piece_meshes(obj.data, numbers, range(1, 31), True, np.eye(3))
     plain = separate.PlainMesh(separate.plain_copy(obj.data))
-    smooth = separate._made(plain, numbers, list(range(1, 31)), True, np.eye(3), np.empty((0, 2), np.int64))
+    smooth = separate.finished(
+        separate._made(plain, numbers, list(range(1, 31)), True, np.eye(3), np.empty((0, 2), np.int64)))
     assert made.n_crossings < smooth.n_crossings
     assert made.along_faces > smooth.along_faces
     assert all(borders(mesh) == (set(), 0) for mesh in made.meshes.values())
@@ -905,3 +907,36 @@ def test_what_is_sculpted_with_multires_stays(obj, style):
         points = seen_points(piece)
         assert len(points) > 2 * len(piece.data.vertices)
         assert np.median(cKDTree(whole).query(points)[0]) < 1e-5
+
+
+@pytest.mark.parametrize("style", [{"caps": True}, {"caps": False, "cut": "FACES"}])
+def test_to_end_it_at_any_step_leaves_everything_as_it_was(package, obj, style):
+    """In the window it goes on in steps and Esc ends it; whichever step it is at, nothing is left of it."""
+    scene = importlib.import_module(f"{package}.scene.piece_objects")
+    transaction = importlib.import_module(f"{package}.scene.transaction").transaction
+    stored = importlib.import_module(f"{package}.scene.store")
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    activate(obj)
+    for name, value in style.items():
+        setattr(bpy.context.scene.reeb_parts_use, name, value)
+    before = snapshot()
+    numbers = [part.number for part in obj.data.reeb_parts.parts]
+    settings = bpy.context.scene.reeb_parts_use
+
+    def steps():
+        with transaction():
+            yield from scene.separating(bpy.context, obj, stored.load(obj.data), numbers, settings)
+
+    shares, last = [], 0
+    while True:
+        work = steps()
+        shares = list(itertools.islice(work, last + 1))
+        if len(shares) <= last:
+            break
+        work.close()
+        assert changes(before, snapshot()) == []
+        last += 1
+    assert last > len(numbers)
+    assert shares == sorted(shares)
+    assert 0 <= shares[0] < shares[-1] <= 1

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Long work in steps: a generator that yields how far it is, 0..1, and returns what comes of it.
+
+A script runs through it at once. In the window an operator takes a step whenever Blender has drawn, see
+stepped.SteppedOperator; to close the generator ends the work, and a transaction around it takes back what was done.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from typing import TypeVar
+
+Result = TypeVar("Result")
+Steps = Generator[float, None, Result]
+
+
+def finished(steps: Steps[Result]) -> Result:
+    """Run through all steps; what comes of them."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
+
+
+def stretched(steps: Steps[Result], start: float, end: float) -> Steps[Result]:
+    """The same steps as a stretch of something longer."""
+    try:
+        while True:
+            share = next(steps)
+            yield start + share * (end - start)
+    except StopIteration as last:
+        return last.value
+    finally:
+        steps.close()
