@@ -105,10 +105,14 @@ def decompose(
         return of_half(decompose(np.ldexp(whole.vertices, half.exponent), whole.triangles, parameters, whole.polygon,
                                  progress, model, join_model, hints=both), half)
     watch = Stopwatch(progress)
-    with watch.stage("mesh", MESH_SHARE):
-        given, ordering = sorted_by_place(PolygonMesh.of(vertices, faces, polygon))
+    with watch.stage("mesh", MESH_SHARE) as done_of_mesh:
+        read = PolygonMesh.of(vertices, faces, polygon)
+        done_of_mesh(0.1)
+        given, ordering = sorted_by_place(read)
         hint = np.zeros(0, np.int64) if hints is None else hints_of(hints, given.n_polygons)[ordering.polygon]
+        done_of_mesh(0.4)
         working = repair(given)
+        done_of_mesh(0.9)
         chosen = bodies(working, parameters.pieces == TOGETHER, parameters.loose_part)
     results = []
     for done, component in enumerate(chosen):

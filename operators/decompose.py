@@ -2,16 +2,17 @@
 """Decompose: read, compute, write. The scene is untouched until the result exists."""
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.parameters import Parameters
-from ..scene import bridge, defaults, jobs, redraw, results, targets
+from ..scene import bridge, defaults, jobs, results, targets
 from ..scene.bridge import Shape
 from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core, translated
 from ..scene.modes import object_mode
 from ..scene.reporting import ReportingOperator
-from ..scene.results import check_unchanged, write_result
+from ..scene.results import check_unchanged, writing_result
 from ..scene.settings import (
     HINTS,
     OUTPUTS,
@@ -24,17 +25,20 @@ from ..scene.settings import (
     ParameterProperties,
     take_over_former_names,
 )
+from ..scene.stepped import LARGE, SteppedOperator
+from ..scene.steps import Steps, finished, stretched
 from ..viewport import shading
 
 
 class REEB_PARTS_OT_decompose(
-    ReportingOperator, bpy.types.Operator, FormerArguments, ParameterProperties, HintProperties, OutputProperties,
+    SteppedOperator, bpy.types.Operator, FormerArguments, ParameterProperties, HintProperties, OutputProperties,
     OverlayProperties
 ):
     """Cut the selected mesh into the parts a person would name, and show its Reeb graph"""
 
     bl_idname = "reeb_parts.decompose"
     bl_label = "Decompose into Parts"
+    stage = n_("writing the parts")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -64,7 +68,7 @@ class REEB_PARTS_OT_decompose(
         self._take_over_former_names()
         defaults.complete(self)
         parameters, shapes = self._read(context)
-        self._write(context, compute_all(shapes, parameters, lambda stage, share, of="": None))
+        finished(self._writing(context, compute_all(shapes, parameters, lambda stage, share, of="": None)))
 
     def _take_over_former_names(self) -> None:
         for note in take_over_former_names(self.properties):
@@ -85,14 +89,15 @@ class REEB_PARTS_OT_decompose(
         parameters = self.parameters()
         return parameters, [(obj.name, bridge.read_shape(obj, self.hints)) for obj in targets.chosen_objects(context)]
 
-    def _write(self, context: bpy.types.Context, outcomes: list[Outcome]) -> None:
+    def _writing(self, context: bpy.types.Context, outcomes: list[Outcome]) -> Steps[None]:
         """Write what was computed and report on it."""
         done = [outcome for outcome in outcomes if outcome.decomposition is not None]
         if not done:
             raise SceneError(translated(outcomes[0].problem))
         with object_mode(context):
-            for outcome in done:
-                write_result(context, bpy.data.objects[outcome.object_name], outcome, self)
+            for index, outcome in enumerate(done):
+                steps = writing_result(context, bpy.data.objects[outcome.object_name], outcome, self)
+                yield from stretched(steps, index / len(done), (index + 1) / len(done))
         for outcome in outcomes:
             self._report(outcome, len(outcomes) > 1)
 
@@ -107,70 +112,86 @@ class REEB_PARTS_OT_decompose(
         self.report({"INFO"}, name + rpt_("{n} parts in {seconds:.1f} s").format(
             n=len(result.parts), seconds=outcome.seconds))
 
-    # In the window
-
-    def _start(self, context: bpy.types.Context) -> set[str]:
-        parameters, shapes = self._read(context)
-        self._job = jobs.Job(shapes, parameters)
-        self._job.start()
-        jobs.current = self._job
-        self._shown = ""
-        self._digests = {name: shape.digest for name, shape in shapes}
-        self._timer = context.window_manager.event_timer_add(0.05, window=context.window)
-        context.window_manager.progress_begin(0, 100)
-        context.window_manager.modal_handler_add(self)
-        self._show_progress(context)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Watch the process; every other event goes its usual way."""
-        if event.type == "ESC" and event.value == "PRESS":
-            self._job.cancel()
-        if event.type == "TIMER":
-            self._job.poll(lambda: self._show_progress(context))
-            self._show_progress(context)
-        if self._job.running:
-            return {"PASS_THROUGH" if event.type != "ESC" else "RUNNING_MODAL"}
-        self._stop_watching(context)
-        if self._job.cancelled:
-            self.report({"INFO"}, rpt_("Cancelled; nothing was changed"))
-            return {"CANCELLED"}
-        return self.attempt(self._finish, context)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Blender closes the window or opens another file."""
-        self._job.cancel()
-        self._stop_watching(context)
-
-    def _finish(self, context: bpy.types.Context) -> None:
+    def steps(self, context: bpy.types.Context) -> Steps[None]:
+        """Write what was computed in the window."""
+        assert self._job is not None
         if self._job.error is not None:
             raise self._job.error
         assert self._job.result is not None
         check_unchanged(self._digests)
         if self.colors:
             shading.show_colors(context)
-        self._write(context, self._job.result)
+        yield from self._writing(context, self._job.result)
         if self._job.in_blender:
             self.report({"INFO"}, rpt_("Blender stood still, since its Python could not be started beside it"))
 
-    def _show_progress(self, context: bpy.types.Context) -> None:
-        if self._job.in_blender:
-            text = rpt_("Reeb Parts: {stage} ({share:.0%})    Blender stands still until the parts are there")
-        else:
-            text = rpt_("Reeb Parts: {stage} ({share:.0%})    Esc: cancel")
-        text = text.format(stage=self._job.text, share=self._job.share)
-        if text != self._shown:
-            self._shown = text
-            context.window_manager.progress_update(round(100 * self._job.share))
-            context.workspace.status_text_set(text)
-            redraw.sidebars()
+    # In the window
 
-    def _stop_watching(self, context: bpy.types.Context) -> None:
-        jobs.current = None
-        context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
-        redraw.sidebars()
+    _job: jobs.Job | None = None
+
+    def _start(self, context: bpy.types.Context) -> set[str]:
+        self._large = sum(len(obj.data.vertices) for obj in targets.chosen_objects(context)) >= LARGE
+        self._rounds = 0
+        if not self._large:
+            self._launch(context)
+        self._watch(context, self._job or jobs.Progress(n_("reading the mesh")), 0.05)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def _launch(self, context: bpy.types.Context) -> None:
+        """Read the shapes and start the process."""
+        parameters, shapes = self._read(context)
+        self._job = jobs.Job(shapes, parameters)
+        self._job.start()
+        self._digests = {name: shape.digest for name, shape in shapes}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Watch the process; every other event goes its usual way. Then write, in steps if that takes long."""
+        if self._work is not None:
+            return super().modal(context, event)
+        if event.type == "ESC" and event.value == "PRESS":
+            jobs.cancel()
+        if event.type == "TIMER" and not self._advance(context):
+            return {"CANCELLED"}
+        if not self._progress.cancelled and (self._job is None or self._job.running):
+            return {"PASS_THROUGH" if event.type != "ESC" else "RUNNING_MODAL"}
+        self._stop_watching(context)
+        if self._progress.cancelled:
+            self.report({"INFO"}, rpt_("Cancelled; nothing was changed"))
+            return {"CANCELLED"}
+        if self._large:
+            self.begin(context)
+            return {"RUNNING_MODAL"}
+        return self.attempt(lambda: finished(self.steps(context)))
+
+    def _advance(self, context: bpy.types.Context) -> bool:
+        """See how far it is; False if it could not be started."""
+        self._rounds += 1
+        if self._job is not None:
+            self._job.poll(lambda: self._show_progress(context))
+        elif self._rounds == 3:  # by now, the window has been drawn
+            if self.attempt(self._launch, context) == {"CANCELLED"}:
+                self._stop_watching(context)
+                return False
+            assert self._job is not None
+            self._job.share = 0.01  # the mesh has been read
+            self._progress = jobs.current = self._job
+        self._show_progress(context)
+        return True
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Blender closes the window or opens another file, or Esc ends the writing."""
+        if self._work is not None:
+            super().cancel(context)
+        else:
+            self._progress.cancel()
+            self._stop_watching(context)
+
+    def progress_text(self) -> str:
+        """For the status bar."""
+        if self._job is not None and self._job.in_blender and self._work is None:
+            return rpt_("Reeb Parts: {stage} ({share:.0%})    Blender stands still until the parts are there")
+        return super().progress_text()
 
 
 class REEB_PARTS_OT_cancel(ReportingOperator, bpy.types.Operator):

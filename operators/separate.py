@@ -12,13 +12,10 @@ from ..scene.part_list import wanted_numbers
 from ..scene.reporting import ReportingOperator
 from ..scene.selection import select_objects
 from ..scene.settings import SeparateProperties
-from ..scene.stepped import SteppedOperator
+from ..scene.stepped import LARGE, SteppedOperator
 from ..scene.steps import Steps, stretched
 from ..viewport import shading
 from .checks import report_unsound
-
-# With so many vertices it takes about a second: then there is progress, and Esc.
-_LARGE = 40_000
 
 
 class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProperties):
@@ -31,7 +28,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, SeparateProperties, context)
         n_vertices = sum(len(obj.data.vertices) for obj in targets.chosen_objects(context))
-        return self.start(context) if n_vertices >= _LARGE else self.execute(context)
+        return self.start(context) if n_vertices >= LARGE else self.execute(context)
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]

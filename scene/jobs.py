@@ -83,7 +83,7 @@ class Job:
     @property
     def text(self) -> str:
         """What it is doing, in the language of the interface."""
-        stage = rpt_(self.stage)
+        stage = rpt_(self.stage) if self.stage else rpt_("starting")
         return f"{self.of}: {stage}" if self.of else stage
 
     @property
@@ -135,7 +135,8 @@ class Job:
         self._ready = True
         if "stage" in message:
             self._at(message["shape"])
-            self.stage, self.share = message["stage"], (self._index + message["share"]) / len(self._shapes)
+            share = (self._index + message["share"]) / len(self._shapes)
+            self.stage, self.share = message["stage"], max(self.share, share)
         elif "error" in message or "done" in message:
             self._at(message["shape"])
             self._receive(message)

@@ -14,6 +14,7 @@ from ..core.result.numbering import NumberedParts
 from . import armature, bridge, explode, graph_objects, notes, outputs, quiet, store, targets, transaction, uv_map
 from .compute import Outcome
 from .errors import SceneError
+from .steps import Steps, finished
 
 
 def check_unchanged(digests: dict[str, str]) -> None:
@@ -51,6 +52,11 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
     settings
         Has the values of OutputProperties and OverlayProperties.
     """
+    finished(writing_result(context, obj, outcome, settings))
+
+
+def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> Steps[None]:
+    """What ``write_result`` does, in steps."""
     mesh, decomposition = obj.data, outcome.decomposition
     assert decomposition is not None
     parameters = decomposition.parameters
@@ -59,8 +65,10 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
     stored = store.succeed(mesh, decomposition)
     numbered = stored.shown_parts()
     result = mesh.reeb_parts
+    yield 0.1
     with quiet.quiet():
         store.save(mesh, stored)
+        yield 0.4
         result.object_name = obj.name
         result.stretch = outcome.shape.stretch.ravel().tolist()
         result.seconds = outcome.seconds
@@ -69,6 +77,7 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
         outputs.write_outputs(obj, numbered, decomposition.field, settings)
         outputs.keep_places(mesh, numbered)
     store.mark_pins(mesh, stored)
+    yield 0.8
     # Other objects of the mesh show its parts, and a graph of theirs is that of the result before.
     for user in targets.users(mesh):
         if settings.graph and (user == obj or graph_objects.find(user)):

@@ -15,6 +15,9 @@ from .reporting import ReportingOperator
 from .steps import Steps, finished
 from .transaction import transaction
 
+#: With so many vertices it can take a second or more: then there is progress, and Esc.
+LARGE = 40_000
+
 # Steps are taken for so many seconds before the window is drawn again.
 _BREATH = 0.1
 
@@ -27,6 +30,7 @@ class SteppedOperator(ReportingOperator):
 
     #: What it is doing, for the status bar.
     stage = ""
+    _work: Steps[None] | None = None
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         """Do what the operator is for, see steps.py. Raises SceneError or ReebError."""
@@ -40,8 +44,14 @@ class SteppedOperator(ReportingOperator):
         """From ``invoke``: go on in steps, unless the window shows another work already."""
         if bpy.app.background or jobs.current is not None:
             return self.execute(context)
-        self._begin(context)
+        self.begin(context)
+        context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
+
+    def begin(self, context: bpy.types.Context) -> None:
+        """Go on in steps whenever ``modal`` is called."""
+        self._work = self._in_transaction(context)
+        self._watch(context, jobs.Progress(self.stage), 0.01)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Take steps; every event ends here."""
@@ -53,18 +63,11 @@ class SteppedOperator(ReportingOperator):
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Esc, or Blender closes the window: take back what was done."""
+        assert self._work is not None
         try:
             self._work.close()
         finally:
             self._stop_watching(context)
-
-    def _begin(self, context: bpy.types.Context) -> None:
-        self._work, self._shown = self._in_transaction(context), ""
-        self._progress = jobs.current = jobs.Progress(self.stage)
-        self._timer = context.window_manager.event_timer_add(0.01, window=context.window)
-        context.window_manager.progress_begin(0, 100)
-        context.window_manager.modal_handler_add(self)
-        self._show_progress(context)
 
     def _in_transaction(self, context: bpy.types.Context) -> Steps[None]:
         with transaction():
@@ -73,6 +76,7 @@ class SteppedOperator(ReportingOperator):
 
     def _go_on(self, context: bpy.types.Context) -> set[str]:
         """Take some steps, and show how far it is."""
+        assert self._work is not None
         start = time.monotonic()
         try:
             while time.monotonic() < start + _BREATH:
@@ -90,9 +94,20 @@ class SteppedOperator(ReportingOperator):
         self._show_progress(context)
         return {"RUNNING_MODAL"}
 
+    def progress_text(self) -> str:
+        """For the status bar."""
+        return rpt_("Reeb Parts: {stage} ({share:.0%})    Esc: cancel")
+
+    def _watch(self, context: bpy.types.Context, progress: jobs.Job | jobs.Progress, interval: float) -> None:
+        """Have the window show how far it is, and call ``modal`` after so many seconds, again and again."""
+        self._progress = jobs.current = progress
+        self._shown = ""
+        self._timer = context.window_manager.event_timer_add(interval, window=context.window)
+        context.window_manager.progress_begin(0, 100)
+        self._show_progress(context)
+
     def _show_progress(self, context: bpy.types.Context) -> None:
-        text = rpt_("Reeb Parts: {stage} ({share:.0%})    Esc: cancel")
-        text = text.format(stage=self._progress.text, share=self._progress.share)
+        text = self.progress_text().format(stage=self._progress.text, share=self._progress.share)
         if text != self._shown:
             self._shown = text
             context.window_manager.progress_update(round(100 * self._progress.share))

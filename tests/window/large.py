@@ -74,7 +74,8 @@ def separated(seen):
     yield 0.2
     yield from pointer.tap("ctrl+z")
     yield 1.0
-    seen["separation undone"] = {**facts(), "objects": sorted(bpy.data.objects.keys())}
+    seen["separation undone"] = {**facts(), "objects": sorted(bpy.data.objects.keys()),
+                                 "meshes": sorted(bpy.data.meshes.keys())}
 
 
 def jobs():

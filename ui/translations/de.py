@@ -192,6 +192,9 @@ TEXTS = {
     "reeb graph": "Reeb-Graph",
     "cuts": "Schnitte",
     "separating parts": "Teile werden getrennt",
+    "reading the mesh": "Mesh wird gelesen",
+    "starting": "Start",
+    "writing the parts": "Teile werden geschrieben",
     "parts": "Teile",
     "done": "fertig",
     # Parameter

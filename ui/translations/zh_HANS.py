@@ -206,6 +206,9 @@ TEXTS = {
     "reeb graph": "Reeb 图",
     "cuts": "切口",
     "separating parts": "正在分离部件",
+    "reading the mesh": "正在读取网格",
+    "starting": "正在启动",
+    "writing the parts": "正在写入部件",
     "parts": "部件",
     "done": "完成",
     # 参数
