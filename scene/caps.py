@@ -228,9 +228,10 @@ def _inner(bm: BMesh, rim: list[BMVert], disc: Disc) -> list[BMVert]:
     made = [bm.verts.new(place) for place in disc.places.tolist()]
     if not made:
         return made
-    moved = disc.places - disc.spread(_values(rim, "co"))
-    for layer in bm.verts.layers.shape.values():
-        _set(made, layer, disc.spread(_values(rim, layer)) + moved)
+    if shapes := bm.verts.layers.shape.values():
+        moved = disc.places - disc.spread(_values(rim, "co"))
+        for layer in shapes:
+            _set(made, layer, disc.spread(_values(rim, layer)) + moved)
     for kind in ("float_vector", "float_color", "color"):
         for layer in getattr(bm.verts.layers, kind).values():
             _set(made, layer, disc.spread(_values(rim, layer)))
