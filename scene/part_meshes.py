@@ -151,12 +151,13 @@ class PlainMesh:
         self._mesh = mesh
         self.whole = whole or element_layers.read(mesh)
 
-    def divide(self, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> tuple[np.ndarray, int]:
+    def divide(self, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> Steps[tuple[np.ndarray, int]]:
         """Divide faces where smooth cuts run, see smooth_faces.divide_faces.
 
         Returns the number of each face's part, of the faces that there are now, and how many borders stay along faces.
         """
-        self.whole, face_numbers, cuts = smooth_faces.divide_faces(self.whole, self._mesh, face_numbers, stretch, along)
+        self.whole, face_numbers, cuts = yield from smooth_faces.divide_faces(
+            self.whole, self._mesh, face_numbers, stretch, along)
         return face_numbers, cuts.kept
 
     def piece(self, faces: np.ndarray, holes: Holes | None) -> tuple[bpy.types.Mesh, int]:
@@ -177,7 +178,8 @@ def _made(source: PlainMesh | SculptedMesh, face_numbers: np.ndarray, wanted: li
     along_faces = 0
     try:
         if smooth is not None:
-            face_numbers, along_faces = source.divide(face_numbers, smooth, along)
+            steps = source.divide(face_numbers, smooth, along)
+            face_numbers, along_faces = yield from stretched(steps, 0.0, 0.3)
         yield 0.3
         order = np.argsort(face_numbers, kind="stable")
         first = np.searchsorted(face_numbers[order], [[number, number + 1] for number in wanted])

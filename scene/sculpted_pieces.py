@@ -15,6 +15,7 @@ from bmesh.types import BMesh
 
 from . import element_layers, mesh_arrays, smooth_faces, targets
 from .holes import Holes
+from .steps import Steps
 from .temporary import freed
 
 
@@ -30,7 +31,7 @@ class SculptedMesh:
         self._mesh = mesh.copy()
         self.whole = element_layers.read(self._mesh)
 
-    def divide(self, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> tuple[np.ndarray, int]:
+    def divide(self, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> Steps[tuple[np.ndarray, int]]:
         """Divide faces where smooth cuts run, see smooth_faces.divide_faces."""
         mesh, number = self._mesh, smooth_faces.NUMBER
         mesh.attributes.new(number, "INT", "FACE").data.foreach_set("value", face_numbers.astype(np.int32))
@@ -39,6 +40,7 @@ class SculptedMesh:
             _with_bmesh(mesh, lambda bm: smooth_faces.triangulate(bm, cuts.odd))
             whole = element_layers.read(mesh)
             cuts = smooth_faces.find_cuts(whole, whole.layers[number].values.astype(np.int64), stretch, along)
+        yield 0.7
         _with_bmesh(mesh, lambda bm: smooth_faces.divide(bm, cuts))
         face_numbers = mesh_arrays.attribute_values(mesh.attributes[number]).astype(np.int64)
         mesh.attributes.remove(mesh.attributes[number])

@@ -19,6 +19,7 @@ from bmesh.types import BMesh, BMFace, BMVert
 from ..core.surface.corners import CornerTable
 from . import element_layers
 from .elements import FACE, Elements, Layer, Selection
+from .steps import Steps
 from .temporary import freed, removed
 
 if TYPE_CHECKING:
@@ -29,8 +30,8 @@ NUMBER = "reeb_parts_face_number"
 
 
 def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray,
-                 along: np.ndarray) -> tuple[Elements, np.ndarray, CleanCuts]:
-    """Divide the faces of a mesh where smooth cuts between its parts run.
+                 along: np.ndarray) -> Steps[tuple[Elements, np.ndarray, CleanCuts]]:
+    """Divide the faces of a mesh where smooth cuts between its parts run, in steps.
 
     Parameters
     ----------
@@ -58,6 +59,7 @@ def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray
                                        lambda bm, _, odd: triangulate(bm, odd))
         cuts = find_cuts(whole, face_numbers, stretch, along)
         assert not len(cuts.odd)
+    yield 0.7
     if not len(cuts.face):
         return whole, face_numbers, cuts
     crossed = np.zeros(len(whole.ends), bool)
