@@ -34,7 +34,7 @@ class BaseVertices:
         Base vertices.
     areas : (k,) float64
         Area that each base vertex stands for, in squared units of the vertices; the sum is the area of the surface.
-    distances : (k, n) float32
+    distances : (k, n) float64
         Geodesic distance from each base vertex to every vertex, in the unit of the vertices.
     """
 
@@ -97,7 +97,7 @@ def spread_base_vertices(
 
     Notes
     -----
-    One search per base vertex: O(k n log n) time, 4 k n bytes. The first base vertex is the vertex farthest from
+    One search per base vertex: O(k n log n) time, 8 k n bytes. The first base vertex is the vertex farthest from
     the centroid, so that the choice depends on the shape and not on the order of the vertices.
     """
     centroid = weighted_sum(vertex_area, mesh.vertices) / vertex_area.sum()
@@ -109,7 +109,7 @@ def spread_base_vertices(
     most = MOST_BASE_VERTICES * expected
     while True:
         row = solver.distances(chosen[-1])
-        rows.append(row.astype(np.float32))
+        rows.append(row)
         closer = row < (1 - 1e-9) * nearest  # of equally near base vertices the first, despite rounding
         nearest[closer] = row[closer]
         owner[closer] = len(chosen) - 1
@@ -139,10 +139,7 @@ def average_geodesic_distance(base: BaseVertices) -> np.ndarray:
     agd : (n,) float64
         In the unit of the vertices; scales with the mesh. Not normalized.
     """
-    agd = np.zeros(base.distances.shape[1])
-    for area, row in zip(base.areas, base.distances, strict=True):
-        agd += area * row  # areas @ distances would copy all distances to float64
-    return agd / base.areas.sum()
+    return weighted_sum(base.areas, base.distances) / base.areas.sum()
 
 
 def normalize(values: np.ndarray) -> np.ndarray:
