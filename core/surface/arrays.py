@@ -49,6 +49,15 @@ def rounded(values: np.ndarray) -> np.ndarray:
     return np.ldexp(np.rint(mantissa * 2.0**26), exponent - 26)
 
 
+def square_roots(values: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Square roots of differences that would not be negative but for rounding.
+
+    values : array of float64. scale : array of float64, size of what they are differences of. What is below 1e-12 of
+    it is 0: the root would be a thousand times as large as the rounding error that it comes from.
+    """
+    return np.sqrt(np.where(values > 1e-12 * scale, values, 0.0))
+
+
 def whole_steps(length: np.ndarray) -> np.ndarray:
     """Lengths of ways in whole steps of 2**-22, one or more: their sums are exact.
 

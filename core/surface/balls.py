@@ -10,6 +10,7 @@ STEPS = 12  # upper bound of the number of times that a ball shrinks
 # Cosine of the smallest angle between the two points that a ball touches, seen from its center. A ball stops shrinking
 # before the angle falls below this one: it would only fit into the roughness of the surface.
 SEPARATION = np.cos(np.deg2rad(50.0))
+BEFORE = 1.0 - 1e-6
 
 
 def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest: float) -> np.ndarray:
@@ -35,7 +36,9 @@ def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest
     active = np.arange(len(point))
     for _ in range(STEPS):
         p, d = point[active], direction[active]
-        center = p + radius[active, None] * d
+        # A little before the center: of points that are equally far from it, as around the axis of a tube, the one
+        # that makes the smallest ball is then the nearest.
+        center = p + BEFORE * radius[active, None] * d
         distance, nearest = tree.query(center)
         offset = tree.data[nearest] - p
         height = (offset * d).sum(axis=1)

@@ -6,11 +6,11 @@ from __future__ import annotations
 import heapq
 
 import numpy as np
-from scipy.sparse.csgraph import dijkstra
 
 from ...surface.arrays import components, rounded, sums_by, symmetric_matrix, whole_steps
 from ...surface.labels import label_boundaries
 from ...surface.mesh import TriMesh
+from ...surface.nearest_seeds import nearest_seeds
 
 # Share of the area below which a region is a sliver: whatever parts it from its neighbors counts SLIVER times only.
 SMALL, SLIVER = 0.02, 0.1
@@ -43,7 +43,7 @@ def grow_regions(mesh: TriMesh, label: np.ndarray) -> np.ndarray:
     source = np.full(mesh.n_faces, -1)
     if seed.any():
         ways = symmetric_matrix(mesh.edges.pairs, way, mesh.n_faces)
-        source = dijkstra(ways, indices=np.flatnonzero(seed), min_only=True, return_predecessors=True)[2]
+        source = nearest_seeds(ways, np.flatnonzero(seed))[1]
     region = np.where(source >= 0, core[source], mesh.n_faces)
     inside = region[first] == region[second]
     return components(mesh.n_faces, first[inside], second[inside])[1]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import rounded
+from ...surface.arrays import rounded, square_roots
 from .measures import BORDER, REGION, matrices, products
 
 #: Features of one region. perimeter_ratio and extent_1 are in units of the square root of the region's area, extent_2
@@ -62,8 +62,8 @@ def region_shape(
     mean = sums / area[:, None]
     size = np.sqrt(area)
     center = mean[:, c.centroid]
-    extent = np.sqrt(np.maximum(np.linalg.eigvalsh(
-        matrices(mean[:, c.second_moment] - products(center))), 0.0))
+    moment = np.linalg.eigvalsh(matrices(mean[:, c.second_moment] - products(center)))
+    extent = square_roots(moment, (np.abs(moment).max(axis=1) + (center**2).sum(axis=1))[:, None])
     long = np.maximum(extent[:, 2], 1e-9)
     normal_moment = np.linalg.eigvalsh(matrices(mean[:, c.normal_moment]))
     thickness = mean[:, c.log_thickness]
@@ -72,7 +72,7 @@ def region_shape(
 
     def deviation(square: int, of: int) -> np.ndarray:
         """Standard deviation of column ``of``, whose squares are in column ``square``."""
-        return np.sqrt(np.maximum(mean[:, square] - mean[:, of] ** 2, 0.0))
+        return square_roots(mean[:, square] - mean[:, of] ** 2, mean[:, square])
 
     columns = {
         "log_area": 2 * log_size,
@@ -239,7 +239,7 @@ def _cut_columns(
         "curvature_by_thickness": curvature[:, 1] * np.exp(thickness),
         "bend": curvature[:, 2] * length,
         "protrusion": (regions.agd_max[small.index] - mean[:, b.agd]) / length,
-        "second_moment": np.sqrt(np.maximum(spread, 0.0)) / length,
+        "second_moment": square_roots(spread, mean[:, b.second_moment]) / length,
         "largest": np.full(len(length), regions.sums[regions.alive, r.area].max()),
         "siblings_small": _siblings(regions, small.shape, small.index, large.index),
         "siblings_union": _siblings(regions, u, small.index, large.index),

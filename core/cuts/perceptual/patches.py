@@ -11,7 +11,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse.csgraph import dijkstra
 
 from ...graph.level_sets import LevelSets, cut_at_levels, uniform_levels
 from ...surface.arrays import (
@@ -26,6 +25,7 @@ from ...surface.arrays import (
 )
 from ...surface.labels import label_boundaries, longest_neighbor, majority
 from ...surface.mesh import TriMesh
+from ...surface.nearest_seeds import nearest_seeds
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -68,8 +68,7 @@ def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
         piece, mesh.face_area, -np.arange(mesh.n_faces), count=n_pieces)[without]])
     added = np.diff(np.linspace(len(seeds), max(count, len(seeds)), ROUNDS + 1).astype(int))
     for more in [*added, 0]:
-        distance, _, cell = dijkstra(
-            distances, directed=True, indices=seeds, min_only=True, return_predecessors=True)
+        distance, cell = nearest_seeds(distances, seeds)
         # In each of the widest cells, the face farthest from the seed becomes a seed.
         numbers, cell_number = renumbered(cell)
         farthest = last_of_each(cell_number, distance, -np.arange(len(cell)), count=len(numbers))
