@@ -30,7 +30,7 @@ def steps():
     overlay = pointer.view_area().spaces.active.overlay
     overlay.show_floor = overlay.show_axis_x = overlay.show_axis_y = overlay.show_cursor = False
     yield from found_by_name()
-    for scene in (looked, few_and_many, colored, palettes, listed, picked, cut, painted, slid, by_graph, changed,
+    for scene in (looked, few_and_many, colored, palettes, listed, picked, grown, cut, painted, slid, by_graph, changed,
                   exploded, boned, exported, folded_out, seamed, unwrapped, face_sets):
         yield from scene()
 
@@ -122,13 +122,26 @@ def listed():
 
 
 def picked():
+    """With the tool: two parts chosen, a third one under the pointer."""
     places = pointer.surface_places(spot())
-    yield from pointer.search("Pick Parts")
+    yield from pointer.push("wm.tool_set_by_id", "reeb_parts.cut")
     yield from pointer.press(*places[number(HEAD)])
     yield from pointer.press(*places[number(LEG)], "Shift_L")
-    yield 0.3
+    yield from pointer.rest(*places[number(BODY)])
+    yield 0.5
     pointer.shot("pick.png", ALL)
-    yield from pointer.tap("Return")
+
+
+def grown():
+    """By four rings, with the tool's key."""
+    yield from pointer.press(*pointer.surface_places(spot())[number(LEG)])
+    yield from pointer.tap("g", "4")
+    yield 0.5
+    pointer.shot("grow.png", MODEL)
+    yield from pointer.tap("Escape")
+    yield 0.3
+    bpy.ops.wm.tool_set_by_id(name="builtin.select_box", space_type="VIEW_3D")
+    yield 0.3
 
 
 def cut():
