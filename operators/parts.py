@@ -3,10 +3,9 @@
 
 import bpy
 import numpy as np
-from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import graph_objects, naming, part_list, part_names, part_places, reactions, selection, store
+from ..scene import graph_objects, hidden, naming, part_list, part_names, part_places, reactions, selection, store
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.part_list import chosen_numbers
@@ -14,8 +13,6 @@ from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.store import Stored
 from ..scene.targets import users
 from ..viewport import framing, shading
-
-SHOWN_ALL_THE_SAME = n_("Object Mode shows hidden faces all the same; Edit Mode and paint modes do not")
 
 
 class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
@@ -52,17 +49,11 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
 
     show_all: bpy.props.BoolProperty(name="Show All", description="Show every face again")
 
-    def run(self, context: bpy.types.Context) -> None:
-        seen = self.show_all or context.mode != "OBJECT"
-        super().run(context)
-        if not seen:
-            self.report({"INFO"}, rpt_(SHOWN_ALL_THE_SAME))
-
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         mesh = obj.data
         numbers = stored.face_numbers
         shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(mesh))
-        selection.hide_faces(mesh, ~shown)
+        hidden.hide(mesh, ~shown)
         for user in users(mesh):
             graph_objects.update_parts(user, stored.shown_parts())
 
@@ -73,14 +64,9 @@ class REEB_PARTS_OT_hide(PartOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.hide"
     bl_label = "Hide Parts"
 
-    def run(self, context: bpy.types.Context) -> None:
-        super().run(context)
-        if context.mode == "OBJECT":
-            self.report({"INFO"}, rpt_(SHOWN_ALL_THE_SAME))
-
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         mask = np.isin(stored.face_numbers, chosen_numbers(obj.data))
-        selection.hide_faces(obj.data, selection.hidden_faces(obj.data) | mask)
+        hidden.hide(obj.data, selection.hidden_faces(obj.data) | mask)
 
 
 class REEB_PARTS_OT_frame(PartOperator, bpy.types.Operator):

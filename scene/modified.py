@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import explode, mesh_arrays, quiet
+from . import explode, hidden, mesh_arrays, quiet
 from .errors import SceneError
 from .kept import set_values, values_of
 from .temporary import removed
@@ -17,8 +17,8 @@ _NUMBER = "reeb_parts_face_number"  # face attribute of the copy that is evaluat
 
 def has_modifiers(obj: bpy.types.Object) -> bool:
     """Whether modifiers other than ours change what is seen of an object."""
-    ours = explode.find(obj)
-    return any(modifier.show_viewport and modifier != ours for modifier in obj.modifiers)
+    ours = explode.find(obj), hidden.find(obj)
+    return any(modifier.show_viewport and modifier not in ours for modifier in obj.modifiers)
 
 
 def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,
@@ -49,6 +49,7 @@ def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,
     twin.data = obj.data.copy()
     with removed(bpy.data.meshes, twin.data), removed(bpy.data.objects, twin):
         explode.forget(twin)
+        hidden.forget(twin)
         twin.data.attributes.new(_NUMBER, "INT", "FACE").data.foreach_set("value", face_numbers.astype(np.int32))
         context.scene.collection.objects.link(twin)
         context.view_layer.update()

@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 
 from ..core.surface.corners import edge_labels
-from . import caps, element_layers, mesh_arrays, outputs, quiet, smooth_faces
+from . import caps, element_layers, hidden, mesh_arrays, outputs, quiet, smooth_faces
 from .elements import Elements
 from .holes import Holes
 from .outputs import kept_aside, materials
@@ -39,7 +39,7 @@ def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
         copy.property_unset("reeb_parts")
     for key in [key for key in copy.keys() if key.startswith("reeb_parts")]:  # noqa: SIM118
         del copy[key]
-    for name in [a.name for a in copy.attributes if a.name.startswith(kept_aside.PREFIX)]:
+    for name in [a.name for a in copy.attributes if a.name.startswith((kept_aside.PREFIX, hidden.ATTRIBUTE))]:
         copy.attributes.remove(copy.attributes[name])
     return copy
 

@@ -21,6 +21,7 @@ from . import (
     cut_list,
     explode,
     graph_objects,
+    hidden,
     joints,
     mesh_arrays,
     modified,
@@ -275,6 +276,7 @@ def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: Separa
     """An object like the given one with another mesh."""
     piece = obj.copy()
     explode.forget(piece)
+    hidden.forget(piece)
     piece.name = mesh.name = name
     piece.data = mesh
     piece.hide_viewport = piece.hide_render = False

@@ -11,7 +11,20 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.graph.fold import unfolded
 from ..core.result.numbering import NumberedParts
-from . import armature, bridge, explode, graph_objects, notes, outputs, quiet, store, targets, transaction, uv_map
+from . import (
+    armature,
+    bridge,
+    explode,
+    graph_objects,
+    hidden,
+    notes,
+    outputs,
+    quiet,
+    store,
+    targets,
+    transaction,
+    uv_map,
+)
 from .compute import Outcome
 from .errors import SceneError
 from .steps import Steps, finished
@@ -108,6 +121,7 @@ def clear(obj: bpy.types.Object) -> None:
         explode.forget(user)
         armature.remove_modifier(user)
         graph_objects.remove(user)
+    hidden.forget_mesh(obj.data)
     armature.remove_weights(obj.data)
     uv_map.remove(obj.data)
     outputs.remove_outputs(obj)

@@ -805,8 +805,6 @@ TEXTS = {
     "The stored parts were written by another version. Decompose again.":
         "Die gespeicherten Teile stammen von einer anderen Version. Bitte erneut zerlegen.",
     # Was die Werkzeuge melden
-    "Object Mode shows hidden faces all the same; Edit Mode and paint modes do not":
-        "Der Objektmodus zeigt verborgene Flächen trotzdem; Bearbeitungs- und Malmodi nicht",
     "There is no part with the number {number}.": "Es gibt kein Teil mit der Nummer {number}.",
     "Similar parts: {n}, marked on {objects} objects": "Ähnliche Teile: {n}, angekreuzt an {objects} Objekten",
     "Parts named: {n}, on {objects} objects": "Benannte Teile: {n}, an {objects} Objekten",

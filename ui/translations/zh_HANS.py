@@ -730,8 +730,6 @@ TEXTS = {
     "{name} was edited since it was decomposed. Decompose it again.": "{name} 在分解之后被编辑过。请重新分解。",
     "The stored parts were written by another version. Decompose again.": "存储的部件由另一个版本写入。请重新分解。",
     # 工具的报告
-    "Object Mode shows hidden faces all the same; Edit Mode and paint modes do not":
-        "物体模式仍会显示隐藏的面；编辑模式和绘制模式则不会",
     "There is no part with the number {number}.": "没有编号为 {number} 的部件。",
     "Similar parts: {n}, marked on {objects} objects": "相似部件：{n} 个，已在 {objects} 个物体上勾选",
     "Parts named: {n}, on {objects} objects": "已命名部件：{n} 个，在 {objects} 个物体上",

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hidden parts vanish from every mode, the mesh stays as it is, and Show All and Clear leave nothing."""
+
+import bpy
+import numpy as np
+import pytest
+from snapshot import changes, snapshot
+
+
+@pytest.fixture
+def result(obj):
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    return obj.data.reeb_parts
+
+
+def numbers(mesh):
+    values = np.zeros(len(mesh.polygons), np.int32)
+    mesh.attributes["reeb_part"].data.foreach_get("value", values)
+    return values
+
+
+def seen(obj):
+    """Numbers of the parts that the viewport shows, with how many faces."""
+    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    return dict(zip(*(values.tolist() for values in np.unique(numbers(mesh), return_counts=True)), strict=True))
+
+
+def choose(result, index):
+    result.active = index
+    for part in result.parts:
+        part.selected = False
+    return result.parts[index].number
+
+
+def test_hidden_parts_are_not_seen_and_all_come_back(obj, result):
+    everything = seen(obj)
+    before = snapshot()
+    first, second = choose(result, 1), None
+    bpy.ops.reeb_parts.hide()
+    assert seen(obj) == {number: count for number, count in everything.items() if number != first}
+    second = choose(result, 2)
+    bpy.ops.reeb_parts.hide()
+    assert seen(obj) == {number: count for number, count in everything.items() if number not in (first, second)}
+    bpy.ops.reeb_parts.isolate()
+    assert set(seen(obj)) == {second}
+    bpy.ops.reeb_parts.isolate(show_all=True)
+    assert seen(obj) == everything
+    choose(result, 0)
+    # But for the order of attributes, since Blender has made its own of what is hidden.
+    other = ("result", ".hide_", "/order")
+    left = [change for change in changes(before, snapshot())
+            if "/Tree" in change[0] and not any(word in change[0] for word in other)]
+    assert left == []
+
+
+def test_renders_show_everything(obj, result):
+    choose(result, 1)
+    bpy.ops.reeb_parts.hide()
+    (modifier,) = obj.modifiers
+    assert modifier.show_viewport
+    assert not modifier.show_render
+
+
+def test_all_objects_of_a_mesh_hide_together_and_clear_takes_it_back(obj, result):
+    other = bpy.data.objects.new("Second", obj.data)
+    bpy.context.scene.collection.objects.link(other)
+    choose(result, 1)
+    bpy.ops.reeb_parts.hide()
+    assert seen(other) == seen(obj)
+    bpy.ops.reeb_parts.clear()
+    assert [len(item.modifiers) for item in (obj, other)] == [0, 0]
+    assert "reeb_hidden" not in obj.data.attributes
+    assert not [group for group in bpy.data.node_groups if "reeb_parts_hide" in group]
+
+
+def test_pieces_of_hidden_parts_are_seen(obj, result):
+    count = len(result.parts)
+    choose(result, 1)
+    bpy.ops.reeb_parts.hide()
+    bpy.ops.reeb_parts.separate()
+    pieces = obj.reeb_parts_made.pieces.objects
+    assert len(pieces) == count
+    for piece in pieces:
+        assert not piece.modifiers
+        assert "reeb_hidden" not in piece.data.attributes
+        assert len(piece.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.polygons) > 0
