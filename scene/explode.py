@@ -11,7 +11,7 @@ from collections.abc import Iterable
 
 import bpy
 
-from . import modifiers, outputs, quiet, store, targets, transaction
+from . import graph_follow, modifiers, outputs, quiet, store, targets, transaction
 from .errors import SceneError
 from .outputs import face_attribute
 from .settled import reaction
@@ -35,6 +35,7 @@ def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
         _ensure(obj)
     else:
         _remove_modifier(obj)
+    graph_follow.soon(obj)  # what evaluates the object first may be a tool, of which no handler is told
 
 
 def forget(obj: bpy.types.Object) -> None:

@@ -51,12 +51,14 @@ def stop() -> None:
     forget()
 
 
-def _follow_waiting() -> None:
+def _follow_waiting() -> float | None:
     waiting = set(_waiting)
     _waiting.clear()
     for obj in bpy.context.view_layer.objects if bpy.context.view_layer else ():
         if obj.session_uid in waiting and store.has_parts(obj) and not obj.data.is_editmode:
             follow(bpy.context, obj)
+    # The evaluation may have told of more: meanwhile ``soon`` has found this timer registered.
+    return 0.0 if _waiting else None
 
 
 def follow(context: bpy.types.Context, obj: bpy.types.Object) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import blf
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
@@ -12,7 +13,9 @@ from ..scene import graph_objects, jobs, notes, part_list, part_names, store
 from . import toolbar, wrapping
 
 MODELS = 8  # so many selected models are listed
-NARROW = 215  # width of a sidebar, in pixels of a screen without scaling, that has no room for shares
+# Widths in pixels of a screen without scaling: of a sidebar that has no room for shares, and, in a row of the list, of
+# all beside the name with the share and of the share.
+NARROW, BESIDE_NAME = 215, 230
 
 
 def _result(context: bpy.types.Context) -> bpy.types.PropertyGroup | None:
@@ -58,7 +61,7 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
         chip.ui_units_x = 1.0
         chip.prop(item, "color", text="")
         row.prop(item, "name", text="", emboss=False)
-        if context.region.width / context.preferences.system.ui_scale > NARROW:
+        if _has_room(context, item.name):
             share = row.row()
             share.alignment = "RIGHT"
             share.label(text=f"{100 * item.share:.1f} %")
@@ -83,6 +86,13 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
             flags = [0 if part.number in left_out else self.bitflag_filter_item for part in parts]
         matrix = context.object.matrix_world if context.object is not None else Matrix()
         return flags, part_list.ordered(parts, settings.sort, matrix)
+
+
+def _has_room(context: bpy.types.Context, name: str) -> bool:
+    """Whether the share of a part fits beside its name: the name is the last to be cut off."""
+    scale = context.preferences.system.ui_scale
+    blf.size(0, context.preferences.ui_styles[0].widget.points * scale)
+    return context.region.width > scale * max(NARROW, BESIDE_NAME + blf.dimensions(0, name)[0] / scale)
 
 
 class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):

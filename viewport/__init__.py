@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import brush, follow_active, graph_overlay, highlight, hover, pointing
+from . import brush, follow_active, graph_overlay, highlight, hover, pointing, shading
 
 _OVERLAYS = (highlight, graph_overlay)  # drawn in this order
 _handles: list[object] = []
@@ -15,6 +15,7 @@ def register() -> None:
     brush.register()
     hover.register()
     follow_active.register()
+    shading.register()
     if not bpy.app.background:  # there is nothing to draw on
         _handles.extend(bpy.types.SpaceView3D.draw_handler_add(overlay.draw, (), "WINDOW", "POST_VIEW")
                         for overlay in _OVERLAYS)
@@ -26,6 +27,7 @@ def unregister() -> None:
         bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
     for module in (*_OVERLAYS, hover, pointing):
         module.forget()
+    shading.unregister()
     follow_active.unregister()
     hover.unregister()
     brush.unregister()

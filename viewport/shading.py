@@ -6,8 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import bpy
+from bpy.app.handlers import persistent
 
-from ..scene import redraw, transaction
+from ..scene import piece_objects, redraw, transaction
 
 
 @dataclass
@@ -20,6 +21,9 @@ class ViewSettings:
 
 # By viewport, for the time that Blender runs.
 _before: dict[int, ViewSettings] = {}
+
+# Viewports that were turned to the colors of pieces, and whether the pieces were there when that was last looked at.
+_of_pieces: dict[int, bool] = {}
 
 
 def show_colors(context: bpy.types.Context) -> None:
@@ -53,6 +57,7 @@ def show_pieces(context: bpy.types.Context) -> None:
     if space is not None and space.as_pointer() in _before and space.shading.color_type == "VERTEX":
         _keep(space)
         space.shading.color_type = "OBJECT"
+        _of_pieces[space.as_pointer()] = True
 
 
 def restore_colors(context: bpy.types.Context) -> None:
@@ -67,6 +72,32 @@ def restore_colors(context: bpy.types.Context) -> None:
         space.shading.color_type = before.color_type
     if not space.overlay.show_relationship_lines:
         space.overlay.show_relationship_lines = before.relationship_lines
+
+
+@persistent
+def _undone(*_: object) -> None:
+    """Undo or redo has taken pieces away or brought them back: the view follows, which is no part of undo."""
+    if not _of_pieces:
+        return
+    there = any(piece_objects.original(obj) is not None for obj in bpy.context.view_layer.objects if obj.visible_get())
+    for space in redraw.view_spaces():
+        if _of_pieces.get(space.as_pointer(), there) == there:
+            continue
+        _of_pieces[space.as_pointer()] = there
+        was, now = ("VERTEX", "OBJECT") if there else ("OBJECT", "VERTEX")
+        if space.shading.color_type == was:  # else the user has set it since
+            space.shading.color_type = now
+
+
+def register() -> None:
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.append(_undone)
+
+
+def unregister() -> None:
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.remove(_undone)
+    _of_pieces.clear()
 
 
 def _keep(space: bpy.types.SpaceView3D) -> None:

@@ -216,9 +216,14 @@ def exploded(seen):
     yield from pointer.drag([(x + 6 * step, y) for step in range(9)])
     yield 0.3
     seen["exploded"] = [modifier.name for modifier in spot().modifiers]
+    nodes = [obj for obj in bpy.data.objects if obj.get("reeb_parts_role") == "node"]
+    yield from pointer.until(lambda: any(any(node.delta_location) for node in nodes))
+    seen["nodes apart"] = sum(any(node.delta_location) for node in nodes) / len(nodes)
     pointer.shot("14_exploded.png")
     yield from pointer.type_over(x, y, "0")
     seen["together"] = [modifier.name for modifier in spot().modifiers]
+    yield from pointer.until(lambda: not any(any(node.delta_location) for node in nodes))
+    seen["nodes together"] = [list(node.delta_location) for node in nodes if any(node.delta_location)]
 
 
 def graph_hidden(seen):

@@ -95,6 +95,11 @@ def test_the_explode_slider_leaves_nothing_at_zero(seen):
     assert seen["together"] == []
 
 
+def test_the_graph_goes_with_the_exploded_parts(seen):
+    assert seen["nodes apart"] == 1.0
+    assert seen["nodes together"] == []
+
+
 def test_the_graph_hides_and_shows_at_once(seen):
     assert seen["graph"] == [True, False, True]
 

@@ -53,6 +53,10 @@ def test_a_horse_becomes_named_pieces_in_at_most_twelve_actions(seen):
     assert len(seen["named_pieces, actions"]) == 5 <= 12
 
 
+def test_undo_of_separate_shows_the_colors_of_the_parts_again(seen):
+    assert seen["shown after undo"] == "VERTEX"
+
+
 def test_two_parts_are_merged_and_one_is_cut_in_five_actions(seen):
     before, merged, cut = seen["before"], seen["merged"], seen["cut"]
     assert before.keys() - merged.keys() == {"tail"}
