@@ -68,16 +68,21 @@ class Discs:
 
     def _best(self, curve: np.ndarray) -> Disc | None:
         """The first surface that stays inside, of those over a plane and in a circle, else the one that nearly does."""
-        best, least = None, 1 << 30
-        body = self._around(curve)
+        best, least, body = None, 1 << 30, None
         for flat in (over_a_plane(curve), in_a_circle(curve)):
             found = _disc(curve, flat) if flat is not None and len(curve) > 3 else None
             if found is None:
                 continue
-            for candidate in (found, _pushed(found, curve, body)) if body else (found,):
-                count = _crossings(candidate, curve, body) if body else 0
+            near = self._around(curve, np.concatenate([curve, found.places]), 0.0)
+            for push in (False, True):
+                if push:
+                    body = body or self._around(curve, curve, 0.2)
+                    if body is None:
+                        break
+                    found, near = _pushed(found, curve, body), body
+                count = _crossings(found, curve, near) if near else 0
                 if count < least:
-                    best, least = candidate, count
+                    best, least = found, count
                 if not count:
                     return best
         if best is not None and body is not None:
@@ -85,10 +90,10 @@ class Discs:
             self.n_crossings += least
         return best
 
-    def _around(self, curve: np.ndarray) -> _Body | None:
-        """The surface of the mesh around a curve."""
-        low, high = curve.min(axis=0), curve.max(axis=0)
-        margin = 0.2 * np.linalg.norm(high - low)
+    def _around(self, curve: np.ndarray, places: np.ndarray, margin: float) -> _Body | None:
+        """The surface of the mesh in the bounding box of some places, wider by such a share of its diagonal."""
+        low, high = places.min(axis=0), places.max(axis=0)
+        margin *= float(np.linalg.norm(high - low))
         near = self._triangles[self._within(low - margin, high + margin)]
         if not len(near):
             return None

@@ -157,15 +157,15 @@ def edge_labels(
     low, high : (e,) int64
         Equal inside a part, different on a cut; for an edge without faces the largest int64 and -1.
     """
-    own = labels[corner_face]
-    first = np.full(n_edges, np.iinfo(np.int64).max)
-    last = np.full(n_edges, -1, np.int64)
+    own = labels.astype(np.int32)[corner_face]
+    first, last = np.empty(n_edges, np.int32), np.empty(n_edges, np.int32)
     # Of what is assigned to one element, the last stays; that is all there is at edges of one or two faces, and much
     # faster in old versions of NumPy than minimum.at, which the others need.
     first[corner_edge[::-1]] = own[::-1]
     last[corner_edge] = own
     count = np.bincount(corner_edge, minlength=n_edges)
-    low, high = np.where(count > 0, np.minimum(first, last), first), np.where(count > 0, np.maximum(first, last), last)
+    low, high = np.minimum(first, last).astype(np.int64), np.maximum(first, last).astype(np.int64)
+    low[count == 0], high[count == 0] = np.iinfo(np.int64).max, -1
     if (count > 2).any():
         several = (count > 2)[corner_edge]
         np.minimum.at(low, corner_edge[several], own[several])

@@ -54,8 +54,7 @@ def steps():
 
 
 def separated(seen):
-    """Separate, with caps, ended by Esc, then left to its end, and undone."""
-    bpy.context.scene.reeb_parts_use.caps = True
+    """Separate ended by Esc, then left to its end, and undone."""
     for name, key in (("ended", "Escape"), ("separated", None)):
         yield from pointer.push("reeb_parts.separate")
         if key:
