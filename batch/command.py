@@ -197,7 +197,7 @@ def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
     """Make of the parts of an object what the options ask for; what its entry in the JSON says of that."""
     stored = store.load(obj.data)
     said = {}
-    if options.separate or options.caps or options.pegs or options.bed:
+    if is_separated(options):
         style = separate_style(options)
         numbers = stored.shown_parts().numbers.tolist()
         separated = piece_objects.separate(bpy.context, obj, stored, numbers, style)
@@ -215,6 +215,11 @@ def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
     return said
 
 
+def is_separated(options: argparse.Namespace) -> bool:
+    """Whether the parts become objects; files of parts then hold these."""
+    return bool(options.separate or options.caps or options.pegs or options.bed)
+
+
 def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bpy.types.Object], reports: list[dict],
                 problems: list[dict]) -> dict:
     """Write what is asked for; returns the JSON with what was written."""
@@ -222,10 +227,11 @@ def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bp
 
     written: dict[str, str | list[str]] = {}
     if options.parts:
-        paths = export.export_parts(files, [(obj, None) for obj in objects], options.parts, options.parts_format)
+        paths = export.export_parts(files, [(obj, None) for obj in objects], options.parts, options.parts_format,
+                                    separated=is_separated(options))
         written["parts"] = [str(path) for path in paths]
     if options.threemf:
-        export.write_assemblies(files, objects, options.threemf)
+        export.write_assemblies(files, objects, options.threemf, is_separated(options))
         written["threemf"] = str(options.threemf)
     if options.save:
         with files.writing(options.save, complete.blend) as path:

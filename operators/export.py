@@ -45,6 +45,11 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         description="Close the holes where parts were joined, so that each file holds a closed body",
     )
 
+    separated: bpy.props.BoolProperty(
+        name="Separated Pieces", default=False,
+        description="Write the pieces that were separated, with their joints and dowels, as they are now",
+    )
+
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, WhichProperties, context)
         if not self.properties.is_property_set("caps"):
@@ -59,5 +64,5 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
         with object_mode(context), together() as files:
             paths = export_parts(files, [(obj, wanted_numbers(obj.data, self.which)) for obj in objects], folder,
-                                 self.format, self.caps, self.one_file)
+                                 self.format, self.caps, self.one_file, self.separated)
         self.report({"INFO"}, rpt_("{n} files in {folder}").format(n=len(paths), folder=folder))

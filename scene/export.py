@@ -10,9 +10,11 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.uses.threemf import Assembly, Body, write_3mf
-from . import complete, mesh_arrays, part_names, store
+from . import complete, mesh_arrays, part_names, piece_objects, store
+from .errors import SceneError
 from .part_meshes import part_meshes
 from .selection import nothing_selected
 from .temporary import removed
@@ -25,12 +27,14 @@ EXPORTERS = {
     "stl": lambda path: bpy.ops.wm.stl_export(filepath=path, export_selected_objects=True),
     "glb": lambda path: bpy.ops.export_scene.gltf(filepath=path, use_selection=True, export_format="GLB"),
 }
+# The color of a dowel.
+_PLAIN = (0.8, 0.8, 0.8)
 #: What can be written.
 FORMATS = (*EXPORTERS, "3mf")
 
 
 def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, Iterable[int] | None]], folder: Path,
-                 kind: str, close: bool = False, one_file: bool = False) -> list[Path]:
+                 kind: str, close: bool = False, one_file: bool = False, separated: bool = False) -> list[Path]:
     """Write each part of some objects as a file of its own, or each object as one; the scene stays as it is.
 
     Parameters
@@ -47,6 +51,9 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
         Close the holes that the cuts leave.
     one_file : bool
         All parts of an object in one file, as 3MF always has them.
+    separated : bool
+        Write the pieces that were separated, with their caps and joints, and their dowels, as they are now; ``close``
+        does not count then.
 
     Returns
     -------
@@ -61,17 +68,37 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
     names = FileNames()
     paths = []
     for obj, wanted in objects:
-        face_numbers = store.load(obj.data).face_numbers
-        numbers = sorted(set(face_numbers.tolist()) if wanted is None else wanted)
-        meshes, _ = part_meshes(obj.data, face_numbers, numbers, close)
-        with removed(bpy.data.meshes, *meshes.values()), nothing_selected(bpy.context.view_layer):
-            pieces = {part_names.piece_name(obj, number): meshes[number] for number in numbers}
+        pieces = _separated(obj, wanted) if separated else _parts(obj, wanted, close)
+        with removed(bpy.data.meshes, *pieces.values()), nothing_selected(bpy.context.view_layer):
             if kind == "3mf" or one_file:
                 paths.append(_write(files, folder / f"{names.free(obj.name)}.{kind}", obj, pieces, kind))
                 continue
             for name, mesh in pieces.items():
                 paths.append(_write(files, folder / f"{names.free(name)}.{kind}", obj, {name: mesh}, kind))
     return paths
+
+
+def _parts(obj: bpy.types.Object, wanted: Iterable[int] | None, close: bool) -> dict[str, bpy.types.Mesh]:
+    """New meshes of parts, all without ``wanted``, by their names."""
+    face_numbers = store.load(obj.data).face_numbers
+    numbers = sorted(set(face_numbers.tolist()) if wanted is None else wanted)
+    meshes, _ = part_meshes(obj.data, face_numbers, numbers, close)
+    return {part_names.piece_name(obj, number): meshes[number] for number in numbers}
+
+
+def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str, bpy.types.Mesh]:
+    """Copies of the meshes of an object's pieces, and of their dowels, by their names, in its coordinates."""
+    bpy.context.view_layer.update()  # pieces made just now do not know where they are
+    pieces = [piece for piece in piece_objects.piece_objects(obj)
+              if wanted is None or piece[piece_objects.NUMBER] in wanted]
+    if not pieces:
+        raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(name=obj.name))
+    to_object = obj.matrix_world.inverted_safe()
+    meshes = {}
+    for piece in (*pieces, *piece_objects.dowels(obj)):
+        meshes[piece.name] = copy = piece.data.copy()
+        copy.transform(to_object @ piece.matrix_world)
+    return meshes
 
 
 def _write(files: WholeFiles, path: Path, obj: bpy.types.Object, pieces: dict[str, bpy.types.Mesh],
@@ -90,16 +117,22 @@ def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Mesh]) -> tuple[B
     world = np.array(obj.matrix_world, np.float64)
     mirrored = np.linalg.det(world[:3, :3]) < 0
     colors = {part_names.piece_name(obj, part.number): part.color[:] for part in obj.data.reeb_parts.parts}
+    numbers = {piece.name: piece[piece_objects.NUMBER] for piece in piece_objects.piece_objects(obj)}
+    of_number = part_names.number_colors(obj.data)
     bodies = []
     for name, mesh in pieces.items():
         points = mesh_arrays.basis_points(mesh).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
         triangles = mesh_arrays.triangles(mesh)[0].astype(np.int64)
-        bodies.append(Body(name, colors[name], points * millimeters(), triangles[:, ::-1] if mirrored else triangles))
+        color = colors.get(name) or tuple(of_number[numbers[name], :3].tolist() if name in numbers else _PLAIN)
+        bodies.append(Body(name, color, points * millimeters(), triangles[:, ::-1] if mirrored else triangles))
     return tuple(bodies)
 
 
-def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], path: Path) -> None:
+def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], path: Path,
+                     separated: bool = False) -> None:
     """Write the parts of some objects, closed, as one 3MF file with an assembly for each object.
+
+    separated : bool, whether to write the pieces that were separated instead.
 
     Raises
     ------
@@ -108,10 +141,8 @@ def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], pat
     """
     assemblies = []
     for obj in objects:
-        face_numbers = store.load(obj.data).face_numbers
-        meshes, _ = part_meshes(obj.data, face_numbers, sorted(set(face_numbers.tolist())), close=True)
-        with removed(bpy.data.meshes, *meshes.values()):
-            pieces = {part_names.piece_name(obj, number): mesh for number, mesh in meshes.items()}
+        pieces = _separated(obj, None) if separated else _parts(obj, None, close=True)
+        with removed(bpy.data.meshes, *pieces.values()):
             assemblies.append(Assembly(obj.name, _bodies(obj, pieces)))
     with files.writing(path, complete.model([], "3mf")) as place:
         write_3mf(place, assemblies)

@@ -21,6 +21,7 @@ from .temporary import removed
 from .units import millimeters
 
 if TYPE_CHECKING:
+    from ..core.graph.reeb import ReebGraph
     from ..core.uses.joint_places import Cap, Joint, Places, Wanted
     from ..core.uses.joint_shapes import Solid
     from .settings import SeparateProperties
@@ -86,7 +87,8 @@ def wanted_joints(style: SeparateProperties) -> Wanted:
 
 
 def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray,
-         wanted: Wanted, kind_of: Callable[[int, int], str] = lambda one, other: "") -> Joined:
+         wanted: Wanted, kind_of: Callable[[int, int], str] = lambda one, other: "",
+         graph: ReebGraph | None = None) -> Joined:
     """Give pieces joints at the cuts between them; Object Mode.
 
     Parameters
@@ -99,12 +101,14 @@ def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch:
     wanted : Wanted
     kind_of : callable(int, int) -> str
         The kind of joint between two pieces where it is another one, "NONE" for none; "" where it is not.
+    graph : ReebGraph, optional
+        Gives the axis where a cap is too bent to tell.
 
     Returns
     -------
     joined : Joined
     """
-    from ..core.uses.joint_places import joint_places
+    from ..core.uses.joint_places import arc_direction, joint_places
     from ..core.uses.joint_shapes import Kind
 
     cuts = _cuts(meshes, stretch)
@@ -121,7 +125,8 @@ def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch:
         # The smaller piece has the peg, the larger one has room for it.
         first = int(checks[cut.keys[0]].volume < checks[cut.keys[1]].volume)  # type: ignore[operator]
         pair = (_Side(bodies, cut, 0), _Side(bodies, cut, 1))
-        places = joint_places(cut.cap, pair, own, first)
+        along = arc_direction(graph, cut.cap.corners().mean(axis=(0, 1))) if graph is not None else None
+        places = joint_places(cut.cap, pair, own, first, along)
         planned.append(_Plan(cut, own, places, "" if places.joints else "BENT" if places.bent else "ROOM"))
         for joint in places.joints:
             for side in (0, 1):

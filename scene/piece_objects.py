@@ -68,6 +68,12 @@ def piece_objects(obj: bpy.types.Object) -> list:
     return sorted(found, key=lambda piece: piece[NUMBER])
 
 
+def dowels(obj: bpy.types.Object) -> list:
+    """The loose dowels between the pieces of an object."""
+    collection = collection_of(obj)
+    return [dowel for dowel in collection.objects if DOWEL in dowel] if collection else []
+
+
 def original(piece: bpy.types.Object) -> bpy.types.Object | None:
     """The object in the scene that a piece was separated from, or None."""
     for collection in piece.users_collection:
@@ -158,17 +164,18 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     part, names = fitted.part, _names(obj, sorted(fitted.meshes), fitted.part)
     joined = joints.Joined(fitted.meshes, [], [])
     if style.joints != "NONE":
-        joined = joints.join(context, fitted.meshes, stretch, joints.wanted_joints(style), cut_list.chosen(obj, part))
+        joined = joints.join(context, fitted.meshes, stretch, joints.wanted_joints(style), cut_list.chosen(obj, part),
+                             stored.decomposition.graph)
         cut_list.write(obj, joined.cuts, part)
         yield 0.8
     made = _objects(context, obj, joined.meshes, names, part, style)
-    dowels = [_dowel(context, obj, mesh, style) for mesh in joined.loose]
-    for piece in (*made, *dowels):
+    loose = [_dowel(context, obj, mesh, style) for mesh in joined.loose]
+    for piece in (*made, *loose):
         piece[MADE] = looks(piece)
     for index, piece in enumerate(made if close else ()):
         yield 0.8 + 0.2 * index / len(made)
         check_pieces([piece], stretch)
-    return Separated(made, dowels, found.left_open, found.along_faces, kept, joined.cuts, names, part, fitted.left)
+    return Separated(made, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part, fitted.left)
 
 
 def _names(obj: bpy.types.Object, keys: list[int], part: dict[int, int]) -> dict[int, str]:
@@ -247,9 +254,7 @@ def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.ty
 def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
     """Remove pieces of these parts unless the user has worked on them; how many stay."""
     kept = 0
-    collection = collection_of(obj)
-    dowels = [dowel for dowel in collection.objects if DOWEL in dowel] if collection else []
-    for piece in [*piece_objects(obj), *dowels]:
+    for piece in [*piece_objects(obj), *dowels(obj)]:
         number = piece.get(NUMBER)
         if number is not None and number not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
             continue

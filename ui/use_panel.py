@@ -10,6 +10,10 @@ from bpy.app.translations import pgettext_n as n_
 from ..scene import cut_list, piece_checks, piece_objects, store
 from .panel import SubPanel, settings_column
 
+#: Why a cut has no joint, see joints.CutJoints.
+REASONS = {"ROOM": n_("No room with a wall around it"), "BENT": n_("Too bent to have an axis"),
+           "BODY": n_("A part is not closed"), "RESULT": n_("It would spoil a part")}
+
 
 class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
     bl_label = "Use Parts"
@@ -43,6 +47,10 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         if made.cuts:
             rows = min(max(len(made.cuts), 2), 6)
             column.template_list("REEB_PARTS_UL_cuts", "", made, "cuts", made, "cut", rows=rows)
+            active = made.cuts[min(made.cut, len(made.cuts) - 1)]
+            text = iface_("{n} of {width} mm").format(n=active.count, width=f"{active.width:.1f}")
+            if active.count or active.why:
+                column.label(text=text if active.count else iface_(REASONS[active.why]), translate=False)
 
     def _draw_outputs(self, result: bpy.types.PropertyGroup) -> None:
         """Buttons that stay pressed for as long as there is what they make."""
@@ -67,10 +75,9 @@ class REEB_PARTS_UL_cuts(bpy.types.UIList):
         obj = item.id_data
         joined = {"icon": "CHECKMARK" if item.count else "ERROR" if item.why else "BLANK1"}
         row.label(text=cut_list.cut_name(obj, item), translate=False, **joined)
-        if item.count:
-            text = iface_("{n} of {width} mm").format(n=item.count, width=f"{item.width:.1f}")
-            row.label(text=text, translate=False)
-        row.prop(item, "joint", text="")
+        side = row.row()
+        side.ui_units_x = 4.5
+        side.prop(item, "joint", text="")
 
 
 class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):

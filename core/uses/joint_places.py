@@ -9,12 +9,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from ..surface.arrays import rounded
 from .joint_shapes import REACH, Kind
+
+if TYPE_CHECKING:
+    from ..graph.reeb import ReebGraph
 
 # A cap that is so bent that less than this share of its area looks along the axis has no axis to speak of.
 _STRAIGHT = 0.6
@@ -166,7 +169,7 @@ def joint_places(cap: Cap, bodies: tuple[Body, Body], wanted: Wanted, first: int
     first : int
         The piece that should receive the joints; if it cannot, the other does.
     along : (3,) float64, optional
-        The axis, from the first piece to the second, where the cap is too bent to tell.
+        The axis, in either direction, where the cap is too bent to tell.
 
     Returns
     -------
@@ -196,9 +199,9 @@ def _axes(cap: Cap, along: np.ndarray | None) -> np.ndarray | None:
     if not total > 1e-12 * np.ptp(cap.corners(), axis=(0, 1)).max(initial=0.0) ** 2:
         return None
     if np.linalg.norm(normal) < _STRAIGHT * total:
-        if along is None:
+        if along is None or not along.any():
             return None
-        normal = along
+        normal = along if along @ normal >= 0 else -along
     normal = normal / np.linalg.norm(normal)
     weight = np.linalg.norm(cap.normals(), axis=1)
     middle = cap.corners().mean(axis=1)
@@ -209,6 +212,21 @@ def _axes(cap: Cap, along: np.ndarray | None) -> np.ndarray | None:
     u /= np.linalg.norm(u)
     u = u if rounded(np.array([weight @ (out @ u) ** 3]))[0] >= 0 else -u
     return np.stack([u, np.cross(normal, u), normal])
+
+
+def arc_direction(graph: ReebGraph, place: np.ndarray) -> np.ndarray | None:
+    """Find how the Reeb graph runs beside a place.
+
+    graph : ReebGraph. place : (3,) float64, in its units. Returns the direction of the arc with the nearest center
+    point there, (3,) float64, or None if no arc has two points.
+    """
+    arc, points = graph.point_arc, graph.point_position
+    long = np.flatnonzero(np.bincount(arc, minlength=graph.n_arcs)[arc] > 1)
+    if not len(long):
+        return None
+    nearest = long[np.linalg.norm(points[long] - place, axis=1).argmin()]
+    first, last = graph.arc_points[arc[nearest]], graph.arc_points[arc[nearest] + 1] - 1
+    return points[min(nearest + 1, last)] - points[max(nearest - 1, first)]
 
 
 class _Grid:

@@ -31,7 +31,7 @@ def steps():
     overlay.show_floor = overlay.show_axis_x = overlay.show_axis_y = overlay.show_cursor = False
     yield from found_by_name()
     for scene in (looked, few_and_many, colored, palettes, listed, picked, grown, cut, painted, slid, by_graph, changed,
-                  exploded, boned, exported, folded_out, seamed, unwrapped, face_sets):
+                  exploded, joined, boned, exported, folded_out, seamed, unwrapped, face_sets):
         yield from scene()
 
 
@@ -235,6 +235,32 @@ def exploded():
     pointer.shot("explode.png", MODEL)
     spot().reeb_parts_made.explode = 0.0
     yield 0.3
+
+
+def joined():
+    """Pieces with pegs, moved apart; then all is as it was."""
+    space = pointer.view_area().spaces.active
+    original, before = spot(), (space.shading.color_type, space.region_3d.view_rotation.copy())
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        bpy.ops.reeb_parts.separate(joints="ROUND", joint_count=2)
+    pieces = [obj for obj in bpy.data.objects if "reeb_parts_number" in obj]
+    middle = sum((piece.location for piece in pieces), Vector()) / len(pieces)
+    for piece in pieces:
+        piece.location += 0.7 * (piece.location - middle)
+        piece.select_set(False)
+    space.shading.color_type = "OBJECT"
+    look(1.6)
+    yield 0.7
+    pointer.shot("joints.png", MODEL)
+    for piece in pieces:
+        bpy.data.objects.remove(piece)
+    original.hide_set(False)
+    original.hide_render = False
+    bpy.context.view_layer.objects.active = original
+    original.select_set(True)
+    space.shading.color_type = before[0]
+    look()
+    yield 0.5
 
 
 def boned():

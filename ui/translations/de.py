@@ -667,6 +667,15 @@ TEXTS = {
     "{n} more pieces, so that they fit the bed": "{n} Stücke mehr, damit sie ins Druckbett passen",
     "Not closed, so not cut to fit the bed: {names}":
         "Nicht geschlossen und darum nicht für das Druckbett geschnitten: {names}",
+    "Separated Pieces": "Getrennte Stücke",
+    "Write the pieces that were separated, with their joints and dowels, as they are now":
+        "Die getrennten Stücke schreiben, mit ihren Verbindungen und Dübeln, wie sie jetzt sind",
+    "There are no separated parts of {name}. Separate them first.":
+        "Es gibt keine getrennten Teile von {name}. Bitte zuerst trennen.",
+    "No room with a wall around it": "Kein Platz mit einer Wand ringsum",
+    "Too bent to have an axis": "Zu gebogen für eine Achse",
+    "A part is not closed": "Ein Teil ist nicht geschlossen",
+    "It would spoil a part": "Ein Teil würde beschädigt",
     "There would be more than {n} pieces. Is the bed in millimeters?":
         "Es würden mehr als {n} Stücke. Ist das Druckbett in Millimetern angegeben?",
     # Was über ein Mesh zu sagen ist

@@ -622,6 +622,14 @@ TEXTS = {
         "可打印的宽度、深度和高度，以毫米为单位；各块可以旋转以放入",
     "{n} more pieces, so that they fit the bed": "为适合打印床而多出 {n} 块",
     "Not closed, so not cut to fit the bed: {names}": "未封闭，因此未按打印床切开：{names}",
+    "Separated Pieces": "已分离的块",
+    "Write the pieces that were separated, with their joints and dowels, as they are now":
+        "写出已分离的各块，连同接头和圆棒，保持当前状态",
+    "There are no separated parts of {name}. Separate them first.": "{name} 没有已分离的部件。请先分离。",
+    "No room with a wall around it": "没有留出壁厚的空间",
+    "Too bent to have an axis": "过于弯曲，没有轴线",
+    "A part is not closed": "有部件未封闭",
+    "It would spoil a part": "会损坏部件",
     "There would be more than {n} pieces. Is the bed in millimeters?": "将超过 {n} 块。打印床是以毫米为单位吗？",
     # 关于网格的说明
     "{n} edges join more than two faces (non-manifold).": "{n} 条边连接两个以上的面（非流形）。",

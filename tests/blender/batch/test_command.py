@@ -9,6 +9,7 @@ from pathlib import Path
 
 import bmesh
 import bpy
+import numpy as np
 import process
 import pytest
 from threemf_reader import read_3mf
@@ -50,8 +51,9 @@ def test_the_answer_says_of_each_part_whether_its_piece_is_sound(run, model, tmp
 
 
 def test_parts_are_separated_with_joints(run, model, tmp_path):
-    """The scene has the pieces, closed and pegged; the answer says of each cut what it has."""
-    ended = run(model, "--pegs", "square", "--peg-count", "2", "--peg-clearance", "0", "--save", tmp_path / "x.blend")
+    """The scene and the assembly have the pieces, closed and joined; the answer says of each cut what it has."""
+    ended = run(model, "--pegs", "dowel", "--peg-count", "2", "--save", tmp_path / "x.blend",
+                "--threemf", tmp_path / "x.3mf")
     (answer,) = ended.answer["objects"]
     assert len(answer["joints"]) == len(answer["parts"]) - 1
     assert all(cut["count"] and cut["width"] >= 2.0 and cut["reason"] is None for cut in answer["joints"])
@@ -63,6 +65,25 @@ def test_parts_are_separated_with_joints(run, model, tmp_path):
     assert len(pieces) == len(answer["parts"])
     assert all(json.loads(piece["reeb_parts_check"])["volume"] > 0 for piece in pieces)
     assert bpy.data.objects["Tree"].hide_render
+    dowels = [obj for obj in bpy.data.objects if "reeb_parts_dowel" in obj]
+    assert len(dowels) == sum(cut["count"] for cut in answer["joints"])
+    bodies, _ = read_3mf(tmp_path / "x.3mf")
+    assert sorted(body.name for body in bodies) == sorted(obj.name for obj in (*pieces, *dowels))
+    bpy.context.view_layer.update()
+    by_name = {body.name: body for body in bodies}
+    for obj in (*pieces, *dowels):
+        low = np.min([obj.matrix_world @ vertex.co for vertex in obj.data.vertices], axis=0)
+        assert 1000 * low == pytest.approx(np.min(by_name[obj.name].vertices, axis=0), abs=1e-2)
+
+
+def test_parts_fit_the_bed(run, model, tmp_path):
+    ended = run(model, "--bed", "1000", "1200", "1100", "--parts", tmp_path / "parts", "--parts-format", "stl")
+    assert len(ended.answer["files"]["parts"]) > len(ended.answer["objects"][0]["parts"])
+    for path in ended.answer["files"]["parts"]:
+        bpy.ops.wm.read_homefile(use_empty=True)
+        bpy.ops.wm.stl_import(filepath=path)
+        points = np.array([vertex.co for vertex in bpy.context.object.data.vertices])
+        assert np.linalg.norm(np.ptp(points, axis=0)) < np.linalg.norm([1.0, 1.2, 1.1]) * 1.01
 
 
 def test_what_is_made_of_the_parts(run, model, tmp_path):

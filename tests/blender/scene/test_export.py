@@ -184,3 +184,23 @@ def test_a_part_that_would_replace_the_open_scene_is_refused(obj, tmp_path):
         bpy.ops.reeb_parts.export(directory=str(tmp_path))
     assert [file.name for file in tmp_path.iterdir()] == [scene.name]
     assert scene.read_bytes() == before
+
+
+def test_pieces_are_written_as_they_were_separated(obj, tmp_path):
+    """With their joints, where they are; an error where there are none."""
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    with pytest.raises(RuntimeError, match="There are no separated parts of Tree"):
+        bpy.ops.reeb_parts.export(directory=str(tmp_path), format="stl", separated=True)
+    assert not list(tmp_path.iterdir())
+    bpy.ops.reeb_parts.separate(joints="DOWEL", hide=False)
+    there = {piece.name: piece for piece in bpy.data.collections["Parts of Tree"].objects}
+    before = snapshot()
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format="stl", separated=True)
+    assert snapshot() == before
+    assert {path.stem for path in tmp_path.iterdir()} == set(there)
+    assert any("reeb_parts_dowel" in piece for piece in there.values())
+    for path in sorted(tmp_path.iterdir()):
+        wanted = np.array([there[path.stem].matrix_world @ v.co for v in there[path.stem].data.vertices])
+        bpy.ops.wm.stl_import(filepath=str(path))
+        found = np.array([bpy.context.object.matrix_world @ v.co for v in bpy.context.object.data.vertices])
+        assert np.sort(found, axis=0)[[0, -1]] == pytest.approx(np.sort(wanted, axis=0)[[0, -1]], abs=1e-4)

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 import shapes
 
-from core.uses.joint_places import Cap, Wanted, joint_places
+from core import decompose
+from core.uses.joint_places import Cap, Wanted, arc_direction, joint_places
 from core.uses.joint_shapes import Kind
 
 WANTED = Wanted(Kind.ROUND, 1, clearance=0.01, size=0.0, depth=0.0, wall=0.05, least=0.02)
@@ -188,6 +189,13 @@ def test_a_bent_cap_has_an_axis_only_if_told():
     assert joint_places(bowl, pair, WANTED).bent
     found = joint_places(bowl, pair, WANTED, along=np.array([0.0, 0.0, 2.0]))
     assert not found.bent
+
+
+def test_the_arc_beside_a_cut_gives_its_direction():
+    graph = decompose(*shapes.dumbbell()).graph
+    found = arc_direction(graph, np.array([0.1, 0.0, 0.3]))
+    # The ends of the arc are corners of the mesh, beside the axis.
+    assert np.abs(found / np.linalg.norm(found)) == pytest.approx([0, 0, 1], abs=0.1)
 
 
 def test_a_bowed_cap_is_passed_over_its_whole_height():
