@@ -12,7 +12,7 @@ from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.store import Stored
 from ..scene.targets import users
-from ..viewport import framing, shading
+from ..viewport import framing, hover, shading
 
 
 class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
@@ -54,6 +54,7 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
         numbers = stored.face_numbers
         shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(mesh))
         hidden.hide(mesh, ~shown)
+        hover.clear()
         for user in users(mesh):
             graph_objects.update_parts(user, stored.shown_parts())
 
@@ -67,6 +68,7 @@ class REEB_PARTS_OT_hide(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         mask = np.isin(stored.face_numbers, chosen_numbers(obj.data))
         hidden.hide(obj.data, selection.hidden_faces(obj.data) | mask)
+        hover.clear()  # until the pointer moves, it would stay filled
 
 
 class REEB_PARTS_OT_frame(PartOperator, bpy.types.Operator):

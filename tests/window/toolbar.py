@@ -208,6 +208,7 @@ def hidden():
     yield from pointer.tap("h")
     yield 0.3
     note("hidden", hidden_parts())
+    pointer.shot("12_hidden.png")
     yield from pointer.tap("alt+h")
     yield 0.3
     note("shown again", hidden_parts())
