@@ -16,11 +16,13 @@ Steps = Generator[float, None, Result]
 
 def finished(steps: Steps[Result]) -> Result:
     """Run through all steps; what comes of them."""
-    while True:
-        try:
+    try:
+        while True:
             next(steps)
-        except StopIteration as end:
-            return end.value
+    except StopIteration as end:
+        return end.value
+    finally:
+        steps.close()  # at once, before whoever called takes back what was done
 
 
 def stretched(steps: Steps[Result], start: float, end: float) -> Steps[Result]:
