@@ -125,6 +125,7 @@ class ReebCut(bpy.types.PropertyGroup):
     place: IntProperty()  # among the cuts between these
     joint: EnumProperty(
         name="Joint", default="ALL", items=[("ALL", "As All", "What Joints says"), *JOINTS],
+        translation_context="Reeb Parts",
         description="What joins these two pieces when the parts are separated the next time",
     )
     count: IntProperty()  # of joints

@@ -200,7 +200,7 @@ class JointProperties:
     """How pieces are joined."""
 
     joints: EnumProperty(
-        name="Joints", default="NONE", items=JOINTS,
+        name="Joints", default="NONE", items=JOINTS, translation_context="Reeb Parts",  # to Blender, of a skeleton
         description="What joins the pieces when they are printed, along the axis of each cut; holes are closed then. "
         "A cut without room for it stays without",
     )

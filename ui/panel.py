@@ -14,8 +14,8 @@ from . import toolbar, wrapping
 
 MODELS = 8  # so many selected models are listed
 # Widths in pixels of a screen without scaling: of a sidebar that has no room for shares, and, in a row of the list, of
-# all beside the name with the share and of the share.
-NARROW, BESIDE_NAME = 215, 230
+# all beside the name and the share.
+NARROW, BESIDE_NAME = 215, 190
 
 
 def _result(context: bpy.types.Context) -> bpy.types.PropertyGroup | None:
@@ -61,10 +61,11 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
         chip.ui_units_x = 1.0
         chip.prop(item, "color", text="")
         row.prop(item, "name", text="", emboss=False)
-        if _has_room(context, item.name):
+        percent = f"{100 * item.share:.1f} %"
+        if _has_room(context, item.name, percent):
             share = row.row()
             share.alignment = "RIGHT"
-            share.label(text=f"{100 * item.share:.1f} %")
+            share.label(text=percent)
         unlocked = "PINNED" if item.pinned else "UNLOCKED"
         row.prop(item, "locked", text="", emboss=False, icon="LOCKED" if item.locked else unlocked)
         row.prop(item, "selected", text="", emboss=False,
@@ -88,11 +89,12 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
         return flags, part_list.ordered(parts, settings.sort, matrix)
 
 
-def _has_room(context: bpy.types.Context, name: str) -> bool:
+def _has_room(context: bpy.types.Context, name: str, percent: str) -> bool:
     """Whether the share of a part fits beside its name: the name is the last to be cut off."""
     scale = context.preferences.system.ui_scale
     blf.size(0, context.preferences.ui_styles[0].widget.points * scale)
-    return context.region.width > scale * max(NARROW, BESIDE_NAME + blf.dimensions(0, name)[0] / scale)
+    text = sum(blf.dimensions(0, word)[0] for word in (name, percent))
+    return context.region.width > max(scale * NARROW, scale * BESIDE_NAME + text)
 
 
 class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):

@@ -101,6 +101,15 @@ TOOLS = {
     "Cuts": "Schnitte",
     "Smooth": "Glatt",
     "Along Faces": "An Flächen",
+    "Joints": "Verbindungen",
+    "Joint": "Verbindung",
+    "As All": "Wie alle",
+    "Round Pegs": "Runde Zapfen",
+    "Square Pegs": "Eckige Zapfen",
+    "Keys": "Passfedern",
+    "Dowels": "Dübel",
+    "Magnets": "Magnete",
+    "None": "Keine",
     "Merge": "Zusammenführen",
     "Grow": "Wachsen",
     "Rename": "Umbenennen",
@@ -606,20 +615,14 @@ TEXTS = {
     "Godot": "Godot",
     "The part, then -convcolonly": "Das Teil, dann -convcolonly",
     # Verbindungen zum Drucken
-    "Joints": "Verbindungen",
     "Pieces are closed and flat where they were joined": "Die Stücke sind geschlossen, ohne Zapfen und Löcher",
-    "Round Pegs": "Runde Zapfen",
     "The smaller piece has a round peg, the other a hole for it":
         "Das kleinere Stück hat einen runden Zapfen, das andere ein Loch dafür",
-    "Square Pegs": "Eckige Zapfen",
     "Pegs that do not turn in their holes": "Zapfen, die sich in ihren Löchern nicht drehen",
-    "Keys": "Passfedern",
     "Pegs like the tail of a dove, which fit into their holes one way round only":
         "Zapfen wie ein Schwalbenschwanz, die nur in einer Lage in ihre Löcher passen",
-    "Dowels": "Dübel",
     "Both pieces have a hole, and a loose dowel goes into both":
         "Beide Stücke haben ein Loch, und ein loser Dübel steckt in beiden",
-    "Magnets": "Magnete",
     "Both pieces have a round hole for a magnet, as deep as Depth says":
         "Beide Stücke haben ein rundes Loch für einen Magneten, so tief, wie es die Tiefe sagt",
     "What joins the pieces when they are printed, along the axis of each cut; holes are closed then. "
@@ -652,8 +655,6 @@ TEXTS = {
         "Keine Verbindung, wo ein Teil nicht geschlossen ist oder sich durchdringt: {cuts}",
     "No joint where it would have left a part open or pierced: {cuts}":
         "Keine Verbindung, wo sie ein Teil geöffnet oder durchstoßen hätte: {cuts}",
-    "Joint": "Verbindung",
-    "As All": "Wie alle",
     "What Joints says": "Was unter Verbindungen steht",
     "What joins these two pieces when the parts are separated the next time":
         "Was diese beiden Stücke verbindet, wenn die Teile das nächste Mal getrennt werden",

@@ -85,7 +85,7 @@ OPERATORS = {
     "Keep Object": "保留物体",
     "Rename Part": "重命名部件",
     "Grow to Next Crease": "扩大到下一条折痕",
-    "Shrink to Next Crease": "缩小到下一条折痕",
+    "Shrink to Next Crease": "收缩到下一条折痕",
 }
 
 TOOLS = {
@@ -102,6 +102,15 @@ TOOLS = {
     "Cuts": "切口",
     "Smooth": "平滑",
     "Along Faces": "沿面",
+    "Joints": "接头",
+    "Joint": "接头",
+    "As All": "同全部",
+    "Round Pegs": "圆形插销",
+    "Square Pegs": "方形插销",
+    "Keys": "楔形插销",
+    "Dowels": "圆棒",
+    "Magnets": "磁铁",
+    "None": "无",
     "Merge": "合并",
     "Grow": "扩大",
     "Rename": "重命名",
@@ -242,7 +251,7 @@ TEXTS = {
     "Along edges that are marked sharp": "沿标记为锐边的边",
     "Hints must be one whole number for each of the {n} faces.": "提示必须为 {n} 个面中的每个面各给出一个整数。",
     "Seams": "缝合边",
-    "Sharp Edges": "锐边",
+    "Sharp Edges": "锐利边",
     "The shape alone decides": "仅由形状决定",
     "What you have marked on the mesh yourself that parts should follow, besides its shape":
         "除形状之外，部件还应遵循您自己在网格上标记的内容",
@@ -573,18 +582,12 @@ TEXTS = {
     "Godot": "Godot",
     "The part, then -convcolonly": "部件，后接 -convcolonly",
     # 打印用的接头
-    "Joints": "接头",
     "Pieces are closed and flat where they were joined": "各块封闭，相连处没有插销和孔",
-    "Round Pegs": "圆形插销",
     "The smaller piece has a round peg, the other a hole for it": "较小的一块带有圆形插销，另一块带有对应的孔",
-    "Square Pegs": "方形插销",
     "Pegs that do not turn in their holes": "在孔中不会转动的插销",
-    "Keys": "楔形插销",
     "Pegs like the tail of a dove, which fit into their holes one way round only":
         "形如燕尾的插销，只能以一个方向插入孔中",
-    "Dowels": "圆棒",
     "Both pieces have a hole, and a loose dowel goes into both": "两块都有孔，一根独立的圆棒插入两孔",
-    "Magnets": "磁铁",
     "Both pieces have a round hole for a magnet, as deep as Depth says": "两块都有放置磁铁的圆孔，深度由“深度”决定",
     "What joins the pieces when they are printed, along the axis of each cut; holes are closed then. "
     "A cut without room for it stays without":
@@ -609,8 +612,6 @@ TEXTS = {
     "No joint where a cut is so bent that it has no axis: {cuts}": "切口过于弯曲而没有轴线，因此无接头：{cuts}",
     "No joint where a part is not closed or crosses itself: {cuts}": "部件未封闭或自相交，因此无接头：{cuts}",
     "No joint where it would have left a part open or pierced: {cuts}": "接头会使部件开口或被穿透，因此无接头：{cuts}",
-    "Joint": "接头",
-    "As All": "同全部",
     "What Joints says": "按“接头”的设置",
     "What joins these two pieces when the parts are separated the next time": "下次分离部件时用什么连接这两块",
     "{n} of {width} mm": "{n} 个，宽 {width} 毫米",
@@ -828,7 +829,7 @@ TEXTS = {
         "为指针下的部件重命名，否则为活动部件重命名",
     "Hide the faces of the chosen parts, beside those that are hidden": "隐藏所选部件的面，已隐藏的面保持隐藏",
     "Say that a key which would move or delete the object does nothing while the tool is the active one":
-        "说明此工具激活时，会移动或删除物体的按键不起作用",
+        "说明此工具为活动工具时，会移动或删除物体的按键不起作用",
     "Take parts from those that are chosen": "从所选部件中移除部件",
     "The new name of the active part": "活动部件的新名称",
     "This key does nothing to parts. Choose another tool to move or delete the object.":
@@ -844,13 +845,13 @@ TEXTS = {
     "Move the boundary of each chosen part inwards, ring by ring": "将每个所选部件的边界逐圈向内移动",
     "Move the boundary of each chosen part outwards, ring by ring": "将每个所选部件的边界逐圈向外移动",
     "Move the mouse left and right to slide it    A: all of it    Enter: confirm    Esc: cancel":
-        "左右移动鼠标以滑移    A：全部边界    Enter：确认    Esc：取消",
+        "左右移动鼠标以滑移    A：全部边界    回车：确认    Esc：取消",
     "Neighbor": "相邻部件",
     "Nothing beyond the boundary can be taken or given: it is locked, or all there is.":
         "边界处没有可取得或让出的面：已锁定，或已是全部。",
     "Number of the part at which the boundary slides; 0 for all of the boundary":
         "边界在其处滑移的部件编号；0 表示全部边界",
-    "Rings": "圈数",
+    "Rings": "环",
     "what is left is in {n} parts more": "剩余部分多分成 {n} 个部件",
     "{names} gave away {n} faces": "{names} 让出 {n} 个面",
     "{names} took {n} faces": "{names} 取得 {n} 个面",
@@ -858,5 +859,5 @@ TEXTS = {
     "{n} do not touch it and are parts of their own": "{n} 个与其不相接，成为单独的部件",
     "{n} faces of {givers} are {name} now": "{givers} 的 {n} 个面现属于 {name}",
     "{rings} rings, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm    Esc: cancel":
-        "{rings} 圈，{low} 至 {high}    滚轮或数字：圈数，负数向内    单击、Enter：确认    Esc：取消",
+        "{rings} 圈，{low} 至 {high}    滚轮或数字：圈数，负数向内    单击、回车：确认    Esc：取消",
 }
