@@ -33,10 +33,11 @@ def draw_part_menu(layout: bpy.types.UILayout) -> None:
         ("reeb_parts.merge_small", "NONE"),
         ("reeb_parts.split", "MOD_EDGESPLIT"), ("reeb_parts.cut", "MOD_BOOLEAN"), ("reeb_parts.grow", "ADD"),
         ("reeb_parts.shrink", "REMOVE"), ("reeb_parts.slide", "ARROW_LEFTRIGHT"), ("reeb_parts.paint", "BRUSH_DATA"))
-    column = layout.column()
-    column.operator_context = "EXEC_DEFAULT"
-    column.operator("reeb_parts.grow", text="Grow to Next Crease").rings = 0
-    column.operator("reeb_parts.shrink", text="Shrink to Next Crease").rings = 0
+    asking = layout.operator_context
+    layout.operator_context = "EXEC_DEFAULT"
+    layout.operator("reeb_parts.grow", text="Grow to Next Crease").rings = 0
+    layout.operator("reeb_parts.shrink", text="Shrink to Next Crease").rings = 0
+    layout.operator_context = asking  # it is that of the whole menu
     layout.separator()
     layout.operator("reeb_parts.assign", icon="FACESEL").new = False
     layout.operator("reeb_parts.assign", text="New Part of Selected Faces").new = True
