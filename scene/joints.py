@@ -17,6 +17,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from . import bridge, caps, mesh_arrays, piece_checks
+from .steps import Steps, finished, stretched
 from .temporary import removed
 from .units import millimeters
 
@@ -108,6 +109,12 @@ def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch:
     -------
     joined : Joined
     """
+    return finished(joining(context, meshes, stretch, wanted, kind_of, graph))
+
+
+def joining(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray, wanted: Wanted,
+            kind_of: Callable[[int, int], str], graph: ReebGraph | None) -> Steps[Joined]:
+    """What ``join`` does, in steps."""
     from ..core.uses.joint_places import arc_direction, joint_places
     from ..core.uses.joint_shapes import Kind
 
@@ -117,6 +124,7 @@ def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch:
     bodies = {key: _Body(meshes[key], stretch) for key, found in checks.items() if found.volume and found.volume > 0}
     planned: list[_Plan] = []
     for cut in sorted(cuts, key=lambda cut: -cut.cap.area()):
+        yield 0.5 * len(planned) / len(cuts)
         kind = kind_of(*cut.keys) or wanted.kind.name
         own = replace(wanted, kind=Kind(kind)) if kind != "NONE" else None
         if own is None or not all(key in bodies for key in cut.keys):
@@ -132,7 +140,7 @@ def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch:
             for side in (0, 1):
                 if side == places.into or own.kind.both_sides:
                     bodies[cut.keys[side]].add_hole(_solid(joint, own, True))
-    made, planned = _fitted(_Work(context, meshes, checks, stretch), planned)
+    made, planned = yield from stretched(_fitting(_Work(context, meshes, checks, stretch), planned), 0.5, 1.0)
     for key, mesh in made.items():
         _spread_shape_keys(meshes[key], mesh)
         mesh.name = meshes[key].name
@@ -331,11 +339,13 @@ class _Work:
     stretch: np.ndarray
 
 
-def _fitted(work: _Work, planned: list[_Plan]) -> tuple[dict[int, bpy.types.Mesh], list[_Plan]]:
+def _fitting(work: _Work, planned: list[_Plan]) -> Steps[tuple[dict[int, bpy.types.Mesh], list[_Plan]]]:
     """New meshes for the pieces with joints, and what was planned: smaller, or not at all, where it spoils a piece."""
     made: dict[int, bpy.types.Mesh] = {}
     again = {key for plan in planned if not plan.why for key in plan.cut.keys}
+    every = len(again)
     while again:
+        yield 1 - len(again) / every
         key = min(again)
         again.remove(key)
         if key in made:

@@ -164,10 +164,10 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     part, names = fitted.part, _names(obj, sorted(fitted.meshes), fitted.part)
     joined = joints.Joined(fitted.meshes, [], [])
     if style.joints != "NONE":
-        joined = joints.join(context, fitted.meshes, stretch, joints.wanted_joints(style), cut_list.chosen(obj, part),
-                             stored.decomposition.graph)
+        joined = yield from stretched(
+            joints.joining(context, fitted.meshes, stretch, joints.wanted_joints(style), cut_list.chosen(obj, part),
+                           stored.decomposition.graph), 0.7, 0.8)
         cut_list.write(obj, joined.cuts, part)
-        yield 0.8
     made = _objects(context, obj, joined.meshes, names, part, style)
     loose = [_dowel(context, obj, mesh, style) for mesh in joined.loose]
     for piece in (*made, *loose):
