@@ -18,7 +18,7 @@ from snapshot import changes, snapshot
 
 # In pixels, where Blender's own popups have something: from a chip to the field of its popup; from a right
 # click to an entry of the menu.
-HEX, MERGE = (99, 299), (-60, 266)
+HEX, MERGE = (99, 299), (-60, 259)
 
 
 def steps():
