@@ -3,10 +3,11 @@
 
     blender -b scene.blend --command reeb_parts --object NAME --save OUT.blend --json OUT.json
     blender --command reeb_parts model.glb --parts FOLDER
+    blender --command reeb_parts chair.obj table.obj lamp.obj --json OUT.json
 
 One JSON object goes to standard output, progress and Blender's own messages to standard error. Files appear when all
-of them are complete, or not at all, and none is written over that is read. An object that cannot be decomposed is named
-in the JSON, and costs only itself.
+of them are complete, or not at all, and none is written over that is read. An object that cannot be decomposed, or
+one of several models that cannot be read, is named in the JSON, and costs only itself.
 
 The exit status is 0 only if every object was decomposed and every file written, and 130 after Ctrl+C; an OUT.json of
 an earlier run does not outlast one that failed.
@@ -93,13 +94,13 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
             _say(note)
         with interrupts.allowed():
             load_core()
-            objects, problems = find_objects(options)
+            objects, problems, sources = find_objects(options)
         files.protect(scene_files())
         reports, done = [], []
         with interrupts.allowed():
             for obj in objects:
                 try:
-                    reports.append(decompose_object(obj, parameters, options))
+                    reports.append(decompose_object(obj, parameters, options) | sources.get(obj, {}))
                     done.append(obj)
                 except (SceneError, ReebError, MemoryError) as error:
                     problems.append(_problem(getattr(obj, "name", ""), error))
@@ -113,9 +114,9 @@ def _claim(options: argparse.Namespace, files: WholeFiles) -> None:
     """Say which files will be written; raises SceneError where one cannot be."""
     # The standard streams may lead to files, too.
     files.protect([1, 2])
-    if options.model is not None:
+    for model in options.models:
         # What belongs to a model: the materials of an .obj, the numbers of a .gltf.
-        files.protect([options.model, options.model.with_suffix(".mtl"), options.model.with_suffix(".bin")])
+        files.protect([model, model.with_suffix(".mtl"), model.with_suffix(".bin")])
     if options.json is not None:
         files.claim(options.json)
         # Who reads an old one would take it for the answer of this run.
@@ -139,33 +140,65 @@ def _problem(name: str, error: Exception) -> dict:
     return {"name": name, "problem": words}
 
 
-def find_objects(options: argparse.Namespace) -> tuple[list, list[dict]]:
-    """Open what is asked for; the objects to decompose, and problems with those that are not there."""
-    meshes = [] if options.model is None else _open(options.model)
+def find_objects(options: argparse.Namespace) -> tuple[list, list[dict], dict]:
+    """Open what is asked for.
+
+    Returns the objects to decompose, the problems with those that are not there, and what the JSON says of where an
+    object comes from, if there are several models.
+    """
+    meshes, problems, sources = _open(options.models)
     if not options.object:
-        return meshes or [bpy.context.view_layer.objects.active], []
+        return meshes or ([] if problems else [bpy.context.view_layer.objects.active]), problems, sources
     names = list(dict.fromkeys(options.object))
-    missing = [_problem(name, SceneError(f"There is no object {name} in the scene."))
-               for name in names if name not in bpy.data.objects]
-    return [bpy.data.objects[name] for name in names if name in bpy.data.objects], missing
+    problems += [_problem(name, SceneError(f"There is no object {name} in the scene."))
+                 for name in names if name not in bpy.data.objects]
+    return [bpy.data.objects[name] for name in names if name in bpy.data.objects], problems, sources
 
 
-def _open(path: Path) -> list:
-    """Open a scene, or import a model into an empty one; returns the meshes of a model."""
+def _open(models: list[Path]) -> tuple[list, list[dict], dict]:
+    """Open a scene, or import models into an empty one; the meshes of models and, of several, problems and sources."""
+    if not models:
+        return [], [], {}
+    if len(models) == 1:
+        _check_model(models[0], (".blend", *MODELS))
+    if len(models) == 1 and models[0].suffix.lower() == ".blend":
+        try:
+            bpy.ops.wm.open_mainfile(filepath=str(models[0].resolve()), load_ui=False)
+        except RuntimeError as error:  # what Blender's own operators report
+            raise SceneError(f"{models[0]} could not be read: {reason(error)}") from error
+        return [], [], {}
+    bpy.ops.wm.read_homefile(use_empty=True)
+    meshes, problems, sources = [], [], {}
+    for path in models:
+        try:
+            found = _imported(path)
+        except SceneError as error:
+            if len(models) == 1:
+                raise
+            problems.append(_problem(str(path), error))
+            continue
+        meshes += found
+        sources |= {obj: {"model": str(path)} for obj in found if len(models) > 1}
+    return meshes, problems, sources
+
+
+def _check_model(path: Path, kinds: tuple[str, ...]) -> None:
+    """Raise SceneError if there is no file of that kind there."""
     if not path.is_file():
         raise SceneError(f"There is no file {path}.")
-    kind = path.suffix.lower()
-    if kind != ".blend" and kind not in MODELS:
-        raise SceneError(f"{path} is none of .blend, {', '.join(MODELS)}.")
+    if path.suffix.lower() not in kinds:
+        raise SceneError(f"{path} is none of {', '.join(kinds)}.")
+
+
+def _imported(path: Path) -> list:
+    """Import a model into the scene; returns its meshes. Raises SceneError."""
+    _check_model(path, MODELS)
+    before = set(bpy.context.scene.objects)
     try:
-        if kind == ".blend":
-            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False)
-            return []
-        bpy.ops.wm.read_homefile(use_empty=True)
-        IMPORTERS[kind](str(path.resolve()))
-    except RuntimeError as error:  # what Blender's own operators report
+        IMPORTERS[path.suffix.lower()](str(path.resolve()))
+    except RuntimeError as error:
         raise SceneError(f"{path} could not be read: {reason(error)}") from error
-    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
+    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and obj not in before]
     if not meshes:
         raise SceneError(f"There is no mesh in {path}.")
     return meshes

@@ -22,8 +22,8 @@ def parser(description: str | None) -> argparse.ArgumentParser:
         prog="blender --command reeb_parts", description=description,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    made.add_argument("model", nargs="?", type=Path,
-                      help=f"a scene (.blend) or a model ({', '.join(MODELS)}); without it, the scene "
+    made.add_argument("models", nargs="*", type=Path, metavar="MODEL",
+                      help=f"a scene (.blend), or one or several models ({', '.join(MODELS)}); without it, the scene "
                       "that Blender has open")
     made.add_argument("--object", action="append", default=[], metavar="NAME",
                       help="object to decompose, can be given several times; the active object of a scene "

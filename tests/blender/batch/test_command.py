@@ -114,6 +114,28 @@ def test_an_object_that_cannot_be_cut_costs_only_itself(run, two, tmp_path):
     assert len(bpy.data.objects["Tree"].data.reeb_parts.parts) == len(ended.answer["objects"][0]["parts"])
 
 
+def test_several_models_and_one_that_cannot_be_read_costs_only_itself(run, model, tmp_path):
+    other, broken, missing = (tmp_path / name for name in ("other.obj", "broken.glb", "missing.obj"))
+    other.write_bytes(model.read_bytes())
+    broken.write_bytes(b"glTF")
+    ended = run(model, broken, other, missing, "--parts", tmp_path / "parts")
+    assert ended.status == 1
+    assert [mesh["model"] for mesh in ended.answer["objects"]] == [str(model), str(other)]
+    assert [problem["name"] for problem in ended.answer["problems"]] == [str(broken), str(missing)]
+    assert ended.answer["objects"][0]["parts"] == ended.answer["objects"][1]["parts"]
+    assert len(list((tmp_path / "parts").glob("*.obj"))) == 2 * len(ended.answer["objects"][0]["parts"])
+    assert "Traceback" not in ended.err
+
+
+def test_a_scene_is_given_alone(run, model, tmp_path):
+    ended = run(model, tmp_path / "scene.blend")
+    assert ended.status == 1
+    (tmp_path / "scene.blend").write_bytes(b"")
+    ended = run(model, tmp_path / "scene.blend")
+    assert ended.status == 1
+    assert ended.answer["problems"][0]["problem"].endswith("is none of .obj, .ply, .stl, .glb, .gltf, .fbx.")
+
+
 def test_an_object_that_is_not_there_costs_only_itself(run, two, tmp_path):
     ended = run(two, "--object", "Tree", "--object", "Nobody")
     assert ended.status == 1
