@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import ReebError
 from ..sentence import Sentence
-from ..surface.arrays import frozen
+from ..surface.arrays import frozen, on_grid
 
 ROWS = 64  # number of rows evaluated at once; their intermediate arrays fit into the processor's cache
 
@@ -115,7 +115,7 @@ class BoostedTrees:
             place = np.frexp(lowest.astype(np.float32))[1].T - 1
             # One row at a time, in the order of the trees: the sum does not depend on the other rows.
             total[start:start + ROWS] = np.ascontiguousarray(self.leaf.ravel()[first + place]).sum(axis=1)
-        return 1.0 / (1.0 + np.exp(-total))
+        return on_grid(1.0 / (1.0 + np.exp(-total)))
 
     @cached_property
     def _by_node(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

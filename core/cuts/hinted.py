@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import both_ways, components, last_of_each, renumbered
+from ..surface.arrays import both_ways, components, last_of_each, on_grid, renumbered
 from ..surface.labels import FaceGraph, majority, spread
 from .hierarchy import Hierarchy
 from .joining.linkage import average_linkage
@@ -61,7 +61,7 @@ def hinted_candidates(
     salience = hierarchy.salience[hierarchy.merge_of(own[a], own[b]).clip(max=len(hierarchy.salience) - 1)]
     other = said[a] != said[b]
     salience = np.where(own[a] == own[b], 0.0, salience).clip(np.where(other, LEAST, ROUNDING), 1.0 - ROUNDING)
-    score = np.log(1.0 / salience - 1.0) + np.where(other, -OTHER, SAME)
+    score = on_grid(np.log(1.0 / salience - 1.0)) + np.where(other, -OTHER, SAME)
     weight = np.sqrt(area[pairs].min(axis=1) / area.sum()) + 1e-9
     merges, joined, _ = average_linkage(len(area), pairs, score, weight)
     return cell, Hierarchy.of(len(area), merges, np.minimum(1.0 / (1.0 + np.exp(joined)), LAST))

@@ -49,6 +49,11 @@ def rounded(values: np.ndarray) -> np.ndarray:
     return np.ldexp(np.rint(mantissa * 2.0**26), exponent - 26)
 
 
+def on_grid(values: np.ndarray) -> np.ndarray:
+    """Numbers of about 1 in whole steps of 2**-40: logarithms and such, whose last digits differ between versions."""
+    return np.rint(values * 2.0**40) / 2.0**40
+
+
 def square_roots(values: np.ndarray, scale: np.ndarray) -> np.ndarray:
     """Square roots of differences that would not be negative but for rounding.
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...surface.arrays import renumbered
+from ...surface.arrays import on_grid, renumbered
 from ...surface.contact import TOUCH
 from ...surface.mesh import TriMesh
 from ..boosted_trees import BoostedTrees
@@ -98,7 +98,7 @@ def join_parts(
     together = np.clip((model or join_model()).predict(pairs.features), *SURE)
     weight = np.sqrt(pairs.area[pairs.parts].min(axis=1)) + 1e-9
     merges, score, rows = average_linkage(
-        len(parts.candidate), pairs.parts, np.log(together / (1 - together)), weight)
+        len(parts.candidate), pairs.parts, on_grid(np.log(together / (1 - together))), weight)
     strength = np.interp(1 / (1 + np.exp(-score)), [0.0, DECISION, 1.0], [1.0, 0.5, FINE])
     touching = (pairs.gap <= TOUCH) & ~pairs.same_piece
     contacts = pairs.faces[np.union1d(rows, np.flatnonzero(touching))]

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...surface.arrays import distinct_pairs, last_of_each, sums_by
+from ...surface.arrays import distinct_pairs, last_of_each, square_roots, sums_by
 from ...surface.contact import NEAR, SurfacePoints, diameter, near_pairs
 from ...surface.mesh import TriMesh
 
@@ -204,9 +204,10 @@ def _part_shapes(
     offset = position - center[mine]
     moments = sums_by(mine, weight[:, None] * (offset[:, :, None] * offset[:, None, :]).reshape(-1, 9), count)
     values, axes = np.linalg.eigh(moments.reshape(-1, 3, 3) / area[:, None, None])
-    extents = np.sqrt(np.maximum(values[:, ::-1], 0))
+    extents = square_roots(values[:, ::-1], values[:, -1:])
     mean = np.bincount(mine, weight * level, count) / area
-    deviation = np.sqrt(np.maximum(np.bincount(mine, weight * level**2, count) / area - mean**2, 0))
+    square = np.bincount(mine, weight * level**2, count) / area
+    deviation = square_roots(square - mean**2, square)
     logs = np.column_stack([0.5 * np.log(area), np.log(extents + 0.003)])
     alike = (np.abs(logs[:, None] - logs[None]).max(axis=2) < ALIKE).sum(axis=1) - 1.0
     part_piece = np.zeros(count, np.int64)

@@ -115,9 +115,9 @@ def test_an_object_that_cannot_be_cut_costs_only_itself(run, two, tmp_path):
 
 
 def test_several_models_and_one_that_cannot_be_read_costs_only_itself(run, model, tmp_path):
-    other, broken, missing = (tmp_path / name for name in ("other.obj", "broken.glb", "missing.obj"))
+    other, broken, missing = (tmp_path / name for name in ("other.obj", "empty.obj", "missing.obj"))
     other.write_bytes(model.read_bytes())
-    broken.write_bytes(b"glTF")
+    broken.write_bytes(b"")
     ended = run(model, broken, other, missing, "--parts", tmp_path / "parts")
     assert ended.status == 1
     assert [mesh["model"] for mesh in ended.answer["objects"]] == [str(model), str(other)]
