@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The cuts between pieces: caps that two of them have in common."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from .. import caps, mesh_arrays
+
+if TYPE_CHECKING:
+    from ...core.uses.joint_places import Cap
+
+
+@dataclass(frozen=True, eq=False)
+class Cut:
+    """A cap that two pieces share.
+
+    Attributes
+    ----------
+    keys : (int, int)
+        Of the pieces.
+    cap : Cap
+        In units of the world, looking from the first piece to the second.
+    faces : ((k,), (k,)) int64
+        In the two pieces.
+    """
+
+    keys: tuple[int, int]
+    cap: Cap
+    faces: tuple[np.ndarray, np.ndarray]
+
+
+def shared_cuts(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray) -> list[Cut]:
+    """What the pieces have in common: connected faces of caps with the same corners in two of them."""
+    from ...core.surface.arrays import components
+    from ...core.uses.joint_places import Cap
+
+    keys = sorted(meshes)
+    found = [_cap_faces(meshes[key]) for key in keys]
+    corners = np.concatenate([points for _, points, _ in found]) if found else np.empty((0, 3), np.float32)
+    if not len(corners):
+        return []
+    name = _names(corners, [place for _, _, place in found])
+    piece = np.repeat(np.arange(len(keys)), [len(faces) for faces, _, _ in found])
+    face = np.concatenate([faces for faces, _, _ in found])
+    order = np.lexsort((piece, name))
+    twice = np.flatnonzero((name[order][1:] == name[order][:-1]) & (piece[order][1:] != piece[order][:-1]))
+    low, high = order[twice], order[twice + 1]
+    cuts = []
+    for a, b in np.unique(np.stack([piece[low], piece[high]], axis=1), axis=0).tolist():
+        these = (piece[low] == a) & (piece[high] == b)
+        one, other = face[low[these]], face[high[these]]
+        sort = np.argsort(one)
+        one, other = one[sort], other[sort]
+        mesh = meshes[keys[a]]
+        pairs, _ = mesh_arrays.corner_table(mesh).face_pairs()
+        pairs = pairs[np.isin(pairs, one).all(axis=1)]
+        count, label = components(len(one), *np.searchsorted(one, pairs).T)
+        points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
+        triangles, polygon = mesh_arrays.triangles(mesh)
+        rims = points[_rims(triangles[np.isin(polygon, one)])]
+        for index in range(count):
+            mine = one[label == index]
+            cap = Cap(points, triangles[np.isin(polygon, mine)], rims)
+            cuts.append(Cut((keys[a], keys[b]), cap, (mine, np.sort(other[label == index]))))
+    return cuts
+
+
+def _rims(triangles: np.ndarray) -> np.ndarray:
+    """The edges of some triangles that one of them has, (s, 2)."""
+    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, count = np.unique(edges, axis=0, return_counts=True)
+    return edges[count == 1]
+
+
+def _cap_faces(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The faces of caps, the places of their corners, (c, 3) float32, and the face of each corner, from 0."""
+    attribute = mesh.attributes.get(caps.CAP)
+    if attribute is None:
+        return np.empty(0, np.int64), np.empty((0, 3), np.float32), np.empty(0, np.int64)
+    is_cap = mesh_arrays.read(attribute.data, "value", np.int32) == 1
+    vertex, face = mesh_arrays.face_corners(mesh)
+    here = is_cap[face]
+    return np.flatnonzero(is_cap), mesh_arrays.basis_points(mesh)[vertex[here]], (np.cumsum(is_cap) - 1)[face[here]]
+
+
+def _names(corners: np.ndarray, faces: list[np.ndarray]) -> np.ndarray:
+    """A number for each face that faces with corners at the same places share, (f,) uint64."""
+    place = _places(corners.astype(np.float64))
+    # Sums of scattered numbers: those of different sets of places differ.
+    scattered = np.random.default_rng(0).integers(0, 1 << 63, int(place.max()) + 1, dtype=np.uint64)
+    count = [int(some.max(initial=-1)) + 1 for some in faces]
+    start = np.cumsum([0, *count])
+    face = np.concatenate([some + first for some, first in zip(faces, start, strict=False)])
+    total = np.zeros(start[-1], np.uint64)
+    np.add.at(total, face, scattered[place])
+    return total
+
+
+def _places(points: np.ndarray) -> np.ndarray:
+    """A number for each place; points, (n, 3), that differ by rounding are at one."""
+    from scipy.spatial import cKDTree
+
+    from ...core.surface.arrays import components
+
+    own, place = np.unique(points, axis=0, return_inverse=True)
+    near = cKDTree(own).query_pairs(2e-6 * float(np.linalg.norm(np.ptp(own, axis=0))), output_type="ndarray")
+    return components(len(own), *near.T)[1][place.ravel()]

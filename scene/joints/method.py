@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The method: plan joints for all cuts, one after the other, then fit them into the pieces."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from .. import bridge, mesh_arrays, piece_checks
+from ..steps import Steps, finished, stretched
+from ..temporary import removed
+from ..units import millimeters
+from .bodies import Body, Side
+from .cuts import shared_cuts
+from .fitting import Plan, Work, fitting
+from .solids import dowel, solid_of
+
+if TYPE_CHECKING:
+    from ...core.graph.reeb import ReebGraph
+    from ...core.uses.joint_places import Wanted
+    from ..settings import SeparateProperties
+
+# Joints are at least so wide, in millimeters: what is smaller breaks off.
+_LEAST = 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class CutJoints:
+    """What became of a cut between two pieces.
+
+    Attributes
+    ----------
+    keys : (int, int)
+        Of the pieces.
+    kind : str
+        What it was to have, of settings.JOINTS.
+    count : int
+        How many joints it has.
+    width : float
+        How wide they are, in millimeters.
+    why : str
+        Why there are none: "ROOM", "BENT", "BODY" or "RESULT", see operators.separate; "" where there are some, or
+        where none were wanted.
+    """
+
+    keys: tuple[int, int]
+    kind: str
+    count: int
+    width: float
+    why: str
+
+
+@dataclass(frozen=True, eq=False)
+class Joined:
+    """Pieces with joints.
+
+    Attributes
+    ----------
+    meshes : dict of int -> bpy.types.Mesh
+        By the keys of the pieces; those without joints are what they were.
+    loose : list of bpy.types.Mesh
+        Dowels, in their places.
+    cuts : list of CutJoints
+    """
+
+    meshes: dict[int, bpy.types.Mesh]
+    loose: list[bpy.types.Mesh]
+    cuts: list[CutJoints]
+
+
+def wanted_joints(style: SeparateProperties) -> Wanted:
+    """What settings.SeparateProperties ask for, in units of the world."""
+    from ...core.uses.joint_places import Wanted
+    from ...core.uses.joint_shapes import Kind
+
+    unit = millimeters()
+    return Wanted(Kind(style.joints), style.joint_count, *(value / unit for value in (
+        style.joint_clearance, style.joint_size, style.joint_depth, style.joint_wall, _LEAST)))
+
+
+def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray,
+         wanted: Wanted, kind_of: Callable[[int, int], str] = lambda one, other: "",
+         graph: ReebGraph | None = None) -> Joined:
+    """Give pieces joints at the cuts between them; Object Mode.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    meshes : dict of int -> bpy.types.Mesh
+        Closed by caps. Those that get joints are removed, others take their places.
+    stretch : (3, 3) float64
+        What the object does to its mesh, see bridge.world_stretch.
+    wanted : Wanted
+    kind_of : callable(int, int) -> str
+        The kind of joint between two pieces where it is another one, "NONE" for none; "" where it is not.
+    graph : ReebGraph, optional
+        Gives the axis where a cap is too bent to tell.
+
+    Returns
+    -------
+    joined : Joined
+    """
+    return finished(joining(context, meshes, stretch, wanted, kind_of, graph))
+
+
+def joining(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray, wanted: Wanted,
+            kind_of: Callable[[int, int], str], graph: ReebGraph | None) -> Steps[Joined]:
+    """What ``join`` does, in steps."""
+    from ...core.uses.joint_places import arc_direction, joint_places
+    from ...core.uses.joint_shapes import Kind
+
+    cuts = shared_cuts(meshes, stretch)
+    keys = sorted({key for cut in cuts for key in cut.keys})
+    checks = {key: piece_checks.check(meshes[key], stretch)[0] for key in keys}
+    bodies = {key: Body(meshes[key], stretch) for key, found in checks.items() if found.volume and found.volume > 0}
+    planned: list[Plan] = []
+    for cut in sorted(cuts, key=lambda cut: -cut.cap.area()):
+        yield 0.5 * len(planned) / len(cuts)
+        kind = kind_of(*cut.keys) or wanted.kind.name
+        own = replace(wanted, kind=Kind(kind)) if kind != "NONE" else None
+        if own is None or not all(key in bodies for key in cut.keys):
+            planned.append(Plan(cut, own, None, "BODY" if own else "NONE"))
+            continue
+        # The smaller piece has the peg, the larger one has room for it.
+        first = int(checks[cut.keys[0]].volume < checks[cut.keys[1]].volume)  # type: ignore[operator]
+        pair = (Side(bodies, cut, 0), Side(bodies, cut, 1))
+        along = arc_direction(graph, cut.cap.corners().mean(axis=(0, 1))) if graph is not None else None
+        places = joint_places(cut.cap, pair, own, first, along)
+        planned.append(Plan(cut, own, places, "" if places.joints else "BENT" if places.bent else "ROOM"))
+        for joint in places.joints:
+            for side in (0, 1):
+                if side == places.into or own.kind.both_sides:
+                    bodies[cut.keys[side]].add_hole(solid_of(joint, own, True))
+    made, planned = yield from stretched(fitting(Work(context, meshes, checks, stretch), planned), 0.5, 1.0)
+    for key, mesh in made.items():
+        _spread_shape_keys(meshes[key], mesh)
+        mesh.name = meshes[key].name
+    bpy.data.batch_remove([meshes[key] for key in made])
+    loose = [dowel(joint, plan.wanted, bridge.unstretch(stretch)) for plan in planned
+             if not plan.why and plan.places and plan.wanted and plan.wanted.kind is Kind.DOWEL
+             for joint in plan.places.joints]
+    return Joined({**meshes, **made}, loose, [_said(plan) for plan in planned])
+
+
+def _said(plan: Plan) -> CutJoints:
+    """What became of a cut."""
+    joints = plan.places.joints if plan.places is not None and not plan.why else ()
+    width = 2 * joints[0].radius * millimeters() if joints else 0.0
+    kind = plan.wanted.kind.name if plan.wanted is not None else "NONE"
+    return CutJoints(plan.cut.keys, kind, len(joints), width, "" if plan.why == "NONE" else plan.why)
+
+
+def _spread_shape_keys(mesh: bpy.types.Mesh, made: bpy.types.Mesh) -> None:
+    """Give a mesh with joints the shape keys that it had without: each vertex moves as the nearest that there was."""
+    keys = mesh.shape_keys
+    if keys is None:
+        return
+    from scipy.spatial import cKDTree
+
+    before, now = mesh_arrays.basis_points(mesh), mesh_arrays.basis_points(made)
+    nearest = cKDTree(before).query(now)[1]
+    holder = bpy.data.objects.new("Reeb Parts", made)
+    with removed(bpy.data.objects, holder):
+        for key in keys.key_blocks:
+            new = holder.shape_key_add(name=key.name, from_mix=False)
+            moved = now + (mesh_arrays.read(key.data, "co", np.float32, 3) - before)[nearest]
+            new.data.foreach_set("co", moved.ravel())
+            for name in ("slider_min", "slider_max", "value", "mute", "vertex_group", "interpolation"):
+                setattr(new, name, getattr(key, name))
+        for key in keys.key_blocks:
+            made.shape_keys.key_blocks[key.name].relative_key = made.shape_keys.key_blocks[key.relative_key.name]
+    made.shape_keys.use_relative = keys.use_relative
