@@ -7,7 +7,22 @@ shows a sentence can then look up the constant message in a dictionary and fill 
 
 from __future__ import annotations
 
+from numbers import Integral
 from typing import Any
+
+
+class Count(int):
+    """A number in a message that chooses between words: ``"{n} {n:part is|parts are} named"`` for ``n=Count(1)``.
+
+    Before the bar is what is said of one, behind it what is said of none and of several; a language may do without.
+    """
+
+    def __format__(self, spec: str) -> str:
+        """The words for this number where ``spec`` has a bar; else the number."""
+        one, bar, several = spec.partition("|")
+        if bar:
+            return one if self == 1 else several
+        return super().__format__(spec)
 
 
 class Sentence(str):
@@ -18,7 +33,7 @@ class Sentence(str):
     message : str
         The sentence with the names of its values in braces, for ``str.format``.
     **values
-        Value for each name.
+        Value for each name. Whole numbers are kept as ``Count``.
 
     Attributes
     ----------
@@ -36,6 +51,8 @@ class Sentence(str):
 
     def __new__(cls, message: str, **values: Any) -> Sentence:
         """Fill the values into the message."""
+        values = {name: Count(value) if isinstance(value, Integral) and not isinstance(value, bool) else value
+                  for name, value in values.items()}
         self = super().__new__(cls, message.format(**values))
         self.message, self.values = message, values
         return self

@@ -4,6 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import alike
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
@@ -22,7 +23,8 @@ class REEB_PARTS_OT_find_similar(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         n_parts, n_objects = alike.find_similar(context, obj, self.limit)
-        return rpt_("Similar parts: {n}, marked on {objects} objects").format(n=n_parts, objects=n_objects)
+        return rpt_("Similar parts: {n}, marked on {objects} {objects:object|objects}").format(
+            n=n_parts, objects=Count(n_objects))
 
 
 class REEB_PARTS_OT_names_from_active(PartOperator, bpy.types.Operator):
@@ -36,4 +38,5 @@ class REEB_PARTS_OT_names_from_active(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         n_parts, n_objects = alike.carry_names(context, obj, self.everywhere)
-        return rpt_("Parts named: {n}, on {objects} objects").format(n=n_parts, objects=n_objects)
+        return rpt_("Parts named: {n}, on {objects} {objects:object|objects}").format(
+            n=n_parts, objects=Count(n_objects))

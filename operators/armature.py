@@ -4,6 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import armature
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
@@ -29,4 +30,4 @@ class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         rig = armature.make(context, obj, stored, self.deform, self.weights)
-        return rpt_("{name} has {n} bones").format(name=rig.name, n=len(rig.data.bones))
+        return rpt_("{name} has {n} {n:bone|bones}").format(name=rig.name, n=Count(len(rig.data.bones)))

@@ -4,6 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import bridge, piece_checks, piece_objects, piece_repairs, redraw, targets, transaction
 from ..scene.errors import SceneError
 from ..scene.reporting import ReportingOperator
@@ -58,7 +59,7 @@ class REEB_PARTS_OT_select_faults(PieceOperator, bpy.types.Operator):
         transaction.keep(context.tool_settings, "mesh_select_mode")
         context.tool_settings.mesh_select_mode = (False, False, True)
         bpy.ops.object.mode_set(mode="EDIT")
-        self.report({"INFO"}, rpt_("{n} faces selected").format(n=int(mask.sum())))
+        self.report({"INFO"}, rpt_("{n} {n:face|faces} selected").format(n=Count(int(mask.sum()))))
 
 
 class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
@@ -81,7 +82,9 @@ def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object])
     """Say which of some pieces that were checked are not sound."""
     wrong = [piece.name for piece in pieces if (found := piece_checks.kept(piece)) is None or not found.sound]
     if wrong:
-        operator.report({"WARNING"}, rpt_("{n} of {total} parts are not closed or cross themselves: {names}").format(
-            n=len(wrong), total=len(pieces), names=", ".join(wrong)))
+        operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are "
+                                          "not closed or cross themselves}: {names}").format(
+            n=Count(len(wrong)), total=Count(len(pieces)), names=", ".join(wrong)))
     else:
-        operator.report({"INFO"}, rpt_("{n} parts are closed and do not cross themselves").format(n=len(pieces)))
+        operator.report({"INFO"}, rpt_("{n} {n:part is closed and does not cross itself|parts are closed and do not "
+                                       "cross themselves}").format(n=Count(len(pieces))))

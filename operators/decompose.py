@@ -6,6 +6,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.parameters import Parameters
+from ..core.sentence import Count
 from ..scene import bridge, defaults, jobs, results, targets
 from ..scene.bridge import Shape
 from ..scene.compute import Outcome, compute_all
@@ -109,8 +110,8 @@ class REEB_PARTS_OT_decompose(
         for note in outcome.decomposition.notes + outcome.shape.notes:
             self.report({"INFO"}, name + translated(note))
         result = bpy.data.objects[outcome.object_name].data.reeb_parts
-        self.report({"INFO"}, name + rpt_("{n} parts in {seconds:.1f} s").format(
-            n=len(result.parts), seconds=outcome.seconds))
+        self.report({"INFO"}, name + rpt_("{n} {n:part|parts} in {seconds:.1f} s").format(
+            n=Count(len(result.parts)), seconds=outcome.seconds))
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         """Write what was computed in the window."""

@@ -6,6 +6,7 @@ from collections.abc import Callable
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import edits, part_list, part_names
 from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
@@ -28,7 +29,8 @@ class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):
         into = active if active in numbers else numbers[0]
         edits.write(context, obj.data, stored, edits.merged(obj.data, stored, numbers, into))
         part_list.mark(obj.data, "NONE")
-        return rpt_("{n} parts are {name} now").format(n=len(numbers), name=part_names.part_name(obj.data, into))
+        return rpt_("{n} {n:part is|parts are} {name} now").format(
+            n=Count(len(numbers)), name=part_names.part_name(obj.data, into))
 
 
 class ChosenPartsOperator(PartOperator):
@@ -69,7 +71,7 @@ class REEB_PARTS_OT_merge_small(PartOperator, bpy.types.Operator):
         if not count:
             raise SceneError(rpt_("There are no small parts to merge."))
         edits.write(context, obj.data, stored, after)
-        return rpt_("{n} small parts are merged").format(n=count)
+        return rpt_("{n} small {n:part is|parts are} merged").format(n=Count(count))
 
 
 class REEB_PARTS_OT_split(ChosenPartsOperator, bpy.types.Operator):
@@ -133,7 +135,8 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
         number = edits.free_number(mesh, stored) if self.new else part_list.active_number(mesh)
         count = edits.assign_selected(context, obj, stored, number)
         part_list.make_active(mesh, number)
-        return rpt_("{n} faces are {name} now").format(n=count, name=part_names.part_name(mesh, number))
+        return rpt_("{n} {n:face is|faces are} {name} now").format(
+            n=Count(count), name=part_names.part_name(mesh, number))
 
 
 class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):
@@ -143,7 +146,8 @@ class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):
     bl_label = "Parts from Face Sets"
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
-        return rpt_("{n} faces are in other parts now").format(n=edits.assign_face_sets(context, obj, stored))
+        return rpt_("{n} {n:face is in another part|faces are in other parts} "
+                    "now").format(n=Count(edits.assign_face_sets(context, obj, stored)))
 
 
 class REEB_PARTS_OT_release(PartOperator, bpy.types.Operator):

@@ -6,6 +6,7 @@ from pathlib import Path
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import store, targets
 from ..scene.errors import SceneError
 from ..scene.export import export_parts
@@ -65,4 +66,4 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         with object_mode(context), together() as files:
             paths = export_parts(files, [(obj, wanted_numbers(obj.data, self.which)) for obj in objects], folder,
                                  self.format, self.caps, self.one_file, self.separated)
-        self.report({"INFO"}, rpt_("{n} files in {folder}").format(n=len(paths), folder=folder))
+        self.report({"INFO"}, rpt_("{n} {n:file|files} in {folder}").format(n=Count(len(paths)), folder=folder))

@@ -4,6 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import hulls
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
@@ -23,4 +24,4 @@ class REEB_PARTS_OT_hulls(PartOperator, bpy.types.Operator):
     )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
-        return rpt_("{n} hulls").format(n=len(hulls.make(context, obj, stored, self.engine)))
+        return rpt_("{n} {n:hull|hulls}").format(n=Count(len(hulls.make(context, obj, stored, self.engine))))

@@ -7,6 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import outputs, quiet, targets
 from ..scene.outputs import face_sets, materials, seams
 from ..scene.reporting import PartOperator
@@ -36,7 +37,7 @@ class OutputOperator(PartOperator):
                 numbered = stored.shown_parts()
                 outputs.update_outputs(obj, numbered, numbered.candidate_numbers)
         obj.data.update()
-        return rpt_(undone) if self.remove else rpt_(done).format(n=len(obj.data.reeb_parts.parts))
+        return rpt_(undone) if self.remove else rpt_(done).format(n=Count(len(obj.data.reeb_parts.parts)))
 
 
 class REEB_PARTS_OT_seams(OutputOperator, bpy.types.Operator):
@@ -44,7 +45,7 @@ class REEB_PARTS_OT_seams(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.seams"
     bl_label = "Mark Seams between Parts"
-    output = (seams, n_("Seams around {n} parts"), n_("The seams are yours alone again"))
+    output = (seams, n_("Seams around {n} {n:part|parts}"), n_("The seams are yours alone again"))
 
 
 class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
@@ -52,7 +53,8 @@ class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.face_sets"
     bl_label = "Make Face Sets of Parts"
-    output = (face_sets, n_("{n} parts are face sets"), n_("The face sets are yours alone again"))
+    output = (face_sets, n_("{n} {n:part is a face set|parts are face sets}"), n_("The face sets are yours alone "
+                                                                                  "again"))
 
 
 class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
@@ -60,4 +62,5 @@ class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.materials"
     bl_label = "Give Each Part a Material"
-    output = (materials, n_("{n} parts have materials"), n_("The materials are yours alone again"))
+    output = (materials, n_("{n} {n:part has a material|parts have materials}"), n_("The materials are yours alone "
+                                                                                    "again"))

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import graph_objects, hidden, naming, part_list, part_names, part_places, reactions, selection, store
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
@@ -98,7 +99,7 @@ class REEB_PARTS_OT_suggest_names(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         named = part_names.kept_names(obj.data)
         names = {number: name for number, name in naming.suggested(obj, stored).items() if number not in named}
-        return rpt_("{n} parts are named").format(n=reactions.give_names(obj.data, names))
+        return rpt_("{n} {n:part is|parts are} named").format(n=Count(reactions.give_names(obj.data, names)))
 
 
 class REEB_PARTS_OT_show_colors(PartOperator, bpy.types.Operator):

@@ -5,6 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import piece_objects, store, targets
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
@@ -65,33 +66,35 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
             select_objects(context, pieces, active=of_active[0] if self.hide and of_active else None)
 
     def _report(self, obj: bpy.types.Object, separated: piece_objects.Separated) -> None:
-        self.report({"INFO"}, rpt_("{name}: {n} parts are objects now").format(
-            name=obj.name, n=len(separated.pieces) - len(separated.part)))
+        self.report({"INFO"}, rpt_("{name}: {n} {n:part is an object|parts are objects} now").format(
+            name=obj.name, n=Count(len(separated.pieces) - len(separated.part))))
         if separated.part:
-            self.report({"INFO"}, rpt_("{n} more pieces, so that they fit the bed").format(n=len(separated.part)))
+            self.report({"INFO"}, rpt_("{n} more {n:piece|pieces}, so that all fit the bed").format(
+                n=Count(len(separated.part))))
         if separated.too_long:
             self.report({"WARNING"}, rpt_("Not closed, so not cut to fit the bed: {names}").format(
                 names=", ".join(separated.names[key] for key in separated.too_long)))
         if separated.kept:
-            self.report({"INFO"}, rpt_("{n} earlier pieces that were edited since are left as they are").format(
-                n=separated.kept))
+            self.report({"INFO"}, rpt_("{n} earlier {n:piece that was edited since is left as it is|pieces that were "
+                                       "edited since are left as they are}").format(n=Count(separated.kept)))
         if separated.along_faces:
-            message = rpt_("{n} borders run along faces: a smooth cut would tear or cross a part there")
-            self.report({"INFO"}, message.format(n=separated.along_faces))
+            message = rpt_("{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there")
+            self.report({"INFO"}, message.format(n=Count(separated.along_faces)))
         if self.joints != "NONE":
             self._report_joints(separated)
         if self.caps or self.joints != "NONE":
             report_unsound(self, separated.pieces)
         if separated.left_open:
-            self.report({"WARNING"}, rpt_("{n} edges stay open: more than two faces meet beside them").format(
-                n=separated.left_open))
+            self.report({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "
+                                          "{n:it|them}").format(
+                n=Count(separated.left_open)))
 
 
     def _report_joints(self, separated: piece_objects.Separated) -> None:
         """Say how many cuts have joints, and of which others why not."""
         cuts = separated.cuts
-        self.report({"INFO"}, rpt_("{n} of {total} cuts have joints").format(
-            n=sum(cut.count > 0 for cut in cuts), total=len(cuts)))
+        self.report({"INFO"}, rpt_("{n} of {total} {total:cut|cuts} {n:has|have} joints").format(
+            n=Count(sum(cut.count > 0 for cut in cuts)), total=Count(len(cuts))))
         for why, sentence in (
             ("ROOM", rpt_("No joint where there is no room for one with a wall around it: {cuts}")),
             ("BENT", rpt_("No joint where a cut is so bent that it has no axis: {cuts}")),

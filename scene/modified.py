@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from . import explode, hidden, mesh_arrays, quiet
 from .errors import SceneError
 from .kept import set_values, values_of
@@ -64,8 +65,9 @@ def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,
     if lost:
         bpy.data.meshes.remove(mesh)
         raise SceneError(
-            rpt_("The modifiers of {name} make {n} faces that belong to no part. Apply the modifiers and decompose "
-                 "again.").format(name=obj.name, n=lost))
+            rpt_("The modifiers of {name} make {n} {n:face that belongs|faces that belong} to no part. Apply the "
+                 "modifiers "
+                 "and decompose again.").format(name=obj.name, n=Count(lost)))
     return mesh, numbers
 
 

@@ -9,6 +9,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 from mathutils import Matrix
 
+from ..core.sentence import Count
 from ..scene import graph_objects, jobs, notes, part_list, part_names, store
 from . import toolbar, wrapping
 
@@ -205,7 +206,7 @@ def _draw_models(layout: bpy.types.UILayout, context: bpy.types.Context) -> None
         count.alignment = "RIGHT"
         count.label(text=_count(len(obj.data.reeb_parts.parts), n_("{n} part"), n_("{n} parts")))
     if len(models) > MODELS:
-        column.label(text=iface_("and {n} more models").format(n=len(models) - MODELS), icon="BLANK1")
+        column.label(text=iface_("and {n} more {n:model|models}").format(n=Count(len(models) - MODELS)), icon="BLANK1")
 
 
 def _wrapped(column: bpy.types.UILayout, text: str, width: int, icon: str) -> None:
@@ -227,8 +228,8 @@ def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, result:
     row.prop(result, "n_parts", text="Parts")
     row.operator("reeb_parts.step_detail", text="More", text_ctxt="Reeb Parts").more = True
     if result.asked:
-        text = iface_("{n} parts cannot be had, only {fewest} to {most}")
-        column.label(text=text.format(n=result.asked, fewest=result.fewest, most=result.most), icon="ERROR")
+        text = iface_("{n} {n:part|parts} cannot be had, only {fewest} to {most}")
+        column.label(text=text.format(n=Count(result.asked), fewest=result.fewest, most=result.most), icon="ERROR")
 
 
 def facts(result: bpy.types.PropertyGroup) -> list[str]:

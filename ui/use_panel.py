@@ -7,6 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
+from ..core.sentence import Count
 from ..scene import cut_list, piece_checks, piece_objects, store
 from .panel import SubPanel, settings_column
 
@@ -103,12 +104,13 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
             column.label(text=iface_("Closed, crosses nothing"), icon="CHECKMARK")
         elif found is not None:
             for kind, count, words in (
-                ("OPEN", found.open_edges, iface_("{n} open edges")),
-                ("BRANCHING", found.branching_edges, iface_("{n} edges of three faces")),
-                ("CROSSING", found.crossing_faces, iface_("{n} faces cross others")),
+                ("OPEN", found.open_edges, iface_("{n} open {n:edge|edges}")),
+                ("BRANCHING", found.branching_edges, iface_("{n} {n:edge|edges} of three faces")),
+                ("CROSSING", found.crossing_faces, iface_("{n} {n:face crosses|faces cross} others")),
             ):
                 if count:
-                    column.operator("reeb_parts.select_faults", text=words.format(n=count), icon="ERROR").kind = kind
+                    told = words.format(n=Count(count))
+                    column.operator("reeb_parts.select_faults", text=told, icon="ERROR").kind = kind
             if found.inside_out:
                 column.label(text=iface_("Inside out"), icon="ERROR")
         if found is not None and found.thinnest is not None:

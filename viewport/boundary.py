@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import bridge, edits, mesh_arrays, part_names
 from ..scene.store import Stored
 
@@ -119,5 +120,5 @@ def write_moved(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
         return None
     edits.assign_faces(context, obj, stored, numbers)
     grew = np.isin(numbers, parts).sum() > np.isin(before, parts).sum()
-    text = rpt_("{names} took {n} faces") if grew else rpt_("{names} gave away {n} faces")
-    return text.format(names=", ".join(part_names.part_name(obj.data, number) for number in parts), n=count)
+    text = rpt_("{names} took {n} {n:face|faces}") if grew else rpt_("{names} gave away {n} {n:face|faces}")
+    return text.format(names=", ".join(part_names.part_name(obj.data, number) for number in parts), n=Count(count))

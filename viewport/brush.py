@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..core.surface.arrays import both_ways, components
 from ..scene import edits, mesh_arrays, part_names, store
 from ..scene.errors import SceneError
@@ -77,14 +78,16 @@ def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> st
     edits.assign_faces(context, obj, brush.model.stored, brush.numbers())
     after = store.load(obj.data).face_numbers
     joined = int((after[moved] == brush.number).sum())
-    told = [rpt_("{n} faces of {givers} are {name} now").format(n=joined, givers=givers, name=name)]
+    told = [rpt_("{n} {n:face|faces} of {givers} {n:is|are} {name} now").format(
+        n=Count(joined), givers=givers, name=name)]
     if joined < moved.sum():
-        told.append(rpt_("{n} do not touch it and are parts of their own").format(n=int(moved.sum()) - joined))
+        told.append(rpt_("{n} {n:does not touch it and is a part of its own|do not touch it and are parts of their "
+                         "own}").format(n=Count(int(moved.sum()) - joined)))
     left = len(np.setdiff1d(after[~moved], before))
     if left:
-        told.append(rpt_("what is left is in {n} parts more").format(n=left))
+        told.append(rpt_("what is left is in {n} {n:part|parts} more").format(n=Count(left)))
     if brush.n_locked:
-        told.append(rpt_("{n} are locked and stay").format(n=brush.n_locked))
+        told.append(rpt_("{n} {n:is locked and stays|are locked and stay}").format(n=Count(brush.n_locked)))
     return "; ".join(told)
 
 

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import edits, mesh_arrays, part_list
 from ..scene.errors import SceneError
 from ..scene.store import Stored
@@ -57,9 +58,9 @@ class RingTool(ColoredTool):
 
     def hint(self) -> str:
         low, high = self.limits
-        text = rpt_("{rings} rings, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm"
-                    "    Esc: cancel")
-        return text.format(rings=self.rings, low=low, high=high)
+        text = rpt_("{rings} {rings:ring|rings}, {low} to {high}    Wheel or a number: rings, minus inwards    "
+                    "Click, Enter: confirm    Esc: cancel")
+        return text.format(rings=Count(self.rings), low=low, high=high)
 
     def boundaries(self, obj: bpy.types.Object, stored: Stored) -> list[Boundary]:
         """Of the chosen parts; raises SceneError if one is locked."""

@@ -60,7 +60,7 @@ class GeodesicSolver:
         lost = np.flatnonzero(np.isinf(distance))
         if len(lost):
             raise DisconnectedMeshError(
-                Sentence("{n} vertices cannot be reached from vertex {source}.",
+                Sentence("{n} {n:vertex|vertices} cannot be reached from vertex {source}.",
                          n=len(lost), source=source), vertices=lost)
         return distance
 

@@ -385,20 +385,21 @@ def _body_notes(n_cut: int, n_small: int, n_bodies: int, n_flat: int) -> Iterato
         yield Sentence("{n} pieces form {bodies} bodies; what touches is decomposed together.",
                        n=n_cut, bodies=n_bodies)
     if n_small:
-        yield Sentence("{n} small pieces are one part each.", n=n_small)
+        yield Sentence("{n} small {n:piece is one part|pieces are one part each}.", n=n_small)
     if n_flat:
-        yield Sentence("{n} of the bodies are so even that nothing protrudes.", n=n_flat)
+        yield Sentence("{n} of the bodies {n:is|are} so even that nothing protrudes.", n=n_flat)
 
 
 def _piece_notes(n_cut: int, n_small: int, n_bodies: int, n_flat: int) -> Iterator[Sentence]:
     """Sentences about pieces decomposed one by one: how many there are, how many are too small or too even."""
     if n_small:
-        yield Sentence("{n} loose parts are decomposed each on its own; {small} small ones are one part "
-                       "each.", n=n_cut + n_small, small=n_small)
+        yield Sentence("{n} loose parts are decomposed each on its own; {small} small {small:one is one|ones are one} "
+                       "part each.", n=n_cut + n_small, small=n_small)
     else:
         yield Sentence("{n} loose parts are decomposed each on its own.", n=n_bodies)
     if n_flat:
-        yield Sentence("{n} of the loose parts are so even that nothing protrudes: one part each.",
+        yield Sentence("{n} of the loose parts {n:is so even that nothing protrudes: one part|are so even that "
+                       "nothing protrudes: one part each}.",
                        n=n_flat)
 
 

@@ -87,7 +87,8 @@ def _rows(faces: Sequence) -> tuple[np.ndarray, np.ndarray]:
     if len(rows) < len(read):
         wrong = [index for index, row in enumerate(read) if row is None or row.ndim != 1]
         raise MeshError(
-            Sentence("{n} faces are no rows of whole numbers (first: face {first}).", n=len(wrong), first=wrong[0]),
+            Sentence("{n} {n:face is no row|faces are no rows} of whole numbers (first: face {first}).",
+                     n=len(wrong), first=wrong[0]),
             faces=wrong)
     return np.concatenate(rows), np.array([len(row) for row in rows], np.int64)
 

@@ -59,7 +59,7 @@ class TriMesh:
         if len(bad):
             raise MeshError(
                 Sentence(
-                    "{n} of {total} vertices have a coordinate that is not a finite number (first: "
+                    "{n} of {total} vertices {n:has|have} a coordinate that is not a finite number (first: "
                     "vertex {first}). Delete or move them.",
                     n=len(bad), total=self.n_vertices, first=int(bad[0])),
                 vertices=bad,
@@ -69,7 +69,7 @@ class TriMesh:
             bad = np.flatnonzero(outside)
             raise MeshError(
                 Sentence(
-                    "{n} of {total} faces name a vertex that does not exist (first: face {first}; "
+                    "{n} of {total} faces {n:names|name} a vertex that does not exist (first: face {first}; "
                     "there are {n_vertices} vertices).",
                     n=len(bad), total=self.n_faces, first=int(bad[0]), n_vertices=self.n_vertices),
                 faces=bad,

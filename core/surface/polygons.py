@@ -144,7 +144,7 @@ def _fan(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray, np.nda
     if (sizes < 3).any():
         bad = np.flatnonzero(sizes < 3)
         raise MeshError(
-            Sentence("{n} faces have fewer than three corners.", n=len(bad)), faces=bad)
+            Sentence("{n} {n:face has|faces have} fewer than three corners.", n=len(bad)), faces=bad)
     start = np.cumsum(sizes) - sizes
     polygon, corner = expanded(start, sizes - 2)
     places = np.stack([start[polygon], corner + 1, corner + 2], axis=1)

@@ -312,7 +312,7 @@ def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]
     if not n_joined:
         return joined, ()
     return joined, (
-        Sentence("{n} coincident border vertices are treated as joined.", n=n_joined),)
+        Sentence("{n} coincident border {n:vertex is|vertices are} treated as joined.", n=n_joined),)
 
 
 def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
@@ -366,7 +366,8 @@ def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
     if not flip.any():
         return mesh, ()
     faces = np.where(flip[:, None], mesh.faces[:, ::-1], mesh.faces)
-    note = Sentence("{n} triangles face inwards or against their neighbors.", n=int(flip.sum()))
+    note = Sentence("{n} {n:triangle faces inwards or against its|triangles face inwards or against their} "
+                    "neighbors.", n=int(flip.sum()))
     return TriMesh(mesh.vertices, faces), (note,)
 
 
@@ -389,10 +390,11 @@ def _notes(given: PolygonMesh) -> tuple[str, ...]:
     # The area of three corners on a line is rarely exactly 0.
     flat[given.polygon[mesh.face_area > 1e-12 * longest**2]] = False
     notes = (
-        Sentence("{n} edges join more than two faces (non-manifold).",
+        Sentence("{n} {n:edge joins|edges join} more than two faces (non-manifold).",
                  n=int((mesh.edges.n_faces > 2).sum())),
-        Sentence("{n} border edges: the surface is open there.", n=int((mesh.edges.n_faces == 1).sum())),
-        Sentence("{n} vertices belong to no face; they get no part.", n=n_lost),
-        Sentence("{n} faces have zero area; they follow their neighbors.", n=int(flat.sum())),
+        Sentence("{n} border {n:edge|edges}: the surface is open there.", n=int((mesh.edges.n_faces == 1).sum())),
+        Sentence("{n} {n:vertex belongs to no face; it gets|vertices belong to no face; they get} no part.", n=n_lost),
+        Sentence("{n} {n:face has zero area; it follows its|faces have zero area; they follow their} neighbors.",
+                 n=int(flat.sum())),
     )
     return tuple(note for note in notes if note.values["n"])

@@ -66,8 +66,8 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     root = Path(os.path.abspath(root))
     outside = sorted(path for path in paths if not path.is_relative_to(root))
     if outside:
-        raise SourceError(Sentence("{n} models are not in {root} (first: {first}).", n=len(outside), root=root,
-                                   first=outside[0]))
+        raise SourceError(Sentence("{n} {n:model is|models are} not in {root} (first: {first}).", n=len(outside),
+                                   root=root, first=outside[0]))
     return sorted((Source(path, path.relative_to(root).as_posix()) for path in paths), key=lambda source: source.name)
 
 

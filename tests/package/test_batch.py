@@ -394,7 +394,7 @@ def test_folders_patterns_lists_and_files_are_found_once_each(models, tmp_path, 
 
 
 @pytest.mark.parametrize(("places", "root", "words"), [
-    (["none"], None, "no file and no folder none"), (["*.xyz"], None, "no model"), (["tree.ply"], "deep", "1 models"),
+    (["none"], None, "no file and no folder none"), (["*.xyz"], None, "no model"), (["tree.ply"], "deep", "1 model is"),
 ])  # fmt: skip
 def test_places_without_models_are_refused(places, root, words, models, tmp_path, monkeypatch):
     monkeypatch.chdir(models)

@@ -436,7 +436,7 @@ def test_small_loose_parts_are_one_part_each(preset):
 
 def test_non_manifold_fin(preset):
     result = sound_triangles(shapes.with_fin(shapes.tube_tree()), preset)
-    assert noted(result, "1 edges join more than two faces")
+    assert noted(result, "1 edge joins more than two faces")
 
 
 def test_bowtie(preset):
@@ -564,7 +564,7 @@ def test_not_finite():
     (shapes.box().vertices, shapes.box().faces + 1, MeshError, "name a vertex that does not exist"),
     (shapes.box().vertices, shapes.box().faces + 0.5, MeshError, "must be whole numbers"),
     (shapes.box().vertices[:, :2], shapes.box().faces, MeshError, "shape"),
-    (shapes.box().vertices, [[0, 1, 2], [1, 2], [2, 3, 4], [4, 5, 6]], MeshError, "1 faces have fewer than three"),
+    (shapes.box().vertices, [[0, 1, 2], [1, 2], [2, 3, 4], [4, 5, 6]], MeshError, "1 face has fewer than three"),
 ])
 def test_bad_input_gets_its_sentence(vertices, faces, kind, message):
     with pytest.raises(kind, match=message) as caught:

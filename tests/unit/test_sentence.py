@@ -5,10 +5,11 @@ import copy
 import json
 import pickle
 
+import numpy as np
 import pytest
 
 from core import MeshError, decompose
-from core.sentence import Sentence
+from core.sentence import Count, Sentence
 
 THREE = Sentence("{n} edges of {name!r} are loose.", n=3, name="a {brace}")
 TEXT = "3 edges of 'a {brace}' are loose."
@@ -55,3 +56,12 @@ def test_notes_carry_their_message_and_its_values():
     # What is written to a file is plain text.
     again = type(result).from_bytes(result.to_bytes())
     assert again.notes == result.notes
+
+
+def test_words_that_a_number_chooses():
+    message = "{n} {n:part is|parts are} named in {total} {total:file|files}"
+    assert Sentence(message, n=1, total=np.int64(2)) == "1 part is named in 2 files"
+    assert Sentence(message, n=0, total=1) == "0 parts are named in 1 file"
+    assert message.format(n=Count(3), total=Count(1)) == "3 parts are named in 1 file"
+    assert f"{Count(1234):,}" == "1,234"
+    assert Sentence("{flag} {ratio:.1f}", flag=True, ratio=0.25).values == {"flag": True, "ratio": 0.25}

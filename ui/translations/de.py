@@ -142,13 +142,13 @@ TEXTS = {
     "Name the parts that you have not named by what they are: head, leg, handle; else by their place and kind":
         "Die Teile, die noch keinen eigenen Namen haben, danach benennen, was sie sind: Kopf, Bein, Henkel; sonst nach "
         "Art und Lage",
-    "{n} parts are named": "{n} Teile sind benannt",
+    "{n} {n:part is|parts are} named": "{n} {n:Teil ist|Teile sind} benannt",
     "{place} {kind}": "{kind} {place}",
     "body": "Körper", "head": "Kopf", "neck": "Hals", "arm": "Arm", "leg": "Bein", "tail": "Schwanz", "ear": "Ohr",
     "handle": "Henkel", "limb": "Glied", "tip": "Spitze", "piece": "Stück", "front": "vorn", "back": "hinten",
     "top": "oben", "bottom": "unten", "left": "links", "right": "rechts",
     "This viewport does not show the parts.": "Diese Ansicht zeigt die Teile nicht.",
-    "and {n} more models": "und {n} weitere Modelle",
+    "and {n} more {n:model|models}": "und {n} {n:weiteres Modell|weitere Modelle}",
     "Show the parts' colors in this viewport: Solid, colored by attribute":
         "Die Farben der Teile in dieser Ansicht zeigen: Solid, nach Attribut gefärbt",
     "The parts have no colors. Switch these on under Advanced, Output; decompose again.":
@@ -173,7 +173,7 @@ TEXTS = {
     "Merge each of the small parts into the neighbor that it is least clearly cut from":
         "Jedes der kleinen Teile mit dem Nachbarn zusammenführen, von dem es am undeutlichsten getrennt ist",
     "There are no small parts to merge.": "Es gibt keine kleinen Teile zum Zusammenführen.",
-    "{n} small parts are merged": "{n} kleine Teile sind zusammengeführt",
+    "{n} small {n:part is|parts are} merged": "{n} {n:kleines Teil ist|kleine Teile sind} zusammengeführt",
     "Look at the chosen parts from near": "Die gewählten Teile aus der Nähe zeigen",
     "Decompose cuts the selected mesh into parts. The mesh itself stays as it is.":
         "„Zerlegen“ zerschneidet das ausgewählte Mesh in Teile. Das Mesh selbst bleibt, wie es ist.",
@@ -181,7 +181,8 @@ TEXTS = {
     "The mesh was edited since. Decompose it again.": "Das Mesh wurde seither bearbeitet. Bitte erneut zerlegen.",
     "{n} note on the mesh": "{n} Hinweis zum Mesh",
     "{n} notes on the mesh": "{n} Hinweise zum Mesh",
-    "{n} parts cannot be had, only {fewest} to {most}": "{n} Teile gibt es nicht, nur {fewest} bis {most}",
+    "{n} {n:part|parts} cannot be had, only {fewest} to {most}":
+        "{n} {n:Teil|Teile} gibt es nicht, nur {fewest} bis {most}",
     "Go to the next number of parts that stands out, such as all limbs, or all fingers":
         "Zur nächsten Zahl von Teilen, die heraussticht, etwa mit allen Gliedern oder allen Fingern",
     "More": "Mehr",
@@ -382,9 +383,9 @@ TEXTS = {
     "The parts ticked in the list, or else the active one":
         "Die in der Liste angekreuzten Teile, sonst das aktive",
     "Closed, crosses nothing": "Geschlossen, durchdringt nichts",
-    "{n} open edges": "{n} offene Kanten",
-    "{n} edges of three faces": "{n} Kanten mit drei Flächen",
-    "{n} faces cross others": "{n} Flächen durchdringen andere",
+    "{n} open {n:edge|edges}": "{n} offene {n:Kante|Kanten}",
+    "{n} {n:edge|edges} of three faces": "{n} {n:Kante|Kanten} mit drei Flächen",
+    "{n} {n:face crosses|faces cross} others": "{n} {n:Fläche durchdringt|Flächen durchdringen} andere",
     "Inside out": "Von innen nach außen gekehrt",
     "Thinnest place: {width}": "Dünnste Stelle: {width}",
     "Check the selected separated parts: whether they are closed, cross themselves or are inside out":
@@ -431,8 +432,10 @@ TEXTS = {
     "no modifiers":
         "Das Netz so zerlegen, wie man es sieht, mit angewendeten Modifikatoren, statt so, wie es gespeichert ist; die "
         "Stücke haben dann keine Modifikatoren",
-    "The modifiers of {name} make {n} faces that belong to no part. Apply the modifiers and decompose again.":
-        "Die Modifikatoren von {name} erzeugen {n} Flächen, die zu keinem Teil gehören. Wende die Modifikatoren an und "
+    "The modifiers of {name} make {n} {n:face that belongs|faces that belong} to no part. Apply the modifiers and "
+    "decompose again.":
+        "Die Modifikatoren von {name} erzeugen {n} {n:Fläche, die zu keinem Teil gehört|Flächen, die zu keinem Teil "
+        "gehören}. Wende die Modifikatoren an und "
         "zerlege neu.",
     "Parent to Original": "Original als Eltern",
     "Make the pieces children of the object, so that they follow it; without it, they have the parent that the object "
@@ -646,7 +649,8 @@ TEXTS = {
     "The least thickness of what remains around a joint, in millimeters; at least a third of its radius":
         "Wie dick mindestens ist, was um eine Verbindung herum bleibt, in Millimetern; wenigstens ein Drittel ihres "
         "Radius",
-    "{n} of {total} cuts have joints": "{n} von {total} Schnitten haben Verbindungen",
+    "{n} of {total} {total:cut|cuts} {n:has|have} joints":
+        "{n} von {total} {total:Schnitt|Schnitten} {n:hat|haben} Verbindungen",
     "No joint where there is no room for one with a wall around it: {cuts}":
         "Keine Verbindung, wo kein Platz für eine mit einer Wand ringsum ist: {cuts}",
     "No joint where a cut is so bent that it has no axis: {cuts}":
@@ -665,7 +669,7 @@ TEXTS = {
     "Bed (mm)": "Druckbett (mm)",
     "Width, depth and height that can be printed, in millimeters; pieces may be turned to fit":
         "Breite, Tiefe und Höhe, die gedruckt werden können, in Millimetern; Stücke dürfen dafür gedreht werden",
-    "{n} more pieces, so that they fit the bed": "{n} Stücke mehr, damit sie ins Druckbett passen",
+    "{n} more {n:piece|pieces}, so that all fit the bed": "{n} {n:Stück|Stücke} mehr, damit alle ins Druckbett passen",
     "Not closed, so not cut to fit the bed: {names}":
         "Nicht geschlossen und darum nicht für das Druckbett geschnitten: {names}",
     "Separated Pieces": "Getrennte Stücke",
@@ -680,26 +684,28 @@ TEXTS = {
     "There would be more than {n} pieces. Is the bed in millimeters?":
         "Es würden mehr als {n} Stücke. Ist das Druckbett in Millimetern angegeben?",
     # Was über ein Mesh zu sagen ist
-    "{n} edges join more than two faces (non-manifold).":
+    "{n} {n:edge joins|edges join} more than two faces (non-manifold).":
         "Kanten mit mehr als zwei Flächen (nicht mannigfaltig): {n}.",
-    "{n} border edges: the surface is open there.": "Randkanten: {n}; dort ist die Oberfläche offen.",
-    "{n} vertices belong to no face; they get no part.": "Punkte ohne Fläche: {n}; sie kommen in kein Teil.",
-    "{n} faces have zero area; they follow their neighbors.":
+    "{n} border {n:edge|edges}: the surface is open there.": "Randkanten: {n}; dort ist die Oberfläche offen.",
+    "{n} {n:vertex belongs to no face; it gets|vertices belong to no face; they get} no part.":
+        "Punkte ohne Fläche: {n}; sie kommen in kein Teil.",
+    "{n} {n:face has zero area; it follows its|faces have zero area; they follow their} neighbors.":
         "Flächen ohne Flächeninhalt: {n}; sie folgen ihren Nachbarn.",
-    "{n} coincident border vertices are treated as joined.":
+    "{n} coincident border {n:vertex is|vertices are} treated as joined.":
         "Zusammenfallende Randpunkte: {n}; sie gelten als verbunden.",
-    "{n} triangles face inwards or against their neighbors.":
+    "{n} {n:triangle faces inwards or against its|triangles face inwards or against their} neighbors.":
         "Dreiecke, die nach innen oder gegen ihre Nachbarn zeigen: {n}.",
     "{n} pieces that touch form one body.": "{n} Stücke, die sich berühren, bilden einen Körper.",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.":
         "{n} Stücke bilden {bodies} Körper; was sich berührt, wird gemeinsam zerlegt.",
-    "{n} small pieces are one part each.": "Kleine Stücke, die je ein einziges Teil sind: {n}.",
-    "{n} of the bodies are so even that nothing protrudes.":
+    "{n} small {n:piece is one part|pieces are one part each}.": "Kleine Stücke, die je ein einziges Teil sind: {n}.",
+    "{n} of the bodies {n:is|are} so even that nothing protrudes.":
         "Körper, die so gleichmäßig sind, dass nichts vorsteht: {n}.",
     "{n} loose parts are decomposed each on its own.": "{n} lose Teile werden jedes für sich zerlegt.",
-    "{n} loose parts are decomposed each on its own; {small} small ones are one part each.":
+    "{n} loose parts are decomposed each on its own; {small} small {small:one is one|ones are one} part each.":
         "{n} lose Teile werden jedes für sich zerlegt; davon sind klein und je ein einziges Teil: {small}.",
-    "{n} of the loose parts are so even that nothing protrudes: one part each.":
+    "{n} of the loose parts {n:is so even that nothing protrudes: one part|are so even that nothing protrudes: one "
+    "part each}.":
         "Lose Teile, die so gleichmäßig sind, dass nichts vorsteht: {n}; sie sind je ein einziges Teil.",
     "Nothing protrudes: the mesh is one part.": "Nichts steht vor: das Mesh ist ein einziges Teil.",
     "The mesh was decomposed together with its mirror image.":
@@ -740,15 +746,19 @@ TEXTS = {
         "Das Mesh hat nur {n} der {least} Flächen, die der kleinste Körper hat. Bitte ein größeres Mesh wählen.",
     "All {n} faces have zero area. Check the scale of the object.":
         "Alle {n} Flächen haben den Flächeninhalt null. Bitte die Skalierung des Objekts prüfen.",
-    "{n} of {total} vertices have a coordinate that is not a finite number (first: vertex {first}). Delete or move "
-    "them.":
-        "{n} von {total} Punkten haben eine Koordinate, die keine endliche Zahl ist (zuerst Punkt {first}). Bitte "
+    "{n} of {total} vertices {n:has|have} a coordinate that is not a finite number (first: vertex {first}). Delete or "
+    "move them.":
+        "{n} von {total} Punkten {n:hat|haben} eine Koordinate, die keine endliche Zahl ist (zuerst Punkt {first}). "
+        "Bitte "
         "löschen oder verschieben.",
-    "{n} of {total} faces name a vertex that does not exist (first: face {first}; there are {n_vertices} vertices).":
-        "{n} von {total} Flächen nennen einen Punkt, den es nicht gibt (zuerst Fläche {first}; es gibt {n_vertices} "
+    "{n} of {total} faces {n:names|name} a vertex that does not exist (first: face {first}; there are {n_vertices} "
+    "vertices).":
+        "{n} von {total} Flächen {n:nennt|nennen} einen Punkt, den es nicht gibt (zuerst Fläche {first}; es gibt "
+        "{n_vertices} "
         "Punkte).",
-    "{n} faces have fewer than three corners.": "{n} Flächen haben weniger als drei Ecken.",
-    "{n} vertices cannot be reached from vertex {source}.": "{n} Punkte sind von Punkt {source} aus nicht erreichbar.",
+    "{n} {n:face has|faces have} fewer than three corners.": "{n} {n:Fläche hat|Flächen haben} weniger als drei Ecken.",
+    "{n} {n:vertex|vertices} cannot be reached from vertex {source}.":
+        "{n} {n:Punkt ist|Punkte sind} von Punkt {source} aus nicht erreichbar.",
     "Vertices must have shape (n, 3), not {shape}.": "Punkte müssen die Form (n, 3) haben, nicht {shape}.",
     "Triangles must have shape (m, 3), not {shape}.": "Dreiecke müssen die Form (m, 3) haben, nicht {shape}.",
     "Labels must be a row of whole numbers, at least one, not {type} of shape {shape}.":
@@ -779,8 +789,8 @@ TEXTS = {
     "Parameters are given by their names, not as {value}.":
         "Parameter werden mit ihren Namen angegeben, nicht als {value}.",
     "Vertices must be rows of three numbers.": "Vertices müssen Zeilen aus drei Zahlen sein.",
-    "{n} faces are no rows of whole numbers (first: face {first}).":
-        "{n} Flächen sind keine Zeilen ganzer Zahlen (die erste: Fläche {first}).",
+    "{n} {n:face is no row|faces are no rows} of whole numbers (first: face {first}).":
+        "{n} {n:Fläche ist keine Zeile|Flächen sind keine Zeilen} ganzer Zahlen (die erste: Fläche {first}).",
     "There is no preset {name}. Choose one of: {presets}.":
         "Es gibt keine Vorgabe {name}. Bitte eine von diesen wählen: {presets}.",
     "SciPy, which Reeb Parts computes with, could not be imported ({error}). Install Reeb Parts again; if that does "
@@ -789,7 +799,7 @@ TEXTS = {
         "hilft das nicht, bringt eine andere Erweiterung ein SciPy mit, das nicht zu diesem Blender passt.",
     # Was aus dem Zerlegen wurde
     "Reeb Parts is still computing": "Reeb Parts rechnet noch",
-    "{n} parts in {seconds:.1f} s": "{n} Teile in {seconds:.1f} s",
+    "{n} {n:part|parts} in {seconds:.1f} s": "{n} {n:Teil|Teile} in {seconds:.1f} s",
     "Blender stood still, since its Python could not be started beside it":
         "Blender stand still, weil sein Python nicht daneben gestartet werden konnte",
     "There is not enough memory to decompose {name} ({n} vertices); nothing was changed. Close other programs, or "
@@ -816,8 +826,10 @@ TEXTS = {
         "Die gespeicherten Teile stammen von einer anderen Version. Bitte erneut zerlegen.",
     # Was die Werkzeuge melden
     "There is no part with the number {number}.": "Es gibt kein Teil mit der Nummer {number}.",
-    "Similar parts: {n}, marked on {objects} objects": "Ähnliche Teile: {n}, angekreuzt an {objects} Objekten",
-    "Parts named: {n}, on {objects} objects": "Benannte Teile: {n}, an {objects} Objekten",
+    "Similar parts: {n}, marked on {objects} {objects:object|objects}":
+        "Ähnliche Teile: {n}, angekreuzt an {objects} {objects:Objekt|Objekten}",
+    "Parts named: {n}, on {objects} {objects:object|objects}":
+        "Benannte Teile: {n}, an {objects} {objects:Objekt|Objekten}",
     "No part of {name} has a name of its own. Double-click parts in the list to name them.":
         "Kein Teil von {name} hat einen eigenen Namen. Ein Doppelklick auf ein Teil der Liste benennt es.",
     "Select other decomposed objects, too; the active one gives the names.":
@@ -827,7 +839,7 @@ TEXTS = {
         "Bitte die Teile in der Liste ankreuzen, die zusammengeführt werden sollen, mindestens zwei.",
     "These parts do not touch each other. Choose parts that do.":
         "Diese Teile berühren einander nicht. Bitte Teile wählen, die es tun.",
-    "{n} parts are {name} now": "{n} Teile sind jetzt {name}",
+    "{n} {n:part is|parts are} {name} now": "{n} {n:Teil ist|Teile sind} jetzt {name}",
     "{name} touches no other part.": "{name} berührt kein anderes Teil.",
     "No cut was found inside {name}. Select faces in Edit Mode and assign them to another part instead.":
         "In {name} wurde kein Schnitt gefunden. Stattdessen können im Bearbeitungsmodus Flächen ausgewählt und einem "
@@ -852,8 +864,9 @@ TEXTS = {
     "No faces were painted.": "Es wurden keine Flächen gemalt.",
     "No faces are selected. Select some in Edit Mode.":
         "Es sind keine Flächen ausgewählt. Bitte im Bearbeitungsmodus welche auswählen.",
-    "{n} faces are {name} now": "{n} Flächen sind jetzt {name}",
-    "{n} faces are in other parts now": "{n} Flächen sind jetzt in anderen Teilen",
+    "{n} {n:face is|faces are} {name} now": "{n} {n:Fläche ist|Flächen sind} jetzt {name}",
+    "{n} {n:face is in another part|faces are in other parts} now":
+        "{n} {n:Fläche ist jetzt in einem anderen Teil|Flächen sind jetzt in anderen Teilen}",
     "The parts are not face sets yet. Press Face Sets, then paint them in Sculpt Mode.":
         "Die Teile sind noch keine Face Sets. Bitte auf Face Sets drücken, dann im Skulpturmodus malen.",
     "Select a node of a graph": "Einen Knoten eines Graphen auswählen",
@@ -862,27 +875,32 @@ TEXTS = {
     "Leave the object's mode first": "Zuerst den Modus des Objekts verlassen",
     "Nothing is being computed": "Es wird nichts berechnet",
     "Go to Object Mode first": "Zuerst in den Objektmodus wechseln",
-    "{name}: {n} parts are objects now": "{name}: {n} Teile sind jetzt Objekte",
-    "{n} earlier pieces that were edited since are left as they are":
-        "{n} frühere Stücke, die seither bearbeitet wurden, bleiben, wie sie sind",
-    "{n} of {total} parts are not closed or cross themselves: {names}":
-        "{n} von {total} Teilen sind nicht geschlossen oder durchdringen sich: {names}",
-    "{n} parts are closed and do not cross themselves": "{n} Teile sind geschlossen und durchdringen sich nicht",
+    "{name}: {n} {n:part is an object|parts are objects} now":
+        "{name}: {n} {n:Teil ist jetzt ein Objekt|Teile sind jetzt Objekte}",
+    "{n} earlier {n:piece that was edited since is left as it is|pieces that were edited since are left as they are}":
+        "{n} {n:früheres Stück, das seither bearbeitet wurde, bleibt, wie es ist|frühere Stücke, die seither "
+        "bearbeitet wurden, bleiben, wie sie sind}",
+    "{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are not closed or cross themselves}: {names}":
+        "{n} von {total} {total:Teil|Teilen} {n:ist nicht geschlossen oder durchdringt|sind nicht geschlossen oder "
+        "durchdringen} sich: {names}",
+    "{n} {n:part is closed and does not cross itself|parts are closed and do not cross themselves}":
+        "{n} {n:Teil ist geschlossen und durchdringt|Teile sind geschlossen und durchdringen} sich nicht",
     "{name} has nothing of the kind": "{name} hat nichts dergleichen",
-    "{n} faces selected": "{n} Flächen ausgewählt",
+    "{n} {n:face|faces} selected": "{n} {n:Fläche|Flächen} ausgewählt",
     "Other objects share the mesh of {name}": "Andere Objekte teilen sich das Mesh von {name}",
     "Nothing of {name} can be repaired": "An {name} lässt sich nichts reparieren",
-    "{n} borders run along faces: a smooth cut would tear or cross a part there":
-        "{n} Grenzen verlaufen an Flächen: ein glatter Schnitt würde dort ein Teil zerreißen oder durchdringen",
-    "{n} edges stay open: more than two faces meet beside them":
-        "{n} Kanten bleiben offen: neben ihnen treffen mehr als zwei Flächen zusammen",
+    "{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there":
+        "{n} {n:Grenze verläuft|Grenzen verlaufen} an Flächen: ein glatter Schnitt würde dort ein Teil zerreißen oder "
+        "durchdringen",
+    "{n} {n:edge stays|edges stay} open: more than two faces meet beside {n:it|them}":
+        "{n} {n:Kante bleibt|Kanten bleiben} offen: neben {n:ihr|ihnen} treffen mehr als zwei Flächen zusammen",
     "The active object is not a part that was separated from another one":
         "Das aktive Objekt ist kein Teil, das von einem anderen abgetrennt wurde",
-    "Seams around {n} parts": "Nähte um {n} Teile",
+    "Seams around {n} {n:part|parts}": "Nähte um {n} {n:Teil|Teile}",
     "The seams are yours alone again": "Es sind wieder nur die eigenen Nähte da",
-    "{n} parts are face sets": "{n} Teile sind Face Sets",
+    "{n} {n:part is a face set|parts are face sets}": "{n} {n:Teil ist ein Face Set|Teile sind Face Sets}",
     "The face sets are yours alone again": "Es sind wieder nur die eigenen Face Sets da",
-    "{n} parts have materials": "{n} Teile haben Materialien",
+    "{n} {n:part has a material|parts have materials}": "{n} {n:Teil hat ein Material|Teile haben Materialien}",
     "The materials are yours alone again": "Es sind wieder nur die eigenen Materialien da",
     "{name} has as many UV maps as Blender allows. Remove one and try again.":
         "{name} hat so viele UV-Maps, wie Blender erlaubt. Bitte eine entfernen und erneut versuchen.",
@@ -890,7 +908,7 @@ TEXTS = {
     "0.3 to 3; angles {angle:.0f}° off on average":
         "In die UV-Map {name} abgewickelt: Flächen auf das {low:.1f}- bis {high:.1f}-Fache, {share:.0%} davon "
         "zwischen 0,3 und 3; Winkel im Mittel um {angle:.0f}° verändert",
-    "{n} hulls": "{n} Hüllen",
+    "{n} {n:hull|hulls}": "{n} {n:Hülle|Hüllen}",
     "There is no folder to write to. Choose one and try again.":
         "Es ist kein Ordner angegeben. Bitte einen wählen und erneut versuchen.",
     "{path} could not be written: {reason}": "{path} konnte nicht geschrieben werden: {reason}",
@@ -902,8 +920,8 @@ TEXTS = {
         "{path} wird gelesen und würde überschrieben. Bitte einen anderen Namen wählen.",
     "{path} would be written over {other}. Give each file a name of its own.":
         "{path} würde {other} überschreiben. Jede Datei braucht einen eigenen Namen.",
-    "{n} files in {folder}": "{n} Dateien in {folder}",
-    "{name} has {n} bones": "{name} hat {n} Knochen",
+    "{n} {n:file|files} in {folder}": "{n} {n:Datei|Dateien} in {folder}",
+    "{name} has {n} {n:bone|bones}": "{name} hat {n} Knochen",
     "A part needs a name.": "Ein Teil braucht einen Namen.",
     "Rename Part": "Teil umbenennen",
     "Add parts to those that are chosen; a click takes one away again":
@@ -945,12 +963,17 @@ TEXTS = {
     "Number of the part at which the boundary slides; 0 for all of the boundary":
         "Nummer des Teils, an dem die Grenze geschoben wird; 0 für die ganze Grenze",
     "Rings": "Ringe",
-    "what is left is in {n} parts more": "der Rest zerfiel in {n} Teile mehr",
-    "{names} gave away {n} faces": "{names}: {n} Flächen abgegeben",
-    "{names} took {n} faces": "{names}: {n} Flächen dazugekommen",
-    "{n} are locked and stay": "{n} sind gesperrt und bleiben",
-    "{n} do not touch it and are parts of their own": "{n} berühren es nicht und sind eigene Teile",
-    "{n} faces of {givers} are {name} now": "{n} Flächen von {givers} gehören jetzt zu {name}",
-    "{rings} rings, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm    Esc: cancel":
-        "{rings} Ringe, {low} bis {high}    Rad, Zahl: Ringe, minus nach innen    Klick, Enter: fertig    Esc: zurück",
+    "what is left is in {n} {n:part|parts} more": "der Rest zerfiel in {n} {n:Teil|Teile} mehr",
+    "{names} gave away {n} {n:face|faces}": "{names}: {n} {n:Fläche|Flächen} abgegeben",
+    "{names} took {n} {n:face|faces}": "{names}: {n} {n:Fläche|Flächen} dazugekommen",
+    "{n} {n:is locked and stays|are locked and stay}": "{n} {n:ist gesperrt und bleibt|sind gesperrt und bleiben}",
+    "{n} {n:does not touch it and is a part of its own|do not touch it and are parts of their own}":
+        "{n} {n:berührt es nicht und ist ein eigenes Teil|berühren es nicht und sind eigene Teile}",
+    "{n} {n:face|faces} of {givers} {n:is|are} {name} now":
+        "{n} {n:Fläche|Flächen} von {givers} {n:gehört|gehören} jetzt zu {name}",
+    "{rings} {rings:ring|rings}, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm  "
+    "  "
+    "Esc: cancel":
+        "{rings} {rings:Ring|Ringe}, {low} bis {high}    Rad, Zahl: Ringe, minus nach innen    Klick, Enter: fertig   "
+        " Esc: zurück",
 }

@@ -142,7 +142,7 @@ TEXTS = {
     # 名称建议
     "Name the parts that you have not named by what they are: head, leg, handle; else by their place and kind":
         "为尚未由您命名的部件按其含义命名：头、腿、柄；否则按其位置和类型命名",
-    "{n} parts are named": "已命名 {n} 个部件",
+    "{n} {n:part is|parts are} named": "已命名 {n} 个部件",
     "{place} {kind}": "{place}{kind}",
     "body": "身体",
     "head": "头",
@@ -162,7 +162,7 @@ TEXTS = {
     "left": "左",
     "right": "右",
     "This viewport does not show the parts.": "此视图未显示部件。",
-    "and {n} more models": "以及另外 {n} 个模型",
+    "and {n} more {n:model|models}": "以及另外 {n} 个模型",
     "Show the parts' colors in this viewport: Solid, colored by attribute":
         "在此视图中显示部件的颜色：实体模式，按属性着色",
     "The parts have no colors. Switch these on under Advanced, Output; decompose again.":
@@ -187,7 +187,7 @@ TEXTS = {
     "Merge each of the small parts into the neighbor that it is least clearly cut from":
         "将每个小部件合并到与其分界最不明显的相邻部件",
     "There are no small parts to merge.": "没有可合并的小部件。",
-    "{n} small parts are merged": "已合并 {n} 个小部件",
+    "{n} small {n:part is|parts are} merged": "已合并 {n} 个小部件",
     "Look at the chosen parts from near": "近看所选部件",
     "Decompose cuts the selected mesh into parts. The mesh itself stays as it is.":
         "“分解”将所选网格切割为部件。网格本身保持不变。",
@@ -195,7 +195,7 @@ TEXTS = {
     "The mesh was edited since. Decompose it again.": "网格在此之后被编辑过。请重新分解。",
     "{n} note on the mesh": "关于网格的 {n} 条说明",
     "{n} notes on the mesh": "关于网格的 {n} 条说明",
-    "{n} parts cannot be had, only {fewest} to {most}": "无法得到 {n} 个部件，只能为 {fewest} 到 {most} 个",
+    "{n} {n:part|parts} cannot be had, only {fewest} to {most}": "无法得到 {n} 个部件，只能为 {fewest} 到 {most} 个",
     "Go to the next number of parts that stands out, such as all limbs, or all fingers":
         "前往下一个明显的部件数量，例如全部肢体或全部手指",
     "More": "更多",
@@ -376,9 +376,9 @@ TEXTS = {
     "Chosen": "所选",
     "The parts ticked in the list, or else the active one": "列表中勾选的部件；若无勾选则为活动部件",
     "Closed, crosses nothing": "封闭且无相交",
-    "{n} open edges": "{n} 条开放边",
-    "{n} edges of three faces": "{n} 条边连接三个面",
-    "{n} faces cross others": "{n} 个面与其他面相交",
+    "{n} open {n:edge|edges}": "{n} 条开放边",
+    "{n} {n:edge|edges} of three faces": "{n} 条边连接三个面",
+    "{n} {n:face crosses|faces cross} others": "{n} 个面与其他面相交",
     "Inside out": "内外翻转",
     "Thinnest place: {width}": "最薄处：{width}",
     "Check the selected separated parts: whether they are closed, cross themselves or are inside out":
@@ -419,7 +419,8 @@ TEXTS = {
     "Cut the mesh as it is seen, with its modifiers applied, instead of the one that is stored; the pieces then have "
     "no modifiers":
         "按应用修改器后所见的网格切割，而不是按存储的网格；得到的块不再有修改器",
-    "The modifiers of {name} make {n} faces that belong to no part. Apply the modifiers and decompose again.":
+    "The modifiers of {name} make {n} {n:face that belongs|faces that belong} to no part. Apply the modifiers and "
+    "decompose again.":
         "{name} 的修改器生成了 {n} 个不属于任何部件的面。请应用修改器并重新分解。",
     "Parent to Original": "以原物体为父级",
     "Make the pieces children of the object, so that they follow it; without it, they have the parent that the object "
@@ -606,7 +607,7 @@ TEXTS = {
     "Wall (mm)": "壁厚（毫米）",
     "The least thickness of what remains around a joint, in millimeters; at least a third of its radius":
         "接头周围所剩部分的最小厚度，以毫米为单位；至少为其半径的三分之一",
-    "{n} of {total} cuts have joints": "{total} 个切口中有 {n} 个带接头",
+    "{n} of {total} {total:cut|cuts} {n:has|have} joints": "{total} 个切口中有 {n} 个带接头",
     "No joint where there is no room for one with a wall around it: {cuts}":
         "没有空间容纳带壁的接头，因此无接头：{cuts}",
     "No joint where a cut is so bent that it has no axis: {cuts}": "切口过于弯曲而没有轴线，因此无接头：{cuts}",
@@ -621,7 +622,7 @@ TEXTS = {
     "Bed (mm)": "打印床（毫米）",
     "Width, depth and height that can be printed, in millimeters; pieces may be turned to fit":
         "可打印的宽度、深度和高度，以毫米为单位；各块可以旋转以放入",
-    "{n} more pieces, so that they fit the bed": "为适合打印床而多出 {n} 块",
+    "{n} more {n:piece|pieces}, so that all fit the bed": "为适合打印床而多出 {n} 块",
     "Not closed, so not cut to fit the bed: {names}": "未封闭，因此未按打印床切开：{names}",
     "Separated Pieces": "已分离的块",
     "Write the pieces that were separated, with their joints and dowels, as they are now":
@@ -633,21 +634,25 @@ TEXTS = {
     "It would spoil a part": "会损坏部件",
     "There would be more than {n} pieces. Is the bed in millimeters?": "将超过 {n} 块。打印床是以毫米为单位吗？",
     # 关于网格的说明
-    "{n} edges join more than two faces (non-manifold).": "{n} 条边连接两个以上的面（非流形）。",
-    "{n} border edges: the surface is open there.": "{n} 条开放边：表面在此处开放。",
-    "{n} vertices belong to no face; they get no part.": "{n} 个顶点不属于任何面；它们不归入部件。",
-    "{n} faces have zero area; they follow their neighbors.": "{n} 个面的面积为零；它们随相邻面归类。",
-    "{n} coincident border vertices are treated as joined.": "{n} 个重合的开放边顶点视为相连。",
-    "{n} triangles face inwards or against their neighbors.": "{n} 个三角形朝内或与相邻面方向相反。",
+    "{n} {n:edge joins|edges join} more than two faces (non-manifold).": "{n} 条边连接两个以上的面（非流形）。",
+    "{n} border {n:edge|edges}: the surface is open there.": "{n} 条开放边：表面在此处开放。",
+    "{n} {n:vertex belongs to no face; it gets|vertices belong to no face; they get} no part.":
+        "{n} 个顶点不属于任何面；它们不归入部件。",
+    "{n} {n:face has zero area; it follows its|faces have zero area; they follow their} neighbors.":
+        "{n} 个面的面积为零；它们随相邻面归类。",
+    "{n} coincident border {n:vertex is|vertices are} treated as joined.": "{n} 个重合的开放边顶点视为相连。",
+    "{n} {n:triangle faces inwards or against its|triangles face inwards or against their} neighbors.":
+        "{n} 个三角形朝内或与相邻面方向相反。",
     "{n} pieces that touch form one body.": "{n} 个相互接触的块构成一个整体。",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.":
         "{n} 个块构成 {bodies} 个整体；相互接触的块一起分解。",
-    "{n} small pieces are one part each.": "{n} 个小块各为一个部件。",
-    "{n} of the bodies are so even that nothing protrudes.": "其中 {n} 个整体过于均匀，没有突出部分。",
+    "{n} small {n:piece is one part|pieces are one part each}.": "{n} 个小块各为一个部件。",
+    "{n} of the bodies {n:is|are} so even that nothing protrudes.": "其中 {n} 个整体过于均匀，没有突出部分。",
     "{n} loose parts are decomposed each on its own.": "{n} 个松散块各自单独分解。",
-    "{n} loose parts are decomposed each on its own; {small} small ones are one part each.":
+    "{n} loose parts are decomposed each on its own; {small} small {small:one is one|ones are one} part each.":
         "{n} 个松散块各自单独分解；其中 {small} 个小块各为一个部件。",
-    "{n} of the loose parts are so even that nothing protrudes: one part each.":
+    "{n} of the loose parts {n:is so even that nothing protrudes: one part|are so even that nothing protrudes: one "
+    "part each}.":
         "其中 {n} 个松散块过于均匀，没有突出部分：各为一个部件。",
     "Nothing protrudes: the mesh is one part.": "没有突出部分：网格为一个部件。",
     "The mesh was decomposed together with its mirror image.": "网格已与其镜像一起分解。",
@@ -678,13 +683,14 @@ TEXTS = {
     "The mesh has only {n} of the {least} faces that the smallest solid has. Choose a larger mesh.":
         "网格只有 {n} 个面，而最小的实体有 {least} 个面。请选择更大的网格。",
     "All {n} faces have zero area. Check the scale of the object.": "全部 {n} 个面的面积为零。请检查物体的缩放。",
-    "{n} of {total} vertices have a coordinate that is not a finite number (first: vertex {first}). Delete or move "
-    "them.":
+    "{n} of {total} vertices {n:has|have} a coordinate that is not a finite number (first: vertex {first}). Delete or "
+    "move them.":
         "{total} 个顶点中有 {n} 个的坐标不是有限数值（首个：顶点 {first}）。请删除或移动它们。",
-    "{n} of {total} faces name a vertex that does not exist (first: face {first}; there are {n_vertices} vertices).":
+    "{n} of {total} faces {n:names|name} a vertex that does not exist (first: face {first}; there are {n_vertices} "
+    "vertices).":
         "{total} 个面中有 {n} 个引用了不存在的顶点（首个：面 {first}；共有 {n_vertices} 个顶点）。",
-    "{n} faces have fewer than three corners.": "{n} 个面的角点少于三个。",
-    "{n} vertices cannot be reached from vertex {source}.": "从顶点 {source} 无法到达 {n} 个顶点。",
+    "{n} {n:face has|faces have} fewer than three corners.": "{n} 个面的角点少于三个。",
+    "{n} {n:vertex|vertices} cannot be reached from vertex {source}.": "从顶点 {source} 无法到达 {n} 个顶点。",
     "Vertices must have shape (n, 3), not {shape}.": "顶点的形状必须为 (n, 3)，而不是 {shape}。",
     "Triangles must have shape (m, 3), not {shape}.": "三角形的形状必须为 (m, 3)，而不是 {shape}。",
     "Labels must be a row of whole numbers, at least one, not {type} of shape {shape}.":
@@ -711,7 +717,8 @@ TEXTS = {
     "There is no parameter {name}.": "没有参数 {name}。",
     "Parameters are given by their names, not as {value}.": "参数应按名称给出，而不是 {value}。",
     "Vertices must be rows of three numbers.": "顶点必须是由三个数字组成的行。",
-    "{n} faces are no rows of whole numbers (first: face {first}).": "{n} 个面不是由整数组成的行（首个：面 {first}）。",
+    "{n} {n:face is no row|faces are no rows} of whole numbers (first: face {first}).":
+        "{n} 个面不是由整数组成的行（首个：面 {first}）。",
     "There is no preset {name}. Choose one of: {presets}.": "没有预设 {name}。请从以下选择：{presets}。",
     "SciPy, which Reeb Parts computes with, could not be imported ({error}). Install Reeb Parts again; if that does "
     "not help, another extension brings a SciPy that does not fit this Blender.":
@@ -719,7 +726,7 @@ TEXTS = {
         "适合此 Blender 的 SciPy。",
     # 分解的结果
     "Reeb Parts is still computing": "Reeb Parts 仍在计算",
-    "{n} parts in {seconds:.1f} s": "{n} 个部件，用时 {seconds:.1f} 秒",
+    "{n} {n:part|parts} in {seconds:.1f} s": "{n} 个部件，用时 {seconds:.1f} 秒",
     "Blender stood still, since its Python could not be started beside it":
         "Blender 曾停止响应，因为无法在旁边另行启动其 Python",
     "There is not enough memory to decompose {name} ({n} vertices); nothing was changed. Close other programs, or "
@@ -740,8 +747,8 @@ TEXTS = {
     "The stored parts were written by another version. Decompose again.": "存储的部件由另一个版本写入。请重新分解。",
     # 工具的报告
     "There is no part with the number {number}.": "没有编号为 {number} 的部件。",
-    "Similar parts: {n}, marked on {objects} objects": "相似部件：{n} 个，已在 {objects} 个物体上勾选",
-    "Parts named: {n}, on {objects} objects": "已命名部件：{n} 个，在 {objects} 个物体上",
+    "Similar parts: {n}, marked on {objects} {objects:object|objects}": "相似部件：{n} 个，已在 {objects} 个物体上勾选",
+    "Parts named: {n}, on {objects} {objects:object|objects}": "已命名部件：{n} 个，在 {objects} 个物体上",
     "No part of {name} has a name of its own. Double-click parts in the list to name them.":
         "{name} 没有自行命名的部件。请在列表中双击部件以命名。",
     "Select other decomposed objects, too; the active one gives the names.":
@@ -749,7 +756,7 @@ TEXTS = {
     "{name} is locked. Unlock it in the list first.": "{name} 已锁定。请先在列表中解锁。",
     "Mark the parts to merge in the list, two or more.": "请在列表中勾选两个或更多要合并的部件。",
     "These parts do not touch each other. Choose parts that do.": "这些部件互不相接。请选择相接的部件。",
-    "{n} parts are {name} now": "{n} 个部件现为 {name}",
+    "{n} {n:part is|parts are} {name} now": "{n} 个部件现为 {name}",
     "{name} touches no other part.": "{name} 不与其他部件相接。",
     "No cut was found inside {name}. Select faces in Edit Mode and assign them to another part instead.":
         "在 {name} 内没有找到切口。请改为在编辑模式中选择面，并将其指定给另一个部件。",
@@ -770,8 +777,8 @@ TEXTS = {
     "The object was changed meanwhile.": "物体在此期间被更改。",
     "No faces were painted.": "没有绘制任何面。",
     "No faces are selected. Select some in Edit Mode.": "没有选择任何面。请在编辑模式中选择一些面。",
-    "{n} faces are {name} now": "{n} 个面现属于 {name}",
-    "{n} faces are in other parts now": "{n} 个面现属于其他部件",
+    "{n} {n:face is|faces are} {name} now": "{n} 个面现属于 {name}",
+    "{n} {n:face is in another part|faces are in other parts} now": "{n} 个面现属于其他部件",
     "The parts are not face sets yet. Press Face Sets, then paint them in Sculpt Mode.":
         "部件还不是面组。请按“面组”，然后在雕刻模式中绘制。",
     "Select a node of a graph": "请选择图的一个节点",
@@ -780,24 +787,27 @@ TEXTS = {
     "Leave the object's mode first": "请先退出物体的当前模式",
     "Nothing is being computed": "当前没有计算",
     "Go to Object Mode first": "请先进入物体模式",
-    "{name}: {n} parts are objects now": "{name}：{n} 个部件现为物体",
-    "{n} earlier pieces that were edited since are left as they are": "{n} 个此后被编辑过的先前的块保持不变",
-    "{n} of {total} parts are not closed or cross themselves: {names}":
+    "{name}: {n} {n:part is an object|parts are objects} now": "{name}：{n} 个部件现为物体",
+    "{n} earlier {n:piece that was edited since is left as it is|pieces that were edited since are left as they are}":
+        "{n} 个此后被编辑过的先前的块保持不变",
+    "{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are not closed or cross themselves}: {names}":
         "{total} 个部件中有 {n} 个未封闭或自相交：{names}",
-    "{n} parts are closed and do not cross themselves": "{n} 个部件封闭且无自相交",
+    "{n} {n:part is closed and does not cross itself|parts are closed and do not cross themselves}":
+        "{n} 个部件封闭且无自相交",
     "{name} has nothing of the kind": "{name} 没有此类内容",
-    "{n} faces selected": "已选择 {n} 个面",
+    "{n} {n:face|faces} selected": "已选择 {n} 个面",
     "Other objects share the mesh of {name}": "其他物体共用 {name} 的网格",
     "Nothing of {name} can be repaired": "{name} 没有可修复之处",
-    "{n} borders run along faces: a smooth cut would tear or cross a part there":
+    "{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there":
         "{n} 条边界沿面分割：平滑切口会在该处撕裂部件或与部件相交",
-    "{n} edges stay open: more than two faces meet beside them": "{n} 条边保持开放：其旁边有两个以上的面相接",
+    "{n} {n:edge stays|edges stay} open: more than two faces meet beside {n:it|them}":
+        "{n} 条边保持开放：其旁边有两个以上的面相接",
     "The active object is not a part that was separated from another one": "活动物体不是从其他物体分离出的部件",
-    "Seams around {n} parts": "{n} 个部件周围的缝合边",
+    "Seams around {n} {n:part|parts}": "{n} 个部件周围的缝合边",
     "The seams are yours alone again": "现在只剩您自己的缝合边",
-    "{n} parts are face sets": "{n} 个部件现为面组",
+    "{n} {n:part is a face set|parts are face sets}": "{n} 个部件现为面组",
     "The face sets are yours alone again": "现在只剩您自己的面组",
-    "{n} parts have materials": "{n} 个部件有材质",
+    "{n} {n:part has a material|parts have materials}": "{n} 个部件有材质",
     "The materials are yours alone again": "现在只剩您自己的材质",
     "{name} has as many UV maps as Blender allows. Remove one and try again.":
         "{name} 的 UV 贴图数量已达 Blender 上限。请移除一个并重试。",
@@ -805,7 +815,7 @@ TEXTS = {
     "within 0.3 to 3; angles {angle:.0f}° off on average":
         "已展开到 UV 贴图 {name}：面积为原来的 {low:.1f} 到 {high:.1f} 倍，{share:.0%} 的面在 0.3 到 3 倍之间；角度平"
         "均偏差 {angle:.0f}°",
-    "{n} hulls": "{n} 个凸壳",
+    "{n} {n:hull|hulls}": "{n} 个凸壳",
     "There is no folder to write to. Choose one and try again.": "没有可写入的文件夹。请选择一个并重试。",
     "{path} could not be written: {reason}": "无法写入 {path}：{reason}",
     "{path} could not be written whole. Is the disk full?": "无法完整写入 {path}。磁盘是否已满？",
@@ -815,8 +825,8 @@ TEXTS = {
         "{path} 正在被读取，会被覆盖。请选择另一个名称。",
     "{path} would be written over {other}. Give each file a name of its own.":
         "{path} 会覆盖 {other}。请为每个文件指定单独的名称。",
-    "{n} files in {folder}": "{folder} 中有 {n} 个文件",
-    "{name} has {n} bones": "{name} 有 {n} 根骨骼",
+    "{n} {n:file|files} in {folder}": "{folder} 中有 {n} 个文件",
+    "{name} has {n} {n:bone|bones}": "{name} 有 {n} 根骨骼",
     "A part needs a name.": "部件需要一个名称。",
     "Rename Part": "重命名部件",
     "Add parts to those that are chosen; a click takes one away again": "将部件加入所选部件；再次单击则移除",
@@ -852,12 +862,15 @@ TEXTS = {
     "Number of the part at which the boundary slides; 0 for all of the boundary":
         "边界在其处滑移的部件编号；0 表示全部边界",
     "Rings": "环",
-    "what is left is in {n} parts more": "剩余部分多分成 {n} 个部件",
-    "{names} gave away {n} faces": "{names} 让出 {n} 个面",
-    "{names} took {n} faces": "{names} 取得 {n} 个面",
-    "{n} are locked and stay": "{n} 个已锁定，保持不变",
-    "{n} do not touch it and are parts of their own": "{n} 个与其不相接，成为单独的部件",
-    "{n} faces of {givers} are {name} now": "{givers} 的 {n} 个面现属于 {name}",
-    "{rings} rings, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm    Esc: cancel":
+    "what is left is in {n} {n:part|parts} more": "剩余部分多分成 {n} 个部件",
+    "{names} gave away {n} {n:face|faces}": "{names} 让出 {n} 个面",
+    "{names} took {n} {n:face|faces}": "{names} 取得 {n} 个面",
+    "{n} {n:is locked and stays|are locked and stay}": "{n} 个已锁定，保持不变",
+    "{n} {n:does not touch it and is a part of its own|do not touch it and are parts of their own}":
+        "{n} 个与其不相接，成为单独的部件",
+    "{n} {n:face|faces} of {givers} {n:is|are} {name} now": "{givers} 的 {n} 个面现属于 {name}",
+    "{rings} {rings:ring|rings}, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm  "
+    "  "
+    "Esc: cancel":
         "{rings} 圈，{low} 至 {high}    滚轮或数字：圈数，负数向内    单击、回车：确认    Esc：取消",
 }

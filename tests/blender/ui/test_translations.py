@@ -77,7 +77,8 @@ def wanted(package):
 def test_messages_are_found_where_they_are(wanted):
     some = {
         ("Operator", "Merge Parts"), ("*", "Clear brings your own back"), ("*", "Close Holes"), ("*", "Boundaries"),
-        ("*", "{n} border edges: the surface is open there."), ("*", "distances"), ("*", "{n} parts are {name} now"),
+        ("*", "{n} border {n:edge|edges}: the surface is open there."), ("*", "distances"),
+        ("*", "{n} {n:part is|parts are} {name} now"),
         ("Operator", "Seams"), ("*", "Which parts to use"), ("*", "Nothing is computed again"), ("*", "OBJ"),
     }  # fmt: skip
     texts = "\n".join(f"{context}|{text}" for context, text in wanted)
@@ -99,13 +100,49 @@ def test_every_language_says_everything_and_nothing_else(languages, wanted):
 
 def test_values_have_their_places_in_every_language(languages):
     def places(text):
-        return Counter(field[1:] for field in string.Formatter().parse(text) if field[1] is not None)
+        fields = [field for field in string.Formatter().parse(text) if field[1] is not None]
+        # Words that a number chooses may be there or not, but only of numbers that have a place.
+        chosen, shown = ([field for field in fields if ("|" in field[2]) == by_number] for by_number in (True, False))
+        assert {field[1] for field in chosen} <= {field[1] for field in shown}
+        return Counter(field[1:] for field in shown)
 
     assert places("{n} of {total}, {share:.1f}") == places("{share:.1f}: {n}/{total}") != places("{n} of {total}")
     for dictionary in languages.values():
         for (_, english), text in dictionary.items():
             assert places(english) == places(text)
             assert english.count("    ") == text.count("    ")  # between the keys in the status bar
+
+
+# Said of several only; of one, nothing is said or something else.
+OF_SEVERAL = {
+    "{n} pieces that touch form one body.", "{n} parts", "{n} nodes", "{n} arcs", "{n} loops", "{n} notes on the mesh",
+    "{n} Small Parts", "{n} objects share this mesh; all of them show its parts.",
+    "{n} pieces form {bodies} bodies; what touches is decomposed together.",
+    "{name} was decomposed as it is before its {n} modifiers were applied.",
+    "{n} loose parts are decomposed each on its own.", "All {n} faces have zero area. Check the scale of the object.",
+    "There would be more than {n} pieces. Is the bed in millimeters?",
+    "Hints must be one whole number for each of the {n} faces.",
+    "There is not enough memory to decompose {name} ({n} vertices); nothing was changed. Close other programs, or "
+    "decimate a copy and decompose that.",
+    "{n} {n:triangle faces inwards or against its|triangles face inwards or against their} neighbors.",  # a verb
+    "{n} loose parts are decomposed each on its own; {small} small {small:one is one|ones are one} part each.",
+}
+
+
+def test_words_agree_with_one(package, wanted):
+    count = importlib.import_module(f"{package}.core.sentence").Count
+    several = re.compile(
+        r"\b1 (?!of )(?:[a-z]+ ){0,2}?(parts|faces|edges|vertices|pieces|objects|models|files|borders|cuts|bones|hulls|"
+        r"notes|nodes|arcs|loops|rings|modifiers|are|have|were)\b", re.IGNORECASE)
+    faults = []
+    for _, text in wanted:
+        fields = [field for field in string.Formatter().parse(text) if field[1] is not None]
+        if text in OF_SEVERAL or not fields or not all(re.fullmatch(r"|[^.]*\|.*", field[2]) for field in fields):
+            continue
+        said = text.format(**{field[1]: count(1) if field[1] in {"n", "small", "objects", "rings"} else "x"
+                              for field in fields if "|" not in field[2]} | {"total": count(2)})
+        faults += [said] if several.search(said) else []
+    assert not faults, "\n" + "\n".join(faults)
 
 
 def test_no_text_is_made_where_nobody_can_translate_it(package):

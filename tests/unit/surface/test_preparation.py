@@ -133,7 +133,7 @@ def test_a_moebius_band_goes_through():
 
 
 @pytest.mark.parametrize(("name", "text"), [
-    ("fin", "1 edges join more than two faces"), ("border", "20 border edges"),
+    ("fin", "1 edge joins more than two faces"), ("border", "20 border edges"),
     ("unused", "9 vertices belong to no face"), ("flat faces", "10 faces have zero area"),
     ("unjoined", "coincident border vertices"), ("inside out", "320 triangles face inwards"),
 ])
