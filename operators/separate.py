@@ -93,7 +93,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
     def _report_joints(self, separated: piece_objects.Separated) -> None:
         """Say how many cuts have joints, and of which others why not."""
         cuts = separated.cuts
-        self.report({"INFO"}, rpt_("{n} of {total} {total:cut|cuts} {n:has|have} joints").format(
+        self.report({"INFO"}, rpt_("{n} of {total} {total:cut has|cuts have} joints").format(
             n=Count(sum(cut.count > 0 for cut in cuts)), total=Count(len(cuts))))
         for why, sentence in (
             ("ROOM", rpt_("No joint where there is no room for one with a wall around it: {cuts}")),

@@ -649,7 +649,7 @@ TEXTS = {
     "The least thickness of what remains around a joint, in millimeters; at least a third of its radius":
         "Wie dick mindestens ist, was um eine Verbindung herum bleibt, in Millimetern; wenigstens ein Drittel ihres "
         "Radius",
-    "{n} of {total} {total:cut|cuts} {n:has|have} joints":
+    "{n} of {total} {total:cut has|cuts have} joints":
         "{n} von {total} {total:Schnitt|Schnitten} {n:hat|haben} Verbindungen",
     "No joint where there is no room for one with a wall around it: {cuts}":
         "Keine Verbindung, wo kein Platz für eine mit einer Wand ringsum ist: {cuts}",

@@ -607,7 +607,7 @@ TEXTS = {
     "Wall (mm)": "壁厚（毫米）",
     "The least thickness of what remains around a joint, in millimeters; at least a third of its radius":
         "接头周围所剩部分的最小厚度，以毫米为单位；至少为其半径的三分之一",
-    "{n} of {total} {total:cut|cuts} {n:has|have} joints": "{total} 个切口中有 {n} 个带接头",
+    "{n} of {total} {total:cut has|cuts have} joints": "{total} 个切口中有 {n} 个带接头",
     "No joint where there is no room for one with a wall around it: {cuts}":
         "没有空间容纳带壁的接头，因此无接头：{cuts}",
     "No joint where a cut is so bent that it has no axis: {cuts}": "切口过于弯曲而没有轴线，因此无接头：{cuts}",

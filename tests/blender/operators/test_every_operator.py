@@ -158,7 +158,9 @@ CASES = {
     "step_detail": Case(prepare=few_parts),
     "select": Case(prepare=choose(1), changes=("/flags/.* select", "/attributes/.select_.*")),
     "isolate": Case(prepare=choose(1), changes=("/flags/.* hide", "/attributes/.hide_.*", "/modifiers")),
-    "hide": Case(prepare=choose(1), changes=("/flags/.* hide", "/attributes/.hide_.*", "/modifiers")),
+    # In Edit Mode, what is hidden is not selected any more, as after Blender's own H.
+    "hide": Case(prepare=choose(1), changes=("/flags/.* (hide|select)", "/attributes/.(hide|select)_.*", "/order",
+                                             "/modifiers")),
     "rename": Case({"new_name": "Branch Part 1"}, prepare=choose(1)),
     "choose": Case(refuses={**dict.fromkeys((*MODES, *WAYS_OF_OBJECTS), "This works over a 3D viewport"), **LINKED}),
     "no_key": Case(),

@@ -244,7 +244,7 @@ def test_parts_that_are_not_closed_stay_without_and_it_is_said(make, capfd):
     bpy.ops.reeb_parts.decompose(n_parts=2)
     bpy.ops.reeb_parts.separate(joints="ROUND", **KEEP)
     out = capfd.readouterr().out
-    assert "Info: 0 of 1 cuts have joints" in out
+    assert "Info: 0 of 1 cut has joints" in out
     assert "Warning: No joint where a part is not closed or crosses itself: Part 01 - Part 02" in out
 
 
@@ -284,12 +284,13 @@ def test_each_cut_can_have_its_own(make):
     assert [cut.joint for cut in cuts] == ["DOWEL", "NONE"]
 
 
-def test_an_error_leaves_all_as_it_was(make, joined, monkeypatch):
+def test_an_error_leaves_all_as_it_was(make, package, monkeypatch):
     """Even in the midst of making joints."""
+    fitting = importlib.import_module(f"{package}.scene.joints.fitting")
     make(shapes.dumbbell(), "Tree")
     bpy.ops.reeb_parts.decompose(n_parts=3)
     before = snapshot()
-    whole = joined._is_fine
+    whole = fitting._is_fine
     asked = []
 
     def stumble(*arguments):
@@ -298,7 +299,7 @@ def test_an_error_leaves_all_as_it_was(make, joined, monkeypatch):
             raise KeyError("something unforeseen")
         return whole(*arguments)
 
-    monkeypatch.setattr(joined, "_is_fine", stumble)
+    monkeypatch.setattr(fitting, "_is_fine", stumble)
     with pytest.raises(RuntimeError, match="something unforeseen"):
         bpy.ops.reeb_parts.separate(joints="DOWEL", **KEEP)
     assert changes(before, snapshot()) == []
