@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import part_list, redraw
+from ..scene import part_list, reactions, redraw
 from ..scene.errors import SceneError
 from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.store import Stored
@@ -95,8 +95,7 @@ class REEB_PARTS_OT_rename(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         if not self.new_name.strip():
             raise SceneError(rpt_("A part needs a name."))
-        result = obj.data.reeb_parts
-        result.parts[result.active].name = self.new_name
+        reactions.give_names(obj.data, {part_list.active_number(obj.data): self.new_name.strip()})
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         return self.attempt(self._ask, context)

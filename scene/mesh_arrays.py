@@ -105,13 +105,14 @@ def face_corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     Kept for as long as the stored result is that of the mesh: the caller has made sure of that, or has
     just stored it.
     """
-    result = mesh.reeb_parts
-    key = (result.fingerprint, len(mesh.vertices), len(mesh.polygons), len(mesh.loops))
+    # To ask a mesh that has no result for it would give it an empty one.
+    fingerprint = mesh.reeb_parts.fingerprint if mesh.is_property_set("reeb_parts") else ""
+    key = (fingerprint, len(mesh.vertices), len(mesh.polygons), len(mesh.loops))
     if key not in _face_corners:
         total = read(mesh.polygons, "loop_total", np.int32)
         face = np.repeat(np.arange(len(total), dtype=np.int32), total)
         corners = corner_vertices(mesh), face
-        if not result.fingerprint:
+        if not fingerprint:
             return corners
         _face_corners.clear()
         _face_corners[key] = corners

@@ -97,8 +97,9 @@ def draw_little():
 
 
 def job():
-    """What is being computed, or None."""
-    return sys.modules["bl_ext.user_default.reeb_parts.scene.jobs"].current
+    """What a process of its own is computing, or None."""
+    current = sys.modules["bl_ext.user_default.reeb_parts.scene.jobs"].current
+    return current if hasattr(current, "pid") else None
 
 
 def turned(seconds, going=lambda: True):
