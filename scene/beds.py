@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import bmesh
@@ -71,6 +72,8 @@ def fitted(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray, box: np.ndarr
     """
     from ..core.uses.sections import planes_to_fit
 
+    if sum(_least(mesh, stretch, box) for mesh in meshes.values()) > _MOST:
+        raise _too_many()
     done: dict[int, bpy.types.Mesh] = {}
     part: dict[int, int] = {}
     left = []
@@ -85,7 +88,7 @@ def fitted(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray, box: np.ndarr
             done[key] = some[0]
             continue
         if len(part) + len(some) > _MOST:
-            raise SceneError(rpt_("There would be more than {n} pieces. Is the bed in millimeters?").format(n=_MOST))
+            raise _too_many()
         shared = _cap_tree(mesh)
         for other in (*done.values(), *(waiting for _, waiting, _ in todo)) if shared is not None else ():
             _imprint(other, shared, planes)
@@ -95,6 +98,18 @@ def fitted(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray, box: np.ndarr
         new += len(some) - 1
         todo = [*((name, one, found[2][None]) for name, one in zip(keys, some, strict=True)), *todo]
     return Fitted(done, part, left)
+
+
+def _too_many() -> SceneError:
+    return SceneError(rpt_("There would be more than {n} pieces. Is the bed in millimeters?").format(n=_MOST))
+
+
+def _least(mesh: bpy.types.Mesh, stretch: np.ndarray, box: np.ndarray) -> int:
+    """How many pieces a mesh makes at least, if it is closed: none is longer than the box from corner to corner."""
+    if (np.bincount(mesh_arrays.corner_edges(mesh), minlength=len(mesh.edges)) != 2).any():
+        return 0
+    extent = np.ptp(mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T, axis=0)
+    return math.ceil(extent.max() / np.linalg.norm(box))
 
 
 def _surface(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
