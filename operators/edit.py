@@ -146,8 +146,8 @@ class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):
     bl_label = "Parts from Face Sets"
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
-        return rpt_("{n} {n:face is in another part|faces are in other parts} "
-                    "now").format(n=Count(edits.assign_face_sets(context, obj, stored)))
+        count = edits.assign_face_sets(context, obj, stored)
+        return rpt_("{n} {n:face is in another part|faces are in other parts} now").format(n=Count(count))
 
 
 class REEB_PARTS_OT_release(PartOperator, bpy.types.Operator):

@@ -53,8 +53,8 @@ class REEB_PARTS_OT_face_sets(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.face_sets"
     bl_label = "Make Face Sets of Parts"
-    output = (face_sets, n_("{n} {n:part is a face set|parts are face sets}"), n_("The face sets are yours alone "
-                                                                                  "again"))
+    output = (face_sets, n_("{n} {n:part is a face set|parts are face sets}"),
+              n_("The face sets are yours alone again"))
 
 
 class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
@@ -62,5 +62,5 @@ class REEB_PARTS_OT_materials(OutputOperator, bpy.types.Operator):
 
     bl_idname = "reeb_parts.materials"
     bl_label = "Give Each Part a Material"
-    output = (materials, n_("{n} {n:part has a material|parts have materials}"), n_("The materials are yours alone "
-                                                                                    "again"))
+    output = (materials, n_("{n} {n:part has a material|parts have materials}"),
+              n_("The materials are yours alone again"))

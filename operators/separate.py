@@ -86,9 +86,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
             report_unsound(self, separated.pieces)
         if separated.left_open:
             self.report({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "
-                                          "{n:it|them}").format(
-                n=Count(separated.left_open)))
-
+                                          "{n:it|them}").format(n=Count(separated.left_open)))
 
     def _report_joints(self, separated: piece_objects.Separated) -> None:
         """Say how many cuts have joints, and of which others why not."""

@@ -6,7 +6,6 @@ from __future__ import annotations
 import blf
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
-from bpy.app.translations import pgettext_n as n_
 from mathutils import Matrix
 
 from ..core.sentence import Count
@@ -161,7 +160,7 @@ def _draw_notes(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup, wid
     if not found:
         return
     header, body = layout.panel("REEB_PARTS_notes", default_closed=True)
-    header.label(text=_count(len(found), n_("{n} note on the mesh"), n_("{n} notes on the mesh")))
+    header.label(text=iface_("{n} {n:note|notes} on the mesh").format(n=Count(len(found))))
     if body is not None:
         column = body.column(align=True)
         column.scale_y = 0.8
@@ -204,7 +203,7 @@ def _draw_models(layout: bpy.types.UILayout, context: bpy.types.Context) -> None
         row.label(text=obj.name, icon="RADIOBUT_ON" if obj == context.object else "RADIOBUT_OFF", translate=False)
         count = row.row()
         count.alignment = "RIGHT"
-        count.label(text=_count(len(obj.data.reeb_parts.parts), n_("{n} part"), n_("{n} parts")))
+        count.label(text=iface_("{n} {n:part|parts}").format(n=Count(len(obj.data.reeb_parts.parts))))
     if len(models) > MODELS:
         column.label(text=iface_("and {n} more {n:model|models}").format(n=Count(len(models) - MODELS)), icon="BLANK1")
 
@@ -234,17 +233,13 @@ def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, result:
 
 def facts(result: bpy.types.PropertyGroup) -> list[str]:
     """What came out, in two lines."""
-    parts = _count(len(result.parts), n_("{n} part"), n_("{n} parts"))
+    parts = iface_("{n} {n:part|parts}").format(n=Count(len(result.parts)))
     graph = (
-        _count(result.n_nodes, n_("{n} node"), n_("{n} nodes")),
-        _count(result.n_arcs, n_("{n} arc"), n_("{n} arcs")),
-        _count(result.n_loops, n_("{n} loop"), n_("{n} loops")),
+        iface_("{n} {n:node|nodes}").format(n=Count(result.n_nodes)),
+        iface_("{n} {n:arc|arcs}").format(n=Count(result.n_arcs)),
+        iface_("{n} {n:loop|loops}").format(n=Count(result.n_loops)),
     )
     return [iface_("{parts} in {seconds:.2f} s").format(parts=parts, seconds=result.seconds), ", ".join(graph)]
-
-
-def _count(number: int, one: str, several: str) -> str:
-    return iface_(one if number == 1 else several).format(n=number)
 
 
 def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup) -> None:
@@ -279,7 +274,7 @@ def _draw_small(layout: bpy.types.UILayout, context: bpy.types.Context, result: 
         return
     settings = context.scene.reeb_parts
     row = layout.row(align=True)
-    row.prop(settings, "show_small", text=_count(len(small), n_("{n} Small Part"), n_("{n} Small Parts")),
+    row.prop(settings, "show_small", text=iface_("{n} Small {n:Part|Parts}").format(n=Count(len(small))),
              icon="DOWNARROW_HLT" if settings.show_small else "RIGHTARROW", toggle=True)
     row.operator("reeb_parts.merge_small", text="Merge Small")
 

@@ -128,15 +128,11 @@ TEXTS = {
     "Boundaries": "Grenzen",
     "Output": "Ausgabe",
     "Overlay": "Überlagern",
-    "{n} part": "{n} Teil",
-    "{n} parts": "{n} Teile",
+    "{n} {n:part|parts}": "{n} {n:Teil|Teile}",
     "{parts} in {seconds:.2f} s": "{parts} in {seconds:.2f} s",
-    "{n} node": "{n} Knoten",
-    "{n} nodes": "{n} Knoten",
-    "{n} arc": "{n} Bogen",
-    "{n} arcs": "{n} Bögen",
-    "{n} loop": "{n} Schleife",
-    "{n} loops": "{n} Schleifen",
+    "{n} {n:node|nodes}": "{n} Knoten",
+    "{n} {n:arc|arcs}": "{n} {n:Bogen|Bögen}",
+    "{n} {n:loop|loops}": "{n} {n:Schleife|Schleifen}",
     "Advanced": "Erweitert",
     # Vorschläge für Namen
     "Name the parts that you have not named by what they are: head, leg, handle; else by their place and kind":
@@ -154,8 +150,7 @@ TEXTS = {
     "The parts have no colors. Switch these on under Advanced, Output; decompose again.":
         "Die Teile haben keine Farben. Bitte unter „Erweitert“, „Ausgabe“ einschalten und erneut zerlegen.",
     "Show the Reeb graph over the model, or hide it": "Den Reeb-Graphen über dem Modell zeigen oder verbergen",
-    "{n} Small Part": "{n} kleines Teil",
-    "{n} Small Parts": "{n} kleine Teile",
+    "{n} Small {n:Part|Parts}": "{n} {n:kleines Teil|kleine Teile}",
     "Sort": "Sortieren",
     "Size": "Größe",
     "Place": "Lage",
@@ -179,8 +174,7 @@ TEXTS = {
         "„Zerlegen“ zerschneidet das ausgewählte Mesh in Teile. Das Mesh selbst bleibt, wie es ist.",
     "Select a mesh, then press Decompose.": "Bitte ein Mesh auswählen, dann „Zerlegen“ drücken.",
     "The mesh was edited since. Decompose it again.": "Das Mesh wurde seither bearbeitet. Bitte erneut zerlegen.",
-    "{n} note on the mesh": "{n} Hinweis zum Mesh",
-    "{n} notes on the mesh": "{n} Hinweise zum Mesh",
+    "{n} {n:note|notes} on the mesh": "{n} {n:Hinweis|Hinweise} zum Mesh",
     "{n} {n:part|parts} cannot be had, only {fewest} to {most}":
         "{n} {n:Teil|Teile} gibt es nicht, nur {fewest} bis {most}",
     "Go to the next number of parts that stands out, such as all limbs, or all fingers":
