@@ -58,6 +58,13 @@ def read_shape(folder: Path, number: int) -> tuple[np.ndarray, ...]:
     return tuple(arrays[name] for name in _SHAPE)
 
 
+def arguments(shape: tuple[np.ndarray, ...]) -> dict[str, np.ndarray | None]:
+    """What ``decompose`` is called with for a shape, of arrays as ``write_request`` takes them."""
+    vertices, triangles, polygon, mirror, hints = shape
+    return {"vertices": vertices, "faces": triangles, "polygon": polygon, "mirror": mirror if len(mirror) else None,
+            "hints": hints if len(hints) else None}
+
+
 def write_result(folder: Path, number: int, result: Decomposition) -> None:
     """Write the result for a shape; raises OSError if it cannot be written."""
     head = {"parameters": asdict(result.parameters), "notes": [plain_sentence(note) for note in result.notes],

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from .errors import ReebError
-from .handover import plain_error, read_request, read_shape, write_result
+from .handover import arguments, plain_error, read_request, read_shape, write_result
 from .pipeline import decompose
 
 # Seconds between two messages about progress; nobody looks more often.
@@ -74,7 +74,6 @@ def say(**message: Any) -> None:
 
 def _arguments(folder: Path, number: int, parameters: Any) -> dict[str, Any]:
     """What ``decompose`` is called with for a shape."""
-    vertices, triangles, polygon, mirror, hints = read_shape(folder, number)
     said: list[Any] = ["", 0.0]  # the last stage, and when
 
     def progress(stage: str, share: float) -> None:
@@ -84,8 +83,7 @@ def _arguments(folder: Path, number: int, parameters: Any) -> dict[str, Any]:
             said[:] = stage, now
             say(shape=number, stage=stage, share=float(share))
 
-    return {"vertices": vertices, "faces": triangles, "parameters": parameters, "polygon": polygon,
-            "progress": progress, "mirror": mirror if len(mirror) else None, "hints": hints if len(hints) else None}
+    return {**arguments(read_shape(folder, number)), "parameters": parameters, "progress": progress}
 
 
 def _end_with_parent(folder: Path) -> None:

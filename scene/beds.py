@@ -150,10 +150,7 @@ def _cap_tree(mesh: bpy.types.Mesh) -> BVHTree | None:
 def _cap_triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """The triangles of the caps of a mesh, and their faces."""
     triangles, face = mesh_arrays.triangles(mesh)
-    attribute = mesh.attributes.get(caps.CAP)
-    if attribute is None:
-        return triangles[:0], face[:0]
-    here = (mesh_arrays.read(attribute.data, "value", np.int32) == 1)[face]
+    here = caps.is_cap(mesh)[face]
     return triangles[here], face[here]
 
 
@@ -226,7 +223,7 @@ def _halves(mesh: bpy.types.Mesh, normal: np.ndarray, level: float) -> tuple[bpy
         cap = _cap([(edge.verts[0], edge.verts[1]) for edge in section], normal) if above.all() else None
         if cap is None:
             return None
-        layer = bm.faces.layers.int.get(caps.CAP) or bm.faces.layers.int.new(caps.CAP)
+        layer = caps.cap_layer(bm)
         material = section[0].link_faces[0].material_index
         return (_half(mesh, bm, above < 0, cap, layer.name, material),
                 _half(mesh, bm, above > 0, cap[:, ::-1], layer.name, material))

@@ -53,6 +53,11 @@ class Shape:
     notes: tuple[Sentence, ...]
 
     @property
+    def arrays(self) -> tuple[np.ndarray, ...]:
+        """As core.handover takes a shape."""
+        return self.vertices, self.triangles, self.polygon, self.mirror, self.hints
+
+    @property
     def face_area(self) -> np.ndarray:
         """Area of each face of the mesh, (p,) float64."""
         a, b, c = self.vertices[self.triangles].transpose(1, 0, 2)

@@ -13,6 +13,7 @@ from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
 from mathutils import Vector
 from mathutils.geometry import tessellate_polygon
 
+from . import mesh_arrays
 from .temporary import freed
 
 if TYPE_CHECKING:
@@ -26,6 +27,19 @@ Triple = tuple[int, int, int]  # corners of a triangle, by their place around th
 
 # A loop that leaves its plane by less than this share of its size is filled with one face.
 _FLAT = 1e-3
+
+
+def is_cap(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Which faces of a mesh are caps, (p,) bool; Object Mode."""
+    attribute = mesh.attributes.get(CAP)
+    if attribute is None:
+        return np.zeros(len(mesh.polygons), bool)
+    return mesh_arrays.read(attribute.data, "value", np.int32) == 1
+
+
+def cap_layer(bm: BMesh) -> bmesh.types.BMLayerItem:
+    """The layer that says which faces are caps, a new one if there is none."""
+    return bm.faces.layers.int.get(CAP) or bm.faces.layers.int.new(CAP)
 
 
 def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray,
@@ -66,7 +80,7 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, jo
         holes, left = _holes(edges)
         if not holes:
             return 0, left
-        layer = bm.faces.layers.int.get(CAP) or bm.faces.layers.int.new(CAP)
+        layer = cap_layer(bm)
         sheets = [sheet for hole in holes for sheet in _sheets(bm, hole, meets, set(edges))]
         made = [face for sheet in sheets for face in _fill(bm, sheet, pairs, discs)]
         for face in made:

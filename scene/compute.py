@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import Cancelled, ReebError
+from ..core.handover import arguments
 from ..core.parameters import Parameters
 from .bridge import Shape
 from .errors import SceneError, load_core
@@ -99,9 +100,7 @@ def decomposition(shape: Shape, parameters: Parameters,
     core = load_core()
     found = known(shape, parameters)
     if found is None:
-        found = core.decompose(
-            shape.vertices, shape.triangles, parameters, shape.polygon, progress,
-            mirror=shape.mirror if len(shape.mirror) else None, hints=shape.hints if len(shape.hints) else None)
+        found = core.decompose(**arguments(shape.arrays), parameters=parameters, progress=progress)
         remember(shape, parameters, found)
     return found
 

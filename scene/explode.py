@@ -23,8 +23,7 @@ OURS = "reeb_parts_explode"  # on the node group
 
 def find(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
     """Our modifier on an object, or None."""
-    return next((modifier for modifier in obj.modifiers
-                 if modifier.type == "NODES" and modifier.node_group and OURS in modifier.node_group), None)
+    return modifiers.find_nodes(obj, OURS)
 
 
 @reaction
@@ -34,25 +33,15 @@ def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     if made.explode or (obj.animation_data and obj.animation_data.action):
         _ensure(obj)
     else:
-        _remove_modifier(obj)
+        modifiers.remove_nodes(obj, OURS)
     graph_follow.soon(obj)  # what evaluates the object first may be a tool, of which no handler is told
 
 
 def forget(obj: bpy.types.Object) -> None:
     """Take the modifier away and forget what was made of the object; pieces are the user's from now on."""
-    _remove_modifier(obj)
+    modifiers.remove_nodes(obj, OURS)
     transaction.keep_group(obj, "reeb_parts_made")
     obj.property_unset("reeb_parts_made")
-
-
-def _remove_modifier(obj: bpy.types.Object) -> None:
-    modifier = find(obj)
-    if modifier is not None:
-        group = modifier.node_group
-        unused = group.users == 1
-        modifiers.remove(obj, modifier)
-        if unused:
-            transaction.discard(group)
 
 
 def _ensure(obj: bpy.types.Object) -> None:
@@ -87,11 +76,7 @@ def _face_attribute(obj: bpy.types.Object) -> str:
 
 def _node_group(obj: bpy.types.Object) -> bpy.types.NodeTree:
     """Nodes that move each part from the middle of the whole by a multiple of its distance from there."""
-    group = bpy.data.node_groups.new(f"{NAME} {obj.name}", "GeometryNodeTree")
-    group[OURS] = obj.name
-    group.is_modifier = True
-    for way in ("INPUT", "OUTPUT"):
-        group.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    group = modifiers.new_nodes(f"{NAME} {obj.name}", OURS, obj.name)
     made = _Nodes(group)
     start, end = made.new("NodeGroupInput"), made.new("NodeGroupOutput")
     part = made.new("GeometryNodeInputNamedAttribute", "Part", data_type="INT")

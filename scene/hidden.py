@@ -33,19 +33,12 @@ def hide(mesh: bpy.types.Mesh, mask: np.ndarray) -> None:
 
 def find(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
     """Our modifier on an object, or None."""
-    return next((modifier for modifier in obj.modifiers
-                 if modifier.type == "NODES" and modifier.node_group and OURS in modifier.node_group), None)
+    return modifiers.find_nodes(obj, OURS)
 
 
 def forget(obj: bpy.types.Object) -> None:
     """Take the modifier away; pieces are the user's from now on."""
-    modifier = find(obj)
-    if modifier is not None:
-        group = modifier.node_group
-        unused = group.users == 1
-        modifiers.remove(obj, modifier)
-        if unused:
-            transaction.discard(group)
+    modifiers.remove_nodes(obj, OURS)
 
 
 def forget_mesh(mesh: bpy.types.Mesh) -> None:
@@ -70,11 +63,7 @@ def _ensure(obj: bpy.types.Object, attribute: str) -> None:
 
 def _node_group() -> bpy.types.NodeTree:
     """Nodes that leave out the faces that an attribute tells."""
-    group = bpy.data.node_groups.new(NAME, "GeometryNodeTree")
-    group[OURS] = True
-    group.is_modifier = True
-    for way in ("INPUT", "OUTPUT"):
-        group.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    group = modifiers.new_nodes(NAME, OURS, True)
     start, attribute, left, end = (group.nodes.new(kind) for kind in (
         "NodeGroupInput", "GeometryNodeInputNamedAttribute", "GeometryNodeDeleteGeometry", "NodeGroupOutput"))
     for place, node in enumerate((start, attribute, left, end)):

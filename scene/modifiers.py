@@ -22,6 +22,33 @@ def remove(obj: bpy.types.Object, modifier: bpy.types.Modifier) -> None:
         transaction.at_end(obj.modifiers.remove, modifier)
 
 
+def find_nodes(obj: bpy.types.Object, ours: str) -> bpy.types.NodesModifier | None:
+    """The modifier on an object whose node group is marked by a property of that name, or None."""
+    return next((modifier for modifier in obj.modifiers
+                 if modifier.type == "NODES" and modifier.node_group and ours in modifier.node_group), None)
+
+
+def remove_nodes(obj: bpy.types.Object, ours: str) -> None:
+    """Take such a modifier off an object, if there is one, and its nodes away if nothing else uses them."""
+    modifier = find_nodes(obj, ours)
+    if modifier is not None:
+        group = modifier.node_group
+        unused = group.users == 1
+        remove(obj, modifier)
+        if unused:
+            transaction.discard(group)
+
+
+def new_nodes(name: str, ours: str, value: str | bool) -> bpy.types.NodeTree:
+    """A node group for such a modifier, marked by a value: geometry comes in and goes out."""
+    group = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    group[ours] = value
+    group.is_modifier = True
+    for way in ("INPUT", "OUTPUT"):
+        group.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    return group
+
+
 def _cut(obj: bpy.types.Object, count: int) -> None:
     """Remove the modifiers that are more than so many."""
     while len(obj.modifiers) > count:

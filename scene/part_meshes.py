@@ -232,8 +232,6 @@ def _set_normals(mesh: bpy.types.Mesh) -> None:
     if kept is None:
         return
     normals = mesh_arrays.read(kept.data, "vector", np.float32, 3)
-    if caps.CAP in mesh.attributes:
-        cap = mesh_arrays.read(mesh.attributes[caps.CAP].data, "value", np.int32) == 1
-        normals[np.repeat(cap, mesh_arrays.read(mesh.polygons, "loop_total", np.int32))] = 0
+    normals[np.repeat(caps.is_cap(mesh), mesh_arrays.read(mesh.polygons, "loop_total", np.int32))] = 0
     mesh.attributes.remove(kept)
     mesh.normals_split_custom_set(normals)

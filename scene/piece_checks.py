@@ -144,10 +144,7 @@ def _tried(mesh: bpy.types.Mesh, face: np.ndarray) -> np.ndarray:
     """Which triangles are tried for crossings, (t,) bool."""
     if len(face) <= _MANY:
         return np.ones(len(face), bool)
-    cap = mesh.attributes.get(caps.CAP)
-    if cap is None:
-        return np.zeros(len(face), bool)
-    return mesh_arrays.read(cap.data, "value", np.int32)[face] == 1
+    return caps.is_cap(mesh)[face]
 
 
 def _tree(points: np.ndarray, triangles: np.ndarray) -> BVHTree:

@@ -100,7 +100,7 @@ def _without_crossing_caps(mesh: bpy.types.Mesh, faults: piece_checks.Faults) ->
 
 def _fill_holes(bm: BMesh) -> None:
     """Close holes by triangles, which are caps."""
-    layer = bm.faces.layers.int.get(caps.CAP) or bm.faces.layers.int.new(caps.CAP)
+    layer = caps.cap_layer(bm)
     before = set(bm.faces)
     bmesh.ops.holes_fill(bm, edges=[edge for edge in bm.edges if edge.is_boundary], sides=0)
     made = [face for face in bm.faces if face not in before]

@@ -73,8 +73,7 @@ class Worker:
         # Only its owner can open it.
         self.folder = Path(tempfile.mkdtemp(prefix="reeb_parts_", dir=bpy.app.tempdir or None))
         try:
-            given = [(s.vertices, s.triangles, s.polygon, s.mirror, s.hints) for s in shapes]
-            handover.write_request(self.folder, given, parameters)
+            handover.write_request(self.folder, [shape.arrays for shape in shapes], parameters)
             self._process = self._start(python)
         except BaseException:
             shutil.rmtree(self.folder, ignore_errors=True)

@@ -22,8 +22,8 @@ class Body:
     def __init__(self, mesh: bpy.types.Mesh, stretch: np.ndarray) -> None:
         self.points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
         self.triangles, self.polygon = mesh_arrays.triangles(mesh)
-        attribute = mesh.attributes[caps.CAP]
-        self.is_cap = (mesh_arrays.read(attribute.data, "value", np.int32) == 1)[self.polygon]
+        self._places = self.points.tolist()
+        self.is_cap = caps.is_cap(mesh)[self.polygon]
         self.whole, self.sides = self.tree(slice(None)), self.tree(~self.is_cap)
         self.holes: list[BVHTree] = []
 
@@ -34,7 +34,7 @@ class Body:
     def tree(self, which: np.ndarray | slice) -> BVHTree:
         """The surface of some triangles."""
         triangles = self.triangles[which]
-        return BVHTree.FromPolygons(self.points.tolist(), triangles.tolist(), all_triangles=True)
+        return BVHTree.FromPolygons(self._places, triangles.tolist(), all_triangles=True)
 
 
 class Side:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING
 
 import bpy
@@ -51,17 +52,22 @@ def shared_cuts(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray) -> list[
     twice = np.flatnonzero((name[order][1:] == name[order][:-1]) & (piece[order][1:] != piece[order][:-1]))
     low, high = order[twice], order[twice + 1]
     cuts = []
+
+    @cache  # a piece has several cuts
+    def surface(place: int) -> tuple[np.ndarray, ...]:
+        """Pairs of faces, points, triangles and their faces of a piece."""
+        mesh = meshes[keys[place]]
+        points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
+        return mesh_arrays.corner_table(mesh).face_pairs()[0], points, *mesh_arrays.triangles(mesh)
+
     for a, b in np.unique(np.stack([piece[low], piece[high]], axis=1), axis=0).tolist():
         these = (piece[low] == a) & (piece[high] == b)
         one, other = face[low[these]], face[high[these]]
         sort = np.argsort(one)
         one, other = one[sort], other[sort]
-        mesh = meshes[keys[a]]
-        pairs, _ = mesh_arrays.corner_table(mesh).face_pairs()
+        pairs, points, triangles, polygon = surface(a)
         pairs = pairs[np.isin(pairs, one).all(axis=1)]
         count, label = components(len(one), *np.searchsorted(one, pairs).T)
-        points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
-        triangles, polygon = mesh_arrays.triangles(mesh)
         rims = points[_rims(triangles[np.isin(polygon, one)])]
         for index in range(count):
             mine = one[label == index]
@@ -79,10 +85,7 @@ def _rims(triangles: np.ndarray) -> np.ndarray:
 
 def _cap_faces(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The faces of caps, the places of their corners, (c, 3) float32, and the face of each corner, from 0."""
-    attribute = mesh.attributes.get(caps.CAP)
-    if attribute is None:
-        return np.empty(0, np.int64), np.empty((0, 3), np.float32), np.empty(0, np.int64)
-    is_cap = mesh_arrays.read(attribute.data, "value", np.int32) == 1
+    is_cap = caps.is_cap(mesh)
     vertex, face = mesh_arrays.face_corners(mesh)
     here = is_cap[face]
     return np.flatnonzero(is_cap), mesh_arrays.basis_points(mesh)[vertex[here]], (np.cumsum(is_cap) - 1)[face[here]]

@@ -43,7 +43,7 @@ def with_solids(context: bpy.types.Context, mesh: bpy.types.Mesh, tools: list[tu
 
     to_mesh : (3, 3), from the world to the mesh. patient : whether the solver is to expect crossings and holes.
     """
-    material = Counter(mesh_arrays.read(mesh.polygons, "material_index", np.int32)[_is_cap(mesh)].tolist())
+    material = Counter(mesh_arrays.read(mesh.polygons, "material_index", np.int32)[caps.is_cap(mesh)].tolist())
     index = material.most_common(1)[0][0] if material else 0
     base = bpy.data.objects.new("Reeb Parts", mesh)
     solids = [(bpy.data.objects.new("Reeb Parts", _tool(mesh, found, to_mesh, index)), operation)
@@ -64,10 +64,6 @@ def with_solids(context: bpy.types.Context, mesh: bpy.types.Mesh, tools: list[tu
                                                depsgraph=depsgraph)
     made.name = mesh.name
     return made
-
-
-def _is_cap(mesh: bpy.types.Mesh) -> np.ndarray:
-    return mesh_arrays.read(mesh.attributes[caps.CAP].data, "value", np.int32) == 1
 
 
 def _tool(mesh: bpy.types.Mesh, solids: list[Solid], to_mesh: np.ndarray, material: int) -> bpy.types.Mesh:
