@@ -7,7 +7,8 @@ import bpy
 
 from ..core.parameters import BERRETTI, LAVOUE, LIU
 from ..scene import store
-from .panel import ReebPanel, SubPanel, facts, settings_column
+from .fitting import Room
+from .panel import ReebPanel, SubPanel, draw_settings, facts
 
 
 class REEB_PARTS_PT_advanced(SubPanel, bpy.types.Panel):
@@ -24,8 +25,9 @@ class REEB_PARTS_PT_advanced(SubPanel, bpy.types.Panel):
         if store.has_parts(context.object):
             column = self.layout.column(align=True)
             column.scale_y = 0.8
+            room = Room(context)
             for line in facts(context.object.data.reeb_parts):
-                column.label(text=line)
+                room.wrapped(column, line)
 
 
 class SettingsPanel(ReebPanel):
@@ -36,9 +38,7 @@ class SettingsPanel(ReebPanel):
     names: tuple[str, ...]
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
-        for name in self.names:
-            column.prop(settings, name)
+        draw_settings(self, context, self.names)
 
 
 class REEB_PARTS_PT_field(SettingsPanel, bpy.types.Panel):
@@ -50,21 +50,19 @@ class REEB_PARTS_PT_graph(SettingsPanel, bpy.types.Panel):
     bl_label = "Graph"
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
+        settings = context.scene.reeb_parts
         own = {LAVOUE: ("n_clusters",), LIU: ("outline_weight",)}.get(settings.method, ("small_region",))
-        for name in ("method", "hints", "pieces", "symmetry", *own, "loose_part"):
-            column.prop(settings, name)
+        draw_settings(self, context, ("method", "hints", "pieces", "symmetry", *own, "loose_part"))
 
 
 class REEB_PARTS_PT_boundaries(SettingsPanel, bpy.types.Panel):
     bl_label = "Boundaries"
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
+        settings = context.scene.reeb_parts
         of_paper = ("concavity_weight", "sigma") if settings.method == BERRETTI else ()
         movable = () if settings.method in {LAVOUE, LIU} else ("follow_level_sets", "band_ratio")
-        for name in (*movable, *of_paper, "smoothing"):
-            column.prop(settings, name)
+        draw_settings(self, context, (*movable, *of_paper, "smoothing"))
 
 
 class REEB_PARTS_PT_output(SettingsPanel, bpy.types.Panel):
@@ -77,12 +75,7 @@ class REEB_PARTS_PT_overlay(SettingsPanel, bpy.types.Panel):
     bl_label = "Overlay"
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, settings = settings_column(self, context)
-        for name in ("node_size", "line_thickness", "in_front"):
-            column.prop(settings, name)
-        column = self.layout.column()
-        column.prop(settings, "highlight")
-        column.prop(settings, "small")
+        draw_settings(self, context, ("node_size", "line_thickness", "in_front", "highlight", "small"))
 
 
 CLASSES = (

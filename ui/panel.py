@@ -3,19 +3,28 @@
 
 from __future__ import annotations
 
-import blf
+from collections.abc import Iterable
+
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from mathutils import Matrix
 
 from ..core.sentence import Count
 from ..scene import graph_objects, jobs, notes, part_list, part_names, store
-from . import toolbar, wrapping
+from . import toolbar
+from .fitting import Room
 
 MODELS = 8  # so many selected models are listed
-# Widths in pixels of a screen without scaling: of a sidebar that has no room for shares, and, in a row of the list, of
-# all beside the name and the share.
-NARROW, BESIDE_NAME = 215, 190
+ROWS, MOST_ROWS = 7, 10  # of the list, if it has so many parts and the sidebar is high enough
+ROW, OTHER_ROWS = 20, 320  # heights of a row and of all but the list, in pixels of a screen without scaling
+
+# Widths of panels, in pixels of a screen without scaling, below which something is left out or moves.
+BUTTONS_BESIDE = 150  # the buttons beside the list stand below it
+LOCKS = 150  # no locks in the list
+WIDE_CHIPS = 120  # colors are stripes only
+TICKS = 90  # no boxes to tick: parts are marked with the tool, or by the menu
+# What a row of the list has besides a part's name and share: its frame, and the bar that scrolls it.
+FRAME, BESIDE = 30, 28
 
 
 def _result(context: bpy.types.Context) -> bpy.types.PropertyGroup | None:
@@ -37,17 +46,9 @@ class SubPanel(ReebPanel):
     bl_parent_id = "REEB_PARTS_PT_main"
 
 
-def settings_column(panel: bpy.types.Panel, context: bpy.types.Context
-                    ) -> tuple[bpy.types.UILayout, bpy.types.PropertyGroup]:
-    """A column for properties with their names before them, and the settings of the scene."""
-    return _names_before(panel.layout).column(), context.scene.reeb_parts
-
-
-def _names_before(layout: bpy.types.UILayout) -> bpy.types.UILayout:
-    """The same layout, in which the names of properties stand before them."""
-    layout.use_property_split = True
-    layout.use_property_decorate = False
-    return layout
+def draw_settings(panel: bpy.types.Panel, context: bpy.types.Context, names: Iterable[str]) -> None:
+    """Settings of the scene, by name, one below the other."""
+    Room(context).properties(panel.layout.column(), context.scene.reeb_parts, names)
 
 
 class REEB_PARTS_UL_parts(bpy.types.UIList):
@@ -57,19 +58,22 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
                   item: bpy.types.PropertyGroup, icon: int, active_data: bpy.types.PropertyGroup, active_property: str,
                   index: int) -> None:
         row = layout.row(align=True)
+        room = Room(context)
         chip = row.row()
-        chip.ui_units_x = 1.0
+        chip.ui_units_x = 1.0 if room.width >= WIDE_CHIPS else 0.4
         chip.prop(item, "color", text="")
         row.prop(item, "name", text="", emboss=False)
         percent = f"{100 * item.share:.1f} %"
-        if _has_room(context, item.name, percent):
+        if _has_share(room, item.name, percent):
             share = row.row()
             share.alignment = "RIGHT"
             share.label(text=percent)
-        unlocked = "PINNED" if item.pinned else "UNLOCKED"
-        row.prop(item, "locked", text="", emboss=False, icon="LOCKED" if item.locked else unlocked)
-        row.prop(item, "selected", text="", emboss=False,
-                 icon="CHECKBOX_HLT" if item.selected else "CHECKBOX_DEHLT")
+        if room.width >= LOCKS:
+            unlocked = "PINNED" if item.pinned else "UNLOCKED"
+            row.prop(item, "locked", text="", emboss=False, icon="LOCKED" if item.locked else unlocked)
+        if room.width >= TICKS:
+            row.prop(item, "selected", text="", emboss=False,
+                     icon="CHECKBOX_HLT" if item.selected else "CHECKBOX_DEHLT")
 
     def draw_filter(self, context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
         row = layout.row(align=True)
@@ -89,12 +93,10 @@ class REEB_PARTS_UL_parts(bpy.types.UIList):
         return flags, part_list.ordered(parts, settings.sort, matrix)
 
 
-def _has_room(context: bpy.types.Context, name: str, percent: str) -> bool:
+def _has_share(room: Room, name: str, percent: str) -> bool:
     """Whether the share of a part fits beside its name: the name is the last to be cut off."""
-    scale = context.preferences.system.ui_scale
-    blf.size(0, context.preferences.ui_styles[0].widget.points * scale)
-    text = sum(blf.dimensions(0, word)[0] for word in (name, percent))
-    return context.region.width > max(scale * NARROW, scale * BESIDE_NAME + text)
+    buttons = BESIDE + FRAME + 3 * ROW  # the color, the lock and the tick
+    return room.width >= LOCKS and room.text(name) + room.text(percent) + 2 * 8 <= room.width - buttons
 
 
 class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
@@ -104,58 +106,57 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         result = _result(context)
-        # Letters are about 7 pixels wide, and the icon takes 30.
-        width = max(int((context.region.width / context.preferences.system.ui_scale - 60) / 7), 20)
-        _draw_decompose(layout, result is not None)
+        room = Room(context)
+        _draw_decompose(layout, room, result is not None)
         found = graph_objects.part_of(context.object) if result is None else None
         if found is not None:
             source, number = found
             text = iface_("{part} of {name}").format(part=part_names.part_name(source.data, number), name=source.name)
-            layout.label(text=text, icon="EMPTY_AXIS")
-            layout.operator("reeb_parts.from_nodes")
-            layout.operator("reeb_parts.split_at_node", icon="MOD_EDGESPLIT")
-            _draw_parts(layout, context, source.data.reeb_parts)
+            room.wrapped(layout.column(align=True), text, "EMPTY_AXIS")
+            room.operator(layout, "reeb_parts.from_nodes", spare="RESTRICT_SELECT_OFF")
+            room.operator(layout, "reeb_parts.split_at_node", icon="MOD_EDGESPLIT")
+            _draw_parts(layout, context, room, source.data.reeb_parts)
         elif result is None:
-            _draw_hint(layout, context, width)
-            column = _names_before(layout).column(align=True)
-            column.prop(context.scene.reeb_parts, "detail", slider=True)
-            column.prop(context.scene.reeb_parts, "n_parts")
+            _draw_hint(layout, context, room)
+            room.properties(layout.column(align=True), context.scene.reeb_parts, ("detail", "n_parts"))
         else:
-            _draw_notes(layout, result, width)
-            _draw_unseen(layout, context, result, width)
-            _draw_models(layout, context)
-            _draw_detail(layout, context, result)
-            _draw_parts(layout, context, result)
+            _draw_notes(layout, result, room)
+            _draw_unseen(layout, context, result, room)
+            _draw_models(layout, context, room)
+            _draw_detail(layout, context, room, result)
+            _draw_parts(layout, context, room, result)
 
 
-def _draw_decompose(layout: bpy.types.UILayout, again: bool) -> None:
+def _draw_decompose(layout: bpy.types.UILayout, room: Room, again: bool) -> None:
     """The button, or how far its run is; beside it the way back, once there are parts."""
-    row = layout.row(align=True)
-    row.scale_y = 1.5
     if jobs.current is not None:
+        row = layout.row(align=True)
+        row.scale_y = 1.5
         text = jobs.current.text
         row.progress(factor=jobs.current.share, text=text[:1].upper() + text[1:])
         if isinstance(jobs.current, jobs.Job):  # in steps of Blender's own only keys reach it
             row.operator("reeb_parts.cancel", text="", icon="X")
         return
-    row.operator("reeb_parts.decompose", text="Decompose", icon="MOD_EXPLODE")
+    row = room.row(layout, iface_("Decompose", "Operator"), icons=1 + again)
+    row.scale_y = 1.5
+    room.operator(row, "reeb_parts.decompose", text="Decompose", icon="MOD_EXPLODE")
     if again:
         row.operator("reeb_parts.clear", text="", icon="TRASH")
 
 
-def _draw_hint(layout: bpy.types.UILayout, context: bpy.types.Context, width: int) -> None:
+def _draw_hint(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room) -> None:
     """What there is to do, while there are no parts."""
     is_mesh = context.object is not None and context.object.type == "MESH"
     text = (iface_("Decompose cuts the selected mesh into parts. The mesh itself stays as it is.") if is_mesh
             else iface_("Select a mesh, then press Decompose."))
-    _wrapped(layout.column(align=True), text, width, "INFO")
+    room.wrapped(layout.column(align=True), text, "INFO")
 
 
-def _draw_notes(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup, width: int) -> None:
+def _draw_notes(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup, room: Room) -> None:
     """That the mesh was edited; the notes on it, folded into one line."""
     if store.is_edited(result.id_data):
-        _wrapped(layout.box().column(align=True), iface_("The mesh was edited since. Decompose it again."), width,
-                 "ERROR")
+        words = iface_("The mesh was edited since. Decompose it again.")
+        room.less().wrapped(layout.box().column(align=True), words, "ERROR")
     found = notes.spoken(result)
     if not found:
         return
@@ -165,7 +166,7 @@ def _draw_notes(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup, wid
         column = body.column(align=True)
         column.scale_y = 0.8
         for note in found:
-            _wrapped(column, note, width, "INFO")
+            room.less().wrapped(column, note, "INFO")
 
 
 def hides_parts(space: bpy.types.SpaceView3D, has_colors: bool, has_materials: bool) -> bool:
@@ -179,56 +180,59 @@ def hides_parts(space: bpy.types.SpaceView3D, has_colors: bool, has_materials: b
 
 
 def _draw_unseen(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup,
-                 width: int) -> None:
+                 room: Room) -> None:
     """How the parts are seen, in a viewport that does not show them."""
     if not hides_parts(context.space_data, bool(result.color_attribute), result.has_materials):
         return
-    box = layout.box().column(align=True)
-    _wrapped(box, iface_("This viewport does not show the parts."), width, "HIDE_ON")
-    row = box.row(align=True)
+    box, room = layout.box().column(align=True), room.less()
+    room.wrapped(box, iface_("This viewport does not show the parts."), "HIDE_ON")
+    words = [iface_(word, "Operator") for word in ("Show Colors", "Give Materials")]
+    row = room.row(box, *words)
     if result.color_attribute:
-        row.operator("reeb_parts.show_colors", text="Show Colors")
-    row.operator("reeb_parts.materials", text="Give Materials").remove = False
+        room.operator(row, "reeb_parts.show_colors", text="Show Colors", spare="COLOR")
+    room.operator(row, "reeb_parts.materials", text="Give Materials", spare="MATERIAL").remove = False
 
 
-def _draw_models(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+def _draw_models(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room) -> None:
     """How many parts each of several selected models has; the list below is of the active one."""
+    room = room.less()
     models = [obj for obj in context.selected_objects if store.has_parts(obj)]
     if len(models) < 2:
         return
     column = layout.box().column(align=True)
     column.scale_y = 0.8
     for obj in models[:MODELS]:
-        row = column.row()
+        parts = iface_("{n} {n:part|parts}").format(n=Count(len(obj.data.reeb_parts.parts)))
+        row = room.row(column, obj.name, parts, icons=2)
         row.label(text=obj.name, icon="RADIOBUT_ON" if obj == context.object else "RADIOBUT_OFF", translate=False)
         count = row.row()
         count.alignment = "RIGHT"
-        count.label(text=iface_("{n} {n:part|parts}").format(n=Count(len(obj.data.reeb_parts.parts))))
+        count.label(text=parts)
     if len(models) > MODELS:
         column.label(text=iface_("and {n} more {n:model|models}").format(n=Count(len(models) - MODELS)), icon="BLANK1")
 
 
-def _wrapped(column: bpy.types.UILayout, text: str, width: int, icon: str) -> None:
-    """A text in lines of some letters, with an icon before the first one."""
-    for index, line in enumerate(wrapping.lines(text, width)):
-        column.label(text=line, icon="BLANK1" if index else icon)
-
-
-def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup) -> None:
+def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,
+                 result: bpy.types.PropertyGroup) -> None:
     """How many parts there are, by a slider, by a number, and by steps from one clear choice to the next."""
     column = layout.column(align=True)
     column.enabled = not store.is_edited(result.id_data)
-    row = column.row(align=True)
-    row.prop(result, "detail", slider=True)
+    row = room.field(column, result, "detail", iface_("Detail"), "0.00", icons=1, slider=True)
     shown = graph_objects.is_shown(context, context.object)
     row.operator("reeb_parts.show_graph", text="", icon="HIDE_OFF" if shown else "HIDE_ON", depress=shown)
+    fewer, more, count = iface_("Fewer", "Reeb Parts"), iface_("More", "Reeb Parts"), str(len(result.parts))
     row = column.row(align=True)
+    whole = room.has(fewer, iface_("Parts"), count, more, fields=1)
+    if not whole:
+        room.field(column, result, "n_parts", iface_("Parts"), count)
+        row = room.row(column, fewer, more)
     row.operator("reeb_parts.step_detail", text="Fewer", text_ctxt="Reeb Parts").more = False
-    row.prop(result, "n_parts", text="Parts")
+    if whole:
+        row.prop(result, "n_parts", text="Parts")
     row.operator("reeb_parts.step_detail", text="More", text_ctxt="Reeb Parts").more = True
     if result.asked:
         text = iface_("{n} {n:part|parts} cannot be had, only {fewest} to {most}")
-        column.label(text=text.format(n=Count(result.asked), fewest=result.fewest, most=result.most), icon="ERROR")
+        room.wrapped(column, text.format(n=Count(result.asked), fewest=result.fewest, most=result.most), "ERROR")
 
 
 def facts(result: bpy.types.PropertyGroup) -> list[str]:
@@ -242,51 +246,70 @@ def facts(result: bpy.types.PropertyGroup) -> list[str]:
     return [iface_("{parts} in {seconds:.2f} s").format(parts=parts, seconds=result.seconds), ", ".join(graph)]
 
 
-def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup) -> None:
+def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,
+                result: bpy.types.PropertyGroup) -> None:
     """The list, what is done with its parts, and the way to objects."""
-    row = layout.row()
-    row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=7)
-    column = row.column(align=True)
+    _draw_list(layout, context, room, result)
+    _draw_small(layout, context, room, result)
+    _draw_tools(layout, context, room)
+    words = [iface_(word, "Operator") for word in ("Select", "Isolate", "Show All")]
+    row = room.row(layout, *words)
+    room.operator(row, "reeb_parts.select", text="Select", spare="RESTRICT_SELECT_OFF")
+    room.operator(row, "reeb_parts.isolate", text="Isolate", spare="ZOOM_SELECTED").show_all = False
+    room.operator(row, "reeb_parts.isolate", text="Show All", spare="HIDE_OFF").show_all = True
+    suggest, separate = iface_("Suggest Names", "Operator"), iface_("Separate", "Operator")
+    beside = room.has(suggest, separate, icons=1)
+    row = layout.split(factor=0.42, align=True) if beside else layout.column(align=True)
+    row.scale_y = 1.2
+    room.operator(row, "reeb_parts.suggest_names", spare="SORTALPHA")
+    room.operator(row, "reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
+
+
+def _draw_list(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,
+               result: bpy.types.PropertyGroup) -> None:
+    """The list with its buttons, beside it or below it; it grows with its parts as far as the sidebar is high."""
+    beside = room.width >= BUTTONS_BESIDE
+    row = layout.row() if beside else layout.column(align=True)
+    height = context.region.height / context.preferences.system.ui_scale
+    most = min(max(int((height - OTHER_ROWS) / ROW), ROWS), MOST_ROWS)
+    row.template_list("REEB_PARTS_UL_parts", "", result, "parts", result, "active", rows=ROWS, maxrows=most)
+    column = row.column(align=True) if beside else row.grid_flow(
+        row_major=True, columns=6 if room.width >= 6 * ROW else 3, even_columns=True, align=True)
     column.operator("reeb_parts.merge", text="", icon="AUTOMERGE_ON")
     column.operator("reeb_parts.split", text="", icon="MOD_EDGESPLIT")
-    column.separator()
+    if beside:
+        column.separator()
     column.operator("reeb_parts.grow", text="", icon="ADD")
     column.operator("reeb_parts.shrink", text="", icon="REMOVE")
-    column.separator()
+    if beside:
+        column.separator()
     column.operator("reeb_parts.frame", text="", icon="VIEWZOOM")
-    column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT")
-    _draw_small(layout, context, result)
-    _draw_tools(layout, context)
-    row = layout.row(align=True)
-    row.operator("reeb_parts.select", text="Select")
-    row.operator("reeb_parts.isolate", text="Isolate").show_all = False
-    row.operator("reeb_parts.isolate", text="Show All").show_all = True
-    row = layout.split(factor=0.42, align=True)
-    row.scale_y = 1.2
-    row.operator("reeb_parts.suggest_names")
-    row.operator("reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
+    # Where it is wider than an icon, Blender draws an arrow by itself.
+    column.menu("REEB_PARTS_MT_parts", text="", icon="DOWNARROW_HLT" if beside else "NONE")
 
 
-def _draw_small(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup) -> None:
+def _draw_small(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,
+                result: bpy.types.PropertyGroup) -> None:
     """One row for all small parts of a long list."""
     small = part_list.small_parts(result.id_data)
     if not small:
         return
     settings = context.scene.reeb_parts
-    row = layout.row(align=True)
-    row.prop(settings, "show_small", text=iface_("{n} Small {n:Part|Parts}").format(n=Count(len(small))),
+    text = iface_("{n} Small {n:Part|Parts}").format(n=Count(len(small)))
+    row = room.row(layout, text, iface_("Merge Small", "Operator"), icons=1)
+    row.prop(settings, "show_small", text=text,
              icon="DOWNARROW_HLT" if settings.show_small else "RIGHTARROW", toggle=True)
-    row.operator("reeb_parts.merge_small", text="Merge Small")
+    room.operator(row, "reeb_parts.merge_small", text="Merge Small", spare="AUTOMERGE_ON")
 
 
-def _draw_tools(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+def _draw_tools(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room) -> None:
     """What works with the pointer over the model; in two rows, since other languages have longer words."""
-    flow = layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
     # In a context of our own: by "Cut", Blender means the clipboard, and in some languages says so.
-    toolbar.draw_button(flow, context)
-    flow.operator("reeb_parts.cut", text="Cut", text_ctxt="Reeb Parts", icon="MOD_BOOLEAN")
-    flow.operator("reeb_parts.slide", text="Slide", text_ctxt="Reeb Parts", icon="ARROW_LEFTRIGHT")
-    flow.operator("reeb_parts.paint", text="Paint", text_ctxt="Reeb Parts", icon="BRUSH_DATA")
+    flow = room.grid(layout, *(iface_(word, "Reeb Parts") for word in ("Pick", "Cut", "Slide", "Paint")), icons=1)
+    toolbar.draw_button(flow, context, room)
+    room.operator(flow, "reeb_parts.cut", text="Cut", text_ctxt="Reeb Parts", icon="MOD_BOOLEAN")
+    room.operator(flow, "reeb_parts.slide", text="Slide", text_ctxt="Reeb Parts", icon="ARROW_LEFTRIGHT")
+    room.operator(flow, "reeb_parts.paint", text="Paint", text_ctxt="Reeb Parts", icon="BRUSH_DATA")
 
 
 class REEB_PARTS_PT_rename(bpy.types.Panel):

@@ -14,6 +14,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_n as n_
 
 from ..scene import store
+from .fitting import Room
 
 IDNAME = "reeb_parts.parts"
 
@@ -79,12 +80,12 @@ def is_active(context: bpy.types.Context) -> bool:
     return tool is not None and tool.idname == IDNAME and context.mode == "OBJECT"
 
 
-def draw_button(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+def draw_button(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room) -> None:
     """The button of the sidebar that makes the tool the active one."""
     row = layout.row(align=True)
     row.enabled = context.mode == "OBJECT"
-    row.operator("wm.tool_set_by_id", text="Pick", text_ctxt="Reeb Parts", icon="EYEDROPPER",
-                 depress=is_active(context)).name = IDNAME
+    room.operator(row, "wm.tool_set_by_id", text="Pick", text_ctxt="Reeb Parts", icon="EYEDROPPER",
+                  depress=is_active(context)).name = IDNAME
 
 
 def _draw_keys(self: bpy.types.Header, context: bpy.types.Context) -> None:

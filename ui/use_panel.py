@@ -9,11 +9,13 @@ from bpy.app.translations import pgettext_n as n_
 
 from ..core.sentence import Count
 from ..scene import cut_list, piece_checks, piece_objects, store
-from .panel import SubPanel, settings_column
+from .fitting import Room
+from .panel import SubPanel
 
 #: Why a cut has no joint, see joints.CutJoints.
 REASONS = {"ROOM": n_("No room with a wall around it"), "BENT": n_("Too bent to have an axis"),
            "BODY": n_("A part is not closed"), "RESULT": n_("It would spoil a part")}
+JOINT_SETTINGS = ("joint_count", "joint_size", "joint_depth", "joint_clearance", "joint_wall")
 
 
 class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
@@ -25,22 +27,17 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         return store.has_parts(context.object)
 
     def draw(self, context: bpy.types.Context) -> None:
-        column, _ = settings_column(self, context)
-        settings = context.scene.reeb_parts_use
+        column, room, settings = self.layout.column(), Room(context), context.scene.reeb_parts_use
         # How the button Separate, which is just above, makes objects.
-        column.row().prop(settings, "which", expand=True)
-        for name in ("cut", "caps", "center", "modifiers", "seen", "parent", "hide", "fit_bed"):
-            column.prop(settings, name)
-        if settings.fit_bed:
-            column.prop(settings, "bed")
-        column.prop(settings, "joints")
-        if settings.joints != "NONE":
-            for name in ("joint_count", "joint_size", "joint_depth", "joint_clearance", "joint_wall"):
-                column.prop(settings, name)
+        joined = settings.joints != "NONE"
+        room.properties(column, settings, (
+            "which", "cut", "caps", "center", "modifiers", "seen", "parent", "hide", "fit_bed",
+            *(["bed"] if settings.fit_bed else []), "joints", *(JOINT_SETTINGS if joined else [])), expanded={"which"})
+        if joined:
             self._draw_cuts(column, context.object)
         column.separator()
-        column.prop(context.object.reeb_parts_made, "explode", slider=True)
-        self._draw_outputs(context.object.data.reeb_parts)
+        room.properties(column, context.object.reeb_parts_made, ("explode",))
+        self._draw_outputs(room, context.object.data.reeb_parts)
 
     def _draw_cuts(self, column: bpy.types.UILayout, obj: bpy.types.Object) -> None:
         """The cuts of the last time, each with what joins it and a choice for the next time."""
@@ -53,19 +50,20 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
             if active.count or active.why:
                 column.label(text=text if active.count else iface_(REASONS[active.why]), translate=False)
 
-    def _draw_outputs(self, result: bpy.types.PropertyGroup) -> None:
+    def _draw_outputs(self, room: Room, result: bpy.types.PropertyGroup) -> None:
         """Buttons that stay pressed for as long as there is what they make."""
-        row = self.layout.row(align=True)
-        for name, text, there in (
+        made = (
             ("seams", n_("Seams", "Operator"), result.has_seams),
             ("face_sets", n_("Face Sets", "Operator"), result.has_face_sets),
             ("materials", n_("Materials", "Operator"), result.has_materials),
-        ):
-            row.operator(f"reeb_parts.{name}", text=text, depress=there).remove = there
-        self.layout.operator("reeb_parts.unwrap", icon="UV")
-        self.layout.operator("reeb_parts.export", text="Export to Files...", icon="EXPORT")
-        self.layout.operator("reeb_parts.armature", text="Make Armature", icon="ARMATURE_DATA")
-        self.layout.operator("reeb_parts.hulls", text="Make Collision Hulls", icon="MESH_ICOSPHERE")
+        )
+        row = room.row(self.layout, *(iface_(text, "Operator") for _, text, _ in made))
+        for name, text, there in made:
+            room.operator(row, f"reeb_parts.{name}", text=text, depress=there).remove = there
+        room.operator(self.layout, "reeb_parts.unwrap", icon="UV")
+        room.operator(self.layout, "reeb_parts.export", text="Export to Files...", icon="EXPORT")
+        room.operator(self.layout, "reeb_parts.armature", text="Make Armature", icon="ARMATURE_DATA")
+        room.operator(self.layout, "reeb_parts.hulls", text="Make Collision Hulls", icon="MESH_ICOSPHERE")
 
 
 class REEB_PARTS_UL_cuts(bpy.types.UIList):
@@ -91,17 +89,18 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         obj = piece_objects.original(context.object)
         assert obj is not None  # poll
-        self.layout.label(text=iface_("A part of {name}").format(name=obj.name), icon="MESH_DATA")
+        room = Room(context)
+        room.wrapped(self.layout.column(align=True), iface_("A part of {name}").format(name=obj.name), "MESH_DATA")
         show = iface_("Show {name}").format(name=obj.name)
-        self.layout.operator("reeb_parts.show_original", text=show, icon="HIDE_OFF")
-        self._draw_check(context.object)
+        room.operator(self.layout, "reeb_parts.show_original", text=show, icon="HIDE_OFF")
+        self._draw_check(room, context.object)
 
-    def _draw_check(self, piece: bpy.types.Object) -> None:
+    def _draw_check(self, room: Room, piece: bpy.types.Object) -> None:
         """What a check has found; a click on a line selects it."""
         found = piece_checks.kept(piece)
         column = self.layout.column(align=True)
         if found is not None and found.sound:
-            column.label(text=iface_("Closed, crosses nothing"), icon="CHECKMARK")
+            room.wrapped(column, iface_("Closed, crosses nothing"), "CHECKMARK")
         elif found is not None:
             for kind, count, words in (
                 ("OPEN", found.open_edges, iface_("{n} open {n:edge|edges}")),
@@ -110,13 +109,13 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
             ):
                 if count:
                     told = words.format(n=Count(count))
-                    column.operator("reeb_parts.select_faults", text=told, icon="ERROR").kind = kind
+                    room.operator(column, "reeb_parts.select_faults", text=told, icon="ERROR").kind = kind
             if found.inside_out:
                 column.label(text=iface_("Inside out"), icon="ERROR")
         if found is not None and found.thinnest is not None:
             words = iface_("Thinnest place: {width}").format(width=f"{found.thinnest:.4g}")
-            column.operator("reeb_parts.select_faults", text=words, icon="DRIVER_DISTANCE").kind = "THIN"
-        row = self.layout.row(align=True)
+            room.operator(column, "reeb_parts.select_faults", text=words, icon="DRIVER_DISTANCE").kind = "THIN"
+        row = room.row(self.layout, iface_("Check", "Operator"), iface_("Repair", "Operator"))
         row.operator("reeb_parts.check_pieces", text="Check")
         if found is not None and not found.sound:
             row.operator("reeb_parts.repair_piece", text="Repair")

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Callable
 
 # What stays together: a word, or one letter of a script that has no spaces, each with the marks that open or close it.
 _OPENING, _CLOSING = r"[“‘（《「【(]*", r"[”’），。；：、！？》」】….,;:!?)%]*"
@@ -12,14 +13,21 @@ _WIDE = r"[\u2e80-\u303f\u3040-\u9fff\uac00-\ud7af\uf900-\ufaff\uff00-\uff60]"
 _TOKEN = re.compile(rf"\s*(?:{_OPENING}{_WIDE}{_CLOSING}|(?:(?!{_OPENING}{_WIDE})\S)+{_CLOSING})")
 
 
-def lines(text: str, width: int) -> list[str]:
+def letters(text: str) -> int:
+    """Letters that a text is wide; one of Chinese or Japanese is as wide as two."""
+    return sum(2 if unicodedata.east_asian_width(letter) in "WF" else 1 for letter in text)
+
+
+def lines(text: str, width: float, measure: Callable[[str], float] = letters) -> list[str]:
     """Break a text between words, or between letters where a script has no spaces.
 
     Parameters
     ----------
     text : str
-    width : int
-        Letters in a line; one of Chinese or Japanese is as wide as two.
+    width : float
+        Of a line.
+    measure : callable
+        The width of a text, in the unit of ``width``.
 
     Returns
     -------
@@ -28,13 +36,8 @@ def lines(text: str, width: int) -> list[str]:
     """
     found: list[str] = []
     for token in _TOKEN.findall(text):
-        if found and _width(found[-1]) + _width(token) <= width:
+        if found and measure(found[-1] + token) <= width:
             found[-1] += token
         else:
             found.append(token.lstrip())
     return found
-
-
-def _width(text: str) -> int:
-    """Letters that a text is wide."""
-    return sum(2 if unicodedata.east_asian_width(letter) in "WF" else 1 for letter in text)

@@ -121,7 +121,7 @@ TEXTS = {
     # Der Reiter und seine Felder
     "Reeb Parts": "Reeb Parts",
     "Parts": "Teile",
-    "Use Parts": "Teile verwenden",
+    "Use Parts": "Verwenden",
     "Separated Part": "Abgetrenntes Teil",
     "Field": "Feld",
     "Graph": "Graph",

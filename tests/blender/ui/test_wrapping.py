@@ -32,4 +32,4 @@ def test_every_message_fits_and_is_whole(wrapping, package):
             assert "".join("".join(lines).split()) == "".join(text.split())
             assert not any(line[0] in "，。；：、！？）”" for line in lines if len(line) > 1)
             # A word of German may be longer than a line; Chinese has none.
-            assert all(wrapping._width(line) <= 26 or " " not in line for line in lines)
+            assert all(wrapping.letters(line) <= 26 or " " not in line for line in lines)
