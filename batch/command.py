@@ -239,18 +239,20 @@ def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
             said["joints"] = [
                 {"parts": sorted(numbers.index(separated.part.get(key, key)) for key in cut.keys), "count": cut.count,
                  "width": cut.width, "reason": cut.why.lower() or None} for cut in separated.cuts]
+    if options.rigid_bodies:
+        piece_objects.make_bodies(bpy.context, obj, stored, options.rigid_bodies.upper())
     if options.unwrap:
         uv_map.unwrap(bpy.context, obj, stored, open_parts=True, method="MINIMUM_STRETCH", stack=False)
     if options.armature:
         armature.make(bpy.context, obj, stored, deform=True)
     if options.hulls:
-        hulls.make(bpy.context, obj, stored, options.hulls.upper())
+        hulls.make(bpy.context, obj, stored, options.hulls.upper(), options.hulls_per_part)
     return said
 
 
 def is_separated(options: argparse.Namespace) -> bool:
     """Whether the parts become objects; files of parts then hold these."""
-    return bool(options.separate or options.caps or options.pegs or options.bed)
+    return bool(options.separate or options.caps or options.pegs or options.bed or options.rigid_bodies)
 
 
 def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bpy.types.Object], reports: list[dict],

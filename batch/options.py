@@ -62,6 +62,11 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     uses.add_argument("--armature", action="store_true", help="a bone for each part, and weights to pose it with")
     uses.add_argument("--hulls", choices=("unreal", "godot"), metavar="ENGINE",
                       help="a convex hull of each part, named for unreal or godot")
+    uses.add_argument("--hulls-per-part", type=int, choices=range(1, 9), default=1, metavar="N",
+                      help="so many where one hull fits a part badly, 1 to 8 (default: %(default)s)")
+    uses.add_argument("--rigid-bodies", choices=("hinge", "point", "fixed"), nargs="?", const="hinge", metavar="KIND",
+                      help="make rigid bodies of these objects, held together at the cuts by hinge, point or fixed "
+                      "(default: hinge)")
     parameters = made.add_argument_group("parameters")
     add_parameters(parameters)
     hints = HintProperties.__annotations__["hints"].keywords

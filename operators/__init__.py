@@ -20,6 +20,7 @@ from . import (
     paint,
     parts,
     pick,
+    rigid_bodies,
     separate,
     settings,
     slide,
@@ -28,7 +29,7 @@ from . import (
 )
 
 MODULES = (decompose, detail, clear, settings, parts, alike, pick, tool, edit, slide, cut, paint, graph, separate,
-           checks, outputs, unwrap, export, armature, hulls)
+           checks, outputs, unwrap, export, armature, hulls, rigid_bodies)
 #: Every operator that one of the modules defines.
 CLASSES = tuple(cls for module in MODULES for cls in vars(module).values()
                 if isinstance(cls, type) and issubclass(cls, bpy.types.Operator))

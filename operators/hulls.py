@@ -11,7 +11,7 @@ from ..scene.store import Stored
 
 
 class REEB_PARTS_OT_hulls(PartOperator, bpy.types.Operator):
-    """Make a convex hull of each part, of at most 64 corners, with which games and simulations collide"""
+    """Make convex hulls of each part, of at most 64 corners, with which games and simulations collide"""
 
     bl_idname = "reeb_parts.hulls"
     bl_label = "Make Collision Hulls of Parts"
@@ -22,6 +22,11 @@ class REEB_PARTS_OT_hulls(PartOperator, bpy.types.Operator):
                ("GODOT", "Godot", "The part, then -convcolonly")],
         description="How the hulls are called, so that the game engine finds them",
     )
+    count: bpy.props.IntProperty(
+        name="Hulls per Part", default=1, min=1, max=8,
+        description="How many hulls a part has at most; a part that one hull fits well has one",
+    )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
-        return rpt_("{n} {n:hull|hulls}").format(n=Count(len(hulls.make(context, obj, stored, self.engine))))
+        made = hulls.make(context, obj, stored, self.engine, self.count)
+        return rpt_("{n} {n:hull|hulls}").format(n=Count(len(made)))

@@ -15,8 +15,9 @@ MADE = "reeb_parts_looks"  # on a hull: what it was like when it was made
 _LONGEST = 59  # bytes of a name, with room for a number that Blender adds
 
 
-def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engine: str) -> list[bpy.types.Object]:
-    """Make a convex hull of each part, in place of earlier ones that the user has not worked on; Object Mode.
+def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engine: str,
+         count: int = 1) -> list[bpy.types.Object]:
+    """Make convex hulls of each part, in place of earlier ones that the user has not worked on; Object Mode.
 
     Parameters
     ----------
@@ -24,7 +25,10 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     obj : bpy.types.Object
     stored : Stored
     engine : str
-        "UNREAL": UCX_ and the object, then a number. "GODOT": the part, then -convcolonly.
+        "UNREAL": UCX_ and the object, then a number. "GODOT": the part, with a number if it has several, then
+        -convcolonly.
+    count : int
+        How many hulls a part has at most.
 
     Returns
     -------
@@ -33,17 +37,21 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     from ..core.uses.hulls import part_hulls  # imports SciPy
 
     numbered = stored.shown_parts()
-    hulls = part_hulls(mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj)), numbered.parts.labels)
+    table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
+    hulls = part_hulls(table, numbered.parts.labels, count)
     collection = piece_objects.make_collection(context, obj)
     _remove_earlier(collection)
     made = []
-    for place, (number, hull) in enumerate(zip(numbered.numbers.tolist(), hulls, strict=True), 1):
+    for number, several in zip(numbered.numbers.tolist(), hulls, strict=True):
         part = part_names.piece_name(obj, number)
-        name = _fitting("UCX_", obj.name, f"_{place:02d}") if engine == "UNREAL" else _fitting("", part, "-convcolonly")
-        mesh = bpy.data.meshes.new(name)
-        mesh.from_pydata(hull.vertices.tolist(), [], hull.triangles.tolist())
-        made.append(_placed(bpy.data.objects.new(name, mesh), obj))
-        collection.objects.link(made[-1])
+        for place, hull in enumerate(several, 1):
+            after = f"_{place:02d}-convcolonly" if len(several) > 1 else "-convcolonly"
+            name = _fitting("", part, after) if engine == "GODOT" else _fitting("UCX_", obj.name,
+                                                                                f"_{len(made) + 1:02d}")
+            mesh = bpy.data.meshes.new(name)
+            mesh.from_pydata(hull.vertices.tolist(), [], hull.triangles.tolist())
+            made.append(_placed(bpy.data.objects.new(name, mesh), obj))
+            collection.objects.link(made[-1])
     for piece in made:
         piece[MADE] = _looks(piece)
     return made

@@ -27,6 +27,7 @@ from . import (
     modified,
     part_names,
     piece_checks,
+    rigid_bodies,
     transaction,
 )
 from .errors import SceneError
@@ -226,6 +227,24 @@ def active_piece(context: bpy.types.Context) -> bpy.types.Object:
     return piece
 
 
+def whole(obj: bpy.types.Object) -> bpy.types.Object:
+    """The object that a piece was separated from, or the object itself if it has pieces; raises SceneError if not."""
+    found = original(obj) or obj
+    if not piece_objects(found):
+        raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(name=found.name))
+    return found
+
+
+def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
+                kind: str) -> rigid_bodies.Joined:
+    """Make rigid bodies of an object's pieces, with joints of a kind, see rigid_bodies.make; Object Mode."""
+    context.view_layer.update()  # pieces made just now do not know where they are
+    pieces: dict[int, list[bpy.types.Object]] = {}
+    for piece in piece_objects(obj):
+        pieces.setdefault(piece[NUMBER], []).append(piece)
+    return rigid_bodies.make(context, obj, stored, pieces, make_collection(context, obj), kind)
+
+
 def check_pieces(pieces: list[bpy.types.Object], stretch: np.ndarray | None = None) -> None:
     """Check pieces and keep with each what was found; Object Mode.
 
@@ -253,19 +272,23 @@ def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.ty
 
 def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
     """Remove pieces of these parts unless the user has worked on them; how many stay."""
-    kept = 0
+    kept, earlier = 0, []
     for piece in [*piece_objects(obj), *dowels(obj)]:
         number = piece.get(NUMBER)
         if number is not None and number not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
             continue
         if piece.mode == "OBJECT" and not piece.children and looks(piece) == piece[MADE]:
-            remove_object(piece)
+            earlier.append(piece)
             continue
         own = [key for key in (NUMBER, MADE, DOWEL) if key in piece]
         transaction.keep_keys(piece, *own)
         for key in own:
             del piece[key]
         kept += 1
+    if earlier:
+        rigid_bodies.remove_joints(collection_of(obj), earlier)
+    for piece in earlier:
+        remove_object(piece)
     return kept
 
 

@@ -81,7 +81,7 @@ class REEB_PARTS_MT_main(bpy.types.Menu):
             ("reeb_parts.repair_piece", "NONE"), ("reeb_parts.seams", "NONE"), ("reeb_parts.face_sets", "NONE"),
             ("reeb_parts.materials", "NONE"),
             ("reeb_parts.unwrap", "UV"), ("reeb_parts.export", "EXPORT"), ("reeb_parts.armature", "ARMATURE_DATA"),
-            ("reeb_parts.hulls", "MESH_ICOSPHERE"))
+            ("reeb_parts.hulls", "MESH_ICOSPHERE"), ("reeb_parts.rigid_bodies", "RIGID_BODY"))
         layout.separator()
         _draw_operators(
             layout, ("reeb_parts.reset_parameters", "LOOP_BACK"), ("reeb_parts.use_preferences", "PREFERENCES"))

@@ -37,7 +37,7 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
             self._draw_cuts(column, context.object)
         column.separator()
         room.properties(column, context.object.reeb_parts_made, ("explode",))
-        self._draw_outputs(room, context.object.data.reeb_parts)
+        self._draw_outputs(room, context.object)
 
     def _draw_cuts(self, column: bpy.types.UILayout, obj: bpy.types.Object) -> None:
         """The cuts of the last time, each with what joins it and a choice for the next time."""
@@ -50,8 +50,9 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
             if active.count or active.why:
                 column.label(text=text if active.count else iface_(REASONS[active.why]), translate=False)
 
-    def _draw_outputs(self, room: Room, result: bpy.types.PropertyGroup) -> None:
+    def _draw_outputs(self, room: Room, obj: bpy.types.Object) -> None:
         """Buttons that stay pressed for as long as there is what they make."""
+        result = obj.data.reeb_parts
         made = (
             ("seams", n_("Seams", "Operator"), result.has_seams),
             ("face_sets", n_("Face Sets", "Operator"), result.has_face_sets),
@@ -64,6 +65,8 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         room.operator(self.layout, "reeb_parts.export", text="Export to Files...", icon="EXPORT")
         room.operator(self.layout, "reeb_parts.armature", text="Make Armature", icon="ARMATURE_DATA")
         room.operator(self.layout, "reeb_parts.hulls", text="Make Collision Hulls", icon="MESH_ICOSPHERE")
+        if piece_objects.piece_objects(obj):
+            room.operator(self.layout, "reeb_parts.rigid_bodies", text="Make Rigid Bodies", icon="RIGID_BODY")
 
 
 class REEB_PARTS_UL_cuts(bpy.types.UIList):
@@ -94,6 +97,7 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
         show = iface_("Show {name}").format(name=obj.name)
         room.operator(self.layout, "reeb_parts.show_original", text=show, icon="HIDE_OFF")
         self._draw_check(room, context.object)
+        room.operator(self.layout, "reeb_parts.rigid_bodies", text="Make Rigid Bodies", icon="RIGID_BODY")
 
     def _draw_check(self, room: Room, piece: bpy.types.Object) -> None:
         """What a check has found; a click on a line selects it."""

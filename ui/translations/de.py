@@ -77,6 +77,8 @@ OPERATORS = {
     "Export Parts to Files": "Teile in Dateien exportieren",
     "Make Collision Hulls": "Kollisionshüllen erstellen",
     "Make Collision Hulls of Parts": "Kollisionshüllen aus Teilen erstellen",
+    "Make Rigid Bodies": "Starrkörper erstellen",
+    "Make Rigid Bodies of Parts": "Starrkörper aus Teilen erstellen",
     "Make Armature": "Skelett erstellen",
     "Make Armature from Parts": "Skelett aus Teilen erstellen",
     "Choose Parts": "Teile wählen",
@@ -602,8 +604,23 @@ TEXTS = {
     "Move the Mesh": "Mesh bewegen",
     "Add an Armature modifier, so that posing the bones moves the parts":
         "Einen Skelett-Modifikator hinzufügen, sodass die Posen der Knochen die Teile bewegen",
-    "Make a convex hull of each part, of at most 64 corners, with which games and simulations collide":
-        "Eine konvexe Hülle jedes Teils erstellen, mit höchstens 64 Ecken, für Kollisionen in Spielen und Simulationen",
+    "Make convex hulls of each part, of at most 64 corners, with which games and simulations collide":
+        "Konvexe Hüllen jedes Teils erstellen, mit höchstens 64 Ecken, für Kollisionen in Spielen und Simulationen",
+    "Hulls per Part": "Hüllen je Teil",
+    "How many hulls a part has at most; a part that one hull fits well has one":
+        "Wie viele Hüllen ein Teil höchstens hat; ein Teil, zu dem eine Hülle gut passt, hat eine",
+    "Make rigid bodies of the separated parts, held together at the cuts; press Play to see them fall":
+        "Starrkörper aus den getrennten Teilen erstellen, die an den Schnitten zusammenhalten; Abspielen lässt sie los",
+    "Joints": "Gelenke",
+    "How parts hold together at the cuts": "Wie Teile an den Schnitten zusammenhalten",
+    "Hinges": "Scharniere",
+    "Bend about the longest line of the cut": "Biegen sich um die längste Linie des Schnitts",
+    "Points": "Punkte",
+    "Turn in every direction about the middle of the cut": "Drehen sich in jede Richtung um die Mitte des Schnitts",
+    "Fixed": "Fest",
+    "Do not move": "Bewegen sich nicht",
+    "{n} {n:rigid body|rigid bodies}, {total} {total:joint|joints}":
+        "{n} {n:Starrkörper|Starrkörper}, {total} {total:Gelenk|Gelenke}",
     "Names": "Namen",
     "How the hulls are called, so that the game engine finds them":
         "Wie die Hüllen heißen, damit die Engine sie findet",

@@ -78,6 +78,8 @@ OPERATORS = {
     "Export Parts to Files": "将部件导出到文件",
     "Make Collision Hulls": "创建碰撞凸壳",
     "Make Collision Hulls of Parts": "由部件创建碰撞凸壳",
+    "Make Rigid Bodies": "创建刚体",
+    "Make Rigid Bodies of Parts": "由部件创建刚体",
     "Make Armature": "创建骨架",
     "Make Armature from Parts": "由部件创建骨架",
     "Choose Parts": "选取部件",
@@ -568,8 +570,22 @@ TEXTS = {
         "Blender 无法为 {name} 找到自动权重。请选择平滑权重。",
     "Move the Mesh": "移动网格",
     "Add an Armature modifier, so that posing the bones moves the parts": "添加骨架修改器，使骨骼的姿态带动部件",
-    "Make a convex hull of each part, of at most 64 corners, with which games and simulations collide":
+    "Make convex hulls of each part, of at most 64 corners, with which games and simulations collide":
         "为每个部件创建凸壳，最多 64 个角点，供游戏和模拟进行碰撞",
+    "Hulls per Part": "每个部件的凸壳数",
+    "How many hulls a part has at most; a part that one hull fits well has one":
+        "一个部件最多有几个凸壳；一个凸壳已很贴合的部件只有一个",
+    "Make rigid bodies of the separated parts, held together at the cuts; press Play to see them fall":
+        "将分离出的部件变为刚体，在切口处相连；按播放即可看到它们下落",
+    "Joints": "关节",
+    "How parts hold together at the cuts": "部件在切口处如何相连",
+    "Hinges": "铰链",
+    "Bend about the longest line of the cut": "绕切口最长的线弯折",
+    "Points": "点",
+    "Turn in every direction about the middle of the cut": "绕切口中心向各方向转动",
+    "Fixed": "固定",
+    "Do not move": "不活动",
+    "{n} {n:rigid body|rigid bodies}, {total} {total:joint|joints}": "{n} 个刚体，{total} 个关节",
     "Names": "名称",
     "How the hulls are called, so that the game engine finds them": "凸壳的命名方式，以便游戏引擎识别",
     "Unreal": "Unreal",

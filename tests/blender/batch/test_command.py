@@ -87,9 +87,9 @@ def test_parts_fit_the_bed(run, model, tmp_path):
 
 
 def test_what_is_made_of_the_parts(run, model, tmp_path):
-    """A UV map and an armature in the scene, and an assembly of the parts, all whole."""
-    ended = run(model, "--unwrap", "--armature", "--hulls", "unreal", "--threemf", tmp_path / "out.3mf",
-                "--save", tmp_path / "out.blend")
+    """A UV map, an armature and rigid bodies in the scene, and an assembly of the parts, all whole."""
+    ended = run(model, "--unwrap", "--armature", "--hulls", "unreal", "--hulls-per-part", "1", "--rigid-bodies",
+                "point", "--threemf", tmp_path / "out.3mf", "--save", tmp_path / "out.blend")
     assert ended.status == 0
     assert ended.answer["files"]["threemf"] == str(tmp_path / "out.3mf")
     bodies, places = read_3mf(tmp_path / "out.3mf")
@@ -99,6 +99,9 @@ def test_what_is_made_of_the_parts(run, model, tmp_path):
     tree, parts = bpy.data.objects["Tree"], ended.answer["objects"][0]["parts"]
     assert "Reeb Parts UV" in tree.data.uv_layers
     assert sum(name.startswith("UCX_Tree_") for name in bpy.data.objects.keys()) == len(parts)
+    assert sum(obj.rigid_body is not None for obj in bpy.data.objects) == len(parts)
+    joints = bpy.context.scene.rigidbody_world.constraints.objects
+    assert {joint.rigid_body_constraint.type for joint in joints} == {"POINT"}
     assert sorted(tree.modifiers[0].object.data.bones.keys()) == [f"DEF-{part['name']}" for part in parts]
 
 

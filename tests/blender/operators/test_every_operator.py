@@ -199,6 +199,8 @@ CASES = {
     "export": Case({"directory": FOLDER, "format": "ply"}),
     "armature": Case(changes=("/modifiers",)),
     "hulls": Case(),
+    "rigid_bodies": Case(prepare=separated, active="piece", changes=("/data/collections", "/collections/RigidBody.*"),
+                         refuses=LINKED),
     "show_colors": Case(),
     "suggest_names": Case(),
     "show_graph": Case(changes=("/settings",)),

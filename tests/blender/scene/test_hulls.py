@@ -39,6 +39,19 @@ def test_a_hull_around_each_part(obj, engine):
         assert hull.display_type == "WIRE"
 
 
+def test_several_hulls_of_a_part_are_numbered(obj):
+    bpy.ops.reeb_parts.decompose(n_parts=1)
+    assert bpy.ops.reeb_parts.hulls(count=4) == {"FINISHED"}
+    names = [hull.name for hull in hulls_of(obj)]
+    assert names == [f"UCX_Tree_{i + 1:02d}" for i in range(len(names))]
+    assert 1 < len(names) <= 4
+    bpy.ops.reeb_parts.hulls(engine="GODOT", count=4)
+    part = obj.data.reeb_parts.parts[0].name
+    assert [hull.name for hull in hulls_of(obj)] == [f"Tree {part}_{i + 1:02d}-convcolonly" for i in range(len(names))]
+    bpy.ops.reeb_parts.hulls(engine="GODOT")
+    assert [hull.name for hull in hulls_of(obj)] == [f"Tree {part}-convcolonly"]
+
+
 def test_long_names_keep_the_ending(obj):
     bpy.ops.reeb_parts.decompose(n_parts=2)
     obj.name = "T" * 60

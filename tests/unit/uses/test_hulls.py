@@ -6,12 +6,16 @@ import pytest
 import shapes
 
 from core.surface.corners import CornerTable
-from core.uses.hulls import part_hulls
+from core.uses.hulls import part_hulls, part_volumes
+
+
+def several(shape, labels=None, **more):
+    vertices, faces = shape
+    return part_hulls(CornerTable.of(vertices, faces), np.zeros(len(faces), int) if labels is None else labels, **more)
 
 
 def hulls(shape, labels=None, **more):
-    vertices, faces = shape
-    return part_hulls(CornerTable.of(vertices, faces), np.zeros(len(faces), int) if labels is None else labels, **more)
+    return [hull for (hull,) in several(shape, labels, **more)]
 
 
 def check(hull):
@@ -26,18 +30,13 @@ def check(hull):
     assert (hull.vertices @ normal.T - (a * normal).sum(axis=1)).max() < 1e-9 * size
 
 
-def volume(hull):
-    a, b, c = (hull.vertices - hull.vertices.mean(axis=0))[hull.triangles].transpose(1, 0, 2)
-    return (a * np.cross(b, c)).sum() / 6
-
-
 @pytest.mark.parametrize("size", [1e-5, 1.0, 1e5])
 def test_a_box_is_its_own_hull(size):
     vertices, faces = shapes.box_quads()
     (hull,) = hulls((size * vertices, faces))
     check(hull)
     assert {tuple(v) for v in hull.vertices.tolist()} == {tuple(v) for v in (size * vertices).tolist()}
-    assert volume(hull) == pytest.approx(np.prod(np.ptp(size * vertices, axis=0)))
+    assert hull.volume == pytest.approx(np.prod(np.ptp(size * vertices, axis=0)))
 
 
 def test_each_part_has_one_around_it():
@@ -56,7 +55,7 @@ def test_a_fine_ball_gets_few_corners_and_keeps_its_size():
     (hull,) = hulls((vertices, faces))
     check(hull)
     assert len(hull.vertices) <= 64
-    assert volume(hull) > 0.85 * volume(hulls((vertices, faces), most=10_000)[0])
+    assert hull.volume > 0.85 * hulls((vertices, faces), most=10_000)[0].volume
 
 
 @pytest.mark.parametrize("points", [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 0, 0], [2, 0, 0]],
@@ -64,4 +63,66 @@ def test_a_fine_ball_gets_few_corners_and_keeps_its_size():
 def test_what_is_flat_gets_a_thin_one(points):
     (hull,) = hulls((np.array(points, float), np.array([[0, 1, 2]])))
     check(hull)
-    assert 0 < volume(hull) < 0.1
+    assert 0 < hull.volume < 0.1
+
+
+def angle(size=1.0):
+    """Two bars, 4 x 1 x 1 and 1 x 3 x 1, that make an L: a volume of 7 in a hull of 11.5."""
+    outline = np.array([[0, 0], [4, 0], [4, 1], [1, 1], [1, 4], [0, 4]], float)
+    vertices = size * np.concatenate([np.c_[outline, np.zeros(6)], np.c_[outline, np.ones(6)]])
+    sides = [[i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6] for i in range(6)]
+    caps = [[3, 2, 1, 0], [5, 4, 3, 0], [6, 7, 8, 9], [6, 9, 10, 11]]
+    return vertices, np.array(sides + caps)
+
+
+@pytest.mark.parametrize("size", [1e-5, 1.0, 1e5])
+def test_two_hulls_fit_an_angle_and_more_are_not_made(size):
+    (one,), = several(angle(size))
+    assert one.volume == pytest.approx(11.5 * size**3)
+    (two,) = several(angle(size), count=2)
+    for hull in two:
+        check(hull)
+    assert len(two) == 2
+    assert sum(hull.volume for hull in two) < 9 * size**3
+    (many,) = several(angle(size), count=8)
+    assert sum(hull.volume for hull in many) == pytest.approx(7 * size**3, rel=0.1)
+    vertices, faces = shapes.icosphere(3)
+    (ball,) = several((size * vertices, faces), count=8)
+    assert len(ball) == 1
+
+
+@pytest.mark.parametrize("count", [2, 4, 8])
+def test_every_point_of_a_part_lies_in_one_of_its_hulls(count):
+    vertices, faces = shapes.torus()
+    (found,) = several((vertices, faces), count=count, most=10_000)
+    assert 1 < len(found) <= count
+    samples = np.concatenate([vertices, vertices[faces].mean(axis=1)])
+    inside = np.zeros(len(samples), bool)
+    for hull in found:
+        a, b, c = hull.vertices[hull.triangles].transpose(1, 0, 2)
+        normal = np.cross(b - a, c - a)
+        inside |= ((samples @ normal.T - (a * normal).sum(axis=1)) < 1e-9).all(axis=1)
+    assert inside.all()
+    fewer = several((vertices, faces), count=count // 2, most=10_000)[0]
+    assert sum(hull.volume for hull in found) < sum(hull.volume for hull in fewer)
+
+
+def test_a_bowl_is_divided_crosswise():
+    """Half a bowl has half the hull: with two hulls nothing is gained, with four much is."""
+    angle = np.linspace(0.0, 0.5 * np.pi, 12)
+    radius = np.append(np.sin(angle), 0.9 * np.sin(angle[::-1]))
+    shell = shapes.lathe(radius, np.append(-np.cos(angle), -0.9 * np.cos(angle[::-1])))
+    whole = [sum(hull.volume for hull in several(shell, count=count)[0]) for count in (1, 2, 4)]
+    assert whole[1] > 0.9 * whole[0]
+    assert whole[2] < 0.8 * whole[0]
+
+
+def test_volumes_of_parts_with_their_holes_closed():
+    vertices, faces = shapes.box_quads()
+    table = CornerTable.of(vertices, faces)
+    size = np.prod(np.ptp(vertices, axis=0))
+    assert part_volumes(table, np.zeros(6, int)) == pytest.approx([size])
+    # A fan closes the hole of five sides; one side encloses nothing, however it is closed.
+    assert part_volumes(table, (np.arange(6) == 0).astype(int)) == pytest.approx([size, 0], abs=1e-9 * size)
+    inside_out = CornerTable.of(vertices, faces[:, ::-1])
+    assert part_volumes(inside_out, np.zeros(6, int)) == pytest.approx([-size])

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where parts hold together as rigid bodies: a joint at each cut, and the pairs that must not push each other away."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.cluster.hierarchy import DisjointSet
+from scipy.spatial import cKDTree
+
+from ..surface.arrays import components, distinct_pairs, sums_by
+from ..surface.corners import CornerTable
+from .hulls import Hull
+
+# A cut that is shorter than this share of the longest one between its two parts gets no joint of its own.
+_CRUMB = 0.2
+# Parts that no cuts connect touch if they come nearer than this share of the diagonal; they hold together where they
+# are at most this much farther from each other.
+_NEAR, _SLACK = 0.03, 0.01
+# Of a part with more corners so many are looked at.
+_MOST = 2_000
+# A cut is round where its length squared, along its longest line, is not more than this times that across.
+_ROUND = 1.3
+
+
+@dataclass(frozen=True, eq=False)
+class BodyJoints:
+    """The joints of k cuts.
+
+    Attributes
+    ----------
+    pairs : (k, 2) int64
+        The two parts of each, the lower one first.
+    center : (k, 3) float64
+        The middle of the cut, in units of the vertices.
+    axis : (k, 3) float64
+        Unit vector across the cut, toward the second part.
+    hinge : (k, 3) float64
+        Unit vector along the longest line of the cut; a horizontal one where the cut is round.
+    """
+
+    pairs: np.ndarray
+    center: np.ndarray
+    axis: np.ndarray
+    hinge: np.ndarray
+
+
+def body_joints(table: CornerTable, labels: np.ndarray) -> BodyJoints:
+    """Find a joint for each cut; parts that meet in several places have several.
+
+    Where cuts leave groups of parts, such as the loose pieces of a model, a joint holds two groups at the place where
+    they touch, the nearest ones first, until none touch.
+
+    Parameters
+    ----------
+    table : CornerTable
+        p faces, z upwards.
+    labels : (p,) int64
+        Part of each face, 0..count-1.
+
+    Returns
+    -------
+    joints : BodyJoints
+    """
+    pairs, joint, middle, weight = _cuts(table, labels)
+    contacts = _contacts(table, labels, pairs)
+    pairs = np.concatenate([pairs, *([pair] for pair, _ in contacts)])
+    joint = np.concatenate([joint, *(np.full(len(some), len(pairs) - len(contacts) + k)
+                                     for k, (_, some) in enumerate(contacts))])
+    weight = np.concatenate([weight, *(np.ones(len(some)) for _, some in contacts)])
+    middle = np.concatenate([middle, *(some for _, some in contacts)])
+    center = sums_by(joint, weight[:, None] * middle, len(pairs)) / np.bincount(joint, weight, len(pairs))[:, None]
+    away = middle - center[joint]
+    spread = sums_by(joint, weight[:, None] * (away[:, :, None] * away[:, None, :]).reshape(-1, 9), len(pairs))
+    axis, hinge = _frames(spread.reshape(-1, 3, 3), _middles(table, labels)[pairs])
+    return BodyJoints(pairs, center, axis, hinge)
+
+
+def _cuts(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """The two parts of each cut, (k, 2); of each edge on one, which, its middle and its length, (e,) and (e, 3)."""
+    low, high = table.edge_labels(labels)
+    cut = np.flatnonzero(low < high)
+    pairs, which = distinct_pairs(low[cut], high[cut])
+    places = np.stack([np.repeat(which, 2), table.edges[cut].ravel()], axis=1)
+    _, end = np.unique(places, axis=0, return_inverse=True)
+    first, second = end.reshape(-1, 2).T
+    count, of_end = components(int(end.max(initial=-1)) + 1, first, second)
+    joint = of_end[first]
+    weight = np.maximum(table.edge_length(cut), np.finfo(float).tiny)
+    pair, longest = np.zeros(count, np.int64), np.zeros(len(pairs))
+    pair[joint] = which
+    length = np.bincount(joint, weight, count)
+    np.maximum.at(longest, pair, length)
+    kept = length >= _CRUMB * longest[pair]
+    some = kept[joint]
+    return (pairs[pair[kept]], (np.cumsum(kept) - 1)[joint[some]], table.vertices[table.edges[cut[some]]].mean(axis=1),
+            weight[some])
+
+
+def _contacts(table: CornerTable, labels: np.ndarray,
+              pairs: np.ndarray) -> list[tuple[tuple[int, int], np.ndarray]]:
+    """Pairs of parts that touch where no cuts connect them, each with the places, (k, 3), where they do."""
+    count = int(labels.max()) + 1
+    group = DisjointSet(range(count))
+    for a, b in pairs.tolist():
+        group.merge(a, b)
+    if group.n_subsets == 1:
+        return []
+    near, slack = (share * np.linalg.norm(np.ptp(table.vertices[table.corner_vertex], axis=0))
+                   for share in (_NEAR, _SLACK))
+    points = [_points(table, labels == part) for part in range(count)]
+    trees = [cKDTree(some) for some in points]
+    found = []
+    for a in range(count):
+        for b in (b for b in range(a + 1, count) if not group.connected(a, b)):
+            distance, place = trees[b].query(points[a], distance_upper_bound=near + slack)
+            if distance.min() <= near:
+                close = distance <= distance.min() + slack
+                found.append((distance.min(), (a, b), 0.5 * (points[a][close] + points[b][place[close]])))
+    return [(pair, places) for _, pair, places in sorted(found, key=lambda contact: contact[:2]) if group.merge(*pair)]
+
+
+def _points(table: CornerTable, faces: np.ndarray) -> np.ndarray:
+    """Corners of some faces and the middles of their edges, (k, 3), not too many."""
+    some = table.within(faces)
+    points = np.concatenate([table.vertices[np.unique(some.corner_vertex)], table.vertices[some.edges].mean(axis=1)])
+    return points[:: -(-len(points) // _MOST)]
+
+
+def _middles(table: CornerTable, labels: np.ndarray) -> np.ndarray:
+    """Mean of the corners of each part, (count, 3)."""
+    part = labels[table.corner_face]
+    count = int(labels.max()) + 1
+    return sums_by(part, table.vertices[table.corner_vertex], count) / np.bincount(part, minlength=count)[:, None]
+
+
+def _frames(spread: np.ndarray, middles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Axes and hinges of cuts, (k, 3) each.
+
+    spread : (k, 3, 3), second moments of each cut. middles : (k, 2, 3), of the parts on both sides.
+    """
+    size, lines = np.linalg.eigh(spread)
+    axis, hinge = lines[:, :, 0].copy(), lines[:, :, 2].copy()
+    toward = middles[:, 1] - middles[:, 0]
+    straight = size[:, 1] <= 1e-6 * size[:, 2]  # a cut along a line has no plane: the parts say what is across
+    across = toward - (toward * hinge).sum(axis=1)[:, None] * hinge
+    long = np.linalg.norm(across, axis=1)
+    straight &= long > 1e-6 * np.linalg.norm(toward, axis=1)
+    axis[straight] = across[straight] / long[straight, None]
+    axis *= np.where((axis * toward).sum(axis=1) < 0, -1.0, 1.0)[:, None]
+    level = np.cross(np.broadcast_to([0.0, 0.0, 1.0], axis.shape), axis)
+    tilt = np.linalg.norm(level, axis=1)
+    level[tilt < 1e-3] = np.cross(axis[tilt < 1e-3], [0.0, 1.0, 0.0])
+    turned = (size[:, 2] <= _ROUND * size[:, 1])
+    hinge[turned] = (level / np.linalg.norm(level, axis=1)[:, None])[turned]
+    return axis, hinge
+
+
+def overlapping(hulls: list[Hull]) -> np.ndarray:
+    """List the pairs of hulls that may overlap.
+
+    Two hulls are apart if the plane of a face of one of them divides them; the rare ones that only planes along an
+    edge of each divide are listed, too.
+
+    Parameters
+    ----------
+    hulls : list of Hull
+
+    Returns
+    -------
+    pairs : (k, 2) int64
+        The lower number first, rising.
+    """
+    apart = np.zeros((len(hulls), len(hulls)), bool)
+    for index, hull in enumerate(hulls):
+        a, b, c = hull.vertices[hull.triangles].transpose(1, 0, 2)
+        normal = np.cross(b - a, c - a)
+        level = (normal * a).sum(axis=1)
+        for other, beside in enumerate(hulls):
+            apart[index, other] = ((normal @ beside.vertices.T).min(axis=1) >= level).any()
+    return np.argwhere(np.triu(~(apart | apart.T), 1))

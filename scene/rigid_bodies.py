@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Separated parts as rigid bodies of Blender's own simulation, with joints at the cuts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from . import mesh_arrays, transaction
+from .store import Stored
+from .temporary import remove_object
+
+ROLE = "reeb_parts_role"  # on a joint, "joint"
+MADE = "reeb_parts_looks"  # on a joint: what it was like when it was made
+#: How joints hold: the names of Blender's constraints.
+KINDS = ("HINGE", "POINT", "FIXED")
+# Blender solves the constraints of the whole world 10 times; so few let heavy parts sag away from light ones.
+_ITERATIONS = 50
+# Masses are as volumes, 1 kg on average, but within these: joints between much different ones are weak.
+_LIGHTEST, _HEAVIEST = 0.1, 10.0
+
+
+@dataclass(frozen=True, eq=False)
+class Joined:
+    """What was made: bodies and joints, without those that only keep bodies from pushing each other away."""
+
+    bodies: list[bpy.types.Object]
+    joints: list[bpy.types.Object]
+
+
+def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
+         pieces: dict[int, list[bpy.types.Object]], collection: bpy.types.Collection, kind: str) -> Joined:
+    """Make rigid bodies of pieces, and joints at the cuts in place of earlier ones; Object Mode.
+
+    A piece that is a rigid body already stays as it is, and so does the rigid body world if there is one.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    obj : bpy.types.Object
+        That the pieces were separated from.
+    stored : Stored
+    pieces : dict of int -> list of bpy.types.Object
+        By the number of their part.
+    collection : bpy.types.Collection
+        For the joints.
+    kind : str
+        Of KINDS. A hinge bends about the longest line of the cut.
+
+    Returns
+    -------
+    made : Joined
+    """
+    from ..core.uses.body_joints import body_joints, overlapping  # imports SciPy
+    from ..core.uses.hulls import part_hulls
+
+    remove_joints(collection)
+    numbered = stored.shown_parts()
+    world = np.array(obj.matrix_world, np.float64)
+    points = mesh_arrays.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
+    table = mesh_arrays.corner_table(obj.data, points)
+    hulls = [hull for (hull,) in part_hulls(table, numbered.parts.labels)]
+    found = body_joints(table, numbered.parts.labels)
+    several = [pieces.get(number, []) for number in numbered.numbers.tolist()]
+    physics = _world(context)
+    volume = np.array([abs(hull.volume) for hull in hulls])
+    masses = (volume / max(volume.mean(), np.finfo(float).tiny)).clip(_LIGHTEST, _HEAVIEST).tolist()
+    for some, mass in zip(several, masses, strict=True):
+        for piece in [piece for piece in some if piece.rigid_body is None]:
+            _add_body(physics, piece, mass / len(some))
+    size = 0.05 * float(np.linalg.norm(np.ptp(points, axis=0)))
+    joints = []
+    for (a, b), center, axis, hinge in zip(found.pairs.tolist(), found.center, found.axis, found.hinge, strict=True):
+        if several[a] and several[b]:
+            ends = _nearest(several[a], center), _nearest(several[b], center)
+            joints.append(_joint(physics, collection, kind, ends, _place(center, axis, hinge), size))
+    for some in several:
+        for piece in some[1:]:  # what was cut to fit the bed
+            joints.append(_joint(physics, collection, "FIXED", (some[0], piece), piece.matrix_world.normalized(), size))
+    held = {tuple(pair) for pair in found.pairs.tolist()}
+    for a, b in overlapping(hulls).tolist():
+        # Bodies that overlap at the start would push each other away.
+        for ends in ((x, y) for x in several[a] for y in several[b] if (a, b) not in held):
+            _joint(physics, collection, "GENERIC", ends, ends[0].matrix_world.normalized(), 0.2 * size)
+    return Joined([piece for some in several for piece in some], joints)
+
+
+def _world(context: bpy.types.Context) -> bpy.types.RigidBodyWorld:
+    """The rigid body world of the scene, with collections for bodies and joints; made where it is not there."""
+    scene = context.scene
+    if scene.rigidbody_world is None:
+        transaction.on_failure(bpy.ops.rigidbody.world_remove)
+        bpy.ops.rigidbody.world_add()
+    physics = scene.rigidbody_world
+    for name, called in (("collection", "RigidBodyWorld"), ("constraints", "RigidBodyConstraints")):
+        if getattr(physics, name) is None:  # Blender's own operators give them these names
+            transaction.keep(physics, name)
+            setattr(physics, name, bpy.data.collections.new(called))
+    return physics
+
+
+def _add_body(physics: bpy.types.RigidBodyWorld, piece: bpy.types.Object, mass: float) -> None:
+    transaction.on_failure(_remove_body, physics.collection, piece)
+    physics.collection.objects.link(piece)  # which makes it an active body
+    body = piece.rigid_body
+    body.type, body.collision_shape, body.mass = "ACTIVE", "CONVEX_HULL", mass
+
+
+def _remove_body(bodies: bpy.types.Collection, piece: bpy.types.Object) -> None:
+    if piece.name in bodies.objects:
+        with bpy.context.temp_override(object=piece):
+            bpy.ops.rigidbody.object_remove()
+
+
+def _nearest(pieces: list[bpy.types.Object], place: np.ndarray) -> bpy.types.Object:
+    """Of several pieces of a part, the one whose surface comes nearest to a place."""
+    if len(pieces) == 1:
+        return pieces[0]
+
+    def distance(piece: bpy.types.Object) -> float:
+        world = np.array(piece.matrix_world)
+        points = mesh_arrays.basis_points(piece.data) @ world[:3, :3].T + world[:3, 3]
+        return float(np.linalg.norm(points - place, axis=1).min())
+
+    return min(pieces, key=distance)
+
+
+def _place(center: np.ndarray, axis: np.ndarray, hinge: np.ndarray) -> Matrix:
+    """Where a joint is: x across the cut, z along the line that a hinge turns about."""
+    place = Matrix.Identity(4)
+    for column, vector in enumerate((axis, np.cross(hinge, axis), hinge, center)):
+        place.col[column][:3] = vector.tolist()
+    return place
+
+
+def _joint(physics: bpy.types.RigidBodyWorld, collection: bpy.types.Collection, kind: str,
+           ends: tuple[bpy.types.Object, bpy.types.Object], place: Matrix, size: float) -> bpy.types.Object:
+    """An empty with a constraint between two bodies; one that is GENERIC holds nothing."""
+    joint = bpy.data.objects.new(f"{ends[0].name} - {ends[1].name}", None)
+    joint.matrix_world = place
+    joint.empty_display_type, joint.empty_display_size = "ARROWS", size
+    collection.objects.link(joint)
+    physics.constraints.objects.link(joint)  # which makes it a constraint
+    holds = joint.rigid_body_constraint
+    holds.type, holds.object1, holds.object2 = kind, *ends
+    holds.disable_collisions = True
+    holds.use_override_solver_iterations, holds.solver_iterations = True, _ITERATIONS
+    joint[ROLE] = "joint"
+    joint[MADE] = _looks(joint)
+    return joint
+
+
+def remove_joints(collection: bpy.types.Collection, of: Iterable[bpy.types.Object] | None = None) -> None:
+    """Remove joints that the user has not worked on.
+
+    collection : where the joints are. of : only those of these pieces.
+    """
+    for joint in list(collection.objects):
+        holds = joint.rigid_body_constraint
+        if joint.get(ROLE) != "joint" or (of is not None and not (
+                holds is not None and {holds.object1, holds.object2} & set(of))):
+            continue
+        if not joint.children and _looks(joint) == joint.get(MADE):
+            remove_object(joint)
+        else:
+            transaction.keep_keys(joint, ROLE, MADE)
+            del joint[ROLE], joint[MADE]
+
+
+def _looks(joint: bpy.types.Object) -> str:
+    """A text that differs once the user has worked on the joint."""
+    place = np.round(np.array(joint.matrix_basis), 5).tolist()
+    holds = joint.rigid_body_constraint
+    values = [] if holds is None else [
+        round(value, 5) if isinstance(value, float) else value
+        for name in sorted(holds.bl_rna.properties.keys()) if name not in ("rna_type", "object1", "object2")
+        for value in [getattr(holds, name)]]
+    return str([joint.name, joint.parent is not None, place, values])

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""reeb_parts.rigid_bodies: separated parts fall, and what was joined stays together at the cuts."""
+
+import bpy
+import numpy as np
+import pytest
+from snapshot import activate, check_undo, snapshot
+
+
+def joints_of():
+    every = [o for o in bpy.data.objects if o.get("reeb_parts_role") == "joint"]
+    return [joint for joint in every if joint.rigid_body_constraint.type != "GENERIC"]
+
+
+def bodies():
+    return [o for o in bpy.data.objects if o.rigid_body is not None and o.rigid_body.type == "ACTIVE"]
+
+
+def separated(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    return [o for o in bpy.data.objects if "reeb_parts_number" in o]
+
+
+def floor(below):
+    mesh = bpy.data.meshes.new("Floor")
+    mesh.from_pydata([(-50, -50, below), (50, -50, below), (50, 50, below), (-50, 50, below)], [], [(0, 1, 2, 3)])
+    plane = bpy.data.objects.new("Floor", mesh)
+    bpy.context.scene.collection.objects.link(plane)
+    bpy.context.scene.rigidbody_world.collection.objects.link(plane)
+    plane.rigid_body.type, plane.rigid_body.collision_shape = "PASSIVE", "MESH"
+    return plane
+
+
+def matrices(objects):
+    return [np.array(obj.matrix_world) for obj in objects]
+
+
+@pytest.mark.parametrize("kind", ["HINGE", "POINT", "FIXED"])
+def test_pieces_that_fall_stay_together_at_the_cuts(obj, kind):
+    pieces = separated(obj)
+    assert bpy.ops.reeb_parts.rigid_bodies(joints=kind) == {"FINISHED"}
+    assert set(bodies()) == set(pieces)
+    assert {piece.rigid_body.collision_shape for piece in pieces} == {"CONVEX_HULL"}
+    joints = joints_of()
+    assert {joint.rigid_body_constraint.type for joint in joints} == {kind}
+    assert len(joints) >= len(pieces) - 1
+    points = np.concatenate([[piece.matrix_world @ v.co for v in piece.data.vertices] for piece in pieces])
+    size = np.linalg.norm(np.ptp(points, axis=0))
+    floor(points[:, 2].min() - 0.1 * size)
+    ends = [[getattr(joint.rigid_body_constraint, name) for name in ("object1", "object2")] for joint in joints]
+    before = [matrices(pair) for pair in ends]
+    places = [np.append(joint.matrix_world.translation, 1.0) for joint in joints]
+    heights = [piece.matrix_world.translation.z for piece in pieces]
+    for frame in range(1, 31):
+        bpy.context.scene.frame_set(frame)
+        for place, pair, old in zip(places, ends, before, strict=True):
+            first, second = (new @ np.linalg.inv(start) @ place for new, start in zip(matrices(pair), old, strict=True))
+            assert np.linalg.norm(first - second) < 0.02 * size
+    assert all(piece.matrix_world.translation.z < height for piece, height in zip(pieces, heights, strict=True))
+    if kind == "FIXED":
+        turns = [now[:3, :3] @ np.linalg.inv(old[0][:3, :3]) for (now, _), old in
+                 ((matrices(pair), old) for pair, old in zip(ends, before, strict=True))]
+        others = [now[:3, :3] @ np.linalg.inv(old[1][:3, :3]) for (_, now), old in
+                  ((matrices(pair), old) for pair, old in zip(ends, before, strict=True))]
+        assert np.allclose(turns, others, atol=0.1)
+
+
+def test_joints_are_where_parts_meet(obj):
+    separated(obj)
+    bpy.ops.reeb_parts.rigid_bodies()
+    for joint in joints_of():
+        ends = joint.rigid_body_constraint.object1, joint.rigid_body_constraint.object2
+        points = [np.array([piece.matrix_world @ v.co for v in piece.data.vertices]) for piece in ends]
+        rims = [{tuple(p) for p in some.round(4).tolist()} for some in points]
+        rim = np.array(sorted(rims[0] & rims[1]))
+        place = np.array(joint.matrix_world)
+        assert np.linalg.norm(rim - place[:3, 3], axis=1).max() < np.ptp(rim, axis=0).max()
+        assert np.allclose(place[:3, :3].T @ place[:3, :3], np.eye(3), atol=1e-5)
+        assert np.linalg.det(place[:3, :3]) == pytest.approx(1, abs=1e-5)
+        # x leads from the one part into the other.
+        assert (points[1].mean(axis=0) - points[0].mean(axis=0)) @ place[:3, 0] > 0
+
+
+def test_a_world_and_a_body_that_are_there_are_kept(obj):
+    pieces = separated(obj)
+    scene = bpy.context.scene
+    bpy.ops.rigidbody.world_add()
+    mine = bpy.data.collections.new("Mine")
+    scene.rigidbody_world.collection = mine
+    scene.rigidbody_world.substeps_per_frame = 7
+    mine.objects.link(pieces[0])
+    pieces[0].rigid_body.type, pieces[0].rigid_body.collision_shape = "PASSIVE", "MESH"
+    bpy.ops.reeb_parts.rigid_bodies()
+    assert scene.rigidbody_world.collection == mine
+    assert scene.rigidbody_world.substeps_per_frame == 7
+    assert (pieces[0].rigid_body.type, pieces[0].rigid_body.collision_shape) == ("PASSIVE", "MESH")
+    assert set(mine.objects) == set(pieces)
+
+
+def test_twice_is_once_and_a_used_joint_is_kept(obj):
+    separated(obj)
+    bpy.ops.reeb_parts.rigid_bodies()
+    once = snapshot()
+    bpy.ops.reeb_parts.rigid_bodies()
+    assert snapshot() == once
+    count = len(joints_of())
+    mine = joints_of()[0]
+    mine.rigid_body_constraint.use_breaking = True
+    bpy.ops.reeb_parts.rigid_bodies(joints="POINT")
+    assert mine in bpy.data.objects[:]
+    assert mine not in joints_of()
+    assert [joint.rigid_body_constraint.type for joint in joints_of()] == ["POINT"] * count
+
+
+def test_separate_again_takes_the_joints_of_earlier_pieces_away(obj):
+    separated(obj)
+    bpy.ops.reeb_parts.rigid_bodies()
+    bpy.ops.reeb_parts.show_original()
+    activate(obj)
+    bpy.ops.reeb_parts.separate()
+    assert [o for o in bpy.data.objects if o.get("reeb_parts_role") == "joint"] == []
+    assert bodies() == []
+
+
+def test_parts_that_are_not_separated_are_refused(obj):
+    bpy.ops.reeb_parts.decompose()
+    assert not bpy.ops.reeb_parts.rigid_bodies.poll()
+
+
+def test_undo(obj):
+    separated(obj)
+    check_undo(bpy.ops.reeb_parts.rigid_bodies)
+    bpy.ops.ed.undo()
+    assert bpy.context.scene.rigidbody_world is None
+    assert bodies() == []
