@@ -30,6 +30,9 @@ from ..scene.stepped import LARGE, SteppedOperator
 from ..scene.steps import Steps, finished, stretched
 from ..viewport import shading
 
+#: How far all is when a large mesh has been read.
+READ = 0.05
+
 
 class REEB_PARTS_OT_decompose(
     SteppedOperator, bpy.types.Operator, FormerArguments, ParameterProperties, HintProperties, OutputProperties,
@@ -68,7 +71,7 @@ class REEB_PARTS_OT_decompose(
         """From scripts and the redo panel: all at once; what a script leaves out is as in the preferences."""
         self._take_over_former_names()
         defaults.complete(self)
-        parameters, shapes = self._read(context)
+        parameters, shapes = finished(self._reading(context))
         finished(self._writing(context, compute_all(shapes, parameters, lambda stage, share, of="": None)))
 
     def _take_over_former_names(self) -> None:
@@ -84,11 +87,16 @@ class REEB_PARTS_OT_decompose(
                 if name in {"detail", "n_parts"} or getattr(self, name) != self.rna_type.properties[name].default:
                     column.prop(self, name)
 
-    def _read(self, context: bpy.types.Context) -> tuple[Parameters, list[tuple[str, Shape]]]:
+    def _reading(self, context: bpy.types.Context) -> Steps[tuple[Parameters, list[tuple[str, Shape]]]]:
         """The parameters and the shapes; raises SceneError or ReebError."""
+        parameters, objects, shapes = self.parameters(), targets.chosen_objects(context), []
+        for index, obj in enumerate(objects):
+            steps = bridge.reading_shape(obj, self.hints)
+            shape = yield from stretched(steps, 0.8 * index / len(objects), 0.8 * (index + 1) / len(objects))
+            shapes.append((obj.name, shape))
+        yield 0.8
         load_core()
-        parameters = self.parameters()
-        return parameters, [(obj.name, bridge.read_shape(obj, self.hints)) for obj in targets.chosen_objects(context)]
+        return parameters, shapes
 
     def _writing(self, context: bpy.types.Context, outcomes: list[Outcome]) -> Steps[None]:
         """Write what was computed and report on it."""
@@ -133,16 +141,18 @@ class REEB_PARTS_OT_decompose(
     def _start(self, context: bpy.types.Context) -> set[str]:
         self._large = sum(len(obj.data.vertices) for obj in targets.chosen_objects(context)) >= LARGE
         self._rounds = 0
+        self._launching = self._launch(context)
         if not self._large:
-            self._launch(context)
+            finished(self._launching)
         self._watch(context, self._job or jobs.Progress(n_("reading the mesh")), 0.05)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
-    def _launch(self, context: bpy.types.Context) -> None:
+    def _launch(self, context: bpy.types.Context) -> Steps[None]:
         """Read the shapes and start the process."""
-        parameters, shapes = self._read(context)
-        self._job = jobs.Job(shapes, parameters)
+        parameters, shapes = yield from self._reading(context)
+        yield 1.0
+        self._job = jobs.Job(shapes, parameters, READ if self._large else 0.0)
         self._job.start()
         self._digests = {name: shape.digest for name, shape in shapes}
 
@@ -155,7 +165,8 @@ class REEB_PARTS_OT_decompose(
         if event.type == "TIMER" and not self._advance(context):
             return {"CANCELLED"}
         if not self._progress.cancelled and (self._job is None or self._job.running):
-            return {"PASS_THROUGH" if event.type != "ESC" else "RUNNING_MODAL"}
+            # While the mesh is read, nothing else can be done in the window.
+            return {"RUNNING_MODAL" if event.type == "ESC" or self._job is None else "PASS_THROUGH"}
         self._stop_watching(context)
         if self._progress.cancelled:
             self.report({"INFO"}, rpt_("Cancelled; nothing was changed"))
@@ -170,21 +181,28 @@ class REEB_PARTS_OT_decompose(
         self._rounds += 1
         if self._job is not None:
             self._job.poll(lambda: self._show_progress(context))
-        elif self._rounds == 3:  # by now, the window has been drawn
-            if self.attempt(self._launch, context) == {"CANCELLED"}:
-                self._stop_watching(context)
-                return False
-            assert self._job is not None
-            self._job.share = 0.01  # the mesh has been read
-            self._progress = jobs.current = self._job
+        elif self._rounds > 2 and self.attempt(self._read_on) == {"CANCELLED"}:  # by now, the window has been drawn
+            self._stop_watching(context)
+            return False
         self._show_progress(context)
         return True
+
+    def _read_on(self) -> None:
+        """Go on reading until there is something to show."""
+        before = self._progress.share
+        for share in self._launching:
+            self._progress.share = READ * share
+            if self._progress.share >= before + 0.01:
+                return
+        assert self._job is not None
+        self._progress = jobs.current = self._job
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Blender closes the window or opens another file, or Esc ends the writing."""
         if self._work is not None:
             super().cancel(context)
         else:
+            self._launching.close()
             self._progress.cancel()
             self._stop_watching(context)
 

@@ -18,6 +18,7 @@ from ..core.surface.labels import FaceGraph
 from . import face_hints, mesh_arrays, targets
 from .half_models import half_plane
 from .mesh_arrays import shown_points
+from .steps import Steps, finished
 from .temporary import freed, removed
 
 
@@ -69,6 +70,11 @@ def read_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Shape:
 
     hints : one of face_hints.KINDS, what to read besides its geometry.
     """
+    return finished(reading_shape(obj, hints))
+
+
+def reading_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Steps[Shape]:
+    """The same in steps, of which none takes long."""
     mesh = obj.data
     if obj.mode == "EDIT":
         # A copy as a mesh of its own can be read in bulk; the edit mesh itself cannot.
@@ -79,13 +85,18 @@ def read_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Shape:
             points, (triangles, polygon) = mesh_arrays.basis_points(copy), mesh_arrays.triangles(copy)
             hint = face_hints.read(copy, hints)
     else:
-        points, (triangles, polygon) = shown_points(obj), mesh_arrays.triangles(mesh)
+        points = shown_points(obj)
+        yield 0.3
+        triangles, polygon = mesh_arrays.triangles(mesh)
+        yield 0.6
         hint = face_hints.read(mesh, hints)
+    yield 0.7
     stretch = world_stretch(obj)
     vertices = points.astype(np.float64)
     if not np.array_equal(stretch, np.eye(3)):
         vertices = vertices @ stretch.T
     mirror = half_plane(obj, vertices, stretch)
+    yield 0.8
     digest = mesh_arrays.digest(vertices, triangles, polygon)
     return Shape(vertices, triangles, polygon, stretch, mirror, hint, digest, _notes(obj, len(mirror) > 0))
 

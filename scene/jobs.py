@@ -27,6 +27,8 @@ class Job:
     ----------
     shapes : list of (object name, Shape)
     parameters : Parameters
+    begin : float
+        How far all is when it starts, 0..1.
 
     Attributes
     ----------
@@ -45,8 +47,8 @@ class Job:
         Why there will be no result.
     """
 
-    def __init__(self, shapes: list[tuple[str, Shape]], parameters: Parameters) -> None:
-        self.stage, self.of, self.share = "", "", 0.0
+    def __init__(self, shapes: list[tuple[str, Shape]], parameters: Parameters, begin: float = 0.0) -> None:
+        self.stage, self.of, self.share, self._begin = "", "", begin, begin
         self.in_blender = self.cancelled = False
         self.result: list[Outcome] | None = None
         self.error: Exception | None = None
@@ -110,7 +112,7 @@ class Job:
 
     def _compute_here(self, show: Callable[[], None]) -> None:
         def progress(stage: str, share: float, of: str = "") -> None:
-            self.stage, self.share, self.of = stage, share, of
+            self.stage, self.share, self.of = stage, self._of_all(share), of
             show()
 
         self.result = compute.compute_all(self._shapes, self._parameters, progress)
@@ -135,7 +137,7 @@ class Job:
         self._ready = True
         if "stage" in message:
             self._at(message["shape"])
-            share = (self._index + message["share"]) / len(self._shapes)
+            share = self._of_all((self._index + message["share"]) / len(self._shapes))
             self.stage, self.share = message["stage"], max(self.share, share)
         elif "error" in message or "done" in message:
             self._at(message["shape"])
@@ -144,6 +146,10 @@ class Job:
             raise self._failure(memory=True)
         elif "end" in message:
             self._finish()
+
+    def _of_all(self, share: float) -> float:
+        """How far all is, by how far the computation is."""
+        return self._begin + share * (1.0 - self._begin)
 
     def _at(self, number: int) -> None:
         """The process is at a shape of those that it was given."""

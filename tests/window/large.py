@@ -27,9 +27,15 @@ def steps():
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.ed.undo_push(message="Subdivide")
     yield from pointer.push("reeb_parts.decompose")
-    yield from pointer.until(lambda: len(mesh().reeb_parts.parts), pointer.PATIENCE)
+    shares = []
+
+    def done():
+        shares.append(jobs().current.share if jobs().current else None)
+        return len(mesh().reeb_parts.parts)
+
+    yield from pointer.until(done, pointer.PATIENCE)
     yield 1.0
-    seen["decomposed"] = facts()
+    seen["decomposed"] = {**facts(), "shares": shares}
     yield from pointer.type_into("detail", "0.9")
     yield 1.0
     seen["typed"] = facts()

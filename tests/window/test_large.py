@@ -22,10 +22,18 @@ def test_colours_and_groups_are_those_of_the_parts_after_each_step(seen):
         assert step["attributes"] == seen["decomposed"]["attributes"]
 
 
+def test_progress_moves_while_the_mesh_is_read_and_goes_on_from_there(seen):
+    shares = [share for share in seen["decomposed"]["shares"] if share is not None]
+    reading = shares[:next(i for i, share in enumerate(shares) if share >= 0.05)]
+    assert len(set(reading)) >= 3
+    writing = next(i for i, (a, b) in enumerate(zip(shares, shares[1:], strict=False)) if b < a)
+    assert shares[:writing] == sorted(shares[:writing])
+
+
 def test_each_is_one_exact_step_of_undo(seen):
     assert seen["typed"]["detail"] == 0.9
     assert seen["typed"]["parts"] > seen["decomposed"]["parts"]
-    assert seen["undone"] == seen["decomposed"]
+    assert {**seen["undone"], "shares": seen["decomposed"]["shares"]} == seen["decomposed"]
     assert seen["redone"] == seen["typed"]
     assert seen["dragged"]["detail"] != 0.9
     assert seen["drag undone"] == seen["typed"]
