@@ -174,8 +174,9 @@ def _disagreement(first: np.ndarray, second: np.ndarray, area: np.ndarray) -> fl
 
 def _large(graph: FaceGraph, chosen: np.ndarray, least: float) -> np.ndarray:
     """Which of the chosen faces, (p,) bool, form connected regions of a least area."""
-    pairs = graph.pairs[chosen[graph.pairs].all(axis=1)]
-    count, region = components(len(chosen), *pairs.T)
+    a, b = graph.pairs.T
+    both = np.flatnonzero(chosen[a] & chosen[b])
+    count, region = components(len(chosen), a[both], b[both])
     return chosen & (np.bincount(region, graph.area, count) >= least)[region]
 
 
@@ -188,11 +189,11 @@ def _lead_cells(
     which faces speak. whole : area of the pieces that the plane mirrors. Returns the cell of each face that speaks,
     (p,) int64, and whether each cell lies across the plane and whether it has an image, (c,) bool.
     """
-    pairs = leader[graph.pairs]
-    spoken = asked[pairs].all(axis=1)
-    pairs, length = pairs[spoken], graph.length[spoken]
-    same = label[pairs[:, 0]] == label[pairs[:, 1]]
-    cell = components(len(label), *pairs[same].T)[1]
+    a, b = leader[graph.pairs.T]
+    spoken = np.flatnonzero(asked[a] & asked[b])
+    a, b, length = a[spoken], b[spoken], graph.length[spoken]
+    same = np.flatnonzero(label[a] == label[b])
+    cell = components(len(label), a[same], b[same])[1]
     cell = np.where(asked, cell, -1)
     cell[asked] = renumbered(cell[asked])[1]
     count = int(cell[asked].max()) + 1
@@ -208,7 +209,7 @@ def _lead_cells(
     # What little of a candidate reaches over the plane from the side that follows is cut off there.
     little = np.bincount(mine, graph.area[asked], count) < OVERHANG * np.bincount(label, graph.area)[own]
     small = ((area < SMALL * whole) & (area < largest[own])) | little | (crosses & (area < CROSSING * whole))
-    joins = _joined(FaceGraph(len(label), pairs, length, graph.area), cell, own, area, small)
+    joins = _joined(FaceGraph(len(label), np.stack([a, b], axis=1), length, graph.area), cell, own, area, small)
     left, cell[asked] = renumbered(joins[mine])
     return cell, crosses[left], other[left] >= 0
 

@@ -284,8 +284,9 @@ def _apart(
 
     label : (p,) int64. Returns new labels, (p,) int64, and the hierarchy in which these merge first.
     """
-    same = label[graph.pairs[:, 0]] == label[graph.pairs[:, 1]]
-    count, piece = components(graph.n_faces, *graph.pairs[same].T)
+    a, b = graph.pairs.T
+    same = np.flatnonzero(label[a] == label[b])
+    count, piece = components(graph.n_faces, a[same], b[same])
     solid = np.zeros(count, bool)  # a face that the copy lacks and that touches nothing stays where it is
     solid[piece[working.polygon]] = True
     name = np.empty(count, np.int64)

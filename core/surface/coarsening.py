@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import both_ways, inverse, rounded, sums_by
+from .arrays import both_ways, first_of_rows, inverse, lengths, rounded, stable_order, sums_by
 from .mesh import TriMesh
 from .ordering import rank_by_place
 
@@ -73,22 +73,29 @@ def coarsen(
     """
     links = mesh.edges.vertices if links is None else links
     a, b = both_ways(links).T
-    order = np.argsort(a, kind="stable")
+    order = stable_order(a)
     a, b = a[order], b[order]
-    length = np.linalg.norm(mesh.vertices[a] - mesh.vertices[b], axis=1)
     seed = _independent_set(a, b, _priority(mesh.vertices, vertex_area))
     name = np.where(seed, np.cumsum(seed) - 1, -1)
     owner = name.copy()
-    near = seed[b] & ~seed[a]
-    by_length = np.lexsort((rounded(length[near]), a[near]))[::-1]
-    owner[a[near][by_length]] = name[b[near][by_length]]  # NumPy keeps what is written last: the nearest
-    faces = owner[mesh.faces]
-    faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
-    _, once = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
-    between = np.sort(owner[links], axis=1)
-    between = np.unique(between[between[:, 0] != between[:, 1]], axis=0)
-    return Coarsening(TriMesh(mesh.vertices[seed], faces[np.sort(once)]), between, links, owner,
-                      np.bincount(owner, vertex_area, int(seed.sum())))
+    near = np.flatnonzero(seed[b] & ~seed[a])
+    a, b = a[near], b[near]
+    length = rounded(lengths(mesh.vertices[a] - mesh.vertices[b]))
+    start = np.flatnonzero(np.append(True, a[1:] != a[:-1])[: len(a)])
+    least = np.minimum.reduceat(length, start) if len(start) else length
+    nearest = np.flatnonzero(length == np.repeat(least, np.diff(np.append(start, len(a)))))[::-1]
+    owner[a[nearest]] = name[b[nearest]]  # NumPy keeps what is written last: the first of those equally near
+    count = int(seed.sum())
+    p, q, r = owner[mesh.faces.T]
+    whole = np.flatnonzero((p != q) & (q != r) & (r != p))
+    faces = np.stack([p, q, r], axis=1)[whole]
+    once = np.sort(first_of_rows(np.sort(faces, axis=1), count))
+    p, q = owner[links.T]
+    apart = np.flatnonzero(p != q)
+    between = np.stack([np.minimum(p, q), np.maximum(p, q)], axis=1)[apart]
+    between = between[first_of_rows(between, count)]
+    return Coarsening(TriMesh(mesh.vertices[seed], faces[once]), between, links, owner,
+                      np.bincount(owner, vertex_area, count))
 
 
 class Pyramid:

@@ -32,10 +32,16 @@ def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners:
     winner : (n_owners,) int64
         Label with the largest sum of weights, of equal ones the smallest label; -1 for an owner without a vote.
     """
-    cells, cell = distinct_pairs(owner, label)
+    winner = np.full(n_owners, -1, np.int64)
+    winner[owner] = label
+    # Most owners' votes all name one label: only the others' are counted.
+    divided = np.zeros(n_owners, bool)
+    divided[owner[label != winner[owner]]] = True
+    counted = np.flatnonzero(divided[owner])
+    cells, cell = distinct_pairs(owner[counted], label[counted])
     of, name = cells.T
-    last = last_of_each(of, sums_by(cell, weight, len(cells)), -name, count=n_owners)
-    return np.where(last >= 0, np.append(name, -1)[last], -1)
+    last = last_of_each(of, sums_by(cell, weight[counted], len(cells)), -name, count=n_owners)
+    return np.where(divided, np.append(name, -1)[last], winner)
 
 
 def label_boundaries(
@@ -59,9 +65,10 @@ def label_boundaries(
     total : (c,) float64
         Length of the boundary between the two labels, in the unit of ``length``.
     """
-    low, high = np.sort(label[pairs], axis=1).reshape(-1, 2).T
-    apart = (low != high) & (low >= 0)
-    touching, boundary = distinct_pairs(low[apart], high[apart])
+    first, second = label[pairs.T]
+    apart = np.flatnonzero((first != second) & (first >= 0) & (second >= 0))
+    first, second = first[apart], second[apart]
+    touching, boundary = distinct_pairs(np.minimum(first, second), np.maximum(first, second))
     return touching, sums_by(boundary, length[apart], len(touching))
 
 
@@ -159,9 +166,9 @@ def fill_unlabeled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
     label : (n_faces,) int64
         0 or more; 0 for a face that no label reaches.
     """
-    label = spread(label, *both_ways(graph.pairs).T)
-    label[label < 0] = 0
-    return label
+    if (label < 0).any():
+        label = spread(label, *both_ways(graph.pairs).T)
+    return np.maximum(label, 0)
 
 
 def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
@@ -181,29 +188,38 @@ def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
     label : (n_faces,) int64
         A label stays in several components only where these touch no other label.
     """
-    label = label.copy()
+    first, second = graph.pairs.T
+    same = np.flatnonzero(label[first] == label[second])
+    count, part = components(graph.n_faces, first[same], second[same])
+    name = np.empty(count, np.int64)
+    name[part] = label
+    area = np.bincount(part, graph.area, count)
+    touching, length = graph.boundaries(part)
+    # From here on components move as a whole, and there are few of them.
     while True:
-        same = label[graph.pairs[:, 0]] == label[graph.pairs[:, 1]]
-        count, part = components(graph.n_faces, *graph.pairs[same].T)
-        area = np.bincount(part, graph.area, count)
-        name = np.empty(count, np.int64)
-        name[part] = label
-        order = np.lexsort((np.arange(count), -area, name))
+        order = np.lexsort((np.arange(len(name)), -area, name))
         largest = np.append(True, name[order][1:] != name[order][:-1])
-        stray = np.ones(count, bool)
+        stray = np.ones(len(name), bool)
         stray[order[largest]] = False
-        goal = _goal_of_strays(graph, part, area, stray)
+        goal = _goal_of_strays(touching, length, area, stray)
         if not (goal >= 0).any():
-            return label
-        label = name[np.where(goal >= 0, goal, np.arange(count))][part]
+            return name[part]
+        before = name[np.where(goal >= 0, goal, np.arange(len(name)))]
+        same = before[touching[:, 0]] == before[touching[:, 1]]
+        count, union = components(len(name), *touching[same].T)
+        name = np.empty(count, np.int64)
+        name[union] = before
+        part, area = union[part], np.bincount(union, area, count)
+        touching, length = label_boundaries(union, touching, length)
 
 
-def _goal_of_strays(graph: FaceGraph, part: np.ndarray, area: np.ndarray, stray: np.ndarray) -> np.ndarray:
+def _goal_of_strays(touching: np.ndarray, length: np.ndarray, area: np.ndarray, stray: np.ndarray) -> np.ndarray:
     """Component that each stray component joins, (k,) int64; -1 for a component that stays.
 
-    Where two stray components would join each other, only the smaller one moves.
+    Where two stray components would join each other, only the smaller one moves. touching, length : what
+    ``label_boundaries`` returns of the components.
     """
-    goal = np.where(stray, longest_neighbor(*graph.boundaries(part), len(area)), -1)
+    goal = np.where(stray, longest_neighbor(touching, length, len(area)), -1)
     mover = np.flatnonzero(goal >= 0)
     mutual = mover[goal[goal[mover]] == mover]
     larger = mutual[(area[mutual] > area[goal[mutual]])
@@ -233,29 +249,57 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int, loss: Loss | No
     label : (n_faces,) int64
         Labels may no longer be connected.
     """
-    label = label.copy()
-    a, b = both_ways(graph.pairs).T
-    length = np.concatenate([graph.length, graph.length])
+    first, second = graph.pairs.T
+    zone = _around_boundaries(graph, label, rounds)
+    faces = np.flatnonzero(zone)
+    place = np.empty(graph.n_faces, np.int64)
+    place[faces] = np.arange(len(faces))
+    inside = np.flatnonzero(zone[first] & zone[second])
+    a, b = both_ways(place[graph.pairs[inside]]).T
+    length = np.tile(graph.length[inside], 2)
+    # A gain below 1e-9 of the longest edge is a rounding error.
+    least = 1e-9 * graph.length.max(initial=0.0)
+    whole, label = label.copy(), label[faces]
     for _ in range(rounds):
-        edge = label[a] != label[b]  # only faces at a boundary can gain
-        owner, other, weight = a[edge], label[b[edge]], length[edge]
-        inside = np.bincount(a[~edge], length[~edge], graph.n_faces)
-        best = majority(owner, other, weight, graph.n_faces)
-        toward = other == best[owner]
-        gain = np.bincount(owner[toward], weight[toward], graph.n_faces) - inside
-        gain[best < 0] = 0.0
+        gain, best = _gains(a, b, length, label)
         if loss is not None:
             willing = np.flatnonzero(gain > 0)
-            gain = gain.astype(float)  # NumPy counts in whole numbers where no face is at a boundary
-            gain[willing] -= loss(willing, label[willing], best[willing])
-        # A gain below 1e-9 of the longest edge is a rounding error.
-        gain[gain <= 1e-9 * length.max(initial=0.0)] = 0.0
+            gain[willing] -= loss(faces[willing], label[willing], best[willing])
+        gain[gain <= least] = 0.0
         # Of two neighbors that both gain, the one that gains more changes; of equal ones that of the higher index.
-        rank = inverse(np.lexsort((np.arange(graph.n_faces), gain)))
-        beaten = np.zeros(graph.n_faces, bool)
+        rank = inverse(np.lexsort((np.arange(len(label)), gain)))
+        beaten = np.zeros(len(label), bool)
         beaten[a[(gain[b] > 0) & (rank[b] > rank[a])]] = True
         flip = (gain > 0) & ~beaten
         if not flip.any():
             break
         label[flip] = best[flip]
-    return label
+    whole[faces] = label
+    return whole
+
+
+def _around_boundaries(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
+    """Faces, (n_faces,) bool, that so many rounds of changes at the boundaries can reach, and their neighbors."""
+    first, second = graph.pairs.T
+    zone = np.zeros(graph.n_faces, bool)
+    cut = np.flatnonzero(label[first] != label[second])
+    for _ in range(rounds + 1):
+        zone[first[cut]] = zone[second[cut]] = True
+        cut = np.flatnonzero(zone[first] != zone[second])
+    return zone
+
+
+def _gains(a: np.ndarray, b: np.ndarray, length: np.ndarray, label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """By how much the boundaries become shorter if a face changes its label, (n,) float64, and to which, (n,) int64.
+
+    a, b, length : (e,), each pair of faces that touch, both ways. 0 and -1 for a face at no boundary.
+    """
+    edge = label[a] != label[b]
+    owner, other, weight = a[edge], label[b[edge]], length[edge]
+    inside = np.bincount(a[~edge], length[~edge], len(label))
+    best = majority(owner, other, weight, len(label))
+    toward = other == best[owner]
+    # NumPy counts in whole numbers where no face is at a boundary.
+    gain = np.bincount(owner[toward], weight[toward], len(label)).astype(float) - inside
+    gain[best < 0] = 0.0
+    return gain, best

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import MeshError
 from ..sentence import Sentence
-from .arrays import components, frozen, renumbered
+from .arrays import components, cross, frozen, lengths, renumbered, stable_order
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,12 +101,12 @@ class TriMesh:
     def area_normals(self) -> np.ndarray:
         """(m, 3) float64, normal of each face, as long as the face's area."""
         p, q, r = self.corners.transpose(1, 0, 2)
-        return 0.5 * np.cross(q - p, r - p)
+        return 0.5 * cross(q - p, r - p)
 
     @cached_property
     def face_area(self) -> np.ndarray:
         """(m,) float64, area of each face, in squared units of the vertices."""
-        return np.linalg.norm(self.area_normals, axis=1)
+        return lengths(self.area_normals)
 
     @cached_property
     def face_normals(self) -> np.ndarray:
@@ -117,7 +117,8 @@ class TriMesh:
     @cached_property
     def face_centroids(self) -> np.ndarray:
         """(m, 3) float64, mean of the corners of each face."""
-        return self.corners.mean(axis=1)
+        p, q, r = self.corners.transpose(1, 0, 2)
+        return (p + q + r) / 3
 
     @cached_property
     def area(self) -> float:
@@ -138,7 +139,7 @@ class TriMesh:
     def edge_length(self) -> np.ndarray:
         """(e,) float64, length of each edge of ``edges.vertices``."""
         a, b = self.edges.vertices.T
-        return np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1)
+        return lengths(self.vertices[a] - self.vertices[b])
 
     @cached_property
     def pair_length(self) -> np.ndarray:
@@ -161,9 +162,9 @@ class TriMesh:
         area.
         """
         left, right = self.edges.pairs.T
-        sine = np.cross(self.face_normals[left], self.face_normals[right])
+        sine = cross(self.face_normals[left], self.face_normals[right])
         cosine = (self.face_normals[left] * self.face_normals[right]).sum(axis=1)
-        angle = np.arctan2(np.linalg.norm(sine, axis=1), cosine)
+        angle = np.arctan2(lengths(sine), cosine)
         across = self.face_centroids[right] - self.face_centroids[left]
         convex = ((self.face_normals[left] - self.face_normals[right]) * across).sum(axis=1) <= 0
         return np.where(convex, angle, -angle)
@@ -177,6 +178,15 @@ class TriMesh:
     def euler_characteristic(self) -> int:
         """Number of vertices that have a face, minus the number of edges, plus the number of faces."""
         return int(self.used.sum()) - len(self.edges.vertices) + self.n_faces
+
+    @cached_property
+    def same_way(self) -> np.ndarray:
+        """(p,) bool, whether the faces of each pair of ``edges.pairs`` run the same way along their edge.
+
+        Faces that are turned the same way run along it in opposite ways.
+        """
+        first, second = self.faces.ravel()[self.edges.pair_sides.T]
+        return first == second
 
     def submesh(self, face_mask: np.ndarray) -> tuple[TriMesh, np.ndarray]:
         """Copy some faces, with their vertices only.
@@ -214,6 +224,8 @@ class EdgeTable:
         with a repeated vertex never makes a pair with itself.
     pair_edge : (p,) int64
         Edge of each pair.
+    pair_sides : (p, 2) int64
+        Side of each face of each pair along which they touch: 3 times the face, plus the corner where the side begins.
     """
 
     vertices: np.ndarray
@@ -221,6 +233,7 @@ class EdgeTable:
     n_faces: np.ndarray
     pairs: np.ndarray
     pair_edge: np.ndarray
+    pair_sides: np.ndarray
 
     @classmethod
     def of(cls, faces: np.ndarray, n_vertices: int) -> EdgeTable:
@@ -229,9 +242,9 @@ class EdgeTable:
         faces : (m, 3) int64, 0..n_vertices-1. Returns an EdgeTable.
         """
         start, end = faces, np.roll(faces, -1, axis=1)
-        # NumPy sorts half-edges that are packed into one integer far faster than rows.
+        # NumPy sorts sides that are packed into one integer far faster than rows.
         key = (np.minimum(start, end) * np.int64(n_vertices) + np.maximum(start, end)).ravel()
-        order = np.argsort(key, kind="stable")
+        order = stable_order(key)
         key = key[order]
         together = key[1:] == key[:-1]
         first_of_edge = np.flatnonzero(np.append(True, ~together)[: len(key)])
@@ -240,13 +253,14 @@ class EdgeTable:
         edge[order] = edge_sorted
         unique = key[first_of_edge]
         count = np.diff(np.append(first_of_edge, len(key)))
-        owner = order // 3
-        first, second = owner[:-1][together], owner[1:][together]
-        distinct = first != second
+        sides = np.stack([order[:-1][together], order[1:][together]], axis=1)
+        pairs = sides // 3
+        distinct = pairs[:, 0] != pairs[:, 1]
         return cls(
             vertices=frozen(np.stack(np.divmod(unique, max(n_vertices, 1)), axis=1), np.int64),
             face_edges=frozen(edge.reshape(-1, 3), np.int64),
             n_faces=frozen(count, np.int64),
-            pairs=frozen(np.stack([first, second], axis=1)[distinct], np.int64),
+            pairs=frozen(pairs[distinct], np.int64),
             pair_edge=frozen(edge_sorted[1:][together][distinct], np.int64),
+            pair_sides=frozen(sides[distinct], np.int64),
         )

@@ -14,7 +14,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import components, frozen, inner_products, inverse, renumbered, second_moments, sums_by, weighted_sum
+from .arrays import (
+    components,
+    frozen,
+    inner_products,
+    inverse,
+    renumbered,
+    second_moments,
+    stable_order,
+    sums_by,
+    weighted_sum,
+)
 from .mesh import TriMesh
 from .polygons import PolygonMesh
 
@@ -57,16 +67,21 @@ class Ordering:
         that decides where the shape is symmetric; that in which they are without it.
         """
         corner, normal = _in_own_frame(mesh, vertex_rank)
-        center = corner[mesh.faces].mean(axis=1)
+        center = sum(corner[column] for column in mesh.faces.T) / 3
 
         def beside() -> np.ndarray:
             """What lies around each vertex, (n, 3): seams have two vertices at one place."""
             around = sums_by(mesh.faces.ravel(), np.repeat((center + normal) / 2, 3, axis=0), mesh.n_vertices)
             return around / np.maximum(np.bincount(mesh.faces.ravel(), minlength=mesh.n_vertices), 1)[:, None]
 
-        count = np.maximum(np.bincount(polygon, minlength=n_polygons), 1)[:, None]
-        by_place = _order(sums_by(polygon, center, n_polygons) / count,
-                          lambda: sums_by(polygon, normal, n_polygons) / count)
+        def mean(of_triangle: np.ndarray) -> np.ndarray:
+            """Mean over the triangles of each polygon, (p, 3)."""
+            if n_polygons == mesh.n_faces and (polygon == np.arange(n_polygons)).all():
+                return of_triangle
+            count = np.maximum(np.bincount(polygon, minlength=n_polygons), 1)[:, None]
+            return sums_by(polygon, of_triangle, n_polygons) / count
+
+        by_place = _order(mean(center), lambda: mean(normal))
         return cls(_order(corner, beside), by_place)
 
     def with_piece(self, piece: Ordering, vertex: np.ndarray, polygon: np.ndarray) -> Ordering:
@@ -88,7 +103,7 @@ class Ordering:
 
         polygon : (m,) int64, of each triangle given. Returns the mesh, and the given triangle at each place, (m,).
         """
-        triangle = np.argsort(inverse(self.polygon)[polygon], kind="stable")
+        triangle = stable_order(inverse(self.polygon)[polygon])
         faces = inverse(self.vertex)[mesh.faces[triangle]]
         turn = (faces.argmin(axis=1)[:, None] + np.arange(3)) % 3
         return TriMesh(mesh.vertices[self.vertex], np.take_along_axis(faces, turn, axis=1)), triangle
@@ -181,7 +196,7 @@ def _in_own_frame(mesh: TriMesh, vertex_rank: np.ndarray | None) -> tuple[np.nda
     middle = weighted_sum(mesh.face_area, mesh.face_centroids) / mesh.area
     used = np.flatnonzero(mesh.used)
     if vertex_rank is not None:
-        used = used[np.argsort(vertex_rank[used], kind="stable")]
+        used = used[stable_order(vertex_rank[used])]
     corner = np.zeros((mesh.n_vertices, 3))
     corner[used] = mesh.vertices[used] - middle
     axes = _own_axes(mesh.face_centroids - middle, mesh.face_area, corner[used])
@@ -213,7 +228,7 @@ def _order(place: np.ndarray, beside: Callable[[], np.ndarray]) -> np.ndarray:
     place, and what ``beside`` returns : (n, 3), between -1 and 1.
     """
     cell = _cell(place)
-    order = np.argsort(cell, kind="stable")
+    order = stable_order(cell)
     same = cell[order[1:]] == cell[order[:-1]]
     tied = np.flatnonzero(np.append(same, False) | np.append(False, same))
     if len(tied):

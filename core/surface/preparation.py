@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..sentence import Sentence
-from .arrays import components, distinct_pairs, frozen, inverse, renumbered
+from .arrays import components, distinct_pairs, frozen, inverse, renumbered, stable_order
 from .contact import Bridges, bridges
 from .mesh import TriMesh
 from .ordering import Ordering
@@ -30,6 +30,7 @@ ALL_BUDGETS = 50_000  # number of faces that several bodies share for that
 # A body of few faces takes as long as hundreds of faces of a large one. So of very many bodies only those of more faces
 # are decomposed: this number of bodies, and one more for so many faces of the whole.
 MANY_BODIES, FACES_PER_BODY = 20, 300
+MOST_AROUND = 32  # number of faces around a vertex that are walked along; of more, all are looked at together
 # Relative difference below which two lengths are equal: rounding errors must not decide how a box is divided.
 ROUNDING = 1e-9
 
@@ -320,20 +321,66 @@ def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
 
     Returns the mesh and the vertex given at each of its vertices, (n',) int64, rising.
     """
-    left, right = mesh.edges.pairs.T
-    joins_a, joins_b = [], []
-    for end in (0, 1):
-        vertex = mesh.edges.vertices[mesh.edges.pair_edge, end]
-        joins_a.append(3 * left + (mesh.faces[left] == vertex[:, None]).argmax(axis=1))
-        joins_b.append(3 * right + (mesh.faces[right] == vertex[:, None]).argmax(axis=1))
-    count, fan = components(3 * mesh.n_faces, np.concatenate(joins_a), np.concatenate(joins_b))
-    source = np.empty(count, np.int64)
-    source[fan] = mesh.faces.ravel()
-    order = np.argsort(source, kind="stable")
-    source = source[order]
-    if count == mesh.n_vertices and (source == np.arange(count)).all():
-        return mesh, source
-    return TriMesh(mesh.vertices[source], inverse(order)[fan].reshape(-1, 3)), source
+    corner_vertex = mesh.faces.ravel()
+    unsure = ~_has_one_fan(mesh)
+    if not unsure.any():
+        return mesh, np.arange(mesh.n_vertices)
+    # Of all other vertices all corners are one fan.
+    loose = np.flatnonzero(unsure[corner_vertex])
+    place = np.full(len(corner_vertex), -1)
+    place[loose] = np.arange(len(loose))
+    a, b = place[_joined_corners(mesh)].T
+    kept = a >= 0
+    count, fan = components(len(loose), a[kept], b[kept])
+    own = np.empty(count, np.int64)
+    own[fan] = corner_vertex[loose]
+    single = np.flatnonzero(mesh.used & ~unsure)
+    source = np.concatenate([single, own])
+    order = stable_order(source)
+    number, at = inverse(order), np.full(mesh.n_vertices, -1)
+    at[single] = number[:len(single)]
+    faces = at[corner_vertex]
+    faces[loose] = number[len(single) + fan]
+    return TriMesh(mesh.vertices[source[order]], faces.reshape(-1, 3)), source[order]
+
+
+def _joined_corners(mesh: TriMesh) -> np.ndarray:
+    """Corners at one vertex, of two faces that touch there along an edge, (2p, 2) int64: 3 times the face + corner."""
+    sides = mesh.edges.pair_sides
+    begin, end = sides, sides - sides % 3 + (sides + 1) % 3
+    same_way = mesh.same_way
+    return np.concatenate([np.stack([begin[:, 0], np.where(same_way, begin[:, 1], end[:, 1])], axis=1),
+                           np.stack([end[:, 0], np.where(same_way, end[:, 1], begin[:, 1])], axis=1)])
+
+
+def _has_one_fan(mesh: TriMesh) -> np.ndarray:
+    """Whether the faces around each vertex are known to be one fan, (n,) bool.
+
+    A walk around each vertex, from face to face, is to come past as many faces as it has. Where faces are turned
+    against each other, more than two meet at an edge, or more than MOST_AROUND at a vertex, it is not known.
+    """
+    corner_vertex, n = mesh.faces.ravel(), mesh.n_vertices
+    known = mesh.used.copy()
+    known[mesh.edges.vertices[mesh.edges.pair_edge[mesh.same_way]]] = False
+    known[mesh.edges.vertices[mesh.edges.n_faces > 2]] = False
+    first, second = mesh.edges.pair_sides.T
+    following = np.full(len(corner_vertex), -1)
+    following[first] = second - second % 3 + (second + 1) % 3
+    following[second] = first - first % 3 + (first + 1) % 3
+    begins = np.ones(len(corner_vertex), bool)  # a corner at a border, where a walk has to begin
+    begins[following[following >= 0]] = False
+    begins = np.flatnonzero(begins)
+    start = np.empty(n, np.int64)
+    start[corner_vertex] = np.arange(len(corner_vertex))
+    start[corner_vertex[begins]] = begins
+    walking = np.flatnonzero(known)
+    at, passed = start[walking], known.astype(np.int64)
+    for _ in range(MOST_AROUND):
+        at = following[at]
+        goes_on = (at >= 0) & (at != start[walking])
+        walking, at = walking[goes_on], at[goes_on]
+        passed[walking] += 1
+    return known & (passed == np.bincount(corner_vertex, minlength=n))
 
 
 def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
@@ -341,14 +388,13 @@ def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
 
     Returns the mesh and a note of how many faces were turned.
     """
-    pairs, edge = mesh.edges.pairs, mesh.edges.pair_edge
-    same_way = edge_direction(mesh, pairs[:, 0], edge) == edge_direction(mesh, pairs[:, 1], edge)
+    same_way = mesh.same_way
     flip = np.zeros(mesh.n_faces, bool)
     if same_way.any():
         # The double cover has each face twice: face f as given and face f + m flipped. A component of the surface
         # is orientable if its two copies in the double cover are not connected.
         m = mesh.n_faces
-        a, b = pairs.T
+        a, b = mesh.edges.pairs.T
         other = np.where(same_way, m, 0)
         _, sheet = components(2 * m, np.concatenate([a, a + m]),
                               np.concatenate([b + other, (b + m + other) % (2 * m)]))
@@ -369,16 +415,6 @@ def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
     note = Sentence("{n} {n:triangle faces inwards or against its|triangles face inwards or against their} "
                     "neighbors.", n=int(flip.sum()))
     return TriMesh(mesh.vertices, faces), (note,)
-
-
-def edge_direction(mesh: TriMesh, face: np.ndarray, edge: np.ndarray) -> np.ndarray:
-    """Tell which way faces run along an edge that they have.
-
-    face, edge : (k,) int64. Returns whether each face runs from the vertex of smaller index to that of larger, (k,)
-    bool.
-    """
-    corner = (mesh.edges.face_edges[face] == edge[:, None]).argmax(axis=1)
-    return mesh.faces[face, corner] == mesh.edges.vertices[edge, 0]
 
 
 def _notes(given: PolygonMesh) -> tuple[str, ...]:

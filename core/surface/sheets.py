@@ -20,7 +20,7 @@ from .arrays import inner_products, spread_evenly, sums_by, symmetric_matrix
 from .balls import ball_radius
 from .labels import majority
 from .mesh import TriMesh
-from .preparation import edge_direction, split_edges
+from .preparation import split_edges
 
 # A sheet has at least this square of the length of its border, as a share of its area; a disc has 4 pi, a hemisphere
 # 2 pi. What has less is a solid with a hole.
@@ -114,10 +114,9 @@ def sheet_faces(mesh: TriMesh, order: np.ndarray) -> np.ndarray:
 def _turned_one_way(mesh: TriMesh) -> np.ndarray:
     """Whether neighbors agree on which side is out, by piece, (k,) bool; not so on a Moebius strip."""
     count, piece = mesh.face_components
-    (a, b), edge = mesh.edges.pairs.T, mesh.edges.pair_edge
-    against = edge_direction(mesh, a, edge) == edge_direction(mesh, b, edge)
+    a, b = mesh.edges.pairs.T
     weight = np.minimum(mesh.face_area[a], mesh.face_area[b])
-    return np.bincount(piece[a], weight * against, count) <= MOST_AGAINST * np.bincount(piece[a], weight, count)
+    return np.bincount(piece[a], weight * mesh.same_way, count) <= MOST_AGAINST * np.bincount(piece[a], weight, count)
 
 
 def _winding(mesh: TriMesh, probe: np.ndarray, surface: np.ndarray) -> np.ndarray:

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import second_moments, spread_evenly, weighted_sum
+from .arrays import even_steps, lengths, rounded_order, second_moments, weighted_sum
 from .contact import diameter
 from .labels import majority
 from .mesh import TriMesh
@@ -74,8 +74,13 @@ class _Elements:
 
     def some(self, count: int) -> _Elements:
         """So many elements or fewer, at equal steps of area from the middle outwards; they count equally."""
-        chosen = spread_evenly(self.area, (self.position**2).sum(axis=1), count)
+        chosen = self._outwards[even_steps(self.area[self._outwards], count)]
         return _Elements(self.position[chosen], self.normal[chosen], np.full(len(chosen), 1.0 / len(chosen)))
+
+    @cached_property
+    def _outwards(self) -> np.ndarray:
+        """(k,) int64, the elements by their distance from the middle."""
+        return rounded_order((self.position**2).sum(axis=1))
 
     @property
     def place(self) -> np.ndarray:
@@ -197,7 +202,7 @@ def _matched(image: _Elements, surface: _Elements, most: float) -> tuple[np.ndar
     beside = np.abs((offset * surface.normal[nearest]).sum(axis=1))
     spacing = 2.0 / np.sqrt(len(surface.area))  # elements of a surface whose diameter and area are about 1
     aligned = (image.normal * surface.normal[nearest]).sum(axis=1) > 0.5
-    within = np.linalg.norm(offset, axis=1) <= most + spacing
+    within = lengths(offset) <= most + spacing
     return nearest, (beside <= most) & within & aligned
 
 

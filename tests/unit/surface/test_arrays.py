@@ -2,11 +2,72 @@
 """Idioms of whole arrays, by hand."""
 
 import numpy as np
+import pytest
 
-from core.surface.arrays import expanded
+from core.surface.arrays import MANY, components, cross, expanded, first_of_rows, lengths, rounded_order, stable_order
 
 
 def test_ranges_are_listed_one_after_the_other():
     row, number = expanded(np.array([5, 0, 7, 2]), np.array([2, 0, 1, 3]))
     assert row.tolist() == [0, 0, 2, 3, 3, 3]
     assert number.tolist() == [5, 6, 7, 2, 3, 4]
+
+
+@pytest.mark.parametrize(("low", "high"), [(0, 7), (-4, 4), (0, 2**40), (-(2**61), 2**61), (-(2**63), 2**63 - 1)])
+@pytest.mark.parametrize("n", [0, 1, 50, 40_000])
+def test_equal_numbers_stay_in_their_order(low, high, n):
+    keys = np.random.default_rng(n).integers(low, high, n)
+    assert (stable_order(keys) == np.argsort(keys, kind="stable")).all()
+
+
+def test_numbers_that_differ_by_rounding_stay_in_their_order():
+    values = np.tile([0.3, 0.1 + 0.2, 0.0, -0.0, 1e-300, 5.0], 1_000)
+    order = rounded_order(values)
+    for group in ([2, 3], [4], [0, 1], [5]):
+        count = 1_000 * len(group)
+        assert (order[:count] == np.flatnonzero(np.isin(np.arange(6_000) % 6, group))).all()
+        order = order[count:]
+    assert (values[rounded_order(-values)] == 5.0)[:1_000].all()
+
+
+def test_the_first_of_equal_rows():
+    rows = np.random.default_rng(0).integers(0, 12, (5_000, 3))
+    for scale in (1, 2**31, 2**45):  # packed into one integer, and too wide for that
+        first = first_of_rows(rows * scale, 12 * scale)
+        assert (first == np.unique(rows, axis=0, return_index=True)[1]).all()
+
+
+def test_products_and_lengths_are_those_of_numpy():
+    a, b = np.random.default_rng(0).normal(size=(2, 500, 3))
+    assert (cross(a, b) == np.cross(a, b)).all()
+    assert (lengths(a) == np.linalg.norm(a, axis=1)).all()
+
+
+def named_by_the_lowest(n, a, b):
+    """The lowest element that each hangs together with."""
+    lowest = np.arange(n)
+    while True:
+        lower = lowest.copy()
+        np.minimum.at(lower, a, lowest[b])
+        np.minimum.at(lower, b, lowest[a])
+        if (lower == lowest).all():
+            return lowest
+        lowest = lower
+
+
+@pytest.mark.parametrize("n", [0, 1, 300, 3 * MANY])
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.6, 2.0])
+def test_components_are_numbered_by_their_lowest_elements(n, share):
+    a, b = np.random.default_rng(n).integers(0, max(n, 1), (2, int(share * n)))
+    count, label = components(n, a, b)
+    names, expected = np.unique(named_by_the_lowest(n, a, b), return_inverse=True)
+    assert count == len(names)
+    assert (label == expected.reshape(-1)).all()
+
+
+def test_components_of_what_cannot_be_halved():
+    """A star hooks one element to another only in each round; a path comes down in one."""
+    n = 4 * MANY
+    middle, rest = np.full(n - 1, n - 1), np.arange(n - 1)
+    for a, b in ((middle, rest), (rest, middle), (rest, rest + 1), (rest[::-1], rest[::-1] + 1)):
+        assert components(n, a, b)[0] == 1

@@ -7,7 +7,7 @@ import shapes
 
 from core.surface.mesh import TriMesh
 from core.surface.polygons import PolygonMesh
-from core.surface.preparation import repair, split_long_edges
+from core.surface.preparation import _separate_fans, repair, split_long_edges
 
 
 def repaired(shape, polygon=None):
@@ -85,6 +85,35 @@ def test_fans_are_separated():
     assert (working.vertex_source == 0).sum() == 2
     assert working.mesh.euler_characteristic == 4  # two spheres
     assert volume(working.mesh) == pytest.approx(volume(TriMesh(*shape)))
+
+
+def n_fans(shape):
+    """Around all vertices together, counted one by one."""
+    vertices, faces = shape
+    around = [[] for _ in range(len(vertices))]
+    for a, b, c in faces.tolist():
+        for vertex, *ends in ((a, b, c), (b, c, a), (c, a, b)):
+            fans = [fan for fan in around[vertex] if fan & set(ends)]
+            around[vertex] = [fan for fan in around[vertex] if fan not in fans] + [set(ends).union(*fans)]
+    return sum(len(fans) for fans in around)
+
+
+@pytest.mark.parametrize("make", [
+    lambda: shapes.icosphere(1), lambda: shapes.lathe([0, 1, 1, 0], [0, 1, 2, 3], 90),  # tips of 90 faces
+    lambda: shapes.flat_grid(4, 4), lambda: shapes.with_fin(shapes.icosphere(1)),
+    lambda: shapes.bowtie(shapes.with_unused_vertices(shapes.icosphere(2))),
+    lambda: shapes.bowtie(shapes.flat_grid(3, 3)), lambda: shapes.together(*[shapes.tetrahedron()] * 3)])
+@pytest.mark.parametrize("seed", range(4))
+def test_each_fan_gets_a_vertex(make, seed):
+    """Whatever way the faces are turned, and where some are missing."""
+    vertices, faces = make()
+    rng = np.random.default_rng(seed)
+    turned = rng.random(len(faces)) < 0.1 * seed
+    faces = np.where(turned[:, None], faces[:, ::-1], faces)[rng.random(len(faces)) < 1 - 0.1 * seed]
+    mesh, source = _separate_fans(TriMesh(vertices, faces))
+    assert mesh.n_vertices == n_fans((vertices, faces))
+    assert (source[mesh.faces] == faces).all()
+    assert (np.diff(source) >= 0).all()
 
 
 @pytest.mark.parametrize("make", [shapes.icosphere, shapes.box, shapes.torus,
