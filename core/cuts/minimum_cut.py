@@ -30,7 +30,8 @@ UNITS = 10_000  # capacity of an edge of mean cost; SciPy takes whole numbers on
 
 
 def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, band_ratio: float = 0.5,
-                within: np.ndarray | None = None) -> np.ndarray:
+                 within: np.ndarray | None = None, widest: float | None = None,
+                 fixed: np.ndarray | None = None) -> np.ndarray:
     """Move the cuts between parts into the creases beside them.
 
     Parameters
@@ -45,6 +46,10 @@ def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, band_ra
         Half the width of the band over the radius of a circle as long as the cut; 0 moves nothing.
     within : (m,) int64, optional
         Coarser part of each face: cuts between coarser parts stay where they are.
+    widest : float, optional
+        Upper bound of half the width of the band, in the unit of the vertices; without it, WIDEST.
+    fixed : (m,) bool, optional
+        Faces that keep their part.
 
     Returns
     -------
@@ -64,15 +69,19 @@ def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, band_ra
     way = np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
     ways = symmetric_matrix(mesh.edges.pairs, way, mesh.n_faces)
     free = np.ones(len(a), bool) if within is None else within[a] == within[b]
+    widest = WIDEST * np.sqrt(mesh.area) if widest is None else widest
+    fixed = np.zeros(mesh.n_faces, bool) if fixed is None else fixed
     for first, second in _cuts_by_length(part, a[free], b[free], length[free]):
         on_cut = ((part[a] == first) & (part[b] == second)) | ((part[a] == second) & (part[b] == first))
         if on_cut.any():
-            part = _cut_anew(mesh, part, first, second, on_cut, cost, ways, band_ratio)
+            half = min(band_ratio * mesh.pair_length[on_cut].sum() / (2 * np.pi), widest)
+            part = _cut_anew(mesh, part, first, second, on_cut, cost, ways, half, fixed)
     return part
 
 
 def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature: np.ndarray,
-              band_ratio: float, details: tuple[float, ...] = (0.5, 0.75)) -> np.ndarray:
+              band_ratio: float, details: tuple[float, ...] = (0.5, 0.75), widest: float | None = None,
+              fixed: np.ndarray | None = None) -> np.ndarray:
     """Move the cuts of some levels of detail into creases, and let the candidates follow.
 
     Parameters
@@ -89,6 +98,8 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
         Half the width of the band over the radius of a circle as long as the cut; 0 moves nothing.
     details : tuple of float
         Levels of detail whose cuts move, rising. Cuts that moved at one level stay in place at the next.
+    widest, fixed : float and (m,) bool, optional
+        See ``minimum_cuts``.
 
     Returns
     -------
@@ -101,7 +112,7 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
     for detail in details:
         parts = hierarchy.parts(hierarchy.n_parts(detail))
         part = parts[label]
-        moved = minimum_cuts(mesh, curvature, part, band_ratio, coarser)
+        moved = minimum_cuts(mesh, curvature, part, band_ratio, coarser, widest, fixed)
         before, label = label, np.where(moved == part, label, -1)
         together = moved[a] == moved[b]
         label = spread(label, a[together], b[together])
@@ -118,17 +129,14 @@ def _cuts_by_length(part: np.ndarray, a: np.ndarray, b: np.ndarray, length: np.n
 
 def _cut_anew(
     mesh: TriMesh, part: np.ndarray, first: int, second: int, on_cut: np.ndarray, cost: np.ndarray, ways: csr_array,
-    band_ratio: float,
+    half: float, fixed: np.ndarray,
 ) -> np.ndarray:
     """Part of each face, (m,), after one minimum cut between two parts, in a band around the cut that they have.
 
     on_cut, cost : (p,), whether each pair of faces lies across the cut, and what it costs to cut there. ways : (m, m),
-    length of the way between neighboring faces.
+    length of the way between neighboring faces. half : half the width of the band. fixed : (m,) bool.
     """
     a, b = mesh.edges.pairs.T
-    unit = np.sqrt(mesh.area)
-    border = mesh.pair_length[on_cut].sum()
-    half = min(band_ratio * border / (2 * np.pi), WIDEST * unit)
     sources = np.unique(mesh.edges.pairs[on_cut])
     distance = dijkstra(ways, directed=True, indices=sources, min_only=True, limit=half)
     band = np.isfinite(distance) & ((part == first) | (part == second))
@@ -138,7 +146,9 @@ def _cut_anew(
     place[faces] = np.arange(len(faces))
     # Faces at the rim of the band, with a neighbor of their own part outside, cannot change part.
     edge = np.flatnonzero((band[a] != band[b]) & (part[a] == part[b]))
-    held = np.unique(np.where(band[a[edge]], a[edge], b[edge]))
+    rim = fixed & band
+    rim[np.where(band[a[edge]], a[edge], b[edge])] = True
+    held = np.flatnonzero(rim)
     if not ((part[held] == first).any() and (part[held] == second).any()):
         return part
     far = np.maximum(distance[a[inner]], distance[b[inner]]) / half

@@ -13,7 +13,7 @@ import numpy as np
 from ...field.agd import ScalarField
 from ...graph.level_sets import LevelSets, cut_at_levels
 from ...parameters import Parameters
-from ...surface.coarsening import Pyramid
+from ...surface.coarsening import Coarsening, Pyramid
 from ...surface.curvature import MAX_CURVATURE
 from ...surface.labels import FaceGraph, connect, fill_unlabeled, majority
 from ...surface.mesh import TriMesh
@@ -30,6 +30,7 @@ DECISION = 0.55  # share of people who separate two regions, 0..1, from which on
 # Largest number of faces of a mesh that is cut itself. A denser mesh is cut on a coarse copy of at most so many faces,
 # which are still much smaller than parts.
 MAX_FACES = 60_000
+BAND = 3  # by how many edges of a copy cuts that were found on it move on a finer one, at most
 
 
 def perceptual_candidates(
@@ -150,35 +151,39 @@ def _on_coarse_copy(
 ) -> tuple[np.ndarray, Hierarchy]:
     """Candidate of each face of a dense mesh, (m,) int64, and the hierarchy over the candidates.
 
-    The candidates are found on a coarse copy; the cuts of detail 0.5 are then moved on the mesh itself.
+    The candidates are found on a coarse copy; the cuts of detail 0.5 are then moved on finer and finer ones, at last on
+    the mesh itself.
     """
-    mesh = sets.mesh
-    owner, copy = _coarse_copy(pyramid)
+    steps = _coarse_copies(pyramid)
     progress(0.1)
-    coarse_field = _restrict(field, owner, mesh.vertex_area, copy.n_vertices)
+    owner, copy = np.arange(pyramid.mesh.n_vertices), pyramid.mesh
+    for step in steps:
+        owner, copy = step.owner[owner], step.mesh
+    coarse_field = _restrict(field, owner, sets.mesh.vertex_area, copy.n_vertices)
     label, hierarchy = _cut_in_creases(
         cut_at_levels(copy, coarse_field.values, sets.levels), coarse_field, band_ratio, judge,
         lambda share: progress(0.1 + 0.4 * share))
     progress(0.5)
-    label = _prolong_labels(mesh, owner, copy, label)
-    progress(0.6)
-    bend = mesh.dihedral / np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
-    bend = np.clip(bend * np.sqrt(mesh.area), -MAX_CURVATURE, MAX_CURVATURE)
-    return move_cuts(mesh, label, hierarchy, bend, band_ratio, (0.5,)), hierarchy
+    finer = [pyramid.mesh, *(step.mesh for step in steps[:-1])]
+    for mesh, step in zip(finer[::-1], steps[::-1], strict=True):
+        label = _refined(mesh, step, label, hierarchy, band_ratio)
+        progress(0.5 + 0.5 * mesh.n_faces / sets.mesh.n_faces)
+    return label, hierarchy
 
 
-def _coarse_copy(pyramid: Pyramid) -> tuple[np.ndarray, TriMesh]:
-    """Vertex of a coarse copy in whose cell each vertex lies, (n,) int64, and this copy.
+def _coarse_copies(pyramid: Pyramid) -> list[Coarsening]:
+    """The steps to a coarse copy of at most MAX_FACES faces.
 
-    The copy is the first of at most MAX_FACES faces, or the last finer one if that copy is torn: where the surface is
-    thin, copies may lack triangles.
+    To the last finer one if a copy is torn: where the surface is thin, copies may lack triangles.
     """
-    owner, copy = np.arange(pyramid.mesh.n_vertices), pyramid.mesh
+    steps: list[Coarsening] = []
+    copy = pyramid.mesh
     for step in pyramid.until(lambda mesh: mesh.n_faces <= MAX_FACES):
         if not _is_whole(step.mesh, copy.area, pyramid.mesh.face_components[0]):
             break
-        owner, copy = step.owner[owner], step.mesh
-    return owner, copy
+        steps.append(step)
+        copy = step.mesh
+    return steps
 
 
 def _is_whole(copy: TriMesh, area: float, n_pieces: int) -> bool:
@@ -187,14 +192,54 @@ def _is_whole(copy: TriMesh, area: float, n_pieces: int) -> bool:
     return whole and copy.face_components[0] == n_pieces and copy.area > 0.9 * area
 
 
-def _prolong_labels(mesh: TriMesh, owner: np.ndarray, copy: TriMesh, label: np.ndarray) -> np.ndarray:
+def _refined(
+    mesh: TriMesh, step: Coarsening, label: np.ndarray, hierarchy: Hierarchy, band_ratio: float
+) -> np.ndarray:
+    """Candidate of each face of a mesh, (m,) int64, from those of a coarse copy: the cuts of detail 0.5 move anew.
+
+    They move by BAND edges of the copy at most, on which they have found their places but for its coarseness; only what
+    is near them is looked at.
+    """
+    found = _prolong_labels(mesh, step, label)
+    part = hierarchy.parts(hierarchy.n_parts(0.5))[label]
+    zone = _near_cuts(step.mesh, part)[step.owner][mesh.faces].any(axis=1)
+    if not zone.any():
+        return found
+    a, b = mesh.edges.pairs.T
+    across = np.flatnonzero(zone[a] != zone[b])
+    rim = np.zeros(mesh.n_faces, bool)
+    rim[a[across]] = rim[b[across]] = True
+    some, _ = mesh.submesh(zone)
+    unit = np.sqrt(mesh.area)
+    bend = np.clip(some.dihedral / np.maximum(some.pair_distance, 1e-9 * unit) * unit, -MAX_CURVATURE, MAX_CURVATURE)
+    found[zone] = move_cuts(some, found[zone], hierarchy, bend, band_ratio, (0.5,),
+                            BAND * step.mesh.edge_length.mean(), rim[zone])
+    return found
+
+
+def _near_cuts(mesh: TriMesh, part: np.ndarray) -> np.ndarray:
+    """Vertices, (n,) bool, at most BAND + 1 edges from the cuts between parts. part : (m,) int64."""
+    cut = mesh.edges.pairs[part[mesh.edges.pairs[:, 0]] != part[mesh.edges.pairs[:, 1]]]
+    near = np.zeros(mesh.n_vertices, bool)
+    near[mesh.faces[cut]] = True
+    a, b = mesh.edges.vertices.T
+    for _ in range(BAND + 1):
+        rim = np.flatnonzero(near[a] != near[b])
+        near[a[rim]] = near[b[rim]] = True
+    return near
+
+
+def _prolong_labels(mesh: TriMesh, step: Coarsening, label: np.ndarray) -> np.ndarray:
     """Label of each face of a mesh, (m,) int64, from the labels of a coarse copy's faces; every label is connected."""
+    copy = step.mesh
     of_vertex = majority(copy.faces.ravel(), np.repeat(label, 3), np.repeat(copy.face_area, 3),
-                         copy.n_vertices)[owner]
-    corners = of_vertex[mesh.faces]
-    known = corners >= 0
-    rows = np.repeat(np.arange(mesh.n_faces), 3)[known.ravel()]
-    label = majority(rows, corners[known], np.ones(len(rows)), mesh.n_faces)
+                         copy.n_vertices)[step.owner]
+    p, q, r = of_vertex[mesh.faces.T]
+    most = np.where(p == q, p, np.where((p == r) | (q == r), r, -1))
+    p, q, r = (np.where(corner < 0, label.max() + 1, corner) for corner in (p, q, r))
+    # Where all three differ, the smallest; -1 where none is known.
+    least = np.minimum(np.minimum(p, q), r)
+    label = np.where(most >= 0, most, np.where(least > label.max(), -1, least))
     graph = FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
     return connect(graph, fill_unlabeled(graph, label))
 

@@ -52,3 +52,15 @@ def test_cuts_between_coarser_parts_stay():
     moved = minimum_cuts(mesh, np.zeros(len(mesh.edges.pairs)), finer, 0.5, part)
     assert (moved % 2 == part).all()
     assert border_length(mesh, moved) < border_length(mesh, finer)
+
+
+def test_no_face_moves_that_is_held_or_out_of_reach():
+    mesh, part = ragged_grid()
+    flat = np.zeros(len(mesh.edges.pairs))
+    fixed = mesh.face_centroids[:, 1] < 12
+    moved = minimum_cuts(mesh, flat, part, 0.5, fixed=fixed)
+    assert (moved == part)[fixed].all()
+    assert not (moved == part).all()
+    near = minimum_cuts(mesh, flat, part, 0.5, widest=0.6)
+    beside = np.abs(mesh.face_centroids[:, 0] - 12) < 1 + 0.6 + 1  # the teeth, the reach, a face's width
+    assert (near == part)[~beside].all()
