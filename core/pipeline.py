@@ -106,9 +106,9 @@ def decompose(
                                  progress, model, join_model, hints=both), half)
     watch = Stopwatch(progress)
     with watch.stage("mesh", MESH_SHARE) as done_of_mesh:
-        read = PolygonMesh.of(vertices, faces, polygon)
+        given = PolygonMesh.of(vertices, faces, polygon)
         done_of_mesh(0.1)
-        given, ordering = sorted_by_place(read)
+        given, ordering = sorted_by_place(given)  # from here on the unsorted mesh and its tables are free
         hint = np.zeros(0, np.int64) if hints is None else hints_of(hints, given.n_polygons)[ordering.polygon]
         done_of_mesh(0.4)
         working = repair(given)

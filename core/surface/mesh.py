@@ -85,9 +85,9 @@ class TriMesh:
         """Number of faces, m."""
         return len(self.faces)
 
-    @cached_property
+    @property
     def corners(self) -> np.ndarray:
-        """(m, 3, 3) float64, position of each corner of each face."""
+        """(m, 3, 3) float64, position of each corner of each face; made anew, because a large mesh has many."""
         return self.vertices[self.faces]
 
     @cached_property
@@ -100,7 +100,7 @@ class TriMesh:
     @cached_property
     def area_normals(self) -> np.ndarray:
         """(m, 3) float64, normal of each face, as long as the face's area."""
-        p, q, r = self.corners.transpose(1, 0, 2)
+        p, q, r = (self.vertices[column] for column in self.faces.T)
         return 0.5 * cross(q - p, r - p)
 
     @cached_property
@@ -117,7 +117,7 @@ class TriMesh:
     @cached_property
     def face_centroids(self) -> np.ndarray:
         """(m, 3) float64, mean of the corners of each face."""
-        p, q, r = self.corners.transpose(1, 0, 2)
+        p, q, r = (self.vertices[column] for column in self.faces.T)
         return (p + q + r) / 3
 
     @cached_property
