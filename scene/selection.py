@@ -35,6 +35,11 @@ def hidden_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     return mesh_arrays.read(mesh.polygons, "hide", bool)
 
 
+def hides_faces(mesh: bpy.types.Mesh) -> bool:
+    """Whether some of a mesh may be hidden, at no cost; Object Mode."""
+    return ".hide_poly" in mesh.attributes
+
+
 def hide_faces(mesh: bpy.types.Mesh, mask: np.ndarray) -> None:
     """Hide faces, and the edges and vertices of no other face; Object Mode. mask : (p,) bool."""
     edges, vertices = _touched(mesh, ~mask)

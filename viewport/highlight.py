@@ -10,7 +10,7 @@ import bpy
 import gpu
 import numpy as np
 
-from ..scene import explode, graph_objects, mesh_arrays, store
+from ..scene import explode, graph_objects, mesh_arrays, selection, store
 from ..scene.part_list import chosen_numbers
 from .lines import Lines
 
@@ -30,6 +30,8 @@ def forget() -> None:
 def outline(obj: bpy.types.Object, numbers: list[int]) -> tuple[np.ndarray]:
     """Where some parts border on others: ends of edges, (2e, 3) float32, in the object's coordinates; in a tuple.
 
+    Faces that are hidden are in none of them.
+
     Raises
     ------
     SceneError
@@ -37,7 +39,7 @@ def outline(obj: bpy.types.Object, numbers: list[int]) -> tuple[np.ndarray]:
     """
     mesh = obj.data
     stored = store.load(mesh)
-    mine = np.isin(stored.face_numbers, numbers)
+    mine = np.isin(stored.face_numbers, numbers) & ~selection.hidden_faces(mesh)
     edges = mesh_arrays.edge_ends(mesh)[mesh_arrays.cut_edges(mesh, mine.astype(np.int64))]
     return (mesh_arrays.shown_points(obj)[edges.ravel()],)
 
@@ -56,7 +58,8 @@ def draw() -> None:
         return
     result = obj.data.reeb_parts
     numbers = chosen_numbers(obj.data)
-    key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers))
+    hidden = selection.hidden_faces(obj.data).tobytes() if selection.hides_faces(obj.data) else b""
+    key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers), hash(hidden))
     if key != _built:
         _built = key
         _lines = Lines.of(outline, obj, numbers)

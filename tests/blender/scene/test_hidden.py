@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Hidden parts vanish from every mode, the mesh stays as it is, and Show All and Clear leave nothing."""
 
+import importlib
+
 import bpy
 import numpy as np
 import pytest
@@ -84,3 +86,16 @@ def test_pieces_of_hidden_parts_are_seen(obj, result):
         assert not piece.modifiers
         assert "reeb_hidden" not in piece.data.attributes
         assert len(piece.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.polygons) > 0
+
+
+def test_the_outline_of_a_hidden_part_is_hidden_and_that_of_its_neighbors_is_not(obj, result, package):
+    outline = importlib.import_module(f"{package}.viewport.highlight").outline
+    first, second = (result.parts[index].number for index in (1, 2))
+    (around,), (other,) = outline(obj, [first]), outline(obj, [second])
+    choose(result, 1)
+    bpy.ops.reeb_parts.hide()
+    assert len(around) and not len(outline(obj, [first])[0])
+    assert np.array_equal(outline(obj, [second])[0], other)
+    assert np.array_equal(outline(obj, [first, second])[0], other)
+    bpy.ops.reeb_parts.isolate(show_all=True)
+    assert np.array_equal(outline(obj, [first])[0], around)
