@@ -272,6 +272,26 @@ def horse(step: float = 0.06) -> Shape:
     return level_surface(distance, (-2.017, -1.013, -1.711), (2.4, 1.0, 1.7), step)
 
 
+def insect(step: float = 0.09) -> Shape:
+    """A head, a chest on six legs and an abdomen that is larger than both, along y; z is up."""
+
+    def distance(points):
+        head, abdomen = ((0.0, -1.1, 1.2), (0.0, -1.2, 1.2), 0.3), ((0.0, 1.4, 1.3), (0.0, 1.9, 1.2), 0.6)
+        chest, waist = ((0.0, -0.4, 1.2), (0.0, 0.3, 1.2), 0.3), ((0.0, -1.0, 1.2), (0.0, 1.5, 1.2), 0.14)
+        found = _capsule(points, *waist)
+        for part in (head, chest, abdomen):
+            found = _blend(found, _capsule(points, *part), 0.05)
+        for side in (-1.0, 1.0):
+            for place in (-1.0, 0.0, 1.0):
+                knee, foot = (1.1 * side, 0.9 * place, 1.0), (1.5 * side, 1.1 * place, 0.1)
+                leg = np.minimum(_capsule(points, (0.2 * side, 0.3 * place, 1.2), knee, 0.12),
+                                 _capsule(points, knee, foot, 0.12))
+                found = _blend(found, leg, 0.05)
+        return found
+
+    return level_surface(distance, (-1.8, -1.8, -0.2), (1.8, 2.8, 2.1), step)
+
+
 def genus_two(step: float = 0.045) -> Shape:
     """An amphora: body, foot, neck with a lip, and two handles. Our own model of genus 2."""
     def distance(points):

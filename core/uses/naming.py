@@ -19,6 +19,11 @@ _ASIDE = 0.12  # the middle of a part that is so far from the body's middle is a
 _MIDST = 0.15  # a part whose middle is nearer than that to the body's lies in the midst of it
 _UPRIGHT = 1.2  # a model so many times as high as long is upright
 _CLEAR = 2.0  # the end of a creature with so many times as much hanging on it has the head
+_LYING = 1.5  # a part that is so many times as long as high lies on the ground instead of standing there
+_THIN = 0.6  # a tail is at most so many times as wide as the body
+_FOUR = 4  # legs of a creature that has its head where a head is looked for
+_NECK = 1.3  # a part between head and body that is less long may be the head, and the head its snout
+_BROAD = 1.2  # a part between them that is so many times as wide as the head has the shoulders
 _LONG = 1.8  # a part so many times as long as wide is a limb
 
 
@@ -186,7 +191,8 @@ def suggestions(shapes: Shapes) -> list[Suggestion]:
 
     A handle is the part that forms a loop together with the one part that it touches. A creature stands on legs on both
     sides of a body that does not touch the ground, and has a head: in the midst of it, in front of the body unless the
-    model is upright, and of the parts there one that reaches highest. Parts that fit no rule get their kind only.
+    model is upright, and of the parts there one that reaches highest. Of one with more than four legs, only these and
+    the body are named: which end has the head is not clear. Parts that fit no rule get their kind only.
 
     Returns
     -------
@@ -199,16 +205,17 @@ def suggestions(shapes: Shapes) -> list[Suggestion]:
     for word, found in creature:
         for part in found:
             words.setdefault(part, word)
-    return [_suggestion(shapes, part, words.get(part, "")) for part in range(count)]
+    has_head = "head" in words.values()
+    return [_suggestion(shapes, part, words.get(part, ""), has_head) for part in range(count)]
 
 
-def _suggestion(shapes: Shapes, part: int, word: str) -> Suggestion:
-    """The name of a part: of its word, or without one of its kind."""
+def _suggestion(shapes: Shapes, part: int, word: str, has_head: bool) -> Suggestion:
+    """The name of a part: of its word, or without one of its kind. has_head : whether a part is called head."""
     if part == shapes.body:
         return Suggestion(word or "body")
     offset = shapes.offset[part].copy()
     if word in {"leg", "arm", "ear"}:
-        return _limb(shapes, part, word)
+        return _limb(shapes, part, word, has_head)
     if word:
         return Suggestion(word)
     inner = len(shapes.neighbors[part]) > 1
@@ -220,11 +227,12 @@ def _suggestion(shapes: Shapes, part: int, word: str) -> Suggestion:
     return Suggestion(kind, place, int(shapes.parts.side[part]))
 
 
-def _limb(shapes: Shapes, part: int, word: str) -> Suggestion:
-    """The name of a limb of a creature: with its side, and of four and more legs in front or back."""
+def _limb(shapes: Shapes, part: int, word: str, has_head: bool) -> Suggestion:
+    """The name of a limb of a creature: with its side, and of four legs whether in front, towards the head, or back."""
     across, along = shapes.offset[part, shapes.across], shapes.ahead * shapes.offset[part, 1 - shapes.across]
     side = int(shapes.parts.side[part]) or (int(np.sign(across)) if abs(across) > 0.5 * _ASIDE else 0)
-    place = "" if word != "leg" or shapes.upright or abs(along) < _ASIDE else "front" if along > 0 else "back"
+    tells = word == "leg" and has_head and not shapes.upright and abs(along) >= _ASIDE
+    place = ("front" if along > 0 else "back") if tells else ""
     return Suggestion(word, place, side)
 
 
@@ -252,13 +260,15 @@ def _creature(shapes: Shapes) -> list[tuple[str, list[int]]]:
     body, steps, size, across = shapes.body, shapes.steps, shapes.size, shapes.across
     ground, offset, aside = shapes.low[:, 2].min(), shapes.offset, shapes.offset[:, across]
     hanging = [part for part in range(shapes.parts.count) if 0 < steps[part] < 10**6]
-    feet = [part for part in hanging
-            if shapes.low[part, 2] - ground < _FOOT * size[2] and shapes.middle[part, 2] < shapes.middle[body, 2]]
+    feet = _feet(shapes, hanging)
     # A creature stands on both sides, and its body on none.
     both = bool(feet) and aside[feet].min() < 0.0 < aside[feet].max()
     if not both or shapes.low[body, 2] - ground < _FOOT * size[2]:
         return []
     legs = feet + _between(shapes, feet)
+    if _n_limbs(shapes, feet, legs) > _FOUR:
+        # Of insects and spiders, the abdomen may be larger and higher than the head, which may have feelers.
+        return [("leg", legs), ("body", [body])]
     others = [part for part in hanging if part not in legs]
     midst = [part for part in others if abs(aside[part]) < _MIDST]
     if not shapes.upright:
@@ -266,8 +276,10 @@ def _creature(shapes: Shapes) -> list[tuple[str, list[int]]]:
     head = _head(shapes, midst)
     if head is None:
         return [("leg", legs)]
+    wide = (shapes.high - shapes.low)[:, across]
     found = [("leg", legs), ("head", [head]), ("body", [body]), ("neck", [
-        part for part in midst if part in shapes.neighbors[head] and steps[part] < steps[head]])]
+        part for part in midst if part in shapes.neighbors[head] and steps[part] < steps[head]
+        and shapes.elongation[part] > _NECK and wide[part] < _BROAD * wide[head]])]
     found.append(("ear", [part for part in others if shapes.neighbors[part] == {head}
                           and shapes.parts.share[part] < 0.3 * shapes.parts.share[head]
                           and shapes.high[part, 2] > shapes.high[head, 2] - 0.2 * (shapes.high - shapes.low)[head, 2]]))
@@ -277,7 +289,33 @@ def _creature(shapes: Shapes) -> list[tuple[str, list[int]]]:
         return [*found, ("arm", arms + [part for part in _between(shapes, arms) if part not in legs])]
     return [*found, ("tail", [
         part for part in others if abs(aside[part]) < _MIDST and head not in shapes.neighbors[part]
-        and shapes.elongation[part] > 1.3 and shapes.ahead * offset[part, 1 - across] < -0.3])]
+        and shapes.elongation[part] > 1.3 and shapes.length[part, 1] < _THIN * shapes.length[body, 1]
+        and shapes.ahead * offset[part, 1 - across] < -0.3])]
+
+
+def _feet(shapes: Shapes, hanging: list[int]) -> list[int]:
+    """Parts that stand on the ground: what lies there, as a tail does, or a belly in the midst, does not stand."""
+    ground, height, across = shapes.low[:, 2].min(), shapes.size[2], shapes.across
+    extent, aside = shapes.high - shapes.low, np.abs(shapes.offset[:, across])
+    down = shapes.middle[:, 2] < shapes.middle[shapes.body, 2]
+    long = extent[:, 1 - across]
+    lies = long > np.maximum(_LYING * extent[:, 2], 4.0 * aside * shapes.size[across])
+    lies &= long > 0.2 * shapes.size.max()  # a shoe is shorter
+    inside = (aside < 0.5 * _MIDST) & (not shapes.upright)
+    stands = (shapes.low[:, 2] - ground < _FOOT * height) & (down | (shapes.elongation > _LONG)) & ~lies & ~inside
+    return [part for part in hanging if stands[part]]
+
+
+def _n_limbs(shapes: Shapes, feet: list[int], legs: list[int]) -> int:
+    """How many legs some parts are: those that touch are of one, but for feet that the body itself touches."""
+    waiting, count = set(legs), 0
+    while waiting:
+        count, at = count + 1, [waiting.pop()]
+        while at:
+            new = shapes.neighbors[at.pop()] & waiting
+            waiting -= new
+            at += new
+    return max(count, sum(shapes.steps[part] == 1 for part in feet))
 
 
 def _between(shapes: Shapes, ends: list[int]) -> list[int]:

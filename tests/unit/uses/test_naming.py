@@ -83,3 +83,11 @@ def test_every_part_of_every_level_has_a_name(cow):
         assert len(names) == count
         assert words(names)["body"] == 1
         assert all(name.word and name.side in (-1, 0, 1) for name in names)
+
+
+def test_an_insect_has_six_legs_and_what_is_larger_or_higher_is_not_called_its_head_or_tail():
+    names = named(*shapes.insect(), n_parts=9)
+    found = words(names)
+    assert (found["leg"], found["body"]) == (6, 1)
+    assert not found.keys() & {"head", "neck", "tail", "ear", "arm"}
+    assert Counter((name.place, name.side) for name in names if name.word == "leg") == {("", 1): 3, ("", -1): 3}
