@@ -13,6 +13,7 @@ from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
 from mathutils import Vector
 from mathutils.geometry import tessellate_polygon
 
+from ..core.uses.cap_surfaces import common_order
 from . import mesh_arrays
 from .temporary import freed
 
@@ -42,8 +43,8 @@ def cap_layer(bm: BMesh) -> bmesh.types.BMLayerItem:
     return bm.faces.layers.int.get(CAP) or bm.faces.layers.int.new(CAP)
 
 
-def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, joined: np.ndarray,
-               middles: np.ndarray, discs: Discs) -> tuple[int, int]:
+def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, joined: np.ndarray, ways: dict[int, np.ndarray],
+               rings: list[list[np.ndarray]], discs: Discs) -> tuple[int, int]:
     """Fill the holes that a cut has left; borders that were there before stay open.
 
     A cut that ends on a border makes one hole together with a stretch of it: that is filled as a whole.
@@ -56,12 +57,12 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, jo
         In Object Mode.
     opened : (e,) bool
         Edges that had faces on both sides before the cut.
-    meeting : (v,) bool
-        Vertices where more than two cuts meet.
     joined : (k, 2) int64
         Vertices that an edge joined before the cut, whether it is in this piece or in another.
-    middles : (v, 3) float64
-        For each vertex where more than two cuts meet the middle of all that are connected with it by cuts.
+    ways : dict of int -> (s, 3) float64
+        For each vertex where more than two cuts meet points from there to the middle of all that cuts connect with it.
+    rings : list of lists of (j,) int64
+        Vertices of rims between which one cap lies, the outer one first; all of them are rims of the mesh.
     discs : Discs
         Surfaces across closed curves, the same for both sides of a cut.
 
@@ -75,18 +76,27 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, meeting: np.ndarray, jo
         bm.edges.ensure_lookup_table()
         edges = [edge for i in np.flatnonzero(opened).tolist() if (edge := bm.edges[i]).is_boundary]
         bm.verts.ensure_lookup_table()
-        meets = {bm.verts[i]: middles[i] for i in np.flatnonzero(meeting).tolist()}
+        meets = {bm.verts[i]: way for i, way in ways.items()}
         pairs = _both_ways((bm.verts[a], bm.verts[b]) for a, b in joined.tolist())
         holes, left = _holes(edges)
         if not holes:
             return 0, left
-        layer = cap_layer(bm)
-        sheets = [sheet for hole in holes for sheet in _sheets(bm, hole, meets, set(edges))]
-        made = [face for sheet in sheets for face in _fill(bm, sheet, pairs, discs)]
+        count, layer = len(holes), cap_layer(bm)
+        made = []
+        for ring in rings:
+            rims = [[bm.verts[i] for i in rim.tolist()] for rim in ring]
+            found = _between_rims(bm, holes, rims, discs)
+            if found is not None:
+                polygons, used = found
+                made += _fill(bm, [vertex for rim in rims for vertex in rim], polygons)
+                holes = [hole for index, hole in enumerate(holes) if index not in used]
+        for hole in holes:
+            for sheet in _sheets(bm, hole, meets, set(edges)):
+                made += _fill(bm, sheet, _polygons(bm, sheet, pairs, discs))
         for face in made:
             face[layer] = 1
         bm.to_mesh(mesh)
-    return len(holes), left
+    return count, left
 
 
 def _both_ways(pairs: Iterable[tuple[BMVert, BMVert]]) -> Pairs:
@@ -168,7 +178,7 @@ def _sheets(bm: BMesh, hole: list[BMVert], meeting: dict[BMVert, np.ndarray],
     around = hole[at[0] :] + hole[: at[0] + 1]
     at = [i - at[0] for i in at] + [len(hole)]
     stretches = [around[i : j + 1] for i, j in zip(at, at[1:], strict=False)]
-    return _to_the_middle(bm, stretches, meeting[around[0]])
+    return _to_the_middle(bm, stretches, [meeting[stretch[0]] for stretch in stretches])
 
 
 def _has_border(hole: list[BMVert], opened: set[BMEdge]) -> bool:
@@ -176,33 +186,61 @@ def _has_border(hole: list[BMVert], opened: set[BMEdge]) -> bool:
     return any(_edge(a, b) not in opened for a, b in zip(hole, [*hole[1:], hole[0]], strict=True))
 
 
-def _to_the_middle(bm: BMesh, stretches: list[list[BMVert]], place: np.ndarray) -> list[list[BMVert]]:
-    """A closed walk for each stretch, by a new vertex at a place that is the same for all parts that meet.
+def _to_the_middle(bm: BMesh, stretches: list[list[BMVert]], ways: list[np.ndarray]) -> list[list[BMVert]]:
+    """A closed walk for each stretch, by new vertices on the ways from both of its ends to the middle.
 
-    So each stretch is closed alike on both sides, and nothing is left out between the parts.
+    These are the same for all parts that meet. So each stretch is closed alike on both sides, and nothing is left out
+    between the parts.
     """
-    middle = _between(bm, [stretch[0] for stretch in stretches], np.full(len(stretches), 1 / len(stretches)))
-    moved = Vector(place) - middle.co
-    middle.co = place
+    starts = [stretch[0] for stretch in stretches]
+    n = len(starts)
+    middle = _moved(bm, _between(bm, starts, np.full(n, 1 / n)), ways[0][-1])
+    spokes = []
+    for index, way in enumerate(ways):
+        around, spoke = starts[index:] + starts[:index], []
+        for place, share in zip(way[:-1], np.arange(1, len(way)) / len(way), strict=True):
+            weights = np.full(n, share / n)
+            weights[0] += 1 - share
+            spoke.append(_moved(bm, _between(bm, around, weights), place))
+        spokes.append(spoke)
+    after = [*spokes[1:], spokes[0]]
+    return [[*stretch, *onwards, middle, *reversed(back)]
+            for stretch, onwards, back in zip(stretches, after, spokes, strict=True)]
+
+
+def _moved(bm: BMesh, vertex: BMVert, place: np.ndarray) -> BMVert:
+    """The vertex, moved to a place in all shapes."""
+    moved = Vector(place) - vertex.co
+    vertex.co = place
     for layer in bm.verts.layers.shape.values():
-        middle[layer] += moved
-    return [[*stretch, middle] for stretch in stretches]
+        vertex[layer] += moved
+    return vertex
 
 
 def _edge(vertex: BMVert, other: BMVert) -> BMEdge:
     return next(edge for edge in vertex.link_edges if edge.other_vert(vertex) == other)
 
 
-def _fill(bm: BMesh, hole: list[BMVert], joined: Pairs, discs: Discs) -> list[BMFace]:
-    """Faces on a hole; never an edge with three faces.
+def _between_rims(bm: BMesh, holes: list[list[BMVert]], rims: list[list[BMVert]],
+                  discs: Discs) -> tuple[list[tuple[BMVert, ...]], set[int]] | None:
+    """The corners of the faces between some rims, and which holes they are; None unless each is a hole."""
+    place = {vertex: index for index, hole in enumerate(holes) for vertex in hole}
+    used = {place.get(vertex, -1) for rim in rims for vertex in rim}
+    disc = discs.across(*(np.array([vertex.co[:] for vertex in rim], np.float64) for rim in rims))
+    if disc is None or -1 in used or len(used) != len(rims):
+        return None
+    rim = [vertex for rim in rims for vertex in rim]
+    corners = [*rim, *_inner(bm, rim, disc)]
+    hole = holes[place[rim[0]]]
+    step = 1 if hole[(hole.index(rim[0]) + 1) % len(hole)] == rim[1] else -1
+    return [tuple(corners[i] for i in triangle[::step]) for triangle in disc.triangles.tolist()], used
 
-    One face if the hole is flat; else a smooth surface of triangles over its plane. Where the hole as seen from there
-    crosses itself, a fan around its middle if that can be seen from all of the rim, else triangles between its corners.
-    The other side of the cut is filled alike, so that pieces fit together.
-    """
+
+def _fill(bm: BMesh, hole: list[BMVert], polygons: list[tuple[BMVert, ...]]) -> list[BMFace]:
+    """Faces on a hole, or on several of which all vertices are given, with what corners beside them carry."""
     beside = _edge(hole[0], hole[1]).link_loops[0]
     corners = {vertex: _border_corner(vertex, beside) for vertex in hole}
-    faces = [bm.faces.new(polygon) for polygon in _polygons(bm, hole, joined, discs)]
+    faces = [bm.faces.new(polygon) for polygon in polygons]
     layers = [*bm.loops.layers.color.values(), *bm.loops.layers.float_color.values()]
     for face in faces:
         face.material_index = beside.face.material_index
@@ -213,9 +251,14 @@ def _fill(bm: BMesh, hole: list[BMVert], joined: Pairs, discs: Discs) -> list[BM
 
 
 def _polygons(bm: BMesh, hole: list[BMVert], joined: Pairs, discs: Discs) -> list[tuple[BMVert, ...]]:
-    """The corners of the faces that fill a hole."""
+    """The corners of the faces that fill a hole; never an edge with three faces.
+
+    One face if the hole is flat; else a smooth surface of triangles over its plane. Where the hole as seen from there
+    crosses itself, a fan around its middle if that can be seen from all of the rim, else triangles between its corners.
+    The other side of the cut is filled alike, so that pieces fit together.
+    """
     points = np.array([vertex.co[:] for vertex in hole], np.float64)
-    if _is_flat(points) and bm.faces.get(hole) is None:
+    if _is_flat(points) and bm.faces.get(hole) is None and discs.is_free(points[common_order(points)]):
         return [tuple(hole)]
     surface = _surface(bm, hole, points, discs)
     if surface:
@@ -226,7 +269,7 @@ def _polygons(bm: BMesh, hole: list[BMVert], joined: Pairs, discs: Discs) -> lis
 
 def _surface(bm: BMesh, hole: list[BMVert], points: np.ndarray, discs: Discs) -> list[tuple[BMVert, ...]] | None:
     """Triangles of a smooth surface, with new vertices inside; None if there is none over the plane of the hole."""
-    order = _common_order(points)
+    order = common_order(points)
     disc = discs.across(points[order])
     if disc is None:
         return None
@@ -311,7 +354,7 @@ def _is_star(points: np.ndarray) -> bool:
 def _triangles(hole: list[BMVert], points: np.ndarray, joined: Pairs) -> list[tuple[BMVert, ...]] | None:
     """Triangles between the corners of a hole, or None if some edge would meet a third face on either side."""
     n = len(hole)
-    order = _common_order(points)
+    order = common_order(points)
     triples = [tuple(order[i] for i in t) for t in tessellate_polygon([[hole[i].co for i in order]])]
     rim = {(i, (i + 1) % n) for i in range(n)}
     if any((b, a) in rim for triple in triples for a, b in _edges_of(triple)):
@@ -320,14 +363,6 @@ def _triangles(hole: list[BMVert], points: np.ndarray, joined: Pairs) -> list[tu
     if n == 3 or inner is None or _is_joined(hole, inner, joined):
         return None
     return [tuple(hole[i] for i in triple) for triple in triples]
-
-
-def _common_order(points: np.ndarray) -> list[int]:
-    """The corners from the same one in the same direction, whichever of the two sides of a cut asks."""
-    n = len(points)
-    first = min(range(n), key=lambda i: tuple(points[i]))
-    turn = 1 if tuple(points[first - 1]) < tuple(points[(first + 1) % n]) else -1
-    return [(first + turn * i) % n for i in range(n)]
 
 
 def _edges_of(triple: Triple) -> tuple[tuple[int, int], ...]:

@@ -3,42 +3,71 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
-from mathutils.bvhtree import BVHTree
 from mathutils.geometry import delaunay_2d_cdt
-from scipy.sparse import csr_array
-from scipy.spatial import cKDTree
+from scipy.sparse import coo_array, csr_array
 
+from ..core.surface.arrays import components
 from ..core.uses.cap_surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
+from ..core.uses.rims import is_inside
+from ..core.uses.sleeves import Sleeve, sleeve
+from . import mesh_arrays
+from .bodies import Body
+from .disc_fitting import depths, pulled, pushed, steep
 
-# How often a surface that leaves the body is pushed back, and how near to the body's surface it may come, as a share
-# of the distance from the curve.
-_ROUNDS, _MARGIN = 10, 0.5
+# So many triangles from the rim a cap follows the surface, where it cannot go straight across; the last: to the end.
+_SLEEVES = (3, 10, 1000)
+# At so many triangles of a cap it is asked whether they are inside.
+_PLACES = 60
 
 
 @dataclass(frozen=True, eq=False)
 class Disc:
-    """A surface across a closed curve of k points.
+    """A surface across one or more closed curves of k points together.
 
     Attributes
     ----------
     triangles : (t, 3) int64
-        0..k-1 are the points of the curve, in whose direction the triangles go round; k, k+1, ... those inside.
+        0..k-1 are the points of the curves, in whose direction the triangles go round; k, k+1, ... those inside.
     places : (m, 3) float64
         Of the points inside.
     weights : csr_array, (k + m, k + m)
         What each point adds to a point inside that lies between them, see core.uses.cap_surfaces.
+    following : (k,) int64
+        The point after each on its curve.
     """
 
     triangles: np.ndarray
     places: np.ndarray
     weights: csr_array
+    following: np.ndarray
 
     def spread(self, values: np.ndarray) -> np.ndarray:
-        """What the points inside have if those of the curve have some values, (k, c): (m, c) float64."""
+        """What the points inside have if those of the curves have some values, (k, c): (m, c) float64."""
         return spread(self.weights, values)
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """The best surface across a curve.
+
+    Attributes
+    ----------
+    disc : Disc or None
+    faults : int
+        How often it crosses the mesh or itself; one more if it is outside. One that follows the surface of a part,
+        which is the last resort, counts as if it did once.
+    own : (j,) int64
+        Vertices of the mesh that the curve has.
+    """
+
+    disc: Disc | None
+    faults: int
+    own: np.ndarray
 
 
 class Discs:
@@ -50,64 +79,146 @@ class Discs:
         Of the whole mesh.
     triangles : (t, 3) int
         Its triangles.
+    labels : (t,) int64
+        Part of each triangle.
     """
 
-    def __init__(self, points: np.ndarray, triangles: np.ndarray) -> None:
-        self._points, self._triangles = points, triangles
-        self._found: dict[bytes, Disc | None] = {}
+    def __init__(self, points: np.ndarray, triangles: np.ndarray, labels: np.ndarray) -> None:
+        self._points, self._triangles, self._labels = points, triangles, labels
+        self._found: dict[bytes, Found] = {}
+        self._used: set[bytes] = set()
+        self._flat: dict[bytes, bool] = {}
         #: Vertices of the curves across which the surface crosses the mesh or itself, and how often all of them do.
         self.crossing: list[np.ndarray] = []
         self.n_crossings = 0
 
-    def across(self, curve: np.ndarray) -> Disc | None:
-        """The surface across a curve, (k, 3) float64, or None where there is none; the same for the same points."""
-        key = curve.tobytes()
+    def across(self, *curves: np.ndarray) -> Disc | None:
+        """The surface across curves, (k, 3) float64 each, or None where there is none; the same for the same points.
+
+        Of several, the others lie within the first, seen along the normal of its area, and go round the other way.
+        """
+        found, key = self.tried(*curves), _key(curves)
+        if key not in self._used:
+            self._used.add(key)
+            self.note(found.own, found.faults)
+        return found.disc
+
+    def tried(self, *curves: np.ndarray) -> Found:
+        """What ``across`` would give, and how bad it is."""
+        key = _key(curves)
         if key not in self._found:
-            self._found[key] = self._best(curve)
+            self._found[key] = self._best(curves)
         return self._found[key]
 
-    def _best(self, curve: np.ndarray) -> Disc | None:
-        """The first surface that stays inside, of those over a plane and in a circle, else the one that nearly does."""
-        best, least, body = None, 1 << 30, None
-        for flat in (over_a_plane(curve), in_a_circle(curve)):
-            found = _disc(curve, flat) if flat is not None and len(curve) > 3 else None
-            if found is None:
-                continue
-            near = self._around(curve, np.concatenate([curve, found.places]), 0.0)
-            for push in (False, True):
-                if push:
-                    body = body or self._around(curve, curve, 0.2)
-                    if body is None:
-                        break
-                    found, near = _pushed(found, curve, body), body
-                count = _crossings(found, curve, near) if near else 0
-                if count < least:
-                    best, least = found, count
-                if not count:
-                    return best
-        if best is not None and body is not None:
-            self.crossing.append(body.vertices[body.own[body.own >= 0]])
-            self.n_crossings += least
+    def note(self, own: np.ndarray, faults: int) -> None:
+        """Note that surfaces at some vertices of the mesh, (k,) int64, cross something so often."""
+        if faults:
+            self.crossing.append(own)
+            self.n_crossings += faults
+
+    def is_free(self, curve: np.ndarray) -> bool:
+        """Whether one face in a curve, (k, 3) float64, crosses nothing and is inside, from whichever side it is."""
+        key = curve.tobytes()
+        if key not in self._flat:
+            near = self.around(curve, curve, 0.0)
+            self._flat[key] = near is None or all(self._fits(curve, order, near) for order in (1, -1))
+        return self._flat[key]
+
+    def _fits(self, curve: np.ndarray, step: int, body: Body) -> bool:
+        """Whether the triangles that Blender makes of a face cross nothing and are inside."""
+        corners = np.arange(len(curve), dtype=np.int32)[::step]
+        triangles, _ = mesh_arrays.triangulated(curve.astype(np.float32), np.array([len(curve)], np.int32), corners)
+        return not len(body.crossings(curve, triangles)[0]) and not self._is_outside(curve, triangles, body)
+
+    def _best(self, curves: Sequence[np.ndarray]) -> Found:
+        """The first surface that is inside and crosses nothing, else the one that nearly does."""
+        curve, best = np.concatenate(curves), Found(None, 0, np.empty(0, np.int64))
+        for disc, body, is_last in self._candidates(curves, curve):
+            places = np.concatenate([curve, disc.places])
+            faults = sum(map(len, body.crossings(places, disc.triangles)))
+            faults += self._is_outside(places, disc.triangles, body)
+            if not faults or best.disc is None or faults < best.faults:
+                best = Found(disc, faults or int(is_last), body.vertices[body.own[body.own >= 0]])
+            if not faults:
+                break
         return best
 
-    def _around(self, curve: np.ndarray, places: np.ndarray, margin: float) -> _Body | None:
+    def _candidates(self, curves: Sequence[np.ndarray], curve: np.ndarray) -> Iterator[tuple[Disc, Body, bool]]:
+        """Surfaces across curves, the plain ones first; the body around each, and whether it is a last resort."""
+        rims = _seen(curves) if len(curve) > 3 else []
+        plain: list[Disc] = []
+        wide: tuple[Body, float] | None = None
+        for found in filter(None, map(partial(_disc, curve), rims)):
+            plain.append(found)
+            near = self.around(curve, np.concatenate([curve, found.places]), 0.0)
+            if near is None:
+                return
+            yield found, near, False
+            wide = wide or self._wide(curve, found, near)
+            yield pushed(found, curve, *wide), wide[0], False
+        if wide is None:
+            return
+        for found in plain:
+            yield steep(found, curve, *wide), wide[0], False
+            yield pulled(pushed(found, curve, *wide), curve, *wide), wide[0], False
+        for found in filter(None, (_disc(curve, one, 2.0) for one in rims)):
+            yield steep(found, curve, *wide), wide[0], False
+        if len(curves) == 1:
+            for found in self._along_surface(curve, wide[1]):
+                near = self.around(curve, np.concatenate([curve, found.places]), 0.0)
+                yield found, near or wide[0], True
+
+    def _wide(self, curve: np.ndarray, disc: Disc, near: Body) -> tuple[Body, float]:
+        """More of the body around a curve than what is near, and whether its faces look outwards, see ``side``."""
+        body = self.around(curve, curve, 0.2) or near
+        return body, self.side(_samples(np.concatenate([curve, disc.places]), disc.triangles), body)
+
+    def _along_surface(self, curve: np.ndarray, side: float) -> Iterator[Disc]:
+        """Surfaces that follow the faces on one side of a curve, under them, and go across where these end."""
+        body = self.around(curve, curve, 1.0)
+        if body is None or (body.own < 0).any() or body.crosses_itself:
+            return  # what follows a surface that crosses itself does so, too
+        sides = np.unique(body.labels[np.isin(body.triangles, body.own).sum(axis=1) > 1])
+        for rings in _SLEEVES:
+            for label in sides.tolist():
+                found = sleeve(len(body.points), body.triangles, body.labels, body.own, label, rings)
+                if found is not None:
+                    yield from _sleeved(found, curve, body, side)
+
+    def _is_outside(self, places: np.ndarray, triangles: np.ndarray, body: Body) -> bool:
+        """Whether most of a surface lies on the wrong side of a body."""
+        samples = _samples(places, triangles)
+        return bool(self.side(samples, body) * np.median(body.heights(samples)) > 0)
+
+    def side(self, places: np.ndarray, body: Body) -> float:
+        """Whether the faces around some places, of which most should be inside, look outwards, 1, or inwards, -1.
+
+        If most are on the other side of the faces, a closed mesh tells which of the two is wrong; else it is the faces.
+        """
+        if np.median(body.heights(places)) <= 0:
+            return 1.0
+        component, outwards = self._outwards
+        return 1.0 if outwards[component[body.vertices[body.triangles[0, 0]]]] else -1.0
+
+    @cached_property
+    def _outwards(self) -> tuple[np.ndarray, np.ndarray]:
+        """The loose piece that each vertex is in, (n,) int64, and which pieces are closed and look outwards, bool."""
+        a, b, c = self._triangles.T
+        count, component = components(len(self._points), np.concatenate([a, b]), np.concatenate([b, c]))
+        own = component[a]
+        p, q, r = ((self._points - self._points.mean(axis=0))[index] for index in (a, b, c))
+        volume = np.bincount(own, (p * np.cross(q, r)).sum(axis=1), count)
+        ends = np.sort(self._triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
+        _, index, times = np.unique(ends @ [len(self._points), 1], return_index=True, return_counts=True)
+        is_open = np.bincount(component[ends[index[times != 2], 0]], minlength=count) > 0
+        return component, (volume > 0) & ~is_open
+
+    def around(self, curve: np.ndarray, places: np.ndarray, margin: float) -> Body | None:
         """The surface of the mesh in the bounding box of some places, wider by such a share of its diagonal."""
         low, high = places.min(axis=0), places.max(axis=0)
         margin *= float(np.linalg.norm(high - low))
-        near = self._triangles[self._within(low - margin, high + margin)]
-        if not len(near):
-            return None
-        on = np.zeros(len(self._points), bool)
-        on[near] = True
-        used = np.flatnonzero(on)
-        number = np.empty(len(on), np.int64)
-        number[used] = np.arange(len(used))
-        points, triangles = self._points[used], number[near]
-        maybe = np.flatnonzero(np.isin(points[:, 0], curve[:, 0]))
-        place = {bytes(points[index]): index for index in maybe.tolist()}
-        tree = BVHTree.FromPolygons(points.tolist(), triangles.tolist(), all_triangles=True)
-        own = np.array([place.get(bytes(point), -1) for point in np.ascontiguousarray(curve)])
-        return _Body(tree, triangles, own, used)
+        near = self._within(low - margin, high + margin)
+        return Body.of(self._points, self._triangles[near], self._labels[near], curve) if len(near) else None
 
     def _within(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """Triangles whose bounding box meets a box; (k,) int64."""
@@ -119,32 +230,55 @@ class Discs:
         return np.flatnonzero((a & b & c) == 0)
 
 
+def _key(curves: Sequence[np.ndarray]) -> bytes:
+    return b"|".join(curve.tobytes() for curve in curves)
+
+
+def _samples(places: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """The middles of some triangles of a surface, (j, 3) float64."""
+    return places[triangles[:: max(len(triangles) // _PLACES, 1)]].mean(axis=1)
+
+
 @dataclass(frozen=True, eq=False)
-class _Body:
-    """The surface around a curve.
+class _Rims:
+    """Closed curves in a plane.
 
     Attributes
     ----------
-    tree : BVHTree
-    triangles : (t, 3) int64
-        With numbers of their own for the vertices.
-    own : (k,) int64
-        That of each point of the curve; -1 for one that is no vertex of the mesh.
-    vertices : (v,) int64
-        The vertex of the mesh for each of these numbers.
+    flat : (k, 2) float64
+        The points of all, those of the first before those of the second ...
+    following : (k,) int64
+        The point after each on its curve.
+    first : int
+        So many are on the first curve; the others lie within it.
     """
 
-    tree: BVHTree
-    triangles: np.ndarray
-    own: np.ndarray
-    vertices: np.ndarray
+    flat: np.ndarray
+    following: np.ndarray
+    first: int
+
+    @classmethod
+    def of(cls, flat: np.ndarray, lengths: Sequence[int]) -> _Rims:
+        """Curves of so many points each."""
+        ends = np.cumsum(lengths)
+        following = np.arange(1, len(flat) + 1)
+        following[ends - 1] = ends - lengths
+        return cls(flat, following, lengths[0])
 
 
-def _disc(curve: np.ndarray, flat: np.ndarray) -> Disc | None:
-    """A surface across a curve by what it looks like in a plane, (k, 2); None where it meets itself there."""
-    inner = away_from_curve(flat)
+def _seen(curves: Sequence[np.ndarray]) -> list[_Rims]:
+    """Curves as they are seen in a plane; one alone also round a circle."""
+    over = over_a_plane(curves[0], np.concatenate([curves[0][:0], *curves[1:]]))
+    found = [over, in_a_circle(curves[0]) if len(curves) == 1 else None]
+    return [_Rims.of(flat, [len(curve) for curve in curves]) for flat in found if flat is not None]
+
+
+def _disc(curve: np.ndarray, rims: _Rims, density: float = 1.0) -> Disc | None:
+    """A surface across curves by what they look like in a plane; None where they meet themselves there."""
+    flat = rims.flat
+    inner = away_from_curve(flat, flat[np.argsort(rims.following)], density)
     for _ in range(4):
-        found = _triangulated(flat, inner)
+        found = _triangulated(rims, inner)
         if found is None:
             return None
         triangles, used = found
@@ -153,23 +287,27 @@ def _disc(curve: np.ndarray, flat: np.ndarray) -> Disc | None:
         joined = _joining(triangles, len(flat))
         if not len(joined):
             weights = harmonic_weights(np.concatenate([flat, inner]), triangles)
-            return Disc(triangles, spread(weights, curve), weights)
+            return Disc(triangles, spread(weights, curve), weights, rims.following)
         inner = np.concatenate([inner, flat[joined].mean(axis=1)])
     return None
 
 
-def _triangulated(flat: np.ndarray, inner: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-    """Triangles that fill the curve, and which inner points are inside; None if the curve meets itself."""
-    k = len(flat)
+def _triangulated(rims: _Rims, inner: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """Triangles that fill the curves, and which inner points are inside; None if a curve meets itself or another."""
+    flat, k, first = rims.flat, len(rims.flat), rims.first
     coords = np.concatenate([flat, inner])
-    verts, _, faces, origin, _, _ = delaunay_2d_cdt(coords.tolist(), [], [list(range(k))], 1, 1e-9)
+    holes = np.stack([np.arange(first, k), rims.following[first:]], axis=1)
+    verts, _, faces, origin, _, _ = delaunay_2d_cdt(coords.tolist(), holes.tolist(), [list(range(first))], 1, 1e-9)
     if len(verts) != len(coords) or any(len(found) != 1 for found in origin):
         return None
     name = np.array([found[0] for found in origin])
     triangles = name[np.array(faces, np.int64).reshape(-1, 3)]
+    if len(holes):
+        triangles = triangles[~is_inside(coords[triangles].mean(axis=1), flat[holes])]
     used = np.zeros(len(coords), bool)
     used[triangles] = True
-    if not used[:k].all() or len(triangles) != 2 * used[k:].sum() + k - 2:
+    n_holes = int((rims.following[first:] <= np.arange(first, k)).sum())
+    if not used[:k].all() or len(triangles) != 2 * used[k:].sum() + k - 2 + 2 * n_holes:
         return None
     a, b, c = coords[triangles].transpose(1, 0, 2)
     turn = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
@@ -184,40 +322,38 @@ def _joining(triangles: np.ndarray, k: int) -> np.ndarray:
     return edges[(count == 2) & (edges < k).all(axis=1)]
 
 
-def _crossings(disc: Disc, curve: np.ndarray, body: _Body) -> int:
-    """How many pairs of triangles, one of the surface, cross; where they have a point in common, they may touch."""
+def _sleeved(found: Sleeve, curve: np.ndarray, body: Body, side: float) -> Iterator[Disc]:
+    """Surfaces under the faces of a sleeve, closed by one across its end; if it has none, several depths are tried."""
     k = len(curve)
-    corners = np.concatenate([curve, disc.places])
-    tree = BVHTree.FromPolygons(corners.tolist(), disc.triangles.tolist(), all_triangles=True)
-    pairs = np.array(tree.overlap(body.tree), np.int64).reshape(-1, 2)
-    own = np.concatenate([body.own, np.full(len(corners) - k, -2)])[disc.triangles[pairs[:, 0]]]
-    touch = (own[:, :, None] == body.triangles[pairs[:, 1]][:, None]).any(axis=(1, 2))
-    within = np.array(tree.overlap(tree), np.int64).reshape(-1, 2)
-    within = within[within[:, 0] < within[:, 1]]
-    share = (disc.triangles[within[:, 0]][:, :, None] == disc.triangles[within[:, 1]][:, None]).any(axis=(1, 2))
-    return int((~touch).sum() + (~share).sum())
+    vertex, on, ways = depths(found, curve, body, side)
+    number = np.full(len(body.points) + len(found.split), -1)
+    number[body.own] = np.arange(k)
+    number[vertex] = k + np.arange(len(vertex))
+    around = number[found.triangles]
+    following = np.roll(np.arange(k), -1)
+    edges = around[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    along = ((edges[:, 1] == following[edges[:, 0] % k]) & (edges[:, 0] < k)).any()
+    around, end = (around, number[found.end[::-1]]) if along else (around[:, ::-1], number[found.end])
+    weights = harmonic_weights(np.concatenate([curve, on]), around)
+    if not len(end):
+        yield from (Disc(around, places, weights, following) for places in ways)
+        return
+    places = ways[0]
+    across = next(filter(None, (_disc(places[end - k], rims) for rims in _seen([places[end - k]]))), None)
+    if across is not None:
+        whole = _joined(Disc(around, places, weights, following), across, end)
+        stays = np.arange(len(whole.places)) < len(places)
+        yield pulled(pushed(whole, curve, body, side, stays), curve, body, side, stays)
 
 
-def _pushed(disc: Disc, curve: np.ndarray, body: _Body) -> Disc:
-    """The surface with the points that leave the body held a little inside it, and the others smooth between them."""
-    k = len(curve)
-    places = disc.places
-    held = np.zeros(len(places), bool)
-    margin = _MARGIN * cKDTree(curve).query(places)[0]
-    side = 0.0
-    for _ in range(_ROUNDS):
-        nearest = [body.tree.find_nearest(place) for place in places.tolist()]
-        on = np.array([found[0][:] for found in nearest])
-        normal = np.array([found[1][:] for found in nearest])
-        height = ((places - on) * normal).sum(axis=1)
-        # Whichever way the faces look, most of the surface is inside.
-        side = side or (1.0 if np.median(height) <= 0 else -1.0)
-        out = side * height > -0.5 * margin
-        if not out.any():
-            break
-        places = places.copy()
-        places[out] = on[out] - side * normal[out] * margin[out, None]
-        held |= out
-        fixed = np.concatenate([np.ones(k, bool), held])
-        places = spread(disc.weights, np.concatenate([curve, places])[fixed], fixed)[k:]
-    return replace(disc, places=places)
+def _joined(disc: Disc, across: Disc, rim: np.ndarray) -> Disc:
+    """A surface and another one across some of its points, (j,) int64."""
+    n = disc.weights.shape[0]
+    name = np.concatenate([rim, n + np.arange(len(across.places))])
+    parts = disc.weights.tocoo(), across.weights.tocoo()
+    rows = np.concatenate([parts[0].coords[0], name[parts[1].coords[0]]])
+    columns = np.concatenate([parts[0].coords[1], name[parts[1].coords[1]]])
+    size = n + len(across.places)
+    weights = coo_array((np.concatenate([part.data for part in parts]), (rows, columns)), shape=(size, size)).tocsr()
+    return Disc(np.concatenate([disc.triangles, name[across.triangles]]),
+                np.concatenate([disc.places, across.places]), weights, disc.following)

@@ -10,6 +10,8 @@ import bpy
 import numpy as np
 
 from ..core.surface.corners import edge_labels
+from ..core.uses.cap_surfaces import common_order
+from ..core.uses.rims import nested_rims
 from . import caps, element_layers, mesh_arrays
 from .elements import Elements, Selection
 from .temporary import removed
@@ -26,43 +28,42 @@ class Holes:
     ----------
     cut : (e,) bool
         Edges where faces of different parts meet.
-    meeting : (v,) bool
-        Vertices where more than two of these meet.
     joined : (k, 2) int32
         Edges from cut to cut.
-    middles : (v, 3) float64
-        For a vertex where cuts meet the middle of all such that cuts connect with it.
+    ways : dict of int -> (s, 3) float64
+        For each vertex where more than two cuts meet points from there to the middle of all that cuts connect with it.
+    rings : list of lists of (j,) int64
+        Vertices of rims between which one cap lies, the outer one first.
     discs : Discs
         Surfaces across the cuts.
     """
 
     cut: np.ndarray
-    meeting: np.ndarray
     joined: np.ndarray
-    middles: np.ndarray
+    ways: dict[int, np.ndarray]
+    rings: list[list[np.ndarray]]
     discs: Discs
 
     @classmethod
     def of(cls, whole: Elements, face_numbers: np.ndarray) -> Holes:
         """The cuts between the parts of a mesh. face_numbers : (p,) int64, of each face's part."""
-        from ..core.surface.arrays import components, renumbered, sums_by
         from .discs import Discs  # imports SciPy
+        from .spokes import ways_to_middles
 
         low, high = edge_labels(whole.corner_edge, whole.corner_face, face_numbers, len(whole.ends))
         cut, ends = low < high, whole.ends
         count = np.bincount(ends[cut].ravel(), minlength=len(whole.points))
-        meeting = count > 2
         points = whole.points.astype(np.float64)
-        middles = points.copy()
-        if meeting.any():
-            used, place = renumbered(ends[cut])
-            n_networks, network = components(len(used), *place.T)
-            here = meeting[used]
-            total = sums_by(network[here], middles[used[here]], n_networks)
-            total /= np.maximum(np.bincount(network[here], minlength=n_networks), 1)[:, None]
-            middles[used[here]] = total[network[here]]
-        return cls(cut, meeting, ends[(count[ends] > 0).all(axis=1)], middles,
-                   Discs(points, mesh_arrays.triangulated(whole.points, whole.count, whole.corner_vertex)[0]))
+        triangles, face = mesh_arrays.triangulated(whole.points, whole.count, whole.corner_vertex)
+        discs = Discs(points, triangles, face_numbers[face])
+        ways = ways_to_middles(points, ends[cut], count > 2, discs)
+        corner = np.flatnonzero(cut[whole.corner_edge])
+        corner = corner[face_numbers[whole.corner_face[corner]] == low[whole.corner_edge[corner]]]
+        edge, start = whole.corner_edge[corner], whole.corner_vertex[corner]
+        directed = np.stack([start, ends[edge].sum(axis=1) - start], axis=1)
+        rings = [ring for ring in nested_rims(points, directed, np.stack([low[edge], high[edge]], axis=1))
+                 if _is_ring([points[rim] for rim in ring], discs)]
+        return cls(cut, ends[(count[ends] > 0).all(axis=1)], ways, rings, discs)
 
     def closed(self, piece: Elements, chosen: Selection, like: bpy.types.Mesh) -> tuple[Elements, int]:
         """A piece with its holes filled, see caps.close_cuts, and how many edges of holes were not.
@@ -90,8 +91,22 @@ class Holes:
         vertices, edges : (k,), (m,) int64, rising: what those of the mesh are of the whole mesh.
         """
         joined = np.searchsorted(vertices, self.joined[np.isin(self.joined, vertices).all(axis=1)])
-        return caps.close_cuts(mesh, self.cut[edges], self.meeting[vertices], joined, self.middles[vertices],
-                               self.discs)[1]
+        meeting = np.array(sorted(self.ways), np.int64)
+        here = np.searchsorted(vertices, meeting)
+        present = here < len(vertices)
+        present[present] = vertices[here[present]] == meeting[present]
+        ways = {int(place): self.ways[vertex]
+                for place, vertex in zip(here[present], meeting[present].tolist(), strict=True)}
+        rings = [[np.searchsorted(vertices, rim) for rim in ring] for ring in self.rings
+                 if np.isin(np.concatenate(ring), vertices).all()]
+        return caps.close_cuts(mesh, self.cut[edges], joined, ways, rings, self.discs)[1]
+
+
+def _is_ring(curves: list[np.ndarray], discs: Discs) -> bool:
+    """Whether one cap between curves, (j, 3) each, is as good as one across each."""
+    found = discs.tried(*curves)
+    alone = [discs.tried(curve[common_order(curve)]) for curve in curves] if found.faults else []
+    return found.disc is not None and (not alone or found.faults <= sum(one.faults for one in alone))
 
 
 def _around_holes(piece: Elements, opened: np.ndarray) -> np.ndarray:

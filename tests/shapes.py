@@ -460,3 +460,20 @@ def _with_mirror_image(vertices: np.ndarray, faces: np.ndarray) -> Shape:
     every = np.concatenate([faces, image[faces][:, ::-1]])
     used, index = np.unique(every, return_inverse=True)
     return Shape(both[used], index.reshape(-1, 3))
+
+
+def pipe(n: int = 24, levels: int = 7, inner: float = 0.6, bend: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """A closed pipe of triangles, of height 2 along z and a wall from a radius to 1, bent by a parabola."""
+    angle = 2 * np.pi * np.arange(n) / n
+    heights = np.linspace(-1.0, 1.0, levels)
+    # Up outside, down inside: each ring of vertices is joined with the next one, the last with the first.
+    profile = [(1.0, z) for z in heights] + [(inner, z) for z in heights[::-1]]
+    vertices = np.array([[r * np.cos(a), r * np.sin(a), z] for r, z in profile for a in angle])
+    vertices[:, 0] += bend * vertices[:, 2] ** 2
+    faces = []
+    for ring in range(len(profile)):
+        for i in range(n):
+            a, b = ring * n + i, ring * n + (i + 1) % n
+            c, d = ((ring + 1) % len(profile) * n + j % n for j in (i, i + 1))
+            faces += [(a, b, d), (a, d, c)]
+    return vertices, np.array(faces)

@@ -16,20 +16,34 @@ _AWAY = 0.8
 _LEAST = 0.01
 
 
-def over_a_plane(curve: np.ndarray) -> np.ndarray | None:
+def common_order(points: np.ndarray) -> list[int]:
+    """The points round a closed curve from the same one in the same direction, from whichever side of a cut they come.
+
+    points : (k, 3) float64. Returns their indices.
+    """
+    n = len(points)
+    first = min(range(n), key=lambda i: tuple(points[i]))
+    turn = 1 if tuple(points[first - 1]) < tuple(points[(first + 1) % n]) else -1
+    return [(first + turn * i) % n for i in range(n)]
+
+
+def over_a_plane(curve: np.ndarray, others: np.ndarray | None = None) -> np.ndarray | None:
     """See a closed curve along the normal of the area that it encloses.
 
     Parameters
     ----------
     curve : (k, 3) float64
+    others : (m, 3) float64, optional
+        More points to be seen from there.
 
     Returns
     -------
-    flat : (k, 2) float64 or None
+    flat : (k + m, 2) float64 or None
         In units of the distance of its farthest point from the middle; it goes round to the left. None if it encloses
         nothing.
     """
-    around = curve - curve.mean(axis=0)
+    middle = curve.mean(axis=0)
+    around = curve - middle
     normal = np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0)
     length = np.linalg.norm(normal)
     size = np.linalg.norm(around, axis=1).max()
@@ -38,7 +52,8 @@ def over_a_plane(curve: np.ndarray) -> np.ndarray | None:
     normal /= length
     u = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
     u /= np.linalg.norm(u)
-    return around @ np.stack([u, np.cross(normal, u)], axis=1) / size
+    every = around if others is None else np.concatenate([around, others - middle])
+    return every @ np.stack([u, np.cross(normal, u)], axis=1) / size
 
 
 def in_a_circle(curve: np.ndarray) -> np.ndarray | None:
@@ -53,15 +68,27 @@ def in_a_circle(curve: np.ndarray) -> np.ndarray | None:
     return np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-def away_from_curve(flat: np.ndarray) -> np.ndarray:
+def away_from_curve(flat: np.ndarray, before: np.ndarray | None = None, density: float = 1.0) -> np.ndarray:
     """Choose points around a closed curve: near it as dense as its own, half as dense with each doubling of distance.
 
-    flat : (k, 2) float64, in units of its size. Returns (m, 2) float64, some of them outside of the curve.
+    Parameters
+    ----------
+    flat : (k, 2) float64
+        In units of its size.
+    before : (k, 2) float64, optional
+        The point of the curve before each; without it the one in the row before.
+    density : float
+        So many points, for one of the curve, next to it.
+
+    Returns
+    -------
+    inner : (m, 2) float64
+        Some of them outside of the curve.
     """
     from scipy.spatial import cKDTree  # imported here, as below, for the reason that surface.arrays.components gives
 
-    before = np.roll(flat, 1, axis=0)
-    step = max(float(np.median(np.linalg.norm(flat - before, axis=1))), _LEAST)
+    before = np.roll(flat, 1, axis=0) if before is None else before
+    step = max(float(np.median(np.linalg.norm(flat - before, axis=1))), _LEAST) / density
     tree = cKDTree(np.concatenate([flat, (flat + before) / 2]))
     low, high = flat.min(axis=0), flat.max(axis=0)
     levels = [np.empty((0, 2))]
@@ -77,18 +104,20 @@ def away_from_curve(flat: np.ndarray) -> np.ndarray:
 
 
 def harmonic_weights(points: np.ndarray, triangles: np.ndarray) -> csr_array:
-    """How much each point of a flat mesh counts for its neighbors: cotangents of the angles between [Pinkall1993].
+    """How much each point of a mesh counts for its neighbors: cotangents of the angles between [Pinkall1993].
 
-    points : (n, 2) float64. triangles : (t, 3) int64. Returns a symmetric (n, n) matrix.
+    points : (n, 2) or (n, 3) float64. triangles : (t, 3) int64. Returns a symmetric (n, n) matrix.
     """
     from scipy.sparse import coo_array
 
+    flat = ((0, 0), (0, 3 - points.shape[1]))
     rows, columns, weights = [], [], []
     for i in range(3):
         apex, p, q = (triangles[:, (i + j) % 3] for j in range(3))
         u, v = points[p] - points[apex], points[q] - points[apex]
-        area = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
-        cotangent = (u * v).sum(axis=1) / np.maximum(area, 1e-12)
+        across = np.cross(np.pad(u, flat), np.pad(v, flat))
+        least = 1e-12 * np.linalg.norm(u, axis=1) * np.linalg.norm(v, axis=1)
+        cotangent = (u * v).sum(axis=1) / np.maximum(np.linalg.norm(across, axis=1), np.maximum(least, 1e-300))
         rows += [p, q]
         columns += [q, p]
         weights += [cotangent, cotangent]

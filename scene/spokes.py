@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where cuts meet: the middle that all caps around there go to, and the ways to it, which stay inside the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from mathutils.bvhtree import BVHTree
+
+from ..core.surface.arrays import components, renumbered, sums_by
+from ..core.uses.cap_surfaces import common_order
+
+if TYPE_CHECKING:
+    from .bodies import Body
+    from .discs import Discs
+
+# A way that is nearer to the surface than such a share of the distance from its ends is bent; so often it is pushed
+# off, to such a share.
+_NEAR, _ROUNDS, _AWAY = 0.1, 10, 0.3
+# A way has at most so many points; for a straight one it is asked at so many whether it is inside.
+_MOST, _TRIED = 16, 8
+
+
+def ways_to_middles(points: np.ndarray, cuts: np.ndarray, meeting: np.ndarray, discs: Discs) -> dict[int, np.ndarray]:
+    """Find how caps go on from the places where more than two cuts meet.
+
+    Cuts that are connected have one middle in common: the mean of the places where they meet, or a place inside the
+    model that more of them see.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    cuts : (k, 2) int64
+        Edges that faces of different parts have in common.
+    meeting : (n,) bool
+        Vertices where more than two of these edges meet.
+    discs : Discs
+
+    Returns
+    -------
+    ways : dict of int -> (s, 3) float64
+        For each such vertex, points from there to the middle, which is the last.
+    """
+    if not meeting.any():
+        return {}
+    used, place = renumbered(cuts)
+    n_networks, network = components(len(used), *place.T)
+    here = meeting[used]
+    own, vertex = network[here], used[here]
+    middles = sums_by(own, points[vertex], n_networks)
+    middles /= np.maximum(np.bincount(own, minlength=n_networks), 1)[:, None]
+    length = np.linalg.norm(points[cuts[:, 0]] - points[cuts[:, 1]], axis=1)
+    step = sums_by(network[place[:, 0]], length, n_networks)
+    step /= np.maximum(np.bincount(network[place[:, 0]], minlength=n_networks), 1)
+    ways = {}
+    for one in np.unique(own).tolist():
+        starts = vertex[own == one]
+        edges = cuts[network[place[:, 0]] == one]
+        found = _best(points, starts, _stretches(edges, starts), middles[one], float(step[one]), discs)
+        ways.update(zip(starts.tolist(), found, strict=True))
+    return ways
+
+
+def _stretches(edges: np.ndarray, ends: np.ndarray) -> list[list[int]]:
+    """The vertices along connected edges, (k, 2), from each of some ends to another one; those back to it are left."""
+    beside: dict[int, list[int]] = {}
+    for a, b in edges.tolist():
+        beside.setdefault(a, []).append(b)
+        beside.setdefault(b, []).append(a)
+    stop, found = set(ends.tolist()), []
+    for start in sorted(stop):
+        for step in beside[start]:
+            walk = [start, step]
+            while walk[-1] not in stop and len(beside[walk[-1]]) == 2:
+                a, b = beside[walk[-1]]
+                walk.append(b if a == walk[-2] else a)
+            if walk[-1] in stop and walk[-1] > start:
+                found.append(walk)
+    return found
+
+
+def _best(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]], mean: np.ndarray, step: float,
+          discs: Discs) -> list[np.ndarray]:
+    """Of several middles with ways to them the first whose caps cross nothing, else the one whose caps do so least."""
+    best, least = [mean[None]] * len(starts), 1 << 30
+    for ways in _choices(points, starts, stretches, mean, step, discs):
+        faults = _faults(points, dict(zip(starts.tolist(), ways, strict=True)), stretches, discs, least)
+        if faults < least:
+            best, least = ways, faults
+        if not faults:
+            break
+    return best
+
+
+def _choices(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]], mean: np.ndarray, step: float,
+             discs: Discs) -> Iterator[list[np.ndarray]]:
+    """Ways from some vertices, (k,) int64, to one place each time."""
+    yield [mean[None]] * len(starts)
+    places = points[starts]
+    curve = np.concatenate([points[stretch] for stretch in stretches]) if stretches else places
+    body = discs.around(places, np.append(curve, mean[None], axis=0), 0.1)
+    if body is None or not step > 0 or (body.own < 0).any():
+        return
+    share = (np.arange(1, _TRIED) / _TRIED)[:, None, None]
+    side = discs.side(((1 - share) * places + share * mean).reshape(-1, 3), body)
+    for middle in _middles(places, mean, body, side):
+        tried = (1 - share) * places + share * middle
+        away = np.linalg.norm(tried - places, axis=2).ravel()
+        near = (side * body.heights(tried.reshape(-1, 3)) > -_NEAR * away).reshape(_TRIED - 1, -1).any(axis=0)
+        yield [_bent(place, middle, step, body, side) if bent else middle[None]
+               for place, bent in zip(places, near.tolist(), strict=True)]
+
+
+def _faults(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[list[int]], discs: Discs,
+            most: int) -> int:
+    """How often the caps of some stretches to the middle cross something or each other; it is not asked beyond most."""
+    faults = 0
+    every: list[np.ndarray] = []
+    sheets: list[np.ndarray] = []
+    for stretch in stretches:
+        onwards, back = ways[stretch[-1]], ways[stretch[0]]
+        curve = np.concatenate([points[stretch], onwards, back[:-1][::-1]]).astype(np.float32).astype(np.float64)
+        curve = curve[common_order(curve)]
+        found = discs.tried(curve)
+        faults += found.faults
+        if faults >= most:
+            return faults
+        if found.disc is not None:
+            sheets.append(found.disc.triangles + sum(len(one) for one in every))
+            every.append(np.concatenate([curve, found.disc.places]))
+    if not sheets:
+        return faults
+    places, number = np.unique(np.concatenate(every), axis=0, return_inverse=True)
+    triangles = number.ravel()[np.concatenate(sheets)]
+    sheet = np.repeat(np.arange(len(sheets)), [len(one) for one in sheets])
+    tree = BVHTree.FromPolygons(places.tolist(), triangles.tolist(), all_triangles=True)
+    pairs = np.array(tree.overlap(tree), np.int64).reshape(-1, 2)
+    pairs = pairs[sheet[pairs[:, 0]] < sheet[pairs[:, 1]]]
+    apart = (triangles[pairs[:, 0]][:, :, None] != triangles[pairs[:, 1]][:, None]).all(axis=(1, 2))
+    return faults + int(apart.sum())
+
+
+def _middles(starts: np.ndarray, mean: np.ndarray, body: Body, side: float) -> list[np.ndarray]:
+    """Places for a middle: the mean of some places, half the way through the body from there, and what they see best.
+
+    starts : (k, 3), the points that the body has as its own.
+    """
+    on, normal = body.nearest(mean[None])
+    origins = np.concatenate([on, starts])
+    inwards = -side * np.concatenate([normal, body.vertex_normals[body.own]])
+    room = body.free_way(origins, inwards, 1e-4 * float(np.linalg.norm(np.ptp(body.points, axis=0))))
+    known = np.isfinite(room)
+    places = (origins + 0.5 * np.where(known, room, 0.0)[:, None] * inwards)[known]
+    if not len(places):
+        return [mean]
+    seen = np.array([_sees(starts, np.broadcast_to(place, starts.shape), body) for place in places])
+    return [mean, places[0], places[int(seen.sum(axis=1).argmax())]]
+
+
+def _sees(ends: np.ndarray, starts: np.ndarray, body: Body) -> np.ndarray:
+    """Whether nothing lies between some places and others, which may be on the surface, (k,) bool."""
+    way = ends - starts
+    length = np.linalg.norm(way, axis=1)
+    way = way / np.maximum(length, 1e-300)[:, None]
+    backwards = body.free_way(ends, -way, 1e-3 * float(np.median(length)))
+    return np.minimum(backwards, body.free_way(starts, way, 1e-3 * float(np.median(length)))) > 0.999 * length
+
+
+def _bent(start: np.ndarray, middle: np.ndarray, step: float, body: Body, side: float) -> np.ndarray:
+    """A way from a place on the surface to a middle, pushed off the surface."""
+    n = int(np.clip(np.linalg.norm(middle - start) / step, 2, _MOST))
+    share = (np.arange(1, n) / n)[:, None]
+    way = (1 - share) * start + share * middle
+    held = np.zeros(len(way), bool)
+    for _ in range(_ROUNDS):
+        margin = _AWAY * np.linalg.norm(way - start, axis=1)
+        on, normal = body.nearest(way)
+        out = side * ((way - on) * normal).sum(axis=1) > -0.5 * margin
+        if not out.any():
+            break
+        way[out] = on[out] - side * normal[out] * margin[out, None]
+        held |= out
+        known = np.concatenate([[0], np.flatnonzero(held) + 1, [n]])
+        fixed = np.concatenate([start[None], way, middle[None]])[known]
+        way = np.stack([np.interp(np.arange(1, n), known, fixed[:, axis]) for axis in range(3)], axis=1)
+    return np.concatenate([way, middle[None]])
