@@ -252,7 +252,8 @@ def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
 
 def is_separated(options: argparse.Namespace) -> bool:
     """Whether the parts become objects; files of parts then hold these."""
-    return bool(options.separate or options.caps or options.pegs or options.bed or options.rigid_bodies)
+    asked = options.separate or options.caps or options.cap_material or options.pegs or options.bed
+    return bool(asked or options.rigid_bodies)
 
 
 def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bpy.types.Object], reports: list[dict],

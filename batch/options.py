@@ -47,6 +47,8 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     uses = made.add_argument_group("what is made of the parts")
     uses.add_argument("--separate", action="store_true", help="an object for each part, in the scene to save")
     uses.add_argument("--caps", action="store_true", help="close the holes of these objects")
+    uses.add_argument("--cap-material", action="store_true",
+                      help="close them, and give the new faces a material of their own, Cap")
     joint = JointProperties.__annotations__
     kinds = [item[0].lower() for item in joint["joints"].keywords["items"][1:]]
     uses.add_argument("--pegs", choices=kinds, nargs="?", const="round", metavar="KIND",
@@ -94,7 +96,7 @@ def separate_style(options: argparse.Namespace) -> Any:
         setattr(style, name, getattr(options, name, getattr(style, name)))
     style.joint_count = round(style.joint_count)
     style.joints = (options.pegs or "none").upper()
-    style.caps = options.caps
+    style.caps, style.cap_material = options.caps or options.cap_material, options.cap_material
     style.fit_bed, style.bed = bool(options.bed), options.bed or style.bed
     return style
 

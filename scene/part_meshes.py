@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 
 from ..core.surface.corners import edge_labels
-from . import caps, element_layers, hidden, mesh_arrays, outputs, quiet, smooth_faces
+from . import cap_looks, caps, element_layers, hidden, mesh_arrays, outputs, quiet, smooth_faces
 from .elements import Elements
 from .holes import Holes
 from .outputs import kept_aside, materials
@@ -118,6 +118,7 @@ def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterab
             made = yield from stretched(_with_whole_faces(source, face_numbers, wanted, smooth, made), 0.8, 1.0)
     for number, piece in made.meshes.items():
         materials.drop_slots(piece, [material for other, material in others if other != number])
+        cap_looks.map_caps(piece)
     return made
 
 

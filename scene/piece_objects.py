@@ -18,6 +18,7 @@ from mathutils import Matrix, Vector
 from . import (
     beds,
     bridge,
+    cap_looks,
     cut_list,
     explode,
     graph_objects,
@@ -162,6 +163,10 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     fitted = beds.Fitted(found.meshes, {}, [])
     if style.fit_bed:
         fitted = beds.fitted(found.meshes, stretch, np.array(style.bed[:]) / millimeters())
+        for mesh in fitted.meshes.values():
+            cap_looks.map_caps(mesh)
+    if style.cap_material:
+        cap_looks.own_material(list(fitted.meshes.values()))
     part, names = fitted.part, _names(obj, sorted(fitted.meshes), fitted.part)
     joined = joints.Joined(fitted.meshes, [], [])
     if style.joints != "NONE":

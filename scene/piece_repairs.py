@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
-from . import caps, piece_checks, piece_objects, transaction
+from . import cap_looks, caps, piece_checks, piece_objects, transaction
 from .piece_checks import Check
 from .temporary import freed
 
@@ -36,6 +36,7 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
     for step in (_turned, _closed, _without_crossing_caps):
         candidate = mesh.copy()
         step(candidate, found[1])
+        cap_looks.map_caps(candidate)
         checked = piece_checks.check(candidate, stretch)
         if _faults(checked[0]) < _faults(found[0]):
             mesh, found = _replaced(mesh, candidate, old), checked

@@ -231,6 +231,11 @@ class JointProperties:
 class SeparateProperties(WhichProperties, JointProperties):
     """How parts become objects."""
 
+    @property
+    def closes(self) -> bool:
+        """Whether holes are closed."""
+        return self.caps or self.fit_bed or self.joints != "NONE"
+
     fit_bed: BoolProperty(
         name="Fit the Bed", default=False,
         description="Cut parts that are longer than the printer's bed further, in planes across them",
@@ -251,6 +256,11 @@ class SeparateProperties(WhichProperties, JointProperties):
         name="Close Holes", default=False,
         description="Close the holes where parts were joined, so that each piece is closed; borders that "
         "the mesh had before stay open. The faces are marked by the attribute reeb_cap",
+    )
+    cap_material: BoolProperty(
+        name="Cap Material", default=False,
+        description="Give the faces that close holes a material of their own, Cap, which all pieces share; without it, "
+        "they have that of the faces beside them",
     )
     center: BoolProperty(
         name="Origin in the Middle", default=True,

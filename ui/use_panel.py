@@ -31,8 +31,9 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         # How the button Separate, which is just above, makes objects.
         joined = settings.joints != "NONE"
         room.properties(column, settings, (
-            "which", "cut", "caps", "center", "modifiers", "seen", "parent", "hide", "fit_bed",
-            *(["bed"] if settings.fit_bed else []), "joints", *(JOINT_SETTINGS if joined else [])), expanded={"which"})
+            "which", "cut", "caps", *(["cap_material"] if settings.closes else []), "center", "modifiers",
+            "seen", "parent", "hide", "fit_bed", *(["bed"] if settings.fit_bed else []), "joints",
+            *(JOINT_SETTINGS if joined else [])), expanded={"which"})
         if joined:
             self._draw_cuts(column, context.object)
         column.separator()

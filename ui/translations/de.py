@@ -413,6 +413,11 @@ TEXTS = {
     "open. The faces are marked by the attribute reeb_cap":
         "Die Löcher schließen, wo Teile verbunden waren, sodass jedes Stück geschlossen ist; Ränder, die das Mesh "
         "vorher hatte, bleiben offen. Das Attribut reeb_cap kennzeichnet die neuen Flächen",
+    "Cap Material": "Material für Deckel",
+    "Give the faces that close holes a material of their own, Cap, which all pieces share; without it, they have that "
+    "of the faces beside them":
+        "Den Flächen, die Löcher schließen, ein eigenes Material geben, Cap, das alle Stücke gemeinsam haben; sonst "
+        "haben sie das der Flächen daneben",
     "Close the holes where parts were joined, so that each file holds a closed body":
         "Die Löcher schließen, wo Teile verbunden waren, sodass jede Datei einen geschlossenen Körper enthält",
     "Origin in the Middle": "Ursprung in die Mitte",

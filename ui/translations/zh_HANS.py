@@ -402,6 +402,10 @@ TEXTS = {
     "Close the holes where parts were joined, so that each piece is closed; borders that the mesh had before stay "
     "open. The faces are marked by the attribute reeb_cap":
         "封闭部件相连处的孔洞，使每一块都封闭；网格原有的开放边保持开放。新面以属性 reeb_cap 标记",
+    "Cap Material": "封盖材质",
+    "Give the faces that close holes a material of their own, Cap, which all pieces share; without it, they have that "
+    "of the faces beside them":
+        "给封闭孔洞的面一个自己的材质 Cap，所有块共用；否则使用相邻面的材质",
     "Close the holes where parts were joined, so that each file holds a closed body":
         "封闭部件相连处的孔洞，使每个文件都包含一个封闭的实体",
     "Origin in the Middle": "原点居中",
