@@ -8,6 +8,8 @@ what is hidden, or was taken away, is not drawn.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
 import gpu
 import numpy as np
@@ -18,7 +20,7 @@ from .graph_lines import GraphLines
 from .lines import Lines
 
 SIZE = 6.0  # radius of a mark in pixels, of a screen without scaling
-RIM = 1.35  # of the dark rim, in radii
+RIM, LIT = 1.35, 1.9  # of the dark rim, and of the bright one around it of a mark that is chosen, in radii
 WIDTH = 4.0  # of the lines
 COVER = 1.25  # radius of a mark that covers the empty behind it, in sizes of the empty
 _DARK, _LIGHT = (0.05, 0.05, 0.05, 1.0), (0.9, 0.9, 0.9, 1.0)  # of the rim, around light and dark marks
@@ -47,8 +49,8 @@ def forget() -> None:
 
 
 def marks(places: np.ndarray, kinds: list[str], colors: np.ndarray, right: np.ndarray, up: np.ndarray,
-          radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Triangles of the marks of some nodes, each with its rim behind it.
+          radii: np.ndarray, chosen: Sequence[bool] = ()) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles of the marks of some nodes, each with its rim behind it; chosen ones have a bright one around that.
 
     Parameters
     ----------
@@ -58,6 +60,7 @@ def marks(places: np.ndarray, kinds: list[str], colors: np.ndarray, right: np.nd
     right, up : (3,) float64
         The axes of the view.
     radii : (k,) float64
+    chosen : (k,) of bool, or none
 
     Returns
     -------
@@ -65,10 +68,12 @@ def marks(places: np.ndarray, kinds: list[str], colors: np.ndarray, right: np.nd
     point_colors : (3 t, 4) float32
     """
     points, shades = [], []
-    for place, kind, color, radius in zip(places, kinds, colors, radii, strict=True):
+    for place, kind, color, radius, lit in zip(
+            places, kinds, colors, radii, chosen or [False] * len(places), strict=True):
         outline = SHAPES[kind] @ np.stack([right, up]) * radius
         rim_color = _DARK if color @ _LUMINANCE > 0.3 else _LIGHT
-        for size, shade in ((RIM, rim_color), (1.0, color)):
+        rims = ((LIT, _LIGHT), (RIM, _DARK)) if lit else ((RIM, rim_color),)
+        for size, shade in (*rims, (1.0, color)):
             rim = place + size * outline
             fan = np.stack([np.broadcast_to(place, rim.shape), rim, np.roll(rim, -1, axis=0)], axis=1)
             points.append(fan.reshape(-1, 3))
@@ -166,6 +171,7 @@ def _draw_nodes(context: bpy.types.Context, source: bpy.types.Object, nodes: lis
     # Over what Blender draws of the empties themselves, so that each is seen once.
     own = np.array([node.empty_display_size * max(node.matrix_world.to_scale()) for node in nodes])
     radii = np.maximum(SIZE * context.preferences.system.ui_scale * pixel, COVER * own)
-    points, shades = marks(places, [node["kind"] for node in nodes], colors, matrix[0, :3], matrix[1, :3], radii)
+    points, shades = marks(places, [node["kind"] for node in nodes], colors, matrix[0, :3], matrix[1, :3], radii,
+                           [node.select_get() for node in nodes])
     shader = gpu.shader.from_builtin("FLAT_COLOR")
     batch_for_shader(shader, "TRIS", {"pos": points, "color": shades}).draw(shader)

@@ -11,16 +11,14 @@ from dataclasses import dataclass
 
 import blf
 import bpy
-import gpu
 import numpy as np
-from gpu_extras.batch import batch_for_shader
 
 from ..scene import explode, mesh_arrays, part_names, store
 from ..scene.errors import SceneError
 from . import pointing
+from .lines import Surface
 
 FILL = (1.0, 1.0, 1.0, 0.35)
-NEARER = 2e-5  # how much nearer than the surface the fill is drawn, as a share of the depth of the view
 TEXT = 12  # of the name, in points
 
 
@@ -42,7 +40,7 @@ class Pointed:
     number: int
     name: str
     triangles: np.ndarray
-    batch: gpu.types.GPUBatch | None = None
+    surface: Surface | None = None
 
 
 _pointed: Pointed | None = None
@@ -105,21 +103,9 @@ def draw(context: bpy.types.Context) -> None:
     _named_in = context.region.as_pointer()
     if not len(_pointed.triangles):
         return
-    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
-    if _pointed.batch is None:
-        _pointed.batch = batch_for_shader(shader, "TRIS", {"pos": _pointed.triangles.reshape(-1, 3)})
-    shader.bind()
-    shader.uniform_float("color", FILL)
-    projection = gpu.matrix.get_projection_matrix()
-    projection[2] -= NEARER * projection[3] if context.region_data.is_perspective else projection[3] * NEARER
-    gpu.state.blend_set("ALPHA")
-    gpu.state.depth_test_set("LESS_EQUAL")
-    with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
-        gpu.matrix.load_projection_matrix(projection)
-        gpu.matrix.multiply_matrix(obj.matrix_world)
-        _pointed.batch.draw(shader)
-    gpu.state.depth_test_set("NONE")
-    gpu.state.blend_set("NONE")
+    if _pointed.surface is None:
+        _pointed.surface = Surface(_pointed.triangles)
+    _pointed.surface.draw(obj.matrix_world, FILL, context.region_data.is_perspective)
 
 
 def draw_name() -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines that are drawn over the view."""
+"""Lines and surfaces that are drawn over the view."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
 from ..scene.errors import SceneError
+
+NEARER = 2e-5  # how much nearer than the surface a fill is drawn, as a share of the depth of the view
 
 
 class Lines:
@@ -47,6 +49,44 @@ class Lines:
         with gpu.matrix.push_pop():
             gpu.matrix.multiply_matrix(matrix)
             self.batch.draw(self.shader)
+
+
+class Surface:
+    """A part of a surface, ready for the card.
+
+    Parameters
+    ----------
+    triangles : (t, 3, 3) float32
+        In the coordinates of the mesh.
+    """
+
+    def __init__(self, triangles: np.ndarray) -> None:
+        self.shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+        self.batch = batch_for_shader(self.shader, "TRIS", {"pos": triangles.reshape(-1, 3)})
+
+    @classmethod
+    def of(cls, read: Callable[..., np.ndarray], *arguments: object) -> Surface | None:
+        """Of what a function reads; None if that is nothing, or the function raises SceneError."""
+        try:
+            triangles = read(*arguments)
+        except SceneError:
+            return None
+        return cls(triangles) if len(triangles) else None
+
+    def draw(self, matrix: Matrix, color: tuple[float, ...], is_perspective: bool) -> None:
+        """Fill what is seen of it. matrix : from the mesh to the world. is_perspective : whether the view is."""
+        self.shader.bind()
+        self.shader.uniform_float("color", color)
+        projection = gpu.matrix.get_projection_matrix()
+        projection[2] -= NEARER * projection[3] if is_perspective else projection[3] * NEARER
+        gpu.state.blend_set("ALPHA")
+        gpu.state.depth_test_set("LESS_EQUAL")
+        with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+            gpu.matrix.load_projection_matrix(projection)
+            gpu.matrix.multiply_matrix(matrix)
+            self.batch.draw(self.shader)
+        gpu.state.depth_test_set("NONE")
+        gpu.state.blend_set("NONE")
 
 
 def fill(corners: np.ndarray, matrix: Matrix, color: tuple[float, ...]) -> None:

@@ -6,6 +6,7 @@ import importlib
 import bpy
 import numpy as np
 import pytest
+import shapes
 from snapshot import changes, snapshot
 
 
@@ -100,3 +101,24 @@ def test_the_outline_of_a_hidden_part_is_hidden_and_that_of_its_neighbors_is_not
     assert np.array_equal(outline(obj, [first, second])[0], other)
     bpy.ops.reeb_parts.isolate(show_all=True)
     assert np.array_equal(outline(obj, [first])[0], around)
+
+
+def test_parts_that_border_on_none_are_filled_instead_of_outlined(make, package):
+    highlight = importlib.import_module(f"{package}.viewport.highlight")
+    obj = make(shapes.two_spheres(), "Spheres")
+    bpy.ops.reeb_parts.decompose(method="berretti", loose_part=0.0)
+    result = obj.data.reeb_parts
+    assert len(result.parts) == 2
+    for part in result.parts:
+        assert not len(highlight.outline(obj, [part.number])[0])
+        filled = highlight.without_outline(obj, [part.number])
+        assert len(filled) == (numbers(obj.data) == part.number).sum()
+    assert len(highlight.without_outline(obj, [part.number for part in result.parts])) == len(obj.data.polygons)
+    choose(result, 1)
+    bpy.ops.reeb_parts.hide()
+    assert not len(highlight.without_outline(obj, [result.parts[1].number]))
+
+
+def test_parts_with_an_outline_are_not_filled(obj, result, package):
+    highlight = importlib.import_module(f"{package}.viewport.highlight")
+    assert not len(highlight.without_outline(obj, [result.parts[1].number]))

@@ -38,6 +38,16 @@ def test_marks_lie_in_the_view_plane_around_their_node(markers):
         assert (shades[own][: 3 * sides, 0] < 0.5).all() == bright
 
 
+def test_a_chosen_mark_has_a_bright_rim_around_the_dark_one(markers):
+    place, color, axes = np.zeros((1, 3)), np.array([(1.0, 1.0, 0.0, 1.0)]), np.eye(3)
+    plain, _ = markers.marks(place, ["minimum"], color, axes[0], axes[1], np.ones(1), [False])
+    points, shades = markers.marks(place, ["minimum"], color, axes[0], axes[1], np.ones(1), [True])
+    assert np.array_equal(points[-len(plain):], plain)
+    assert np.linalg.norm(points[:-len(plain)], axis=1).max() == pytest.approx(markers.LIT)
+    assert shades[0].min() > 0.8
+
+
+
 def test_kinds_look_different(markers):
     assert set(markers.SHAPES) == {"minimum", "saddle", "maximum"}
     assert len({len(outline) for outline in markers.SHAPES.values()}) == 3
