@@ -18,6 +18,7 @@ _EDGES = 56.0  # of a sidebar: the tabs, and the margins of a panel
 _BOX = 12.0  # margins of a box
 _ICON = 20.0
 _PADDING, _ALONE = 10.0, 3.0  # beside the text of a button in a row, and of one that has it for itself
+_LABEL = 16.0  # beside the text of a label
 _ARROWS = 14.0  # what a field of a number or of a choice has besides that
 _FIELD = 56.0  # the narrowest that shows a number
 _NAMES = 0.4  # share of a row that Blender gives to the names of properties
@@ -97,7 +98,7 @@ class Room:
     def wrapped(self, column: bpy.types.UILayout, words: str, icon: str = "NONE") -> None:
         """Words in as many lines as they need, with an icon before the first one if there is room for it."""
         icons = icon != "NONE" and self.width > 6 * _ICON
-        for index, line in enumerate(wrapping.lines(words, self.width - _ICON * icons, self.text)):
+        for index, line in enumerate(wrapping.lines(words, self.width - _LABEL - _ICON * icons, self.text)):
             column.label(text=line, translate=False, icon=("BLANK1" if index else icon) if icons else "NONE")
 
     def properties(self, layout: bpy.types.UILayout, data: bpy.types.bpy_struct, names: Iterable[str],

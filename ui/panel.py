@@ -132,10 +132,13 @@ def _draw_decompose(layout: bpy.types.UILayout, room: Room, again: bool) -> None
     if jobs.current is not None:
         row = layout.row(align=True)
         row.scale_y = 1.5
-        text = jobs.current.text
-        row.progress(factor=jobs.current.share, text=text[:1].upper() + text[1:])
+        text = jobs.current.text[:1].upper() + jobs.current.text[1:]
+        beside = room.has(text, icons=1)
+        row.progress(factor=jobs.current.share, text=text if beside else "")
         if isinstance(jobs.current, jobs.Job):  # in steps of Blender's own only keys reach it
             row.operator("reeb_parts.cancel", text="", icon="X")
+        if not beside:
+            room.wrapped(layout.column(align=True), text)
         return
     row = room.row(layout, iface_("Decompose", "Operator"), icons=1 + again)
     row.scale_y = 1.5
@@ -228,7 +231,9 @@ def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, room: R
         row = room.row(column, fewer, more)
     row.operator("reeb_parts.step_detail", text="Fewer", text_ctxt="Reeb Parts").more = False
     if whole:
-        row.prop(result, "n_parts", text="Parts")
+        field = row.row(align=True)
+        field.scale_x = 1.4  # for the arrows that it has under the pointer
+        field.prop(result, "n_parts", text="Parts")
     row.operator("reeb_parts.step_detail", text="More", text_ctxt="Reeb Parts").more = True
     if result.asked:
         text = iface_("{n} {n:part|parts} cannot be had, only {fewest} to {most}")
