@@ -9,15 +9,16 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components, dijkstra, minimum_spanning_tree
 
-from ..surface.arrays import last_of_each
+from ..surface.arrays import components, last_of_each
 from ..surface.corners import CornerTable
 from .conformal import ConformalFactor
 
 # Areas shall lie in the plane at 0.3 to 3 times their size: a conformal map whose scale of lengths is exp(u) does that
 # where u is between -0.6 and 0.55. Blender's methods, which give up some of the angles for areas, stay well within.
 _UNEVEN = 0.6
-# Each round cuts each uneven chart once. Of 60 models none took more than 30, most of them 3 to 6.
-_ROUNDS = 40
+# Each round cuts each uneven chart from its most uneven place, and from the others that are as uneven but for this share:
+# the fingers of a hand all at once. Of 41 models none took more than 14 rounds, most of them 3 to 6.
+_ROUNDS, _AS_UNEVEN = 40, 0.7
 # A seam costs its length, and half as much again where everyone sees it: on the outside of a limb. It costs half as
 # much on the inside, and half as much along a crease of 60 degrees or more.
 _SEEN, _CREASED, _SHARP = 0.5, 0.5, np.pi / 3
@@ -53,17 +54,31 @@ def unfolding_seams(table: CornerTable, cut: np.ndarray) -> np.ndarray:
     uneven = np.ones(charts.count, bool)
     for _ in range(_ROUNDS):
         inner = charts.inner[uneven[charts.of_face[charts.pairs[:, 0]]] & ~seams[charts.inner]]
-        vertices = np.unique(table.edges[inner])
-        scale = np.abs(factor.solve(vertices[~fixed[vertices]]))
-        worst = last_of_each(charts.of_vertex, scale, charts.from_middle, count=charts.count)
-        worst = worst[(worst >= 0) & (scale[worst] > _UNEVEN)]
+        used = np.zeros(len(table.vertices), bool)  # 20 times as fast as to sort them
+        used[table.edges[inner]] = True
+        scale = np.abs(factor.solve(np.flatnonzero(used & ~fixed)))
+        worst = _most_uneven(charts, scale, table.edges[inner])
         if not len(worst):
             break
         uneven = np.isin(np.arange(charts.count), charts.of_vertex[worst])
-        _, before, _ = _shortest_paths(len(table.vertices), table.edges, cost, inner, vertices[fixed[vertices]])
+        _, before, _ = _shortest_paths(len(table.vertices), table.edges, cost, inner, np.flatnonzero(used & fixed))
         _follow(seams, worst, before, table.edges)
         fixed[table.edges[seams].ravel()] = True
     return seams
+
+
+def _most_uneven(charts: _Charts, scale: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """Vertices to cut from: the most uneven one of each connected uneven place, unless its chart has much worse ones.
+
+    scale : (n,), how uneven each vertex is, 0 or more. edges : (i, 2), inside of charts. Returns (k,) int64.
+    """
+    high = scale > _UNEVEN
+    count, place = components(len(scale), *edges[high[edges].all(axis=1)].T)
+    worst = last_of_each(place, np.where(high, scale, 0.0), charts.from_middle, count=count)
+    worst = worst[high[worst]]
+    most = np.zeros(charts.count)
+    np.maximum.at(most, charts.of_vertex[worst], scale[worst])
+    return worst[scale[worst] >= _AS_UNEVEN * most[charts.of_vertex[worst]]]
 
 
 def opening_seams(table: CornerTable, cut: np.ndarray, cost: np.ndarray | None = None) -> np.ndarray:
