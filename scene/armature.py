@@ -99,13 +99,14 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         Blender finds no weights.
     """
     numbered = stored.shown_parts()
-    place, bones = _bones(obj, stored.decomposition, numbered)
+    place, bones, bone_part, part_bone = _bones(obj, stored.decomposition, numbered, weights != "PARTS")
     remove_weights(obj.data)
     if weights == "PARTS":
         _write_groups(obj, numbered)
         groups = [part.group for part in obj.data.reeb_parts.parts]
     else:
-        groups = _new_groups(obj, [part_names.part_name(obj.data, number) for number in numbered.numbers.tolist()])
+        numbers = numbered.numbers[bone_part].tolist()
+        groups = _new_groups(obj, [part_names.part_name(obj.data, number) for number in numbers])
     collection = piece_objects.make_collection(context, obj)
     _remove_earlier(collection)
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
@@ -117,7 +118,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     _add_bones(context, rig, bones, groups)
     rig[MADE] = _looks(rig)
     if weights != "PARTS":
-        found = _smooth_weights(obj, place, numbered, bones)
+        found = _smooth_weights(obj, place, part_bone[numbered.parts.labels], bones)
         _write_weights(obj, groups, found if weights == "SMOOTH" else _automatic(context, obj, rig, groups, found))
     if deform:
         modifier = _modifier(obj) or modifiers.new(obj, NAME, "ARMATURE")
@@ -139,13 +140,13 @@ def _new_groups(obj: bpy.types.Object, parts: list[str]) -> list[str]:
     return names
 
 
-def _smooth_weights(obj: bpy.types.Object, place: Matrix, numbered: NumberedParts, bones: Bones) -> Weights:
-    """Weights that change smoothly across cuts."""
+def _smooth_weights(obj: bpy.types.Object, place: Matrix, labels: np.ndarray, bones: Bones) -> Weights:
+    """Weights that change smoothly across cuts. labels : (p,) int64, bone of each face."""
     from ..core.uses.skinning import smooth_weights  # imports SciPy
 
     turn = np.array(place.inverted() @ obj.matrix_world, np.float64)
     points = mesh_arrays.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3]
-    return smooth_weights(mesh_arrays.corner_table(obj.data, points), numbered.parts.labels, bones)
+    return smooth_weights(mesh_arrays.corner_table(obj.data, points), labels, bones)
 
 
 def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.Object, groups: list[str],
@@ -192,9 +193,13 @@ def _write_weights(obj: bpy.types.Object, groups: list[str], weights: Weights) -
             obj.vertex_groups[name].add(some.tolist(), value, "REPLACE")
 
 
-def _bones(obj: bpy.types.Object, decomposition: Decomposition, numbered: NumberedParts) -> tuple[Matrix, Bones]:
-    """Where the armature is in the world, and the bones in its coordinates."""
-    from ..core.uses.bones import part_bones  # imports SciPy
+def _bones(obj: bpy.types.Object, decomposition: Decomposition, numbered: NumberedParts,
+           limbs: bool) -> tuple[Matrix, Bones, np.ndarray, np.ndarray]:
+    """Where the armature is in the world, the bones in its coordinates, the part of each, and the bone of each part.
+
+    limbs : bool, only bones of parts that can be bent where they are cut.
+    """
+    from ..core.uses.bones import limb_bones, part_bones  # imports SciPy
 
     mesh, parts = obj.data, numbered.parts
     world = obj.matrix_world
@@ -204,11 +209,14 @@ def _bones(obj: bpy.types.Object, decomposition: Decomposition, numbered: Number
     back = turn[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
     line = decomposition.graph.point_position @ back.T + turn[:3, 3]
     nodes = decomposition.graph.node_position @ back.T + turn[:3, 3]
-    bones = part_bones(
+    surface = (
         mesh_arrays.corner_table(mesh, points), parts.labels, bridge.face_graph(obj)[0].area,
         np.nan_to_num(decomposition.field), np.concatenate([line, nodes]),
         np.concatenate([parts.point_part, parts.node_part]))
-    return place, bones
+    if limbs:
+        return place, *limb_bones(*surface)
+    every = np.arange(parts.count)
+    return place, part_bones(*surface), every, every
 
 
 def _write_groups(obj: bpy.types.Object, numbered: NumberedParts) -> None:

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bones: one for each part, from the cut toward the body along the part's center line to its far end."""
+"""Bones: one for each part, from the cut toward the body along the part's center line to its far end.
+
+Or one for each limb: a part that is cut from the others at no neck, such as the belly of a vase, cannot be bent there
+without folds or a loss of volume, and moves with the part that it hangs on.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +20,10 @@ from ..surface.corners import CornerTable
 # Least length of a bone, as a share of the diagonal of the bounding box of the faces' centers. A shorter bone is
 # replaced by one of this length that points upwards.
 _SHORTEST = 0.01
+# A cut is a neck if the middles of both sides are so many of its radii away from its middle, and if this share of all
+# that divides the two sides is the cut between a part and the part that it hangs on, not one beside another part. In a
+# ring, half is; it cannot be bent.
+_AWAY, _OWN = 0.6, 0.51
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,14 +79,13 @@ def part_bones(
     weight = np.maximum(area, 1e-12 * max(area.sum(), 1e-300))
     share = np.bincount(labels, weight, count)
     middle = sums_by(labels, weight[:, None] * center, count) / share[:, None]
-    pairs, joint, length = _joints(table, labels)
+    pairs, length = _joints(table, labels)
     of_part = np.bincount(labels, weight * table.face_means(height), count) / share
     parent, order = _tree(count, pairs, length, of_part)
-    at = {(a, b): place for (a, b), place in zip(pairs.tolist(), joint, strict=True)}
-    head = middle.copy()
-    for part in order:
-        if parent[part] >= 0:
-            head[part] = at[min(part, parent[part]), max(part, parent[part])]
+    head, beyond = middle.copy(), _following(parent, order)
+    for part in np.flatnonzero(parent >= 0).tolist():
+        # Of all that divides the two sides, which may be more than one cut: a leg meets belly and rump.
+        head[part] = _border(table, beyond[part][labels])[2]
     tail = head.copy()
     connected = np.zeros(count, bool)
     shortest = _SHORTEST * float(np.linalg.norm(np.ptp(center, axis=0)))
@@ -91,15 +99,82 @@ def part_bones(
     return Bones(head, tail, parent, connected, tuple(order))
 
 
-def _joints(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Pairs of parts that touch, (e, 2), and the middle, (e, 3), and length, (e,), of the cut between them."""
+def limb_bones(
+    table: CornerTable, labels: np.ndarray, area: np.ndarray, height: np.ndarray, line: np.ndarray,
+    line_part: np.ndarray,
+) -> tuple[Bones, np.ndarray, np.ndarray]:
+    """Make bones for parts that can be bent where they are cut; all other parts have that of the part they hang on.
+
+    Parameters
+    ----------
+    table, labels, area, height, line, line_part
+        As for ``part_bones``.
+
+    Returns
+    -------
+    bones : Bones
+    bone_part : (k,) int64
+        The part that each bone is of.
+    part_bone : (count,) int64
+        The bone that moves each part.
+    """
+    owner = np.arange(int(labels.max()) + 1)
+    while True:
+        bone_part, part_bone = np.unique(owner, return_inverse=True)
+        of_face = part_bone[labels]
+        bones = part_bones(table, of_face, area, height, line, np.where(line_part < 0, -1, part_bone[line_part]))
+        held = bone_part.copy()
+        for bone in np.flatnonzero(~_necks(table, of_face, area, bones)).tolist():
+            held[bone] = bone_part[bones.parent[bone]]
+        if (held == bone_part).all():
+            return bones, bone_part, part_bone
+        # What hangs on a part that itself hangs on another follows in the next round.
+        owner = held[part_bone]
+
+
+def _necks(table: CornerTable, labels: np.ndarray, area: np.ndarray, bones: Bones) -> np.ndarray:
+    """Whether each bone begins at a neck, (count,) bool; true for roots."""
+    low, high = table.edge_labels(labels)
+    center = table.face_means(table.vertices)
+    beyond, neck = following(bones), bones.parent < 0
+    for bone in np.flatnonzero(~neck).tolist():
+        border, length, middle = _border(table, beyond[bone][labels])
+        pair = sorted((bone, int(bones.parent[bone])))
+        own = length[(low[border] == pair[0]) & (high[border] == pair[1])].sum()
+        radius = np.linalg.norm(table.vertices[table.edges[border]].mean(axis=1) - middle, axis=1).max()
+        away = [np.linalg.norm((area[side, None] * center[side]).sum(axis=0) / max(area[side].sum(), 1e-300) - middle)
+                for side in (beyond[bone][labels], ~beyond[bone][labels])]
+        neck[bone] = own >= _OWN * length.sum() and min(away) >= _AWAY * radius
+    return neck
+
+
+def _border(table: CornerTable, inside: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Edges between faces that are inside, (p,) bool, and others, (b,); their lengths; and the middle of all, (3,)."""
+    low, high = table.edge_labels(inside.astype(np.int64))
+    border = np.flatnonzero((low == 0) & (high == 1))
+    length = np.maximum(table.edge_length(border), 1e-300)
+    return border, length, (length / length.sum()) @ table.vertices[table.edges[border]].mean(axis=1)
+
+
+def following(bones: Bones) -> np.ndarray:
+    """Whether each bone, second index, is another or follows it, first index; (count, count) bool."""
+    return _following(bones.parent, bones.order)
+
+
+def _following(parent: np.ndarray, order: Sequence[int]) -> np.ndarray:
+    beyond = np.eye(len(parent), dtype=bool)
+    for bone in reversed(order):
+        if parent[bone] >= 0:
+            beyond[parent[bone]] |= beyond[bone]
+    return beyond
+
+
+def _joints(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of parts that touch, (e, 2), and the length of the cut between them, (e,)."""
     low, high = table.edge_labels(labels)
     cut = np.flatnonzero(low < high)
     pairs, which = distinct_pairs(low[cut], high[cut])
-    weight = np.maximum(table.edge_length(cut), 1e-300)
-    length = np.bincount(which, weight, len(pairs))
-    joint = sums_by(which, weight[:, None] * table.vertices[table.edges[cut]].mean(axis=1), len(pairs))
-    return pairs, joint / np.maximum(length, 1e-300)[:, None], length
+    return pairs, np.bincount(which, np.maximum(table.edge_length(cut), 1e-300), len(pairs))
 
 
 def _tree(count: int, pairs: np.ndarray, length: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, list[int]]:

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from ..surface.arrays import symmetric_matrix
 from ..surface.corners import CornerTable
-from .bones import Bones
+from .bones import Bones, following
 from .conformal import ConformalFactor, solved
 
 # Weights change within this many radii of a joint on either side. A joint of radius r that is bent by the angle t
@@ -59,9 +59,9 @@ def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weig
     table : CornerTable
         n vertices.
     labels : (p,) int64
-        Part of each face, 0..count-1.
+        Bone of each face, 0..count-1.
     bones : Bones
-        One for each part, in the coordinates of the table.
+        In the coordinates of the table.
 
     Returns
     -------
@@ -226,12 +226,3 @@ def _roots(table: CornerTable, labels: np.ndarray, bones: Bones) -> np.ndarray:
     of_vertex = np.full(len(table.vertices), len(root))
     np.minimum.at(of_vertex, table.corner_vertex, root[labels[table.corner_face]])
     return (of_vertex[:, None] == np.flatnonzero(bones.parent < 0)).astype(float)
-
-
-def following(bones: Bones) -> np.ndarray:
-    """Whether each bone, second index, is another or follows it, first index; (count, count) bool."""
-    beyond = np.eye(len(bones.parent), dtype=bool)
-    for bone in reversed(bones.order):
-        if bones.parent[bone] >= 0:
-            beyond[bones.parent[bone]] |= beyond[bone]
-    return beyond

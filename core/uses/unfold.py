@@ -16,7 +16,7 @@ from .conformal import ConformalFactor
 # Areas shall lie in the plane at 0.3 to 3 times their size: a conformal map whose scale of lengths is exp(u) does that
 # where u is between -0.6 and 0.55. Blender's methods, which give up some of the angles for areas, stay well within.
 _UNEVEN = 0.6
-# Each round cuts each uneven chart from its most uneven place, and from the others that are as uneven but for this share:
+# Each round cuts each uneven chart from its most uneven place, and from all others that are at least so much as uneven:
 # the fingers of a hand all at once. Of 41 models none took more than 14 rounds, most of them 3 to 6.
 _ROUNDS, _AS_UNEVEN = 40, 0.7
 # A seam costs its length, and half as much again where everyone sees it: on the outside of a limb. It costs half as

@@ -606,6 +606,9 @@ TEXTS = {
         "Jedes Teil bewegt sich als Ganzes, durch seine eigene Punktgruppe",
     "Blender finds no automatic weights for {name}. Choose smooth weights.":
         "Blender findet keine automatischen Gewichte für {name}. Bitte weiche Gewichte wählen.",
+    "{n} {n:part moves with the one it hangs|parts move with the ones they hang} on: no neck to bend at":
+        "{n} {n:Teil bewegt sich mit dem, an dem es|Teile bewegen sich mit denen, an denen sie} {n:hängt|hängen}: "
+        "kein Hals zum Biegen",
     "Move the Mesh": "Mesh bewegen",
     "Add an Armature modifier, so that posing the bones moves the parts":
         "Einen Skelett-Modifikator hinzufügen, sodass die Posen der Knochen die Teile bewegen",

@@ -572,6 +572,8 @@ TEXTS = {
     "Each part moves as a whole, by its own vertex group": "每个部件以其自己的顶点组整体移动",
     "Blender finds no automatic weights for {name}. Choose smooth weights.":
         "Blender 无法为 {name} 找到自动权重。请选择平滑权重。",
+    "{n} {n:part moves with the one it hangs|parts move with the ones they hang} on: no neck to bend at":
+        "{n} 个部件随其所连的部件一起移动：没有可弯折的颈部",
     "Move the Mesh": "移动网格",
     "Add an Armature modifier, so that posing the bones moves the parts": "添加骨架修改器，使骨骼的姿态带动部件",
     "Make convex hulls of each part, of at most 64 corners, with which games and simulations collide":

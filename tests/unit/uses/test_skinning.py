@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 import shapes
 
+from core import decompose
 from core.surface.corners import CornerTable
-from core.uses.bones import Bones
+from core.uses.bones import Bones, following, limb_bones
 from core.uses.skinning import bends, limited, smooth_weights, turned_over
 
 
@@ -98,3 +99,54 @@ def test_bends_are_rotations_across_the_bone():
         assert (np.trace(turn), np.linalg.det(turn)) == (pytest.approx(2), pytest.approx(1))
         direction = np.array([1.0, 2.0, 3.0]) / np.sqrt(14)
         assert direction @ turn @ direction == pytest.approx(0.5)
+
+
+def limbs(table, labels, height):
+    """Bones of the parts that can be bent, and the bone of each face."""
+    area = np.linalg.norm(table.face_vectors(), axis=1)
+    bones, bone_part, part_bone = limb_bones(table, labels, area, height, np.empty((0, 3)), np.empty(0, np.int64))
+    assert (part_bone[bone_part] == np.arange(len(bone_part))).all()
+    return bones, part_bone
+
+
+def test_a_slice_hangs_on_its_neighbor_and_a_limb_has_a_bone():
+    table, _ = rod()
+    x = table.face_means(table.vertices)[:, 0]
+    _, part_bone = limbs(table, np.digitize(x, [-2, 2]), table.vertices[:, 0])
+    assert part_bone.tolist() == [0, 1, 2]
+    _, part_bone = limbs(table, np.digitize(x, [-2, 5.5]), table.vertices[:, 0])  # a quarter of its width thick
+    assert part_bone.tolist() == [0, 1, 1]
+    bones, part_bone = limbs(table, np.digitize(x, [5, 5.5]), table.vertices[:, 0])  # one after the other
+    assert part_bone.tolist() == [0, 0, 0]
+    assert len(bones.head) == 1
+
+
+def test_a_joint_is_in_the_middle_of_all_that_divides_its_sides():
+    """A limb that meets two other parts around its rim turns about the middle of the rim."""
+    table, _ = rod()
+    center = table.face_means(table.vertices)
+    labels = np.where(center[:, 0] > 2, 2, (center[:, 1] + 0.2 > 0).astype(int))
+    bones, part_bone = limbs(table, labels, table.vertices[:, 0])
+    assert part_bone[2] > 0
+    assert bones.head[part_bone[2]] == pytest.approx([2, 0, 0], abs=1e-9)
+
+
+@pytest.mark.parametrize("shape", [shapes.tube_tree(), shapes.torus(), shapes.dumbbell(), shapes.horse(0.09)])
+def test_every_joint_there_is_bends_by_60_degrees_and_keeps_the_volume(shape):
+    vertices, faces = shape
+    table = CornerTable.of(vertices, faces)
+    found = decompose(vertices, faces)
+    labels = found.parts(n_parts=min(8, found.n_candidates)).labels
+    bones, part_bone = limbs(table, labels, found.field)
+    found = dense(smooth_weights(table, part_bone[labels], bones), len(bones.head))
+
+    def volume(points):
+        a, b, c = points[faces].transpose(1, 0, 2)
+        return (a * np.cross(b, c)).sum() / 6
+
+    for bone in np.flatnonzero(bones.parent >= 0):
+        share, along = found[:, following(bones)[bone]].sum(axis=1), bones.tail[bone] - bones.head[bone]
+        assert not turned_over(table, share, bones.head[bone], along, np.pi / 3).any()
+        for turn in bends(along, np.pi / 3):
+            moved = vertices + share[:, None] * ((vertices - bones.head[bone]) @ (turn - np.eye(3)).T)
+            assert volume(moved) == pytest.approx(volume(vertices), rel=0.1)
