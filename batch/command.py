@@ -264,10 +264,10 @@ def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bp
     written: dict[str, str | list[str]] = {}
     if options.parts:
         paths = export.export_parts(files, [(obj, None) for obj in objects], options.parts, options.parts_format,
-                                    separated=is_separated(options))
+                                    separated=is_separated(options), smooth=options.cut == "smooth")
         written["parts"] = [str(path) for path in paths]
     if options.threemf:
-        export.write_assemblies(files, objects, options.threemf, is_separated(options))
+        export.write_assemblies(files, objects, options.threemf, is_separated(options), options.cut == "smooth")
         written["threemf"] = str(options.threemf)
     if options.save:
         with files.writing(options.save, complete.blend) as path:

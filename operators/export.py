@@ -14,7 +14,7 @@ from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import wanted_numbers
 from ..scene.reporting import ReportingOperator
-from ..scene.settings import WhichProperties
+from ..scene.settings import SeparateProperties, WhichProperties
 from ..scene.whole_files import together
 
 
@@ -46,6 +46,8 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         description="Close the holes where parts were joined, so that each file holds a closed body",
     )
 
+    # As the panel says; scripts get whole faces unless they ask for smooth cuts.
+    cut: bpy.props.EnumProperty(**(SeparateProperties.__annotations__["cut"].keywords | {"default": "FACES"}))
     separated: bpy.props.BoolProperty(
         name="Separated Pieces", default=False,
         description="Write the pieces that were separated, with their joints and dowels, as they are now",
@@ -53,8 +55,9 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, WhichProperties, context)
-        if not self.properties.is_property_set("caps"):
-            self.caps = context.scene.reeb_parts_use.caps
+        for name in ("caps", "cut"):
+            if not self.properties.is_property_set(name):
+                setattr(self, name, getattr(context.scene.reeb_parts_use, name))
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
@@ -65,5 +68,5 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
         with object_mode(context), together() as files:
             paths = export_parts(files, [(obj, wanted_numbers(obj.data, self.which)) for obj in objects], folder,
-                                 self.format, self.caps, self.one_file, self.separated)
+                                 self.format, self.caps, self.one_file, self.separated, self.cut == "SMOOTH")
         self.report({"INFO"}, rpt_("{n} {n:file|files} in {folder}").format(n=Count(len(paths)), folder=folder))

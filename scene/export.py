@@ -13,9 +13,9 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.uses.threemf import Assembly, Body, write_3mf
-from . import complete, mesh_arrays, part_names, piece_objects, store
+from . import bridge, complete, mesh_arrays, part_names, piece_objects, store
 from .errors import SceneError
-from .part_meshes import part_meshes
+from .part_meshes import piece_meshes
 from .selection import nothing_selected
 from .temporary import removed
 from .units import millimeters
@@ -34,7 +34,8 @@ FORMATS = (*EXPORTERS, "3mf")
 
 
 def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, Iterable[int] | None]], folder: Path,
-                 kind: str, close: bool = False, one_file: bool = False, separated: bool = False) -> list[Path]:
+                 kind: str, close: bool = False, one_file: bool = False, separated: bool = False,
+                 smooth: bool = False) -> list[Path]:
     """Write each part of some objects as a file of its own, or each object as one; the scene stays as it is.
 
     Parameters
@@ -53,7 +54,9 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
         All parts of an object in one file, as 3MF always has them.
     separated : bool
         Write the pieces that were separated, with their caps and joints, and their dowels, as they are now; ``close``
-        does not count then.
+        and ``smooth`` do not count then.
+    smooth : bool
+        Cut smoothly, as Separate does, instead of along faces.
 
     Returns
     -------
@@ -68,7 +71,7 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
     names = FileNames()
     paths = []
     for obj, wanted in objects:
-        pieces = _separated(obj, wanted) if separated else _parts(obj, wanted, close)
+        pieces = _separated(obj, wanted) if separated else _parts(obj, wanted, close, smooth)
         with removed(bpy.data.meshes, *pieces.values()), nothing_selected(bpy.context.view_layer):
             if kind == "3mf" or one_file:
                 paths.append(_write(files, folder / f"{names.free(obj.name)}.{kind}", obj, pieces, kind))
@@ -78,11 +81,12 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
     return paths
 
 
-def _parts(obj: bpy.types.Object, wanted: Iterable[int] | None, close: bool) -> dict[str, bpy.types.Mesh]:
+def _parts(obj: bpy.types.Object, wanted: Iterable[int] | None, close: bool,
+           smooth: bool) -> dict[str, bpy.types.Mesh]:
     """New meshes of parts, all without ``wanted``, by their names."""
     face_numbers = store.load(obj.data).face_numbers
     numbers = sorted(set(face_numbers.tolist()) if wanted is None else wanted)
-    meshes, _ = part_meshes(obj.data, face_numbers, numbers, close)
+    meshes = piece_meshes(obj.data, face_numbers, numbers, close, bridge.world_stretch(obj) if smooth else None).meshes
     return {part_names.piece_name(obj, number): meshes[number] for number in numbers}
 
 
@@ -129,10 +133,10 @@ def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Mesh]) -> tuple[B
 
 
 def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], path: Path,
-                     separated: bool = False) -> None:
+                     separated: bool = False, smooth: bool = False) -> None:
     """Write the parts of some objects, closed, as one 3MF file with an assembly for each object.
 
-    separated : bool, whether to write the pieces that were separated instead.
+    separated : bool, whether to write the pieces that were separated instead. smooth : bool, as for ``export_parts``.
 
     Raises
     ------
@@ -141,7 +145,7 @@ def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], pat
     """
     assemblies = []
     for obj in objects:
-        pieces = _separated(obj, None) if separated else _parts(obj, None, close=True)
+        pieces = _separated(obj, None) if separated else _parts(obj, None, True, smooth)
         with removed(bpy.data.meshes, *pieces.values()):
             assemblies.append(Assembly(obj.name, _bodies(obj, pieces)))
     with files.writing(path, complete.model([], "3mf")) as place:

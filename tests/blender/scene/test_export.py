@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from snapshot import snapshot
+from snapshot import activate, snapshot
 from threemf_reader import read_3mf
 
 IMPORT = {
@@ -52,6 +52,30 @@ def test_one_file_holds_all_parts(obj, tmp_path, kind):
     if kind in ("obj", "glb"):
         # Blender's .obj has no spaces in names.
         assert {piece.name.replace("_", " ") for piece in pieces} == names
+
+
+def test_smooth_cuts_are_those_of_separate(obj, tmp_path):
+    """The same pieces, vertex by vertex, as Separate makes; along faces, as it makes those."""
+    obj.scale, obj.location = (2, 2, 2), (1, 2, 3)
+    bpy.ops.reeb_parts.decompose()
+    for cut in ("SMOOTH", "FACES"):
+        bpy.ops.reeb_parts.export(directory=str(tmp_path / cut), format="ply", cut=cut, caps=True)
+    names = [part.name for part in obj.data.reeb_parts.parts]
+    found = {}
+    for cut in ("SMOOTH", "FACES"):
+        for name in names:
+            bpy.ops.wm.ply_import(filepath=str(tmp_path / cut / f"Tree {name}.ply"))
+            found[cut, name] = np.array([v.co[:] for v in bpy.context.object.data.vertices])
+            bpy.ops.object.delete()
+    for cut in ("SMOOTH", "FACES"):
+        activate(obj)
+        bpy.ops.reeb_parts.separate(cut=cut, caps=True, hide=False)
+        bpy.context.view_layer.update()
+        for name in names:
+            piece = bpy.data.objects[f"Tree {name}"]
+            points = np.array([(piece.matrix_world @ v.co)[:] for v in piece.data.vertices])
+            assert found[cut, name] == pytest.approx(points, abs=1e-4)
+    assert any(len(found["SMOOTH", name]) > len(found["FACES", name]) for name in names)
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
