@@ -46,6 +46,10 @@ def print_a_figure(picture) -> None:
 
     bpy.ops.wm.read_homefile(use_empty=True)
     figure = _shown(bpy.data.objects.new("Figure", _figure()))
+    figure.modifiers.new("Remesh", "REMESH").voxel_size = 0.002
+    figure.modifiers.new("Smooth", "SMOOTH").iterations = 10
+    for name in ("Remesh", "Smooth"):
+        bpy.ops.object.modifier_apply(modifier=name)
     bpy.ops.reeb_parts.decompose(n_parts=6)
     picture.render_parts([(figure, _graph(figure))], IMAGES / "walk_figure.png", size=SIZE)
     bpy.ops.reeb_parts.separate(caps=True, joints="ROUND")
@@ -63,13 +67,13 @@ def _figure():
     import bpy
     import numpy as np
 
-    rows = [((0, 0, 0.075), (0, 0, 0.125), 0.034), ((0, 0, 0.185), (0, 0, 0.19), 0.032),
-            ((0, 0, 0.13), (0, 0, 0.17), 0.016)]
+    rows = [((0, 0, 0.075), (0, 0, 0.125), 0.024), ((0, 0, 0.205), (0, 0, 0.215), 0.024),
+            ((0, 0, 0.13), (0, 0, 0.18), 0.011)]
     for side in (-1, 1):
-        rows += [((0.03 * side, 0, 0.13), (0.1 * side, -0.01, 0.10), 0.017),
-                 ((0.022 * side, 0, 0.07), (0.035 * side, 0, 0.0), 0.02)]
+        rows += [((0.02 * side, 0, 0.135), (0.12 * side, -0.01, 0.11), 0.011),
+                 ((0.024 * side, 0, 0.07), (0.055 * side, 0, -0.03), 0.013)]
     balls = bpy.data.metaballs.new("Figure")
-    balls.resolution, balls.threshold = 0.0035, 0.3
+    balls.resolution, balls.threshold = 0.0025, 0.3
     for start, end, radius in rows:
         for share in np.linspace(0, 1, 9):
             ball = balls.elements.new()
