@@ -23,7 +23,7 @@ _LYING = 1.5  # a part that is so many times as long as high lies on the ground 
 _THIN = 0.6  # a tail is at most so many times as wide as the body
 _FOUR = 4  # legs of a creature that has its head where a head is looked for
 _NECK = 1.3  # a part between head and body that is less long may be the head, and the head its snout
-_BROAD = 1.2  # a part between them that is so many times as wide as the head has the shoulders
+_BROAD = 1.2  # a part between them, of an upright creature, that is so many times as wide as the head has the shoulders
 _LONG = 1.8  # a part so many times as long as wide is a limb
 
 
@@ -279,7 +279,7 @@ def _creature(shapes: Shapes) -> list[tuple[str, list[int]]]:
     wide = (shapes.high - shapes.low)[:, across]
     found = [("leg", legs), ("head", [head]), ("body", [body]), ("neck", [
         part for part in midst if part in shapes.neighbors[head] and steps[part] < steps[head]
-        and shapes.elongation[part] > _NECK and wide[part] < _BROAD * wide[head]])]
+        and shapes.elongation[part] > _NECK and (not shapes.upright or wide[part] < _BROAD * wide[head])])]
     found.append(("ear", [part for part in others if shapes.neighbors[part] == {head}
                           and shapes.parts.share[part] < 0.3 * shapes.parts.share[head]
                           and shapes.high[part, 2] > shapes.high[head, 2] - 0.2 * (shapes.high - shapes.low)[head, 2]]))

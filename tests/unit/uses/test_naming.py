@@ -85,6 +85,11 @@ def test_every_part_of_every_level_has_a_name(cow):
         assert all(name.word and name.side in (-1, 0, 1) for name in names)
 
 
+def test_a_horse_has_a_neck_although_it_is_wider_than_the_head():
+    found = words(named(*shapes.horse(), n_parts=10))
+    assert found == {"body": 1, "head": 1, "neck": 1, "tail": 1, "leg": 4, "limb": 2}
+
+
 def test_an_insect_has_six_legs_and_what_is_larger_or_higher_is_not_called_its_head_or_tail():
     names = named(*shapes.insect(), n_parts=9)
     found = words(names)
