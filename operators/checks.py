@@ -78,13 +78,21 @@ class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
         report_unsound(self, [piece])
 
 
-def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object]) -> None:
-    """Say which of some pieces that were checked are not sound."""
-    wrong = [piece.name for piece in pieces if (found := piece_checks.kept(piece)) is None or not found.sound]
+def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object], just_made: bool = False) -> None:
+    """Say which of some pieces that were checked are not sound; of those just made also which are as the model is."""
+    checked = [(piece.name, piece_checks.kept(piece)) for piece in pieces]
+    wrong = [name for name, found in checked if found is None or not (found.sound or found.as_model)]
+    as_model = [name for name, found in checked if found is not None and found.as_model and not found.sound]
+    if not just_made:  # it may be the user's work
+        wrong, as_model = [name for name, found in checked if found is None or not found.sound], []
     if wrong:
         operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are "
                                           "not closed or cross themselves}: {names}").format(
             n=Count(len(wrong)), total=Count(len(pieces)), names=", ".join(wrong)))
-    else:
+    if as_model:
+        operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or "
+                                          "cross themselves} as the model does there: {names}").format(
+            n=Count(len(as_model)), total=Count(len(pieces)), names=", ".join(as_model)))
+    if not wrong and not as_model:
         operator.report({"INFO"}, rpt_("{n} {n:part is closed and does not cross itself|parts are closed and do not "
                                        "cross themselves}").format(n=Count(len(pieces))))

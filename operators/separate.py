@@ -83,7 +83,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         if self.joints != "NONE":
             self._report_joints(separated)
         if self.caps or self.joints != "NONE":
-            report_unsound(self, separated.pieces)
+            report_unsound(self, separated.pieces, just_made=True)
         if separated.left_open:
             self.report({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "
                                           "{n:it|them}").format(n=Count(separated.left_open)))

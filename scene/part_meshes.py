@@ -77,7 +77,7 @@ def part_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable
 
 
 def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int], close: bool = False,
-                 smooth: np.ndarray | None = None) -> PieceMeshes:
+                 smooth: np.ndarray | None = None, planar: bool = False) -> PieceMeshes:
     """A mesh for each of some parts, with all that its faces carry.
 
     Parameters
@@ -93,24 +93,26 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
     smooth : (3, 3) float64, optional
         What the object does to its mesh, see bridge.world_stretch: faces are divided where smooth cuts run. Without
         it, cuts run along the edges of faces.
+    planar : bool
+        Smooth cuts lie in planes wherever they can.
 
     Returns
     -------
     made : PieceMeshes
     """
-    return finished(making_pieces(mesh, face_numbers, wanted, close, smooth))
+    return finished(making_pieces(mesh, face_numbers, wanted, close, smooth, planar))
 
 
 def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int], close: bool = False,
-                  smooth: np.ndarray | None = None) -> Steps[PieceMeshes]:
+                  smooth: np.ndarray | None = None, planar: bool = False) -> Steps[PieceMeshes]:
     """What ``piece_meshes`` does, in steps."""
     plain = plain_copy(mesh)
     others = [(part.number, part.material) for part in mesh.reeb_parts.parts if part.material is not None]
     wanted = [number for number in wanted if (face_numbers == number).any()]
     with removed(bpy.data.meshes, plain):
         _keep_normals(plain)
-        source = partial(SculptedMesh, plain) if is_sculpted(mesh) else partial(
-            PlainMesh, plain, element_layers.read(plain))
+        source = partial(SculptedMesh, plain, planar) if is_sculpted(mesh) else partial(
+            PlainMesh, plain, element_layers.read(plain), planar)
         yield 0.1
         made = yield from stretched(_made(source(), face_numbers, wanted, close, smooth, np.empty((0, 2), np.int64)),
                                     0.1, 0.8)
@@ -148,8 +150,8 @@ def _rows_in(rows: np.ndarray, others: np.ndarray) -> np.ndarray:
 class PlainMesh:
     """A mesh without anything of ours, of which pieces are made; whole : its elements, read without."""
 
-    def __init__(self, mesh: bpy.types.Mesh, whole: Elements | None = None) -> None:
-        self._mesh = mesh
+    def __init__(self, mesh: bpy.types.Mesh, whole: Elements | None = None, planar: bool = False) -> None:
+        self._mesh, self._planar = mesh, planar
         self.whole = whole or element_layers.read(mesh)
 
     def divide(self, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> Steps[tuple[np.ndarray, int]]:
@@ -158,7 +160,7 @@ class PlainMesh:
         Returns the number of each face's part, of the faces that there are now, and how many borders stay along faces.
         """
         self.whole, face_numbers, cuts = yield from smooth_faces.divide_faces(
-            self.whole, self._mesh, face_numbers, stretch, along)
+            self.whole, self._mesh, face_numbers, stretch, along, self._planar)
         return face_numbers, cuts.kept
 
     def piece(self, faces: np.ndarray, holes: Holes | None) -> tuple[bpy.types.Mesh, int]:

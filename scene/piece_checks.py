@@ -34,6 +34,8 @@ class Check:
         Edges of three faces or more.
     crossing_faces : int
         Faces that cross another one with which they have no corner in common.
+    own_crossing_faces : int
+        Those of them that no cap crosses: the model crosses itself there.
     all_tried : bool
         Whether all faces were tried for crossings; of large pieces it is those of caps only.
     inside_out : bool
@@ -47,6 +49,7 @@ class Check:
     open_edges: int = 0
     branching_edges: int = 0
     crossing_faces: int = 0
+    own_crossing_faces: int = 0
     all_tried: bool = True
     inside_out: bool = False
     volume: float | None = None
@@ -56,6 +59,11 @@ class Check:
     def sound(self) -> bool:
         """Whether a printer can use it."""
         return not (self.open_edges or self.branching_edges or self.crossing_faces or self.inside_out)
+
+    @property
+    def as_model(self) -> bool:
+        """Whether all that is wrong is so in the model, too: a cut that is closed leaves open what was open before."""
+        return self.crossing_faces == self.own_crossing_faces and not self.inside_out
 
     def as_dict(self) -> dict:
         """For JSON."""
@@ -98,11 +106,13 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
     if not tried.all():
         near = np.flatnonzero(within_reach(points, triangles, tried, places.start, -places.out))
     tree = _tree(points, triangles[near])
-    crossing = _marked(n_faces, face[_crossing(tree, points, triangles, tried, near)])
+    pairs = _crossing(tree, points, triangles, tried, near)
+    crossing = _marked(n_faces, face[pairs])
+    by_cap = _marked(n_faces, face[pairs[caps.is_cap(mesh)[face[pairs]].any(axis=1)]])
     thinnest, where = _thinnest(tree, places)
     volume = None if open_[1].any() or branching[1].any() else float(((a - points.mean(axis=0)) * vector).sum() / 6)
-    found = Check(int(open_[0]), int(branching[0]), int(crossing.sum()), bool(tried.all()),
-                  volume is not None and volume < 0, volume, thinnest)
+    found = Check(int(open_[0]), int(branching[0]), int(crossing.sum()), int((crossing & ~by_cap).sum()),
+                  bool(tried.all()), volume is not None and volume < 0, volume, thinnest)
     thin = _marked(n_faces, face[[where]] if thinnest is not None else np.empty(0, np.int64))
     return found, Faults(open_[1], branching[1], crossing, thin)
 
@@ -117,7 +127,8 @@ def kept(piece: bpy.types.Object) -> Check | None:
     """What was found, or None; None, too, if it was not written by us."""
     try:
         values = json.loads(piece[CHECK])
-        return Check(**{field.name: values[field.name] for field in fields(Check)})
+        own = {"own_crossing_faces": 0, **values}  # files of before do not have it
+        return Check(**{field.name: own[field.name] for field in fields(Check)})
     except (KeyError, ValueError, TypeError):
         return None
 
@@ -155,18 +166,18 @@ def _tree(points: np.ndarray, triangles: np.ndarray) -> BVHTree:
 
 def _crossing(tree: BVHTree, points: np.ndarray, triangles: np.ndarray, tried: np.ndarray,
               near: np.ndarray) -> np.ndarray:
-    """Triangles that cross another one, one of the two being tried; (k,) int64.
+    """Pairs of triangles that cross, one of the two being tried; (k, 2) int64.
 
     near : (m,) int64, the triangles that the tree is of.
     """
     index = np.flatnonzero(tried)
     if not len(index):
-        return index
+        return np.empty((0, 2), np.int64)
     some = tree if tried.all() else _tree(points, triangles[index])
     pairs = np.array(some.overlap(tree), np.int64).reshape(-1, 2)
     pairs = np.stack([index[pairs[:, 0]], near[pairs[:, 1]]], axis=1)
     apart = (triangles[pairs[:, 0]][:, :, None] != triangles[pairs[:, 1]][:, None]).all(axis=(1, 2))
-    return np.unique(pairs[apart])
+    return pairs[apart]
 
 
 @dataclass(frozen=True, eq=False)

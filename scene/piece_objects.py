@@ -159,7 +159,8 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     close = style.caps or style.fit_bed or style.joints != "NONE"
     with removed(bpy.data.meshes, *([mesh] if seen else [])):
         found = yield from stretched(
-            making_pieces(mesh, face_numbers, numbers, close, stretch if style.cut == "SMOOTH" else None), 0.0, 0.7)
+            making_pieces(mesh, face_numbers, numbers, close, None if style.cut == "FACES" else stretch,
+                          style.cut == "PLANAR"), 0.0, 0.7)
     fitted = beds.Fitted(found.meshes, {}, [])
     if style.fit_bed:
         fitted = beds.fitted(found.meshes, stretch, np.array(style.bed[:]) / millimeters())

@@ -27,19 +27,20 @@ def is_sculpted(mesh: bpy.types.Mesh) -> bool:
 class SculptedMesh:
     """A copy of a mesh, of which pieces are made; ``free`` removes it. As part_meshes.PlainMesh."""
 
-    def __init__(self, mesh: bpy.types.Mesh) -> None:
-        self._mesh = mesh.copy()
+    def __init__(self, mesh: bpy.types.Mesh, planar: bool = False) -> None:
+        self._mesh, self._planar = mesh.copy(), planar
         self.whole = element_layers.read(self._mesh)
 
     def divide(self, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> Steps[tuple[np.ndarray, int]]:
         """Divide faces where smooth cuts run, see smooth_faces.divide_faces."""
         mesh, number = self._mesh, smooth_faces.NUMBER
         mesh.attributes.new(number, "INT", "FACE").data.foreach_set("value", face_numbers.astype(np.int32))
-        cuts = smooth_faces.find_cuts(self.whole, face_numbers, stretch, along)
+        cuts = smooth_faces.find_cuts(self.whole, face_numbers, stretch, along, self._planar)
         if len(cuts.odd):
             _with_bmesh(mesh, lambda bm: smooth_faces.triangulate(bm, cuts.odd))
             whole = element_layers.read(mesh)
-            cuts = smooth_faces.find_cuts(whole, whole.layers[number].values.astype(np.int64), stretch, along)
+            numbers = whole.layers[number].values.astype(np.int64)
+            cuts = smooth_faces.find_cuts(whole, numbers, stretch, along, self._planar)
         yield 0.7
         _with_bmesh(mesh, lambda bm: smooth_faces.divide(bm, cuts))
         face_numbers = mesh_arrays.attribute_values(mesh.attributes[number]).astype(np.int64)

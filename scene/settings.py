@@ -249,6 +249,7 @@ class SeparateProperties(WhichProperties, JointProperties):
         name="Cuts", default="SMOOTH", translation_context="Reeb Parts",  # to Blender, the number of cuts
         items=[("SMOOTH", "Smooth", "Along a smooth curve, which lies in a plane where one fits: the faces there are "
                 "divided in the pieces. Borders that are smooth already stay as they are"),
+               ("PLANAR", "Planar", "In a plane, the one that fits best, wherever that tears no part; else as Smooth"),
                ("FACES", "Along Faces", "Along the edges of faces, all of which stay whole")],
         description="Where the pieces are cut from each other; the mesh itself stays as it is",
     )

@@ -30,7 +30,7 @@ NUMBER = "reeb_parts_face_number"
 
 
 def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray, stretch: np.ndarray,
-                 along: np.ndarray) -> Steps[tuple[Elements, np.ndarray, CleanCuts]]:
+                 along: np.ndarray, planar: bool = False) -> Steps[tuple[Elements, np.ndarray, CleanCuts]]:
     """Divide the faces of a mesh where smooth cuts between its parts run, in steps.
 
     Parameters
@@ -44,6 +44,8 @@ def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray
         What the object does to the mesh, see bridge.world_stretch.
     along : (k, 2) int64
         Numbers of parts, the lower first, between which the cut is to run along the edges of faces.
+    planar : bool
+        Cuts lie in planes wherever they can.
 
     Returns
     -------
@@ -53,11 +55,11 @@ def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray
         Number of each face's part, of the faces that there are now.
     cuts : CleanCuts
     """
-    cuts = find_cuts(whole, face_numbers, stretch, along)
+    cuts = find_cuts(whole, face_numbers, stretch, along, planar)
     if len(cuts.odd):
         whole, face_numbers = _changed(whole, like, face_numbers, cuts.odd,
                                        lambda bm, _, odd: triangulate(bm, odd))
-        cuts = find_cuts(whole, face_numbers, stretch, along)
+        cuts = find_cuts(whole, face_numbers, stretch, along, planar)
         assert not len(cuts.odd)
     yield 0.7
     if not len(cuts.face):
@@ -70,16 +72,17 @@ def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray
     return whole, face_numbers, cuts
 
 
-def find_cuts(whole: Elements, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> CleanCuts:
+def find_cuts(whole: Elements, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray,
+              planar: bool = False) -> CleanCuts:
     """Where smooth cuts run; arguments as of ``divide_faces``."""
     from ..core.uses.clean_cuts.method import clean_cuts  # imports SciPy
 
     table = CornerTable(whole.points.astype(np.float64) @ stretch.T, whole.ends, whole.corner_vertex,
                         whole.corner_edge, whole.corner_face, len(whole.count))
     if not len(along):
-        return clean_cuts(table, face_numbers)
+        return clean_cuts(table, face_numbers, planar=planar)
     sides = np.stack(table.edge_labels(face_numbers), axis=1)
-    return clean_cuts(table, face_numbers, (sides[:, None] == along[None]).all(axis=2).any(axis=1))
+    return clean_cuts(table, face_numbers, (sides[:, None] == along[None]).all(axis=2).any(axis=1), planar)
 
 
 def _changed(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray, faces: np.ndarray,

@@ -101,6 +101,7 @@ TOOLS = {
     "Extend": "Erweitern",
     "Subtract": "Abziehen",
     "Cuts": "Schnitte",
+    "Planar": "Eben",
     "Smooth": "Glatt",
     "Along Faces": "An Flächen",
     "Joints": "Verbindungen",
@@ -407,6 +408,8 @@ TEXTS = {
     "that are smooth already stay as they are":
         "An einer glatten Kurve, die in einer Ebene liegt, wo eine passt: die Flächen dort werden in den Stücken "
         "geteilt. Grenzen, die schon glatt sind, bleiben, wie sie sind",
+    "In a plane, the one that fits best, wherever that tears no part; else as Smooth":
+        "In der Ebene, die am besten passt, wo immer das keinen Teil zerreißt; sonst wie Glatt",
     "Along the edges of faces, all of which stay whole": "An den Kanten von Flächen, die alle ganz bleiben",
     "Close Holes": "Löcher schließen",
     "Close the holes where parts were joined, so that each piece is closed; borders that the mesh had before stay "
@@ -902,6 +905,10 @@ TEXTS = {
     "{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are not closed or cross themselves}: {names}":
         "{n} von {total} {total:Teil|Teilen} {n:ist nicht geschlossen oder durchdringt|sind nicht geschlossen oder "
         "durchdringen} sich: {names}",
+    "{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or cross themselves} as the model does "
+    "there: {names}":
+        "{n} von {total} {total:Teil|Teilen} {n:ist offen oder durchdringt|sind offen oder durchdringen} sich, wie das "
+        "Modell es dort tut: {names}",
     "{n} {n:part is closed and does not cross itself|parts are closed and do not cross themselves}":
         "{n} {n:Teil ist geschlossen und durchdringt|Teile sind geschlossen und durchdringen} sich nicht",
     "{name} has nothing of the kind": "{name} hat nichts dergleichen",

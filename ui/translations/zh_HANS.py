@@ -102,6 +102,7 @@ TOOLS = {
     "Extend": "扩展",
     "Subtract": "减去",
     "Cuts": "切口",
+    "Planar": "平面",
     "Smooth": "平滑",
     "Along Faces": "沿面",
     "Joints": "接头",
@@ -397,6 +398,8 @@ TEXTS = {
     "Along a smooth curve, which lies in a plane where one fits: the faces there are divided in the pieces. Borders "
     "that are smooth already stay as they are":
         "沿平滑曲线切割，合适时曲线位于一个平面内：该处的面在块中被分割。已经平滑的边界保持不变",
+    "In a plane, the one that fits best, wherever that tears no part; else as Smooth":
+        "在最合适的平面内切割，只要不会撕裂部件；否则与“平滑”相同",
     "Along the edges of faces, all of which stay whole": "沿面的边切割，所有面保持完整",
     "Close Holes": "封闭孔洞",
     "Close the holes where parts were joined, so that each piece is closed; borders that the mesh had before stay "
@@ -808,6 +811,9 @@ TEXTS = {
         "{n} 个此后被编辑过的先前的块保持不变",
     "{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are not closed or cross themselves}: {names}":
         "{total} 个部件中有 {n} 个未封闭或自相交：{names}",
+    "{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or cross themselves} as the model does "
+    "there: {names}":
+        "{total} 个部件中有 {n} 个未封闭或自相交，模型在该处本就如此：{names}",
     "{n} {n:part is closed and does not cross itself|parts are closed and do not cross themselves}":
         "{n} 个部件封闭且无自相交",
     "{name} has nothing of the kind": "{name} 没有此类内容",

@@ -16,8 +16,11 @@ from .turning import turning
 WORTH = 0.85
 
 
-def judged(band: Band, sides: Sides, division: Division) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def judged(band: Band, sides: Sides, division: Division,
+           planar: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Put together what must be divided or left as a whole, and find what is better divided.
+
+    planar : bool, groups whose curves all lie in planes are good whatever they turn, and no others.
 
     Returns
     -------
@@ -42,7 +45,14 @@ def judged(band: Band, sides: Sides, division: Division) -> tuple[np.ndarray, np
     broken[group[band.ends[branching]]] = True
     here = (faces & _torn(band, division))[band.corner_face]
     broken[group[band.corner_vertex[here]]] = True
-    return group, (after <= WORTH * before) & ~broken, broken
+    if not planar:
+        return group, (after <= WORTH * before) & ~broken, broken
+    crossed = ~np.isnan(sides.share)
+    bent = np.zeros(len(before), bool)
+    bent[group[band.ends[crossed & (sides.plane[band.ends] < 0).any(axis=1)]]] = True
+    flat = np.zeros(len(before), bool)
+    flat[group[band.ends[crossed]]] = True
+    return group, flat & ~bent & ~broken, broken
 
 
 def _groups(band: Band, faces: np.ndarray) -> np.ndarray:

@@ -17,6 +17,8 @@ from .sides import Sides, sides_of
 
 # How often shares are diffused, half an edge each time; where that goes wrong, as often as the next says.
 STEPS = (10, 4, 2)
+# Planes that are asked for may be so many edges away from the border.
+REACH = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +60,8 @@ class CleanCuts:
     kept: int = 0
 
 
-def clean_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | None = None) -> CleanCuts:
+def clean_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | None = None,
+               planar: bool = False) -> CleanCuts:
     """Find smooth curves along the borders between parts.
 
     Parameters
@@ -69,6 +72,9 @@ def clean_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | None 
         Part of each face, 0 or more.
     whole : (e,) bool, optional
         Edges at which borders are to stay along edges, with all the borders that are connected with them.
+    planar : bool
+        Curves are to lie in planes wherever that tears no part, even if a plane is far from the border or the border
+        follows a crease.
 
     Returns
     -------
@@ -79,7 +85,7 @@ def clean_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | None 
     -----
     O(n) to find what lies near the borders; all else is for that only.
     """
-    band = Band.of(table, labels, max(STEPS) + 2)
+    band = Band.of(table, labels, (REACH if planar else max(STEPS)) + 2)
     if band is None:
         return CleanCuts(*(np.empty(0, kind) for kind in (np.int64, float, np.int64, np.int64, np.int64, np.int64)))
     taken = np.zeros(len(band.vertices), bool)
@@ -88,12 +94,15 @@ def clean_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | None 
     pins = Pins.of(band)
     low, high = band.edge_labels()
     borders = np.unique(band.ends[low < high])
-    for steps in STEPS:
+    tries = [(steps, pins, 0) for steps in STEPS]
+    if planar:
+        tries.insert(0, (max(STEPS), Pins.none(), REACH))
+    for steps, held, reach in tries:
         if taken[borders].all():
             break
-        sides = sides_of(band, pins, steps)
+        sides = sides_of(band, held, steps, reach)
         division = divide(band, sides)
-        group, good, broken = judged(band, sides, division)
+        group, good, broken = judged(band, sides, division, reach > 0)
         if whole is not None:
             asked = group[band.ends[(low < high) & whole[band.edges]]]
             broken[asked], good[asked] = True, False

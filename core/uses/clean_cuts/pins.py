@@ -30,6 +30,11 @@ class Pins:
     pair: np.ndarray
 
     @classmethod
+    def none(cls) -> Pins:
+        """No vertices."""
+        return cls(np.empty(0, np.int64), np.empty((0, 2), np.int64))
+
+    @classmethod
     def of(cls, band: Band) -> Pins:
         """The vertices of creases that borders follow, also where they leave one for a few edges."""
         low, high = band.edge_labels()

@@ -10,8 +10,9 @@ import numpy as np
 from ...surface.arrays import components, sums_by
 from .band import Band
 
-# A plane fits if no point of a curve is farther from it than so many edges and such a share of the curve's radius.
-PLANE_EDGES, PLANE_RADIUS = 0.25, 0.04
+# A plane fits if no point of a curve is farther from it than so many edges and such a share of the curve's radius; if
+# planes are asked for, than such a larger share.
+PLANE_EDGES, PLANE_RADIUS, BENT_RADIUS = 0.25, 0.04, 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,8 +35,11 @@ class Planes:
     below: np.ndarray
 
 
-def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int) -> Planes:
-    """Find the curves that a plane fits, and the vertices for which it decides."""
+def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: bool = False) -> Planes:
+    """Find the curves that a plane fits, and the vertices for which it decides.
+
+    bent : bool, planes are taken for curves, too, that leave them by up to half of their radius.
+    """
     n = len(band.vertices)
     crossed = np.flatnonzero(~np.isnan(share))
     if not len(crossed):
@@ -58,12 +62,12 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int) -> Pla
     np.minimum.at(low, curve, pair)
     np.maximum.at(high, curve, pair)
     fits = (low == high).all(axis=1) & (size[:, 1] > 0.01 * size[:, 2]) & (np.bincount(curve) >= 6)
-    fits &= away <= PLANE_EDGES * length + PLANE_RADIUS * np.sqrt(size.sum(axis=1).clip(0))
+    fits &= away <= PLANE_EDGES * length + (BENT_RADIUS if bent else PLANE_RADIUS) * np.sqrt(size.sum(axis=1).clip(0))
     rings = np.where(fits, np.ceil(away / np.maximum(length, 1e-300)).clip(max=steps) + 2, 0).astype(np.int64)
     number, ring = _owners(band, crossed, curve, rings)
     height = ((band.points - center[number]) * normal[number]).sum(axis=1)
     planes = Planes(number, height, low[number, 0], low[number, 1])
-    return _valid(band, top, crossed, curve, planes, ring, rings, fits)
+    return _valid(band, top, crossed, curve, planes, ring, rings, fits, bent)
 
 
 def _curves(band: Band, crossed: np.ndarray) -> np.ndarray:
@@ -96,7 +100,7 @@ def _owners(band: Band, crossed: np.ndarray, curve: np.ndarray, rings: np.ndarra
 
 
 def _valid(band: Band, top: np.ndarray, crossed: np.ndarray, curve: np.ndarray, planes: Planes, ring: np.ndarray,
-           rings: np.ndarray, fits: np.ndarray) -> Planes:
+           rings: np.ndarray, fits: np.ndarray, bent: bool) -> Planes:
     """The planes without those that go wrong: near another curve, or where labels beyond are not as the plane says."""
     number, height = planes.number, planes.height
     owned = number >= 0
@@ -111,7 +115,13 @@ def _valid(band: Band, top: np.ndarray, crossed: np.ndarray, curve: np.ndarray, 
     bad[number[strange]] = True
     a, b = band.ends.T
     meet = owned[a] & owned[b] & (number[a] != number[b])
-    bad[number[a[meet]]] = bad[number[b[meet]]] = True
+    if bent:
+        # Where two curves are near each other, each plane has to say there what the parts are without it.
+        wrong = owned & (top != said)
+        for end, other_end in ((a, b), (b, a)):
+            bad[number[end[meet & (wrong[end] | (top[end] != top[other_end]))]]] = True
+    else:
+        bad[number[a[meet]]] = bad[number[b[meet]]] = True
     other = number[band.ends[crossed]] != curve[:, None]
     bad[number[band.ends[crossed]][other]] = True
     bad[curve[other.any(axis=1)]] = True

@@ -12,8 +12,9 @@ from .pins import Pins, are_between
 from .planes import planes_of
 from .shares import diffused
 
-# A cut as near to a vertex as such a share of the edge goes through the vertex; in a plane, as the second says.
-SNAP, SNAP_IN_PLANE = 0.15, 0.02
+# A cut as near to a vertex as such a share of the edge goes through the vertex; in a plane, as the second says, in one
+# that was asked for, as the third.
+SNAP, SNAP_IN_PLANE, SNAP_IN_ASKED_PLANE = 0.15, 0.02, 0.002
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,21 +37,25 @@ class Sides:
     plane: np.ndarray
 
 
-def sides_of(band: Band, pins: Pins, steps: int) -> Sides:
-    """The sides of smooth curves after so many steps of diffusion."""
+def sides_of(band: Band, pins: Pins, steps: int, reach: int = 0) -> Sides:
+    """The sides of smooth curves after so many steps of diffusion.
+
+    reach : int, planes are taken, too, for bent curves that leave them by up to so many edges.
+    """
     shares = diffused(band, pins, steps)
     top = shares.top
     a, b = band.ends.T
     share = np.full(len(a), np.nan)
     apart = np.flatnonzero(top[a] != top[b])
     share[apart] = shares.crossing(band.ends[apart])
-    planes = planes_of(band, top, share, steps)
+    planes = planes_of(band, top, share, reach or steps, reach > 0)
     top = np.where(planes.number >= 0, np.where(planes.height > 0, planes.above, planes.below), top)
     flat = (planes.number[a] >= 0) & (planes.number[a] == planes.number[b])
     gap = planes.height[a] - planes.height[b]
     along = np.divide(planes.height[a], gap, out=np.full(len(a), 0.5), where=gap != 0)
     share = np.where(top[a] != top[b], np.where(flat, along, share), np.nan)
-    return _snapped(band, pins, top, share, np.where(flat, SNAP_IN_PLANE, SNAP), planes.number)
+    return _snapped(band, pins, top, share, np.where(flat, SNAP_IN_ASKED_PLANE if reach else SNAP_IN_PLANE, SNAP),
+                    planes.number)
 
 
 def _snapped(band: Band, pins: Pins, top: np.ndarray, share: np.ndarray, near: np.ndarray,
@@ -77,5 +82,6 @@ def _snapped(band: Band, pins: Pins, top: np.ndarray, share: np.ndarray, near: n
                                                    top[pins.vertex][:, None]).T
     meet = (low[a] == low[b]) | (low[a] == high[b]) | (high[a] == low[b]) | (high[a] == high[b])
     # Where the curve could not be let through the vertex, it stays away from it by a little.
-    share = np.where(meet, np.nan, share.clip(0.02, 0.98))
+    least = np.minimum(near, 0.02)
+    share = np.where(meet, np.nan, share.clip(least, 1 - least))
     return Sides(low, high, share, plane)

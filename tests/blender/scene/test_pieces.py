@@ -810,7 +810,7 @@ def test_a_check_tells_what_is_wrong_with_a_mesh(make, checks):
     assert checks.check(sound.data, np.eye(3))[0].inside_out
     crossed = make(shapes.together(octahedron, shapes.moved(octahedron, (0.4, 0.3, 0.2))), "Crossed")
     found, faults = checks.check(crossed.data, np.eye(3))
-    assert found.crossing_faces == faults.crossing.sum() > 4
+    assert found.crossing_faces == found.own_crossing_faces == faults.crossing.sum() > 4
     opened = make((octahedron[0], octahedron[1][1:]), "Opened")
     found, faults = checks.check(opened.data, np.eye(3))
     assert (found.open_edges, found.volume, found.sound, faults.open.sum()) == (3, None, False, 3)
@@ -841,6 +841,42 @@ def test_pieces_are_checked_and_what_is_wrong_can_be_selected_and_repaired(obj):
     piece.data.flip_normals()
     bpy.ops.reeb_parts.repair_piece()
     assert volume(piece.data) > 0
+
+
+def test_what_crosses_itself_in_the_model_is_told_apart(make, checks, capfd):
+    """Two balls of one mesh, the second one small and half in the first; the cut is elsewhere, and sound."""
+    vertices, faces = shapes.icosphere(3)
+    small, rim = 0.2 * vertices + [0, 0, 1.0], len(vertices)
+    make((np.concatenate([vertices, small]), np.concatenate([faces, faces + rim])))
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    capfd.readouterr()
+    bpy.ops.reeb_parts.separate(caps=True)
+    found = {piece.name: checks.kept(piece) for piece in pieces()}
+    crossing = [one for one in found.values() if one.crossing_faces]
+    said = capfd.readouterr().out
+    assert all(one.as_model for one in crossing)
+    assert ("as the model does there" in said) == bool(crossing)
+    assert "not closed or cross" not in said
+    made = bpy.data.meshes.new("Both")
+    made.from_pydata(np.concatenate([vertices, small]).tolist(), [], np.concatenate([faces, faces + rim]).tolist())
+    both = checks.check(made, np.eye(3))[0]
+    assert both.crossing_faces == both.own_crossing_faces > 0
+    made.attributes.new("reeb_cap", "INT", "FACE").data.foreach_set("value", np.ones(2 * len(faces), np.int32))
+    assert checks.check(made, np.eye(3))[0].own_crossing_faces == 0
+
+
+@pytest.mark.parametrize("cut", ["PLANAR", "SMOOTH"])
+def test_bent_cuts_are_planar_if_asked_for(make, separate, cut):
+    """A border up and down around a ball: planar, its cap is one face for both sides; else it is a surface."""
+    vertices, faces = shapes.icosphere(4)
+    obj = make((vertices, faces))
+    x, y, z = vertices[faces].mean(axis=1).T
+    numbers = 1 + (z > 0.2 * np.cos(2 * np.arctan2(y, x)) + 0.1)
+    made = separate.piece_meshes(obj.data, numbers, (1, 2), True, np.eye(3), cut == "PLANAR")
+    assert [borders(mesh) for mesh in made.meshes.values()] == [(set(), 0)] * 2
+    assert sum(map(volume, made.meshes.values())) == pytest.approx(volume(obj.data), rel=1e-6)
+    caps = [caps_of(mesh).sum() for mesh in made.meshes.values()]
+    assert caps == [1, 1] if cut == "PLANAR" else min(caps) > 30
 
 
 def test_with_holes_closed_the_report_tells_the_truth(obj, capfd):

@@ -67,6 +67,40 @@ def test_a_ragged_border_becomes_a_section_with_a_plane():
     assert points.mean(axis=0) @ NORMAL == pytest.approx(0.2, abs=0.1 * length)
 
 
+@pytest.mark.parametrize("bend", [0.1, 0.25])
+def test_a_bent_border_lies_in_a_plane_if_that_is_asked_for(bend):
+    """A border up and down around a ball: not in a plane by itself, in the one through its middle if asked."""
+    table = table_of(shapes.icosphere(4))
+    x, y, z = centers(table).T
+    labels = (z > bend * np.cos(2 * np.arctan2(y, x)) + 0.1).astype(np.int64)
+    assert clean_cuts(table, labels).planes == 0
+    cuts = clean_cuts(table, labels, planar=True)
+    assert (cuts.planes, cuts.kept, len(cuts.odd)) == (1, 0, 0)
+    points = points_of(table, cuts)
+    fitted = np.linalg.svd(points - points.mean(axis=0))[2][2]
+    length = table.edge_length(cuts.edge).mean()
+    through = table.vertices[np.unique(cuts.start[cuts.start < len(table.vertices)])]
+    assert abs(fitted[2]) > 0.99
+    assert np.abs((points - points.mean(axis=0)) @ fitted).max() < 0.002 * length
+    # Where the border was in another place, faces change their part as a whole, and begin anywhere.
+    assert len(through)
+    area = pieces_of(table, cuts, labels)
+    faces = table.face_vectors()
+    assert area.sum() == pytest.approx(np.linalg.norm(faces, axis=1).sum(), rel=1e-9)
+
+
+def test_two_planes_beside_each_other():
+    """Bent borders near each other get a plane each, and of borders whose planes might cross no part is lost."""
+    table = table_of(shapes.icosphere(4))
+    x, y, z = centers(table).T
+    wave = 0.1 * np.cos(2 * np.arctan2(y, x))
+    labels = (z > wave - 0.2).astype(np.int64) + (z > wave + 0.2)
+    assert clean_cuts(table, labels, planar=True).planes == 2
+    crossed = (z > wave).astype(np.int64) + (z > -3 * wave + 0.35)
+    cuts = clean_cuts(table, crossed, planar=True)
+    assert pieces_of(table, cuts, crossed).min() > 0
+
+
 @pytest.mark.parametrize("count", [2, 3, 5])
 def test_all_of_the_surface_is_in_one_part(count):
     """Slices between two poles, where all of them meet, with ragged borders: their areas add up to that of the mesh."""
