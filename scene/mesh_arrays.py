@@ -165,8 +165,6 @@ def triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Blender's own triangulation, and the face of each triangle; not in Edit Mode."""
     if len(mesh.loops) == 3 * len(mesh.polygons):
         return corner_vertices(mesh).reshape(-1, 3), np.arange(len(mesh.polygons), dtype=np.int32)
-    if len(mesh.loops) > 3.1 * len(mesh.polygons):
-        return _loop_triangles(mesh)
     return triangulated(basis_points(mesh), read(mesh.polygons, "loop_total", np.int32), corner_vertices(mesh))
 
 
@@ -194,11 +192,38 @@ def triangulated(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarra
     face : (t,) int32
         Rising.
     """
-    three = count == 3
+    three, four = count == 3, count == 4
     corner = np.repeat(three, count)
     found, face = corner_vertex[corner].reshape(-1, 3), np.flatnonzero(three).astype(np.int32)
     if three.all():
         return found, face
+    halves = _halves(points, corner_vertex[np.repeat(four, count)].reshape(-1, 4))
+    found = np.concatenate([found, halves])
+    face = np.concatenate([face, np.repeat(np.flatnonzero(four), 2).astype(np.int32)])
+    if not (three | four).all():
+        others, of = _of_larger_faces(points, count, corner_vertex)
+        found, face = np.concatenate([found, others]), np.concatenate([face, of])
+    order = np.argsort(face, kind="stable")
+    return found[order], face[order]
+
+
+def _halves(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
+    """The two triangles of each of some quadrilaterals, (q, 4) int32, as Blender divides them: (2 q, 3) int32.
+
+    By the diagonal from the first to the third corner, unless both others lie on the same side of it.
+    """
+    a, b, c, d = (points[quads[:, i]] for i in range(4))
+    diagonal = c - a
+    flip = np.einsum("ij,ij->i", np.cross(b - a, diagonal), np.cross(d - a, diagonal)) > 0
+    other = np.array([[0, 1, 3], [1, 2, 3]])[None]
+    corners = np.where(flip[:, None, None], other, np.array([[0, 1, 2], [0, 2, 3]])[None])
+    return np.take_along_axis(quads, corners.reshape(len(quads), 6), axis=1).reshape(-1, 3)
+
+
+def _of_larger_faces(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The triangles of the faces of five corners or more, and the face of each; arguments as of ``triangulated``."""
+    three = count <= 4
+    corner = np.repeat(three, count)
     on = np.zeros(len(points), bool)
     on[corner_vertex[~corner]] = True
     used = np.flatnonzero(on).astype(np.int32)
@@ -207,17 +232,14 @@ def triangulated(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarra
     try:
         mesh.vertices.add(len(used))
         mesh.loops.add(len(place))
-        mesh.polygons.add(len(count) - len(face))
+        mesh.polygons.add(int((~three).sum()))
         mesh.attributes["position"].data.foreach_set("vector", points[used].ravel())
         mesh.attributes[".corner_vert"].data.foreach_set("value", place)
         mesh.polygons.foreach_set("loop_start", np.cumsum(count[~three], dtype=np.int32) - count[~three])
         others, of = _loop_triangles(mesh)
-        others, of = used[others], np.flatnonzero(~three)[of]
+        return used[others], np.flatnonzero(~three)[of].astype(np.int32)
     finally:
         bpy.data.meshes.remove(mesh)
-    found, face = np.concatenate([found, others]), np.concatenate([face, of.astype(np.int32)])
-    order = np.argsort(face, kind="stable")
-    return found[order], face[order]
 
 
 def shown_points(obj: bpy.types.Object) -> np.ndarray:

@@ -790,6 +790,22 @@ def test_a_pipe_in_a_pipe_and_rims_between_other_parts(make, separate):
     assert sum(map(volume, made.meshes.values())) == pytest.approx(volume(obj.data), rel=1e-5)
 
 
+@pytest.mark.parametrize("flat", [False, True])
+def test_quads_and_larger_faces_are_divided_as_blender_divides_them(package, flat):
+    """Random ones, most of them not flat or crossing themselves, and some with three equal corners."""
+    module = importlib.import_module(f"{package}.scene.mesh_arrays")
+    count = np.random.default_rng(0).integers(3, 7, 600)
+    points = np.random.default_rng(1).normal(size=(count.sum(), 3)).astype(np.float32)
+    points = points.round() if flat else points
+    mesh = bpy.data.meshes.new("Faces")
+    first = np.cumsum(count) - count
+    mesh.from_pydata(points.tolist(), [], [list(range(a, a + n)) for a, n in zip(first, count, strict=True)])
+    mesh.calc_loop_triangles()
+    triangles, face = module.triangles(mesh)
+    assert np.array_equal(triangles, read(mesh.loop_triangles, "vertices", np.int32, 3))
+    assert np.array_equal(face, read(mesh.loop_triangles, "polygon_index", np.int32))
+
+
 @pytest.fixture
 def checks(package):
     """The module that checks pieces."""
