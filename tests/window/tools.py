@@ -14,9 +14,9 @@ from mathutils import Euler, Vector
 
 sys.path += [os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__))]
 import pointer
-from snapshot import changes, snapshot
+from snapshot import snapshot
+from spot import SEEN, at_work, chosen, differences, keys_to, note, number, shares, spot, undo_to
 
-SEEN = {}
 TOOLS = ("Pick Parts", "Cut Part", "Paint into", "Slide Boundary")
 # The buttons that start them, and what is beside those in the sidebar.
 BUTTONS = {"Cut": None, "Slide": "reeb_parts.paint", "Paint": None}
@@ -313,48 +313,13 @@ def deleted():
         note(f"deletion within {name} undone", differences(before))
 
 
-def at_work():
-    """What waits for events in the window."""
-    return sorted(operator.bl_idname for operator in bpy.context.window.modal_operators)
 
-
-def note(name, value):
-    SEEN[name] = value
-
-
-def differences(before):
-    return [str(change)[:300] for change in changes(before, snapshot())]
-
-
-def undo_to(name, before, times=1):
-    yield from keys_to(name, before, *["ctrl+z"] * times)
-
-
-def keys_to(name, wanted, *keys):
-    """Keys over the view; what is not as it should be then."""
-    pointer.xdo("mousemove", *pointer.in_view(0.3, 0.2))
-    yield from pointer.tap(*keys)
-    yield from pointer.until(lambda: snapshot() == wanted, 2.0)
-    note(name, differences(wanted))
-
-
-def shares():
-    return {part.name: round(part.share, 3) for part in spot().data.reeb_parts.parts}
-
-
-def chosen():
-    """The active part, and those that are ticked."""
-    result = spot().data.reeb_parts
-    return [result.parts[result.active].name, [part.name for part in result.parts if part.selected]]
 
 
 def choose(name):
     result = spot().data.reeb_parts
     result.active = result.parts.find(name)
 
-
-def number(name):
-    return spot().data.reeb_parts.parts[name].number
 
 
 def on_arc(name):
@@ -378,8 +343,3 @@ def stroke(start, end, window=None):
     places = pointer.surface_places(spot(), window=window)
     (x, y), (u, v) = places[number(start)], places[number(end)]
     return [(round(x + (u - x) * s / 8), round(y + (v - y) * s / 8)) for s in range(9)]
-
-
-def spot():
-    """Looked up anew, since undo replaces it."""
-    return bpy.data.objects["spot"]
