@@ -453,6 +453,13 @@ def mirrored_figure(step: float = 0.13) -> Shape:
     return _with_mirror_image(np.where(np.abs(vertices) < 1e-3 * step, 0.0, vertices), half)
 
 
+def half_of(shape: Shape) -> Shape:
+    """The faces of a shape on the positive side of the plane x = 0, with their vertices only."""
+    kept = shape.faces[(shape.vertices[shape.faces, 0] >= -1e-9).all(axis=1)]
+    used, faces = np.unique(kept, return_inverse=True)
+    return Shape(shape.vertices[used], faces.reshape(-1, 3))
+
+
 def _with_mirror_image(vertices: np.ndarray, faces: np.ndarray) -> Shape:
     """A half and its image in the plane x = 0, joined there."""
     image = np.where(vertices[:, 0] == 0.0, np.arange(len(vertices)), np.arange(len(vertices)) + len(vertices))

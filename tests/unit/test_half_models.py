@@ -4,21 +4,14 @@
 import numpy as np
 import pytest
 import shapes
+from results import same_partition
 
 from core import Decomposition, MeshError, decompose
-from core.surface.arrays import renumbered
 from core.surface.halves import completed, is_one_side, plane_of
 from core.surface.mesh import TriMesh
 from core.surface.polygons import PolygonMesh
 
 X = np.array([1.0, 0, 0, 0])
-
-
-def half_of(shape):
-    """The faces of a symmetric shape on one side of the plane x = 0."""
-    kept = shape.faces[(shape.vertices[shape.faces, 0] >= -1e-9).all(axis=1)]
-    used, faces = renumbered(kept)
-    return shapes.Shape(shape.vertices[used], faces)
 
 
 def posed(shape, plane, seed):
@@ -29,14 +22,9 @@ def posed(shape, plane, seed):
             np.append(normal, scale * plane[3] + normal @ offset))
 
 
-def same_partition(one, two):
-    pairs = set(zip(one.tolist(), two.tolist(), strict=True))
-    return len(pairs) == len(set(one.tolist())) == len(set(two.tolist()))
-
-
 @pytest.mark.parametrize("seed", range(3))
 def test_the_parts_of_the_whole(seed):
-    half, plane = posed(half_of(shapes.mirrored_figure()), X, seed)
+    half, plane = posed(shapes.half_of(shapes.mirrored_figure()), X, seed)
     whole = completed(PolygonMesh.of(*half), plane)
     expected = decompose(whole.vertices, whole.triangles)
     found = decompose(*half, mirror=plane * (5.0, 5.0, 5.0, 1.0))
@@ -64,7 +52,7 @@ def _nodes_lie_in_their_parts(found, expected):
 
 
 def test_the_graph_has_the_loops_of_the_whole():
-    half = half_of(shapes.torus())
+    half = shapes.half_of(shapes.torus())
     assert decompose(*half, mirror=X).graph.n_loops == 1
     assert decompose(*half).graph.n_loops == 0
 
@@ -72,7 +60,7 @@ def test_the_graph_has_the_loops_of_the_whole():
 @pytest.mark.parametrize(("shape", "euler"), [
     (shapes.torus(), 0), (shapes.moved(shapes.subdivide(shapes.subdivide(shapes.box())), (-0.5, 0, 0)), 2)])
 def test_the_border_at_the_plane_is_closed(shape, euler):
-    half = half_of(shape)
+    half = shapes.half_of(shape)
     half.vertices[np.abs(half.vertices[:, 0]) < 1e-9, 0] = 3e-4  # not quite on the plane
     whole = completed(PolygonMesh.of(*half), X)
     mesh = TriMesh(whole.vertices, whole.triangles)
@@ -86,7 +74,7 @@ def test_the_border_at_the_plane_is_closed(shape, euler):
 
 
 def test_stored_and_read_again():
-    half = half_of(shapes.mirrored_figure())
+    half = shapes.half_of(shapes.mirrored_figure())
     found = decompose(*half, mirror=X)
     read = Decomposition.from_bytes(found.to_bytes(), (found.n_vertices, found.n_faces))
     np.testing.assert_array_equal(read.parts().labels, found.parts().labels)
@@ -107,6 +95,6 @@ def test_planes_have_a_normal_of_length_one(scale):
 def test_one_side():
     shape = shapes.icosphere(2)
     assert not is_one_side(shape.vertices, X)
-    assert is_one_side(half_of(shape).vertices, X)
-    assert is_one_side(half_of(shape).vertices - (1e-3, 0, 0), X)
-    assert is_one_side(-half_of(shape).vertices, X)
+    assert is_one_side(shapes.half_of(shape).vertices, X)
+    assert is_one_side(shapes.half_of(shape).vertices - (1e-3, 0, 0), X)
+    assert is_one_side(-shapes.half_of(shape).vertices, X)

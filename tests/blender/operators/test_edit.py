@@ -6,13 +6,8 @@ import importlib
 import bpy
 import numpy as np
 import pytest
+from results import numbers
 from snapshot import activate, check_undo, snapshot
-
-
-def numbers(mesh):
-    values = np.zeros(len(mesh.polygons), np.int32)
-    mesh.attributes["reeb_part"].data.foreach_get("value", values)
-    return values
 
 
 @pytest.fixture

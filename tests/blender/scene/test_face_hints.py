@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from results import numbers
 
 
 @pytest.fixture
@@ -23,10 +24,6 @@ def ball(make):
     for edge in obj.data.edges:
         edge.use_seam = edge.use_edge_sharp = len(sides[edge.key]) == 2
     return obj, upper
-
-
-def numbers(mesh):
-    return np.array([value.value for value in mesh.attributes["reeb_part"].data])
 
 
 def follows(mesh, upper):

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import shapes
 from mathutils import Vector
+from results import numbers
 
 TIP = shapes.TREE_TIPS[0]
 FAR = 1.7  # along the branch, beyond every cut below
@@ -29,12 +30,6 @@ def mesh(obj):
     """The tree as one part, whose candidates are whole branches."""
     bpy.ops.reeb_parts.decompose(method="berretti", n_parts=1)
     return obj.data
-
-
-def numbers(mesh):
-    found = np.empty(len(mesh.polygons), np.int32)
-    mesh.attributes["reeb_part"].data.foreach_get("value", found)
-    return found
 
 
 def beyond(mesh):

@@ -12,10 +12,7 @@ from mathutils import Matrix
 
 @pytest.fixture
 def half():
-    figure = shapes.mirrored_figure()
-    kept = figure.faces[(figure.vertices[figure.faces, 0] >= -1e-9).all(axis=1)]
-    used, faces = np.unique(kept, return_inverse=True)
-    return shapes.Shape(figure.vertices[used], faces.reshape(-1, 3))
+    return shapes.half_of(shapes.mirrored_figure())
 
 
 @pytest.fixture

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from results import numbers
 from snapshot import changes, snapshot
 
 
@@ -14,12 +15,6 @@ from snapshot import changes, snapshot
 def result(obj):
     bpy.ops.reeb_parts.decompose(method="berretti")
     return obj.data.reeb_parts
-
-
-def numbers(mesh):
-    values = np.zeros(len(mesh.polygons), np.int32)
-    mesh.attributes["reeb_part"].data.foreach_get("value", values)
-    return values
 
 
 def seen(obj):

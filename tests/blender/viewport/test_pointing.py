@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapes
 from mathutils import Matrix, Vector
+from results import numbers
 from snapshot import activate, check_undo, snapshot
 
 
@@ -16,12 +17,6 @@ from snapshot import activate, check_undo, snapshot
 def result(obj):
     bpy.ops.reeb_parts.decompose(method="berretti")
     return obj.data.reeb_parts
-
-
-def numbers(mesh):
-    values = np.zeros(len(mesh.polygons), np.int32)
-    mesh.attributes["reeb_part"].data.foreach_get("value", values)
-    return values
 
 
 def centers(obj):

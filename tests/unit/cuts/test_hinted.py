@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapes
+from results import same_partition
 
 from core import MeshError, decompose
 
@@ -11,11 +12,6 @@ from core import MeshError, decompose
 @pytest.fixture(scope="module")
 def tree():
     return shapes.tube_tree()
-
-
-def same_partition(one, two):
-    pairs = set(zip(one.tolist(), two.tolist(), strict=True))
-    return len(pairs) == len(set(one.tolist())) == len(set(two.tolist()))
 
 
 def centers(shape):
@@ -68,14 +64,12 @@ def test_the_order_of_faces_does_not_matter(tree):
 
 
 def test_half_models_take_them_along():
-    figure = shapes.mirrored_figure()
-    kept = figure.faces[(figure.vertices[figure.faces, 0] >= -1e-9).all(axis=1)]
-    half = shapes.Shape(figure.vertices, kept)
+    half = shapes.half_of(shapes.mirrored_figure())
     hints = (centers(half)[:, 2] > np.median(centers(half)[:, 2])).astype(int)
     plane = np.array([1.0, 0, 0, 0])
     found = decompose(*half, mirror=plane, hints=hints)
     assert (found.candidates != decompose(*half, mirror=plane).candidates).any()
-    assert found.n_faces == len(kept)
+    assert found.n_faces == len(half.faces)
 
 
 @pytest.mark.parametrize("hints", [[0, 1], 3, [0.5] * 320, ["a"] * 320, np.zeros((320, 1))], ids=str)
