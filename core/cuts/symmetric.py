@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import components, distinct_pairs, renumbered, rounded
+from ..surface.arrays import components, renumbered, rounded
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
 from .hierarchy import Hierarchy
 from .joining.method import LAST
@@ -166,9 +166,9 @@ def _without_lone(graph: FaceGraph, full: np.ndarray, itself: np.ndarray, seen: 
 
 def _disagreement(first: np.ndarray, second: np.ndarray, area: np.ndarray) -> float:
     """Share of pairs of points that one labeling of the faces, (p,), joins and the other separates."""
-    pairs, pair = distinct_pairs(first, second)
-    together = np.bincount(pair, area)
-    apart = sum((np.bincount(side, together) ** 2).sum() for side in pairs.T) - 2 * (together**2).sum()
+    width = int(second.max()) + 1
+    together = np.bincount(first * width + second, area, (int(first.max()) + 1) * width).reshape(-1, width)
+    apart = sum((together.sum(axis=axis) ** 2).sum() for axis in (0, 1)) - 2 * (together**2).sum()
     return float(apart / area.sum() ** 2)
 
 

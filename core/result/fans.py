@@ -46,7 +46,10 @@ def boundaries(
 
 def _unchained(label: np.ndarray, face: np.ndarray, edge: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Pairs of labels at one edge, (k, 2), smaller first, whose faces do not follow each other there; and the edges."""
-    several = np.flatnonzero(np.bincount(edge)[edge] > 2)
+    meeting = np.bincount(edge)
+    if meeting.max(initial=0) <= 2:
+        return np.empty((0, 2), np.int64), np.empty(0, np.int64)
+    several = np.flatnonzero(meeting[edge] > 2)
     several = several[np.argsort(edge[several], kind="stable")]
     at, name = edge[several], label[face[several]]
     follows = at[1:] == at[:-1]

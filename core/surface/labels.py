@@ -164,11 +164,13 @@ def fill_unlabeled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
     Returns
     -------
     label : (n_faces,) int64
-        0 or more; 0 for a face that no label reaches.
+        0 or more. A face that no label reaches gets the lowest there is.
     """
-    if (label < 0).any():
-        label = spread(label, *both_ways(graph.pairs).T)
-    return np.maximum(label, 0)
+    if (label >= 0).all():
+        return label
+    label = spread(label, *both_ways(graph.pairs).T)
+    known = label[label >= 0]
+    return np.where(label >= 0, label, known.min() if len(known) else 0)
 
 
 def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:

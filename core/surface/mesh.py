@@ -55,8 +55,8 @@ class TriMesh:
 
     def _check_values(self) -> None:
         """Raise MeshError if a coordinate is not finite or a face names a vertex that does not exist."""
-        bad = np.flatnonzero(~np.isfinite(self.vertices).all(axis=1))
-        if len(bad):
+        if not np.isfinite(self.vertices).all():
+            bad = np.flatnonzero(~np.isfinite(self.vertices).all(axis=1))
             raise MeshError(
                 Sentence(
                     "{n} of {total} vertices {n:has|have} a coordinate that is not a finite number (first: "
@@ -64,9 +64,8 @@ class TriMesh:
                     n=len(bad), total=self.n_vertices, first=int(bad[0])),
                 vertices=bad,
             )
-        outside = ((self.faces < 0) | (self.faces >= self.n_vertices)).any(axis=1)
-        if outside.any():
-            bad = np.flatnonzero(outside)
+        if self.faces.min(initial=0) < 0 or self.faces.max(initial=-1) >= self.n_vertices:
+            bad = np.flatnonzero(((self.faces < 0) | (self.faces >= self.n_vertices)).any(axis=1))
             raise MeshError(
                 Sentence(
                     "{n} of {total} faces {n:names|name} a vertex that does not exist (first: face {first}; "

@@ -422,7 +422,7 @@ def _notes(given: PolygonMesh) -> tuple[str, ...]:
     mesh = given.triangles
     n_lost = int((~mesh.used).sum())
     flat = np.ones(given.n_polygons, bool)
-    longest = mesh.edge_length[mesh.edges.face_edges].max(axis=1)
+    longest = np.maximum.reduce([mesh.edge_length[side] for side in mesh.edges.face_edges.T])
     # The area of three corners on a line is rarely exactly 0.
     flat[given.polygon[mesh.face_area > 1e-12 * longest**2]] = False
     notes = (

@@ -6,7 +6,7 @@ import pytest
 import shapes
 from face_graphs import boundary_length, graph_of, n_connected, patches, path
 
-from core.surface.labels import connect, fill_unlabeled, majority, straighten
+from core.surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from core.surface.mesh import TriMesh
 
 
@@ -33,6 +33,12 @@ def test_fill_from_the_labelled_outwards():
     assert label[5:].tolist() == [5, 5]
     assert label[4] in (3, 5)
     assert fill_unlabeled(path(3), np.full(3, -1)).tolist() == [0, 0, 0]
+
+
+def test_what_no_label_reaches_joins_a_label_that_there_is():
+    """A label that only such faces have would hang together with nothing."""
+    alone = FaceGraph(4, np.array([[0, 1]]), np.ones(1), np.ones(4))
+    assert fill_unlabeled(alone, np.array([-1, 7, -1, 5])).tolist() == [7, 7, 5, 5]
 
 
 def test_connect_keeps_the_largest_and_gives_the_rest_to_the_longest_boundary():
