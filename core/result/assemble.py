@@ -9,6 +9,7 @@ from dataclasses import field as dataclass_field
 from functools import cached_property
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from ..cuts.hierarchy import Candidates, Dendrogram, Hierarchy
 from ..cuts.hinted import hinted_candidates
@@ -200,7 +201,8 @@ def face_graph_of(given: PolygonMesh, working: WorkingMesh) -> FaceGraph:
 def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
     """Each of the caller's faces that the working copy lacks and a neighbor that it has, (l, 2) int64.
 
-    The neighbor shares an edge with the face, or, if none does, a corner. A face without such a neighbor is left out.
+    The neighbor shares an edge with the face, or, if none does, a corner; for a face that touches such faces only, or
+    nothing, it is the nearest.
     """
     kept = np.zeros(given.n_polygons, bool)
     kept[working.polygon] = True
@@ -212,7 +214,22 @@ def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
                           at_vertex[given.triangles.faces[~kept_triangle]].ravel()], axis=1)
     pairs = np.concatenate([pairs, pairs[:, ::-1], by_corner[by_corner[:, 1] >= 0]])
     pairs = pairs[~kept[pairs[:, 0]] & kept[pairs[:, 1]]]
-    return pairs[np.unique(pairs[:, 0], return_index=True)[1]]
+    lost, first = np.unique(pairs[:, 0], return_index=True)
+    alone = ~kept
+    alone[lost] = False
+    return np.concatenate([pairs[first], _nearest_kept(given, kept, np.flatnonzero(alone))])
+
+
+def _nearest_kept(given: PolygonMesh, kept: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Some of the caller's faces, (k,) int64, each with the nearest of those that are kept, (k, 2) int64."""
+    if not len(faces) or not kept.any():
+        return np.empty((0, 2), np.int64)
+    middle, triangle = given.triangles.face_centroids, np.flatnonzero(kept[given.polygon])
+    first = np.unique(given.polygon, return_index=True)[1]
+    distance, nearest = cKDTree(middle[triangle]).query(middle[first[faces]], k=range(1, min(4, len(triangle)) + 1))
+    # Of those equally near the first: rounding must not choose.
+    equal = distance <= distance[:, :1] + 1e-9 * np.sqrt(given.triangles.area)
+    return np.stack([faces, given.polygon[triangle][np.where(equal, nearest, len(triangle)).min(axis=1)]], axis=1)
 
 
 def _face_candidates(

@@ -6,6 +6,7 @@ import pytest
 import shapes
 from face_graphs import graph_of, n_connected, patches, path
 
+from core import decompose
 from core.cuts.hierarchy import Hierarchy
 from core.result.assemble import settle
 from core.surface.labels import FaceGraph, connect
@@ -47,3 +48,17 @@ def test_settle_leaves_loose_parts_apart():
     _, hierarchy = settle(graph, np.arange(4), given)
     assert hierarchy.n_loose == 2
     assert hierarchy.salience.tolist() == [0.2, 0.5]
+
+
+def test_faces_without_area_that_touch_only_each_other_follow_the_nearest():
+    shape = shapes.two_spheres()
+    n = len(shape.vertices)
+    beside = shape.vertices[shape.vertices[:, 0].argmax()] + (0.1, 0, 0)
+    vertices = np.concatenate([shape.vertices, [beside, beside]])
+    chain = [[n, n, n + 1], [n + 1, n + 1, n]]
+    found = decompose(vertices, np.concatenate([shape.faces, chain]))
+    nearest = np.linalg.norm(shape.vertices[shape.faces].mean(axis=1) - beside, axis=1).argmin()
+    two = found.parts(n_parts=2).labels
+    assert (two[-2:] == two[nearest]).all()
+    for count in range(1, found.n_candidates + 1):
+        assert found.parts(n_parts=count).count == count
