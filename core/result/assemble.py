@@ -215,18 +215,22 @@ def _lost_faces(given: PolygonMesh, working: WorkingMesh) -> np.ndarray:
     pairs = np.concatenate([pairs, pairs[:, ::-1], by_corner[by_corner[:, 1] >= 0]])
     pairs = pairs[~kept[pairs[:, 0]] & kept[pairs[:, 1]]]
     lost, first = np.unique(pairs[:, 0], return_index=True)
-    alone = ~kept
-    alone[lost] = False
-    return np.concatenate([pairs[first], _nearest_kept(given, kept, np.flatnonzero(alone))])
+    known = kept.copy()
+    known[lost] = True
+    return np.concatenate([pairs[first], _nearest_kept(given, kept_triangle, ~known[given.polygon])])
 
 
-def _nearest_kept(given: PolygonMesh, kept: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Some of the caller's faces, (k,) int64, each with the nearest of those that are kept, (k, 2) int64."""
-    if not len(faces) or not kept.any():
+def _nearest_kept(given: PolygonMesh, kept: np.ndarray, lost: np.ndarray) -> np.ndarray:
+    """Each of the caller's faces that has a lost triangle and that which has the nearest kept one, (k, 2) int64.
+
+    kept, lost : (m,) bool, triangles of the caller's faces.
+    """
+    faces, first = np.unique(given.polygon[lost], return_index=True)
+    triangle = np.flatnonzero(kept)
+    if not len(faces) or not len(triangle):
         return np.empty((0, 2), np.int64)
-    middle, triangle = given.triangles.face_centroids, np.flatnonzero(kept[given.polygon])
-    first = np.unique(given.polygon, return_index=True)[1]
-    distance, nearest = cKDTree(middle[triangle]).query(middle[first[faces]], k=range(1, min(4, len(triangle)) + 1))
+    middle = given.triangles.face_centroids
+    distance, nearest = cKDTree(middle[triangle]).query(middle[lost][first], k=range(1, min(4, len(triangle)) + 1))
     # Of those equally near the first: rounding must not choose.
     equal = distance <= distance[:, :1] + 1e-9 * np.sqrt(given.triangles.area)
     return np.stack([faces, given.polygon[triangle][np.where(equal, nearest, len(triangle)).min(axis=1)]], axis=1)

@@ -197,15 +197,16 @@ def _in_own_frame(mesh: TriMesh, vertex_rank: np.ndarray | None) -> tuple[np.nda
 
     Places are from its middle, in units of the largest coordinate of a vertex with a face.
     """
-    middle = weighted_sum(mesh.face_area, mesh.face_centroids) / mesh.area
+    weight = mesh.face_area if mesh.area > 0 else np.ones(mesh.n_faces)  # a piece may have none
+    middle = weighted_sum(weight, mesh.face_centroids) / weight.sum()
     used = np.flatnonzero(mesh.used)
     if vertex_rank is not None:
         used = used[stable_order(vertex_rank[used])]
     corner = np.zeros((mesh.n_vertices, 3))
     corner[used] = mesh.vertices[used] - middle
-    axes = _own_axes(mesh.face_centroids - middle, mesh.face_area, corner[used])
+    axes = _own_axes(mesh.face_centroids - middle, weight, corner[used])
     corner = inner_products(corner, axes)
-    return corner / np.abs(corner).max(), axes
+    return corner / max(np.abs(corner).max(), 1e-300), axes
 
 
 def _own_axes(position: np.ndarray, weight: np.ndarray, points: np.ndarray) -> np.ndarray:
