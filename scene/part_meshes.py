@@ -69,13 +69,6 @@ class PieceMeshes:
     n_crossings: int
 
 
-def part_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int],
-                close: bool = False) -> tuple[dict[int, bpy.types.Mesh], int]:
-    """What ``piece_meshes`` makes along faces: meshes, and edges left open."""
-    made = piece_meshes(mesh, face_numbers, wanted, close)
-    return made.meshes, made.left_open
-
-
 def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int], close: bool = False,
                  smooth: np.ndarray | None = None, planar: bool = False) -> PieceMeshes:
     """A mesh for each of some parts, with all that its faces carry.

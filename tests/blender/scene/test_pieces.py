@@ -190,6 +190,12 @@ def separate(package):
     return importlib.import_module(f"{package}.scene.part_meshes")
 
 
+def closed_pieces(separate, mesh, numbers, wanted):
+    """Pieces cut along faces, their holes filled, and how many edges stayed open."""
+    made = separate.piece_meshes(mesh, numbers, wanted, close=True)
+    return made.meshes, made.left_open
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_closed_pieces_have_no_border_that_was_not_there(shape, separate, seed):
     """Parts around random faces: ragged, with cuts that end on borders, meet, and touch in a vertex."""
@@ -200,7 +206,7 @@ def test_closed_pieces_have_no_border_that_was_not_there(shape, separate, seed):
     centers = centers + 0.05 * rng.standard_normal(centers.shape)
     seeds = centers[rng.choice(len(centers), 12, replace=False)]
     numbers = 1 + np.linalg.norm(centers[:, None] - seeds[None], axis=2).argmin(axis=1)
-    meshes, left_open = separate.part_meshes(shape.data, numbers, range(1, 13), close=True)
+    meshes, left_open = closed_pieces(separate, shape.data, numbers, range(1, 13))
     assert left_open == 0
     for number, mesh in meshes.items():
         assert len(mesh.polygons) - caps_of(mesh).sum() == (numbers == number).sum()
@@ -213,7 +219,7 @@ def test_a_tube_cut_along_becomes_two_bodies(make, separate):
     """The cuts run from border to border: each half is closed with its stretches of the borders."""
     tube = make(shapes.cylinder(24, 16))
     halves = 1 + (read(tube.data.polygons, "center", np.float32, 3)[:, 0] > 0)
-    meshes, left_open = separate.part_meshes(tube.data, halves, (1, 2), close=True)
+    meshes, left_open = closed_pieces(separate, tube.data, halves, (1, 2))
     assert [borders(mesh) for mesh in meshes.values()] == [(set(), 0)] * 2
     assert left_open == 0
 
@@ -221,7 +227,7 @@ def test_a_tube_cut_along_becomes_two_bodies(make, separate):
 def test_single_faces_can_be_closed(make, separate):
     """A part of one triangle has no room for a second face between the same corners."""
     obj = make(shapes.octahedron())
-    meshes, left_open = separate.part_meshes(obj.data, np.arange(8), range(8), close=True)
+    meshes, left_open = closed_pieces(separate, obj.data, np.arange(8), range(8))
     assert left_open == 0
     assert [borders(mesh) for mesh in meshes.values()] == [(set(), 0)] * 8
 
@@ -234,7 +240,7 @@ def test_a_hole_where_three_faces_meet_is_left_open_and_counted(make, separate):
     obj = make(shape)
     numbers = np.ones(len(shape.faces), np.int64)
     numbers[taken] = 2
-    meshes, left_open = separate.part_meshes(obj.data, numbers, (1, 2), close=True)
+    meshes, left_open = closed_pieces(separate, obj.data, numbers, (1, 2))
     assert left_open == 3
     assert len(meshes[1].polygons) == len(shape.faces) - 1
     assert borders(meshes[2]) == (set(), 0)
@@ -267,7 +273,7 @@ def test_slices_that_meet_in_two_places_fit_together(make, separate, count, bent
     x, y, z = vertices[faces].mean(axis=1).T
     angle = (np.arctan2(y, x) + 0.4 * np.sin(4 * z)) % (2 * np.pi)
     numbers = 1 + (angle * count / (2 * np.pi)).astype(int)
-    meshes, left_open = separate.part_meshes(obj.data, numbers, range(1, count + 1), close=True)
+    meshes, left_open = closed_pieces(separate, obj.data, numbers, range(1, count + 1))
     assert left_open == 0
     volumes = [volume(mesh) for mesh in meshes.values()]
     assert min(volumes) > 0
