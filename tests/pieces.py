@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a mesh can carry, put on it; and what separated parts have kept of it, element by element."""
 
+import json
 from dataclasses import dataclass
 
+import bmesh
 import bpy
 import numpy as np
 
@@ -124,6 +126,21 @@ def rims(meshes, size) -> tuple[float, float]:
         total += angle.sum()
     every = np.concatenate(angles) if angles else np.empty(0)
     return (float(np.degrees(every.mean())) if len(every) else 0.0), total * size / max(length, 1e-30)
+
+
+def volume(mesh) -> float:
+    """What a mesh encloses, by Blender; negative if it is inside out."""
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    found = bm.calc_volume(signed=True)
+    bm.free()
+    return found
+
+
+def is_sound(piece) -> bool:
+    """Whether the check of a separated part found nothing wrong."""
+    found = json.loads(piece["reeb_parts_check"])
+    return not (found["open_edges"] or found["branching_edges"] or found["crossing_faces"] or found["inside_out"])
 
 
 def closed_volume(mesh) -> float | None:

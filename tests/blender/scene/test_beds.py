@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts that are longer than the printer's bed are cut further: closed, together what they were, and joined alike."""
 
-import json
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
 import shapes
+from pieces import is_sound, volume
 from snapshot import activate, check_undo
 
 KEEP = {"hide": False, "center": False}
@@ -15,19 +14,6 @@ KEEP = {"hide": False, "center": False}
 
 def pieces(name="Tree"):
     return [o for o in bpy.data.collections[f"Parts of {name}"].objects if "reeb_parts_number" in o]
-
-
-def volume(mesh):
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    found = bm.calc_volume(signed=True)
-    bm.free()
-    return found
-
-
-def is_sound(piece):
-    found = json.loads(piece["reeb_parts_check"])
-    return not (found["open_edges"] or found["branching_edges"] or found["crossing_faces"] or found["inside_out"])
 
 
 def extents(piece):

@@ -4,12 +4,12 @@
 import importlib
 import json
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
 import shapes
 from mathutils.bvhtree import BVHTree
+from pieces import is_sound, volume
 from snapshot import activate, changes, check_undo, snapshot
 
 KEEP = {"hide": False, "center": False}
@@ -25,21 +25,8 @@ def dowels(name="Tree"):
     return [o for o in bpy.data.collections[f"Parts of {name}"].objects if "reeb_parts_dowel" in o]
 
 
-def volume(mesh):
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    found = bm.calc_volume(signed=True)
-    bm.free()
-    return found
-
-
 def check_of(piece):
     return json.loads(piece["reeb_parts_check"])
-
-
-def is_sound(piece):
-    found = check_of(piece)
-    return not (found["open_edges"] or found["branching_edges"] or found["crossing_faces"] or found["inside_out"])
 
 
 def tree_of(obj, only=None):

@@ -13,6 +13,7 @@ import pytest
 import shapes
 from mathutils import Matrix
 from mathutils.bvhtree import BVHTree
+from pieces import volume
 from scipy.spatial import cKDTree
 from snapshot import activate, changes, check_undo, snapshot
 
@@ -244,14 +245,6 @@ def test_a_hole_where_three_faces_meet_is_left_open_and_counted(make, separate):
     assert left_open == 3
     assert len(meshes[1].polygons) == len(shape.faces) - 1
     assert borders(meshes[2]) == (set(), 0)
-
-
-def volume(mesh):
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    found = bm.calc_volume(signed=True)
-    bm.free()
-    return found
 
 
 def test_pieces_that_meet_in_rings_fit_together(make):
