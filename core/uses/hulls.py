@@ -14,6 +14,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ..surface.arrays import components, renumbered, second_moments, sums_by
 from ..surface.corners import CornerTable
+from ..surface.ordering import principal_axes
 
 #: How many corners a hull has at most; game engines take 255, and are faster with fewer.
 MOST = 64
@@ -42,7 +43,6 @@ class Hull:
 
     vertices: np.ndarray
     triangles: np.ndarray
-
 
     @property
     def volume(self) -> float:
@@ -155,9 +155,9 @@ def _divided(part: _Surface, count: int, volume: float) -> list[_Surface]:
     total = part.volume if count > 1 else 0.0
     while len(pieces) < count and total > _CLOSE * abs(volume):
         room = count - len(pieces)
-        splits = [_best_split(piece, room) if split is _UNKNOWN or len(split.planes) > room else split
+        splits = [_best_split(piece, room) if split is _UNKNOWN or split.more > room else split
                   for piece, split in zip(pieces, splits, strict=True)]
-        best = int(np.argmax([split.gain / max(len(split.planes), 1) for split in splits]))
+        best = int(np.argmax([split.gain_each for split in splits]))
         if splits[best].gain <= _GAIN * total:
             break
         total -= splits[best].gain
@@ -173,6 +173,16 @@ class _Split:
     gain: float
     planes: tuple[tuple[np.ndarray, float], ...]
 
+    @property
+    def more(self) -> int:
+        """How many pieces more there are after it: one plane makes two of one, two planes four."""
+        return 2 ** len(self.planes) - 1
+
+    @property
+    def gain_each(self) -> float:
+        """Gain for each piece more."""
+        return self.gain / max(self.more, 1)
+
 
 _UNKNOWN = _Split(0.0, ())
 
@@ -180,10 +190,10 @@ _UNKNOWN = _Split(0.0, ())
 def _best_split(piece: _Surface, room: int) -> _Split:
     """Where to divide a piece into two, or into four where there is room for three more and two would be in vain."""
     center = piece.points.mean(axis=0)
-    _, axes = np.linalg.eigh(second_moments(piece.points - center, np.ones(len(piece.points))))
+    axes = principal_axes(second_moments(piece.points - center, np.ones(len(piece.points))), piece.points - center)
     whole = piece.volume
-    best = _Split(0.0, ((axes[:, 2], float(center @ axes[:, 2])),))
-    for axis in axes.T:
+    best = _Split(0.0, ((axes[0], float(center @ axes[0])),))
+    for axis in axes:
         height = piece.points @ axis
         levels = np.linspace(height.min(), height.max(), _SLABS + 1)
         slabs = _slabs(piece, height, levels[1:-1])
@@ -194,10 +204,11 @@ def _best_split(piece: _Surface, room: int) -> _Split:
     if room >= 3 and best.gain <= _VAIN * whole:
         # Half a bowl has a hull of half the size: only quarters of it are smaller.
         for first, second in ((0, 1), (0, 2), (1, 2)):
-            planes = tuple((axis, float(center @ axis)) for axis in (axes[:, first], axes[:, second]))
+            planes = tuple((axis, float(center @ axis)) for axis in (axes[first], axes[second]))
             loss = whole - sum(quarter.volume for quarter in _cut(piece, planes))
-            if loss / 3 > best.gain / len(best.planes):
-                best = _Split(float(loss), planes)
+            quarters = _Split(float(loss), planes)
+            if quarters.gain_each > best.gain_each:
+                best = quarters
     return best
 
 

@@ -628,7 +628,7 @@ TEXTS = {
     "Bend about the longest line of the cut": "Biegen sich um die längste Linie des Schnitts",
     "Points": "Punkte",
     "Turn in every direction about the middle of the cut": "Drehen sich in jede Richtung um die Mitte des Schnitts",
-    "Fixed": "Fest",
+    "Fixed": "Fixiert",
     "Do not move": "Bewegen sich nicht",
     "{n} {n:rigid body|rigid bodies}, {total} {total:joint|joints}":
         "{n} {n:Starrkörper|Starrkörper}, {total} {total:Gelenk|Gelenke}",
