@@ -26,10 +26,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PARTS = {"inside": ["tests/unit", "tests/blender"], "command": ["tests/installed"], "window": ["tests/window"]}
-# What takes long and asks nothing of Blender is tried in unit-newest and unit-oldest: costs, whole runs of the presets
+# What takes long and asks nothing of Blender is tried in unit-newest: costs, whole runs of the presets
 # "Lavoue 2005" and "Liu 2007", and most whole runs of the others; those of the bundled models are tried here, too.
 ELSEWHERE = ("not 2005 and not 2007 and not test_cost and not test_scale and not test_flat_figures and not huge "
-             "and (not test_pipeline or test_models)")
+             "and not test_resolutions and not test_ordering and (not test_pipeline or test_models)")
 PACKAGE = "bl_ext.user_default.reeb_parts"
 
 
