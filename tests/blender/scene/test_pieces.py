@@ -901,11 +901,10 @@ def test_with_holes_closed_the_report_tells_the_truth(obj, capfd):
     assert f"{count} parts are closed and do not cross themselves" in capfd.readouterr().out
 
 
-@pytest.mark.parametrize("seed", [4, 8])
-def test_where_a_smooth_cut_goes_wrong_faces_stay_whole(make, separate, seed):
+def test_where_a_smooth_cut_goes_wrong_faces_stay_whole(make, separate):
     """Ragged parts, some of whose caps cross something: with some borders along faces, fewer do."""
     obj = make(shapes.tube_tree())
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(8)  # others have no such caps, or cost half a minute
     centers = read(obj.data.polygons, "center", np.float32, 3)
     seeds = centers[rng.choice(len(centers), 30, replace=False)]
     numbers = 1 + np.linalg.norm(centers[:, None] - seeds[None], axis=2).argmin(axis=1)
