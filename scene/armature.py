@@ -15,6 +15,7 @@ from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts
 from . import (
     bridge,
+    made,
     mesh_arrays,
     modifiers,
     outputs,
@@ -30,15 +31,13 @@ from .errors import SceneError
 from .modes import call_with, set_mode
 from .selection import nothing_selected
 from .store import Stored
-from .temporary import remove_object, removed
+from .temporary import removed
 
 if TYPE_CHECKING:
     from ..core.uses.bones import Bones
     from ..core.uses.skinning import Weights
 
 NAME = "Reeb Parts Armature"
-ROLE = "reeb_parts_role"  # on the armature, "armature"
-MADE = "reeb_parts_looks"  # on the armature: what it was like when it was made
 WEIGHTS = "reeb_parts_weights"  # on the mesh: the names of the vertex groups that hold its weights, as JSON
 DEFORM = "DEF-"  # how their names begin, as Rigify's do; after that comes the name of the part
 
@@ -108,15 +107,15 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         numbers = numbered.numbers[bone_part].tolist()
         groups = _new_groups(obj, [part_names.part_name(obj.data, number) for number in numbers])
     collection = piece_objects.make_collection(context, obj)
-    _remove_earlier(collection)
+    made.remove_untouched(collection.objects, "armature", _looks)
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
     rig = bpy.data.objects.new(data.name, data)
     rig.matrix_world = place
     rig.show_in_front = True
-    rig[ROLE] = "armature"
+    rig[made.ROLE] = "armature"
     collection.objects.link(rig)
     _add_bones(context, rig, bones, groups)
-    rig[MADE] = _looks(rig)
+    made.mark(rig, _looks)
     if weights != "PARTS":
         found = _smooth_weights(obj, place, part_bone[numbered.parts.labels], bones)
         _write_weights(obj, groups, found if weights == "SMOOTH" else _automatic(context, obj, rig, groups, found))
@@ -229,29 +228,18 @@ def _write_groups(obj: bpy.types.Object, numbered: NumberedParts) -> None:
             outputs.update_outputs(targets.users(obj.data)[0], numbered)
 
 
-def _remove_earlier(collection: bpy.types.Collection) -> None:
-    for rig in list(collection.objects):
-        if rig.get(ROLE) != "armature":
-            continue
-        if not rig.children and _looks(rig) == rig.get(MADE):
-            remove_object(rig)
-        else:
-            transaction.keep_keys(rig, ROLE, MADE)
-            del rig[ROLE], rig[MADE]
-
-
 def _add_bones(context: bpy.types.Context, rig: bpy.types.Object, bones: Bones, names: list[str]) -> None:
     """Write the bones, in the Edit Mode that they can only be written in."""
     layer = context.view_layer
     with nothing_selected(layer):
         layer.objects.active = rig
         set_mode(rig, "EDIT")
-        made = [rig.data.edit_bones.new(name) for name in names]
-        for index, bone in enumerate(made):
+        edited = [rig.data.edit_bones.new(name) for name in names]
+        for index, bone in enumerate(edited):
             bone.head, bone.tail = Vector(bones.head[index]), Vector(bones.tail[index])
-        for index, bone in enumerate(made):
+        for index, bone in enumerate(edited):
             if bones.parent[index] >= 0:
-                bone.parent = made[bones.parent[index]]
+                bone.parent = edited[bones.parent[index]]
                 bone.use_connect = bool(bones.connected[index])
         set_mode(rig, "OBJECT")
 

@@ -18,11 +18,11 @@ from ..core.graph.fold import unfolded
 from ..core.graph.reeb import ReebGraph
 from ..core.result.numbering import NumberedParts
 from . import bridge, mesh_arrays, part_names, store, transaction
+from .made import ROLE
 from .outputs.colors import linear
 from .temporary import remove_object
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
-ROLE = "reeb_parts_role"  # on our objects: "node" or "arcs"
 KINDS = ("minimum", "saddle", "maximum")
 _DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
 _WORDS = {"minimum": "middle", "saddle": "joint", "maximum": "tip"}  # behind the name of the part

@@ -6,12 +6,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from . import mesh_arrays, part_names, piece_objects, transaction
+from . import made, mesh_arrays, part_names, piece_objects
 from .store import Stored
-from .temporary import remove_object
 
-ROLE = "reeb_parts_role"  # on a hull, "hull"
-MADE = "reeb_parts_looks"  # on a hull: what it was like when it was made
 _LONGEST = 59  # bytes of a name, with room for a number that Blender adds
 
 
@@ -32,7 +29,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
 
     Returns
     -------
-    made : list of bpy.types.Object
+    found : list of bpy.types.Object
     """
     from ..core.uses.hulls import part_hulls  # imports SciPy
 
@@ -40,21 +37,21 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
     hulls = part_hulls(table, numbered.parts.labels, count)
     collection = piece_objects.make_collection(context, obj)
-    _remove_earlier(collection)
-    made = []
+    made.remove_untouched(collection.objects, "hull", _looks)
+    found = []
     for number, several in zip(numbered.numbers.tolist(), hulls, strict=True):
         part = part_names.piece_name(obj, number)
         for place, hull in enumerate(several, 1):
             after = f"_{place:02d}-convcolonly" if len(several) > 1 else "-convcolonly"
             name = _fitting("", part, after) if engine == "GODOT" else _fitting("UCX_", obj.name,
-                                                                                f"_{len(made) + 1:02d}")
+                                                                                f"_{len(found) + 1:02d}")
             mesh = bpy.data.meshes.new(name)
             mesh.from_pydata(hull.vertices.tolist(), [], hull.triangles.tolist())
-            made.append(_placed(bpy.data.objects.new(name, mesh), obj))
-            collection.objects.link(made[-1])
-    for piece in made:
-        piece[MADE] = _looks(piece)
-    return made
+            found.append(_placed(bpy.data.objects.new(name, mesh), obj))
+            collection.objects.link(found[-1])
+    for hull in found:
+        made.mark(hull, _looks)
+    return found
 
 
 def _fitting(before: str, name: str, after: str) -> str:
@@ -67,19 +64,8 @@ def _placed(hull: bpy.types.Object, obj: bpy.types.Object) -> bpy.types.Object:
     hull.matrix_world = obj.matrix_world
     hull.display_type = "WIRE"
     hull.hide_render = True
-    hull[ROLE] = "hull"
+    hull[made.ROLE] = "hull"
     return hull
-
-
-def _remove_earlier(collection: bpy.types.Collection) -> None:
-    for hull in list(collection.objects):
-        if hull.get(ROLE) != "hull":
-            continue
-        if not hull.children and hull.mode == "OBJECT" and _looks(hull) == hull.get(MADE):
-            remove_object(hull)
-        else:
-            transaction.keep_keys(hull, ROLE, MADE)
-            del hull[ROLE], hull[MADE]
 
 
 def _looks(hull: bpy.types.Object) -> str:

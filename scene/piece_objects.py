@@ -24,6 +24,7 @@ from . import (
     graph_objects,
     hidden,
     joints,
+    made,
     mesh_arrays,
     modified,
     part_names,
@@ -42,7 +43,6 @@ from .units import millimeters
 
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: name of the object that the pieces come from
 NUMBER = "reeb_parts_number"  # on a piece: of its part
-MADE = "reeb_parts_looks"  # on a piece: what it was like when it was made
 DOWEL = "reeb_parts_dowel"  # on a loose dowel that joins two pieces
 
 # Modifiers that do the same to a mesh wherever the origin of its object is. Others, such as Mirror and Array, work
@@ -175,14 +175,14 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
             joints.joining(context, fitted.meshes, stretch, joints.wanted_joints(style), cut_list.chosen(obj, part),
                            stored.decomposition.graph), 0.7, 0.8)
         cut_list.write(obj, joined.cuts, part)
-    made = _objects(context, obj, joined.meshes, names, part, style)
+    pieces = _objects(context, obj, joined.meshes, names, part, style)
     loose = [_dowel(context, obj, mesh, style) for mesh in joined.loose]
-    for piece in (*made, *loose):
-        piece[MADE] = looks(piece)
-    for index, piece in enumerate(made if close else ()):
-        yield 0.8 + 0.2 * index / len(made)
+    for piece in (*pieces, *loose):
+        made.mark(piece, looks)
+    for index, piece in enumerate(pieces if close else ()):
+        yield 0.8 + 0.2 * index / len(pieces)
         check_pieces([piece], stretch)
-    return Separated(made, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part, fitted.left)
+    return Separated(pieces, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part, fitted.left)
 
 
 def _names(obj: bpy.types.Object, keys: list[int], part: dict[int, int]) -> dict[int, str]:
@@ -202,15 +202,15 @@ def _objects(context: bpy.types.Context, obj: bpy.types.Object, meshes: dict[int
     """An object for each piece, in the collection of the pieces, with the color of its part."""
     collection = make_collection(context, obj)
     colors = {listed.number: listed.color[:] for listed in obj.data.reeb_parts.parts}
-    made = []
+    pieces = []
     for key, mesh in meshes.items():
         number = part.get(key, key)
         piece = _piece(obj, mesh, part_names.with_object(obj, names[key]), style)
         piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER] = number
         collection.objects.link(piece)
-        made.append(piece)
-    return made
+        pieces.append(piece)
+    return pieces
 
 
 def _dowel(context: bpy.types.Context, obj: bpy.types.Object, mesh: bpy.types.Mesh,
@@ -283,13 +283,10 @@ def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
         number = piece.get(NUMBER)
         if number is not None and number not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
             continue
-        if piece.mode == "OBJECT" and not piece.children and looks(piece) == piece[MADE]:
+        if made.is_untouched(piece, looks):
             earlier.append(piece)
             continue
-        own = [key for key in (NUMBER, MADE, DOWEL) if key in piece]
-        transaction.keep_keys(piece, *own)
-        for key in own:
-            del piece[key]
+        made.hand_over(piece, NUMBER, made.MADE, DOWEL)
         kept += 1
     if earlier:
         rigid_bodies.remove_joints(collection_of(obj), earlier)

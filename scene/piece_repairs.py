@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
-from . import cap_looks, caps, piece_checks, piece_objects, transaction
+from . import cap_looks, caps, made, piece_checks, piece_objects, transaction
 from .piece_checks import Check
 from .temporary import freed
 
@@ -43,15 +43,15 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
         else:
             bpy.data.meshes.remove(candidate)
     if mesh != old:
-        ours = piece.get(piece_objects.MADE) == piece_objects.looks(piece)
+        ours = piece.get(made.MADE) == piece_objects.looks(piece)
         transaction.keep(piece, "data")
         piece.data = mesh
         name = old.name
         transaction.discard(old)
         mesh.name = name
         if ours:
-            transaction.keep_keys(piece, piece_objects.MADE)
-            piece[piece_objects.MADE] = piece_objects.looks(piece)
+            transaction.keep_keys(piece, made.MADE)
+            made.mark(piece, piece_objects.looks)
     piece_checks.keep(piece, found[0])
     return before, found[0]
 
@@ -104,7 +104,7 @@ def _fill_holes(bm: BMesh) -> None:
     layer = caps.cap_layer(bm)
     before = set(bm.faces)
     bmesh.ops.holes_fill(bm, edges=[edge for edge in bm.edges if edge.is_boundary], sides=0)
-    made = [face for face in bm.faces if face not in before]
-    made = bmesh.ops.triangulate(bm, faces=made, ngon_method="BEAUTY")["faces"] if made else []
-    for face in made:
+    new = [face for face in bm.faces if face not in before]
+    new = bmesh.ops.triangulate(bm, faces=new, ngon_method="BEAUTY")["faces"] if new else []
+    for face in new:
         face[layer] = 1

@@ -10,12 +10,9 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import mesh_arrays, transaction
+from . import made, mesh_arrays, transaction
 from .store import Stored
-from .temporary import remove_object
 
-ROLE = "reeb_parts_role"  # on a joint, "joint"
-MADE = "reeb_parts_looks"  # on a joint: what it was like when it was made
 #: How joints hold: the names of Blender's constraints.
 KINDS = ("HINGE", "POINT", "FIXED")
 # Blender solves the constraints of the whole world 10 times; so few let heavy parts sag away from light ones.
@@ -53,7 +50,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
 
     Returns
     -------
-    made : Joined
+    joined : Joined
     """
     from ..core.uses.body_joints import body_joints, overlapping  # imports SciPy
     from ..core.uses.hulls import part_hulls
@@ -149,8 +146,8 @@ def _joint(physics: bpy.types.RigidBodyWorld, collection: bpy.types.Collection, 
     holds.type, holds.object1, holds.object2 = kind, *ends
     holds.disable_collisions = True
     holds.use_override_solver_iterations, holds.solver_iterations = True, _ITERATIONS
-    joint[ROLE] = "joint"
-    joint[MADE] = _looks(joint)
+    joint[made.ROLE] = "joint"
+    made.mark(joint, _looks)
     return joint
 
 
@@ -159,16 +156,11 @@ def remove_joints(collection: bpy.types.Collection, of: Iterable[bpy.types.Objec
 
     collection : where the joints are. of : only those of these pieces.
     """
-    for joint in list(collection.objects):
-        holds = joint.rigid_body_constraint
-        if joint.get(ROLE) != "joint" or (of is not None and not (
-                holds is not None and {holds.object1, holds.object2} & set(of))):
-            continue
-        if not joint.children and _looks(joint) == joint.get(MADE):
-            remove_object(joint)
-        else:
-            transaction.keep_keys(joint, ROLE, MADE)
-            del joint[ROLE], joint[MADE]
+    joints = list(collection.objects)
+    if of is not None:
+        ends, held = set(of), [(joint, joint.rigid_body_constraint) for joint in joints]
+        joints = [joint for joint, holds in held if holds is not None and {holds.object1, holds.object2} & ends]
+    made.remove_untouched(joints, "joint", _looks)
 
 
 def _looks(joint: bpy.types.Object) -> str:
