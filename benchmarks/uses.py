@@ -79,7 +79,7 @@ def bent(table: CornerTable, faces: np.ndarray, labels: np.ndarray, bones) -> tu
     weights = smooth_weights(table, labels, bones)
     full = np.zeros((len(table.vertices), len(bones.head) + 1))  # the last column is of no bone
     np.add.at(full, (np.arange(len(full))[:, None], weights.bone), weights.weight)
-    beyond, before = following(bones), volume_of(table.vertices, faces)
+    beyond, before = following(bones.parent, bones.order), volume_of(table.vertices, faces)
     poses = joints = turned = changed = 0
     for bone in np.flatnonzero(bones.parent >= 0).tolist():
         share, along = full[:, :-1][:, beyond[bone]].sum(axis=1), bones.tail[bone] - bones.head[bone]

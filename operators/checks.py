@@ -80,11 +80,12 @@ class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
 
 def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object], just_made: bool = False) -> None:
     """Say which of some pieces that were checked are not sound; of those just made also which are as the model is."""
-    checked = [(piece.name, piece_checks.kept(piece)) for piece in pieces]
-    wrong = [name for name, found in checked if found is None or not (found.sound or found.as_model)]
-    as_model = [name for name, found in checked if found is not None and found.as_model and not found.sound]
-    if not just_made:  # it may be the user's work
-        wrong, as_model = [name for name, found in checked if found is None or not found.sound], []
+    wrong, as_model = [], []
+    for piece in pieces:
+        found = piece_checks.kept(piece)
+        if found is None or not found.sound:
+            # Later on, what the model does not have either may be the user's work.
+            (as_model if just_made and found is not None and found.as_model else wrong).append(piece.name)
     if wrong:
         operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are "
                                           "not closed or cross themselves}: {names}").format(

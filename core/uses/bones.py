@@ -82,7 +82,7 @@ def part_bones(
     pairs, length = _joints(table, labels)
     of_part = np.bincount(labels, weight * table.face_means(height), count) / share
     parent, order = _tree(count, pairs, length, of_part)
-    head, beyond = middle.copy(), _following(parent, order)
+    head, beyond = middle.copy(), following(parent, order)
     for part in np.flatnonzero(parent >= 0).tolist():
         # Of all that divides the two sides, which may be more than one cut: a leg meets belly and rump.
         head[part] = _border(table, beyond[part][labels])[2]
@@ -136,7 +136,7 @@ def _necks(table: CornerTable, labels: np.ndarray, area: np.ndarray, bones: Bone
     """Whether each bone begins at a neck, (count,) bool; true for roots."""
     low, high = table.edge_labels(labels)
     center = table.face_means(table.vertices)
-    beyond, neck = following(bones), bones.parent < 0
+    beyond, neck = following(bones.parent, bones.order), bones.parent < 0
     for bone in np.flatnonzero(~neck).tolist():
         border, length, middle = _border(table, beyond[bone][labels])
         pair = sorted((bone, int(bones.parent[bone])))
@@ -156,12 +156,19 @@ def _border(table: CornerTable, inside: np.ndarray) -> tuple[np.ndarray, np.ndar
     return border, length, (length / length.sum()) @ table.vertices[table.edges[border]].mean(axis=1)
 
 
-def following(bones: Bones) -> np.ndarray:
-    """Whether each bone, second index, is another or follows it, first index; (count, count) bool."""
-    return _following(bones.parent, bones.order)
+def following(parent: np.ndarray, order: Sequence[int]) -> np.ndarray:
+    """Find which bones follow each other in a tree.
 
+    Parameters
+    ----------
+    parent, order
+        As of ``Bones``.
 
-def _following(parent: np.ndarray, order: Sequence[int]) -> np.ndarray:
+    Returns
+    -------
+    beyond : (count, count) bool
+        Whether the bone of the second index is that of the first, or follows it.
+    """
     beyond = np.eye(len(parent), dtype=bool)
     for bone in reversed(order):
         if parent[bone] >= 0:

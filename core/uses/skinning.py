@@ -103,7 +103,7 @@ def _odds(table: CornerTable, labels: np.ndarray, bones: Bones) -> np.ndarray:
     n = len(table.vertices)
     length = np.maximum(table.edge_length(np.arange(len(table.edges))), 1e-12 * np.ptp(table.vertices, axis=0).max())
     graph, laplacian = symmetric_matrix(table.edges, length, n), ConformalFactor.of(table).laplacian
-    beyond = following(bones)
+    beyond = following(bones.parent, bones.order)
     odds = np.zeros((n, len(bones.parent)))
     for bone in np.flatnonzero(bones.parent >= 0).tolist():
         inside = beyond[bone][labels].astype(np.int64)
@@ -141,7 +141,7 @@ def _harmonic(laplacian: csr_array, distance: np.ndarray, side: np.ndarray, reac
 
 def _evened(table: CornerTable, mass: np.ndarray, bones: Bones) -> np.ndarray:
     """The weights, (n, count), averaged around faces that bending a joint would turn over, until none is or in vain."""
-    beyond = following(bones)
+    beyond = following(bones.parent, bones.order)
     beside = symmetric_matrix(table.edges, np.ones(len(table.edges)), len(mass))
     count = np.maximum(np.asarray(beside.sum(axis=1)).ravel(), 1.0)
     joints = np.flatnonzero(bones.parent >= 0).tolist()

@@ -145,7 +145,8 @@ def test_every_joint_there_is_bends_by_60_degrees_and_keeps_the_volume(shape):
         return (a * np.cross(b, c)).sum() / 6
 
     for bone in np.flatnonzero(bones.parent >= 0):
-        share, along = found[:, following(bones)[bone]].sum(axis=1), bones.tail[bone] - bones.head[bone]
+        share = found[:, following(bones.parent, bones.order)[bone]].sum(axis=1)
+        along = bones.tail[bone] - bones.head[bone]
         assert not turned_over(table, share, bones.head[bone], along, np.pi / 3).any()
         for turn in bends(along, np.pi / 3):
             moved = vertices + share[:, None] * ((vertices - bones.head[bone]) @ (turn - np.eye(3)).T)
