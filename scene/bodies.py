@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core.surface.arrays import sums_by
+from ..core.surface.arrays import cross, sums_by, unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,13 +54,13 @@ class Body:
     @cached_property
     def face_normals(self) -> np.ndarray:
         """(t, 3) float64, of length 1, or 0 where a triangle has no area."""
-        return _directions(self._areas)
+        return unit(self._areas)
 
     @cached_property
     def vertex_normals(self) -> np.ndarray:
         """(v, 3) float64."""
         areas = np.repeat(self._areas, 3, axis=0)
-        return _directions(sums_by(self.triangles.ravel(), areas, len(self.points)))
+        return unit(sums_by(self.triangles.ravel(), areas, len(self.points)))
 
     @cached_property
     def crosses_itself(self) -> bool:
@@ -72,7 +72,7 @@ class Body:
     @property
     def _areas(self) -> np.ndarray:
         a, b, c = self.points[self.triangles].transpose(1, 0, 2)
-        return np.cross(b - a, c - a)
+        return cross(b - a, c - a)
 
     def nearest(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The nearest point of the surface to each of some places, and the normal there, (k, 3) float64 each."""
@@ -120,7 +120,3 @@ class Body:
         within = within[within[:, 0] < within[:, 1]]
         share = (triangles[within[:, 0]][:, :, None] == triangles[within[:, 1]][:, None]).any(axis=(1, 2))
         return pairs[~touch], within[~share]
-
-
-def _directions(vectors: np.ndarray) -> np.ndarray:
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None]

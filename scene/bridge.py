@@ -13,6 +13,7 @@ import bpy
 import numpy as np
 
 from ..core.sentence import Sentence
+from ..core.surface.arrays import cross, lengths
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
 from . import face_hints, mesh_arrays, targets
@@ -62,7 +63,7 @@ class Shape:
     def face_area(self) -> np.ndarray:
         """Area of each face of the mesh, (p,) float64."""
         a, b, c = self.vertices[self.triangles].transpose(1, 0, 2)
-        return np.bincount(self.polygon, 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1))
+        return np.bincount(self.polygon, 0.5 * lengths(cross(b - a, c - a)))
 
 
 def read_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Shape:

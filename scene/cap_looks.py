@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from ..core.surface.corners import next_of_owner
 from ..core.uses.cap_maps import cap_map
 from . import caps, mesh_arrays
 
@@ -44,11 +45,8 @@ def _area(places: np.ndarray, face: np.ndarray) -> float:
     if not len(face):
         return 0.0
     first = np.flatnonzero(np.append(True, face[1:] != face[:-1]))
-    length = np.diff(np.append(first, len(face)))
-    ahead = np.arange(1, len(face) + 1)
-    ahead[first + length - 1] = first
-    start = places - np.repeat(places[first], length, axis=0)
-    x, y = start.T
+    x, y = (places - np.repeat(places[first], np.diff(np.append(first, len(face))), axis=0)).T
+    ahead = next_of_owner(face)
     return float(np.abs(np.add.reduceat(x * y[ahead] - y * x[ahead], first)).sum() / 2)
 
 

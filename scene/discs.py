@@ -11,7 +11,7 @@ import numpy as np
 from mathutils.geometry import delaunay_2d_cdt
 from scipy.sparse import coo_array, csr_array
 
-from ..core.surface.arrays import components
+from ..core.surface.arrays import components, cross
 from ..core.uses.cap_surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
 from ..core.uses.rims import is_inside
 from ..core.uses.sleeves import Sleeve, sleeve
@@ -207,7 +207,7 @@ class Discs:
         count, component = components(len(self._points), np.concatenate([a, b]), np.concatenate([b, c]))
         own = component[a]
         p, q, r = ((self._points - self._points.mean(axis=0))[index] for index in (a, b, c))
-        volume = np.bincount(own, (p * np.cross(q, r)).sum(axis=1), count)
+        volume = np.bincount(own, (p * cross(q, r)).sum(axis=1), count)
         ends = np.sort(self._triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
         _, index, times = np.unique(ends @ [len(self._points), 1], return_index=True, return_counts=True)
         is_open = np.bincount(component[ends[index[times != 2], 0]], minlength=count) > 0

@@ -13,6 +13,7 @@ import bpy
 import numpy as np
 from numpy.typing import DTypeLike
 
+from ..core.surface.arrays import cross, stable_order
 from ..core.surface.corners import CornerTable, edge_labels
 
 _VALUES = {  # of an attribute: the name of its values, their type, how many
@@ -203,7 +204,7 @@ def triangulated(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarra
     if not (three | four).all():
         others, of = _of_larger_faces(points, count, corner_vertex)
         found, face = np.concatenate([found, others]), np.concatenate([face, of])
-    order = np.argsort(face, kind="stable")
+    order = stable_order(face)
     return found[order], face[order]
 
 
@@ -214,7 +215,7 @@ def _halves(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     """
     a, b, c, d = (points[quads[:, i]] for i in range(4))
     diagonal = c - a
-    flip = np.einsum("ij,ij->i", np.cross(b - a, diagonal), np.cross(d - a, diagonal)) > 0
+    flip = np.einsum("ij,ij->i", cross(b - a, diagonal), cross(d - a, diagonal)) > 0
     other = np.array([[0, 1, 3], [1, 2, 3]])[None]
     corners = np.where(flip[:, None, None], other, np.array([[0, 1, 2], [0, 2, 3]])[None])
     return np.take_along_axis(quads, corners.reshape(len(quads), 6), axis=1).reshape(-1, 3)

@@ -14,6 +14,7 @@ from functools import partial
 import bpy
 import numpy as np
 
+from ..core.surface.arrays import stable_order
 from ..core.surface.corners import edge_labels
 from . import cap_looks, caps, element_layers, hidden, mesh_arrays, outputs, quiet, smooth_faces
 from .elements import Elements
@@ -93,12 +94,15 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
     -------
     made : PieceMeshes
     """
-    return finished(making_pieces(mesh, face_numbers, wanted, close, smooth, planar))
+    made = finished(making_pieces(mesh, face_numbers, wanted, close, smooth, planar))
+    for piece in made.meshes.values():
+        cap_looks.map_caps(piece)
+    return made
 
 
 def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int], close: bool = False,
                   smooth: np.ndarray | None = None, planar: bool = False) -> Steps[PieceMeshes]:
-    """What ``piece_meshes`` does, in steps."""
+    """What ``piece_meshes`` does, in steps; caps have no place in UV maps yet, see cap_looks.map_caps."""
     plain = plain_copy(mesh)
     others = [(part.number, part.material) for part in mesh.reeb_parts.parts if part.material is not None]
     wanted = [number for number in wanted if (face_numbers == number).any()]
@@ -113,7 +117,6 @@ def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterab
             made = yield from stretched(_with_whole_faces(source, face_numbers, wanted, smooth, made), 0.8, 1.0)
     for number, piece in made.meshes.items():
         materials.drop_slots(piece, [material for other, material in others if other != number])
-        cap_looks.map_caps(piece)
     return made
 
 
@@ -177,7 +180,7 @@ def _made(source: PlainMesh | SculptedMesh, face_numbers: np.ndarray, wanted: li
             steps = source.divide(face_numbers, smooth, along)
             face_numbers, along_faces = yield from stretched(steps, 0.0, 0.3)
         yield 0.3
-        order = np.argsort(face_numbers, kind="stable")
+        order = stable_order(face_numbers)
         first = np.searchsorted(face_numbers[order], [[number, number + 1] for number in wanted])
         holes = Holes.of(source.whole, face_numbers) if close else None
         made, left_open = {}, 0

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core.surface.arrays import renumbered
+from ..core.surface.arrays import cross, renumbered
 from ..core.surface.reach import within_reach
 from . import caps, mesh_arrays, transaction
 
@@ -99,7 +99,7 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
     if not len(triangles):
         return Check(), Faults(none, none, none, none)
     a, b, c = (points[triangles[:, i]] for i in range(3))
-    vector = np.cross(b - a, c - a)  # as long as twice the area
+    vector = cross(b - a, c - a)  # as long as twice the area
     places = _Places.of(points, triangles, vector)
     tried = _tried(mesh, face)
     near = np.arange(len(triangles))

@@ -164,8 +164,8 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     fitted = beds.Fitted(found.meshes, {}, [])
     if style.fit_bed:
         fitted = beds.fitted(found.meshes, stretch, np.array(style.bed[:]) / millimeters())
-        for mesh in fitted.meshes.values():
-            cap_looks.map_caps(mesh)
+    for mesh in fitted.meshes.values():
+        cap_looks.map_caps(mesh)
     if style.cap_material:
         cap_looks.own_material(list(fitted.meshes.values()))
     part, names = fitted.part, _names(obj, sorted(fitted.meshes), fitted.part)

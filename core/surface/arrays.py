@@ -211,6 +211,11 @@ def lengths(vectors: np.ndarray) -> np.ndarray:
     return np.sqrt(x * x + y * y + z * z)
 
 
+def unit(vectors: np.ndarray) -> np.ndarray:
+    """Vectors, (n, 3), divided by their lengths: (n, 3) float64 of length 1, or of 0 where the length is 0."""
+    return vectors / np.maximum(lengths(vectors), 1e-300)[:, None]
+
+
 def weighted_sum(weights: np.ndarray, values: np.ndarray) -> np.ndarray | float:
     """Sum values, each times its weight, in an order that is the same everywhere.
 

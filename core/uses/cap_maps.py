@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import components, renumbered, sums_by
+from ..surface.arrays import components, cross, renumbered, stable_order, sums_by, unit
 from ..surface.corners import next_of_owner
 
 # Faces of a cap that turn by more than this lie apart in the map, as where three parts meet.
@@ -37,18 +37,18 @@ def cap_map(points: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarr
     here, there = points[corner_vertex], points[corner_vertex[ahead]]
     first = np.flatnonzero(np.append(True, face[1:] != face[:-1]))
     origin = here[first][face]
-    area = sums_by(face, 0.5 * np.cross(here - origin, there - origin), len(faces))
+    area = sums_by(face, 0.5 * cross(here - origin, there - origin), len(faces))
     island = _islands(corner_vertex, corner_vertex[ahead], face, area)[face]
     count = int(island.max(initial=-1)) + 1
-    normal = _unit(sums_by(island[first], area, count))
+    normal = unit(sums_by(island[first], area, count))
     center = sums_by(island, here, count) / np.bincount(island, minlength=count)[:, None]
     offset = here - center[island]
     # The longer side of each along the rows.
     across = offset - (offset * normal[island]).sum(axis=1)[:, None] * normal[island]
     moments = sums_by(island, (across[:, :, None] * across[:, None]).reshape(-1, 9), count).reshape(-1, 3, 3)
     u = np.linalg.eigh(moments)[1][:, :, 2]
-    u = _unit(u - (u * normal).sum(axis=1)[:, None] * normal)
-    v = np.cross(normal, u)
+    u = unit(u - (u * normal).sum(axis=1)[:, None] * normal)
+    v = cross(normal, u)
     flat = density * np.stack([(offset * axis[island]).sum(axis=1) for axis in (u, v)], axis=1)
     low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
     np.minimum.at(low, island, flat)
@@ -60,10 +60,10 @@ def _islands(start: np.ndarray, stop: np.ndarray, face: np.ndarray, area: np.nda
     """Faces that are joined by edges where they turn little: number of each, (f,) int64."""
     n = int(max(start.max(initial=0), stop.max(initial=0))) + 1
     key = np.minimum(start, stop) * n + np.maximum(start, stop)
-    order = np.argsort(key, kind="stable")
+    order = stable_order(key)
     same = key[order[1:]] == key[order[:-1]]
     a, b = face[order[1:]][same], face[order[:-1]][same]
-    normal = _unit(area)
+    normal = unit(area)
     smooth = (normal[a] * normal[b]).sum(axis=1) > np.cos(_TURN)
     return components(len(area), a[smooth], b[smooth])[1]
 
@@ -79,7 +79,3 @@ def _in_rows(size: np.ndarray) -> np.ndarray:
         x += size[index, 0] + _GAP * width
         row = max(row, size[index, 1])
     return place
-
-
-def _unit(vectors: np.ndarray) -> np.ndarray:
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=1), 1e-300)[:, None]

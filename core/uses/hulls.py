@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ..surface.arrays import components, renumbered, second_moments, sums_by
+from ..surface.arrays import components, cross, lengths, renumbered, second_moments, stable_order, sums_by
 from ..surface.corners import CornerTable
 from ..surface.ordering import principal_axes
 
@@ -48,7 +48,7 @@ class Hull:
     def volume(self) -> float:
         """What it encloses, in cubed units of the mesh."""
         a, b, c = (self.vertices - self.vertices.mean(axis=0))[self.triangles].transpose(1, 0, 2)
-        return float((a * np.cross(b, c)).sum()) / 6
+        return float((a * cross(b, c)).sum()) / 6
 
 
 def part_hulls(table: CornerTable, labels: np.ndarray, count: int = 1, most: int = MOST) -> list[tuple[Hull, ...]]:
@@ -73,11 +73,11 @@ def part_hulls(table: CornerTable, labels: np.ndarray, count: int = 1, most: int
     """
     size = float(np.linalg.norm(np.ptp(table.vertices[table.corner_vertex], axis=0))) or 1.0
     closed, part = _closed(table, labels)
-    order = np.argsort(part, kind="stable")
+    order = stable_order(part)
     groups = np.split(closed.triangles[order], np.flatnonzero(np.diff(part[order])) + 1)
-    volumes = _volumes(closed, part).tolist()
+    volumes = _volumes(closed, part) if count > 1 else np.zeros(len(groups))  # which one hull alone does not ask for
     hulls = []
-    for triangles, volume in zip(groups, volumes, strict=True):
+    for triangles, volume in zip(groups, volumes.tolist(), strict=True):
         pieces = _divided(_Surface(closed.points, triangles).used(), count, volume)
         hulls.append(tuple(_hull(_solid(piece.points, _THIN * size), most) for piece in pieces))
     return hulls
@@ -135,7 +135,7 @@ def _closed(table: CornerTable, labels: np.ndarray) -> tuple[_Surface, np.ndarra
     first, second = np.unique(both, axis=0, return_inverse=True)[1].reshape(2, -1)
     count, loop = components(int(max(first.max(), second.max())) + 1, first, second)
     loop = loop[first]
-    length = np.linalg.norm(table.vertices[end] - table.vertices[start], axis=1) + np.finfo(float).tiny
+    length = lengths(table.vertices[end] - table.vertices[start]) + np.finfo(float).tiny
     middle = sums_by(loop, 0.5 * length[:, None] * (table.vertices[start] + table.vertices[end]), count)
     middle /= np.bincount(loop, length, count)[:, None]
     fans = np.stack([start, end, len(table.vertices) + loop], axis=1)
@@ -146,7 +146,7 @@ def _closed(table: CornerTable, labels: np.ndarray) -> tuple[_Surface, np.ndarra
 def _volumes(closed: _Surface, part: np.ndarray) -> np.ndarray:
     """What the parts of a surface enclose, (count,)."""
     a, b, c = (closed.points - closed.points[closed.triangles[:, 0]].mean(axis=0))[closed.triangles].transpose(1, 0, 2)
-    return np.bincount(part, (a * np.cross(b, c)).sum(axis=1)) / 6
+    return np.bincount(part, (a * cross(b, c)).sum(axis=1)) / 6
 
 
 def _divided(part: _Surface, count: int, volume: float) -> list[_Surface]:
@@ -216,7 +216,7 @@ def _slabs(piece: _Surface, height: np.ndarray, levels: np.ndarray) -> list[np.n
     """Points that span what lies between each two levels: its points, and where edges cross the levels."""
     directions = _directions(MOST).T
     place = np.searchsorted(levels, height)
-    order = np.argsort(place, kind="stable")
+    order = stable_order(place)
     slabs = np.split(piece.points[order], np.searchsorted(place[order], np.arange(1, len(levels) + 1)))
     start, end = piece.triangles.ravel(), np.roll(piece.triangles, -1, axis=1).ravel()
     # Of an edge that two triangles go along, one direction is enough.
@@ -286,7 +286,7 @@ def _hull(points: np.ndarray, most: int) -> Hull:
         return _hull(corners[kept], most)
     used, triangles = renumbered(found.simplices)
     a, b, c = points[found.simplices].transpose(1, 0, 2)
-    inward = (np.cross(b - a, c - a) * found.equations[:, :3]).sum(axis=1) < 0
+    inward = (cross(b - a, c - a) * found.equations[:, :3]).sum(axis=1) < 0
     triangles[inward] = triangles[inward][:, ::-1]
     return Hull(points[used], triangles.astype(np.int64))
 
