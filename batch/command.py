@@ -262,12 +262,13 @@ def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bp
     from ..core.uses.report import document
 
     written: dict[str, str | list[str]] = {}
+    separated, cut = is_separated(options), (options.cuts or "faces").upper()
     if options.parts:
         paths = export.export_parts(files, [(obj, None) for obj in objects], options.parts, options.parts_format,
-                                    separated=is_separated(options), smooth=options.cut == "smooth")
+                                    separated=separated, cut=cut)
         written["parts"] = [str(path) for path in paths]
     if options.threemf:
-        export.write_assemblies(files, objects, options.threemf, is_separated(options), options.cut == "smooth")
+        export.write_assemblies(files, objects, options.threemf, separated, cut)
         written["threemf"] = str(options.threemf)
     if options.save:
         with files.writing(options.save, complete.blend) as path:

@@ -47,12 +47,10 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     uses = made.add_argument_group("what is made of the parts")
     cut = SeparateProperties.__annotations__["cut"].keywords
     uses.add_argument("--separate", action="store_true", help="an object for each part, in the scene to save")
-    uses.add_argument("--cut", choices=("smooth", "faces"),
-                      help="where they are cut from each other, the parts in files as well (default: smooth; parts in "
-                      "files that are not separated along faces)")
+    uses.add_argument("--cuts", choices=[item[0].lower() for item in cut["items"]],
+                      help=f"{cut['description']}; so in files, too (default: {cut['default'].lower()}; parts in files "
+                      "that are not separated along faces)")
     uses.add_argument("--caps", action="store_true", help="close the holes of these objects")
-    uses.add_argument("--cuts", choices=[item[0].lower() for item in cut["items"]], default=cut["default"].lower(),
-                      help=cut["description"] + " (default: %(default)s)")
     uses.add_argument("--cap-material", action="store_true",
                       help="close them, and give the new faces a material of their own, Cap")
     joint = JointProperties.__annotations__
@@ -102,9 +100,8 @@ def separate_style(options: argparse.Namespace) -> Any:
         setattr(style, name, getattr(options, name, getattr(style, name)))
     style.joint_count = round(style.joint_count)
     style.joints = (options.pegs or "none").upper()
-    style.cut = options.cuts.upper()
+    style.cut = (options.cuts or style.cut).upper()
     style.caps, style.cap_material = options.caps or options.cap_material, options.cap_material
-    style.cut = (options.cut or style.cut).upper()
     style.fit_bed, style.bed = bool(options.bed), options.bed or style.bed
     return style
 

@@ -68,5 +68,5 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
         with object_mode(context), together() as files:
             paths = export_parts(files, [(obj, wanted_numbers(obj.data, self.which)) for obj in objects], folder,
-                                 self.format, self.caps, self.one_file, self.separated, self.cut == "SMOOTH")
+                                 self.format, self.caps, self.one_file, self.separated, self.cut)
         self.report({"INFO"}, rpt_("{n} {n:file|files} in {folder}").format(n=Count(len(paths)), folder=folder))

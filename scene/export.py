@@ -35,7 +35,7 @@ FORMATS = (*EXPORTERS, "3mf")
 
 def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, Iterable[int] | None]], folder: Path,
                  kind: str, close: bool = False, one_file: bool = False, separated: bool = False,
-                 smooth: bool = False) -> list[Path]:
+                 cut: str = "FACES") -> list[Path]:
     """Write each part of some objects as a file of its own, or each object as one; the scene stays as it is.
 
     Parameters
@@ -54,9 +54,9 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
         All parts of an object in one file, as 3MF always has them.
     separated : bool
         Write the pieces that were separated, with their caps and joints, and their dowels, as they are now; ``close``
-        and ``smooth`` do not count then.
-    smooth : bool
-        Cut smoothly, as Separate does, instead of along faces.
+        and ``cut`` do not count then.
+    cut : str
+        Where parts are cut from each other: settings.SeparateProperties.cut.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
     names = FileNames()
     paths = []
     for obj, wanted in objects:
-        pieces = _separated(obj, wanted) if separated else _parts(obj, wanted, close, smooth)
+        pieces = _separated(obj, wanted) if separated else _parts(obj, wanted, close, cut)
         with removed(bpy.data.meshes, *pieces.values()), nothing_selected(bpy.context.view_layer):
             if kind == "3mf" or one_file:
                 paths.append(_write(files, folder / f"{names.free(obj.name)}.{kind}", obj, pieces, kind))
@@ -82,11 +82,12 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
 
 
 def _parts(obj: bpy.types.Object, wanted: Iterable[int] | None, close: bool,
-           smooth: bool) -> dict[str, bpy.types.Mesh]:
+           cut: str) -> dict[str, bpy.types.Mesh]:
     """New meshes of parts, all without ``wanted``, by their names."""
     face_numbers = store.load(obj.data).face_numbers
     numbers = sorted(set(face_numbers.tolist()) if wanted is None else wanted)
-    meshes = piece_meshes(obj.data, face_numbers, numbers, close, bridge.world_stretch(obj) if smooth else None).meshes
+    stretch = None if cut == "FACES" else bridge.world_stretch(obj)
+    meshes = piece_meshes(obj.data, face_numbers, numbers, close, stretch, cut == "PLANAR").meshes
     return {part_names.piece_name(obj, number): meshes[number] for number in numbers}
 
 
@@ -133,10 +134,10 @@ def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Mesh]) -> tuple[B
 
 
 def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], path: Path,
-                     separated: bool = False, smooth: bool = False) -> None:
+                     separated: bool = False, cut: str = "FACES") -> None:
     """Write the parts of some objects, closed, as one 3MF file with an assembly for each object.
 
-    separated : bool, whether to write the pieces that were separated instead. smooth : bool, as for ``export_parts``.
+    separated : bool, whether to write the pieces that were separated instead. cut : str, as for ``export_parts``.
 
     Raises
     ------
@@ -145,7 +146,7 @@ def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], pat
     """
     assemblies = []
     for obj in objects:
-        pieces = _separated(obj, None) if separated else _parts(obj, None, True, smooth)
+        pieces = _separated(obj, None) if separated else _parts(obj, None, True, cut)
         with removed(bpy.data.meshes, *pieces.values()):
             assemblies.append(Assembly(obj.name, _bodies(obj, pieces)))
     with files.writing(path, complete.model([], "3mf")) as place:

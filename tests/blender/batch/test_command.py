@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 import process
 import pytest
+from scipy.spatial import cKDTree
 from threemf_reader import read_3mf
 
 
@@ -32,6 +33,20 @@ def test_standard_output_is_one_json_object(run, model, tmp_path):
     names = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
     parts = {str(Path(name).relative_to(tmp_path)) for name in ended.answer["files"]["parts"]}
     assert names == {"own.obj", "out.json", "x.blend", *parts, *(part.replace(".obj", ".mtl") for part in parts)}
+    assert new_points(model, ended.answer["files"]["parts"]) == 0
+
+
+def test_parts_in_files_are_cut_as_asked(run, model, tmp_path):
+    """Where a cut runs smoothly, faces are divided: the parts have points that the model has not."""
+    ended = run(model, "--cuts", "smooth", "--parts", tmp_path)
+    assert new_points(model, ended.answer["files"]["parts"]) > 20
+
+
+def new_points(model, parts):
+    """How many points of the files of parts are nowhere in the model, all of them .obj."""
+    known, found = ([line.split()[1:4] for path in paths for line in Path(path).read_text().splitlines()
+                     if line.startswith("v ")] for paths in ([model], parts))
+    return int((cKDTree(np.array(known, float)).query(np.array(found, float))[0] > 1e-4).sum())
 
 
 def test_the_answer_says_of_each_part_whether_its_piece_is_sound(run, model, tmp_path):

@@ -54,20 +54,21 @@ def test_one_file_holds_all_parts(obj, tmp_path, kind):
         assert {piece.name.replace("_", " ") for piece in pieces} == names
 
 
-def test_smooth_cuts_are_those_of_separate(obj, tmp_path):
-    """The same pieces, vertex by vertex, as Separate makes; along faces, as it makes those."""
+def test_cuts_are_those_of_separate(obj, tmp_path):
+    """The same pieces, vertex by vertex, as Separate makes with the same choice."""
     obj.scale, obj.location = (2, 2, 2), (1, 2, 3)
     bpy.ops.reeb_parts.decompose()
-    for cut in ("SMOOTH", "FACES"):
+    cuts = ("SMOOTH", "PLANAR", "FACES")
+    for cut in cuts:
         bpy.ops.reeb_parts.export(directory=str(tmp_path / cut), format="ply", cut=cut, caps=True)
     names = [part.name for part in obj.data.reeb_parts.parts]
     found = {}
-    for cut in ("SMOOTH", "FACES"):
+    for cut in cuts:
         for name in names:
             bpy.ops.wm.ply_import(filepath=str(tmp_path / cut / f"Tree {name}.ply"))
             found[cut, name] = np.array([v.co[:] for v in bpy.context.object.data.vertices])
             bpy.ops.object.delete()
-    for cut in ("SMOOTH", "FACES"):
+    for cut in cuts:
         activate(obj)
         bpy.ops.reeb_parts.separate(cut=cut, caps=True, hide=False)
         bpy.context.view_layer.update()
@@ -75,7 +76,8 @@ def test_smooth_cuts_are_those_of_separate(obj, tmp_path):
             piece = bpy.data.objects[f"Tree {name}"]
             points = np.array([(piece.matrix_world @ v.co)[:] for v in piece.data.vertices])
             assert found[cut, name] == pytest.approx(points, abs=1e-4)
-    assert any(len(found["SMOOTH", name]) > len(found["FACES", name]) for name in names)
+    for cut, other in (("SMOOTH", "FACES"), ("PLANAR", "FACES"), ("PLANAR", "SMOOTH")):
+        assert any(not np.array_equal(found[cut, name], found[other, name]) for name in names)
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
