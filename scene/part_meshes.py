@@ -14,7 +14,7 @@ from functools import partial
 import bpy
 import numpy as np
 
-from ..core.surface.arrays import stable_order
+from ..core.surface.arrays import distinct_pairs, stable_order
 from ..core.surface.corners import edge_labels
 from . import cap_looks, caps, element_layers, hidden, mesh_arrays, outputs, quiet, smooth_faces
 from .elements import Elements
@@ -206,7 +206,7 @@ def _pairs(whole: Elements, face_numbers: np.ndarray, curves: list[np.ndarray]) 
     for curve in curves:
         on[curve] = True
     here = on[whole.ends].all(axis=1) & (low < high)
-    return np.unique(np.stack([low[here], high[here]], axis=1), axis=0)
+    return distinct_pairs(low[here], high[here])[0]
 
 
 def _keep_normals(mesh: bpy.types.Mesh) -> None:

@@ -109,7 +109,7 @@ def symmetric_candidates(
 
 def _mirrored_area(graph: FaceGraph, twin: np.ndarray) -> np.ndarray:
     """Area of the faces, (p,), in the connected pieces that have a twin somewhere; 0 of those in others."""
-    count, piece = components(len(twin), *graph.pairs.T)
+    count, piece = graph.pieces
     return np.where((np.bincount(piece, twin >= 0, count) > 0)[piece], graph.area, 0.0)
 
 

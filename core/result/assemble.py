@@ -330,7 +330,9 @@ def _contacts(
     """(k, 2) int64, faces of the caller that touch without an edge; bodies hang on the nearest that is larger."""
     inside = [r.component.polygon[r.contacts] for r in results]
     pairs = np.concatenate([np.empty((0, 2), np.int64), *inside])
-    joined, body = components(given.n_polygons, *np.concatenate([graph.pairs, pairs]).T)
+    count, piece = graph.pieces
+    joined, of_piece = components(count, *piece[pairs].T)
+    body = of_piece[piece]
     if joined == 1:
         return pairs
     mesh = working.mesh

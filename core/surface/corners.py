@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import renumbered, sums_by
+from .arrays import cross, distinct_pairs, lengths, renumbered, stable_order, sums_by
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,10 +45,10 @@ class CornerTable:
 
         vertices : (n, 3) array of float. faces : (p, k) int64. Returns a CornerTable.
         """
-        sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
-        edges, corner_edge = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
+        start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+        edges, corner_edge = distinct_pairs(np.minimum(start, end), np.maximum(start, end))
         face = np.repeat(np.arange(len(faces)), faces.shape[1])
-        return cls(np.asarray(vertices, np.float64), edges, faces.ravel(), corner_edge.reshape(-1), face, len(faces))
+        return cls(np.asarray(vertices, np.float64), edges, start, corner_edge, face, len(faces))
 
     def within(self, mask: np.ndarray) -> CornerTable:
         """Make the table of some faces only.
@@ -71,7 +71,7 @@ class CornerTable:
         edge : (r,) int64
             The shared edge, rising.
         """
-        order = np.argsort(self.corner_edge, kind="stable")
+        order = stable_order(self.corner_edge)
         edge = self.corner_edge[order]
         together = np.flatnonzero(edge[1:] == edge[:-1])
         first, second = order[together], order[together + 1]
@@ -83,7 +83,7 @@ class CornerTable:
         edge : (k,) int64. Returns their lengths, (k,) float64, in the unit of the vertices.
         """
         start, end = self.vertices[self.edges[edge]].transpose(1, 0, 2)
-        return np.linalg.norm(end - start, axis=1)
+        return lengths(end - start)
 
     def fans(self) -> tuple[np.ndarray, np.ndarray]:
         """Divide each face into triangles that share its first corner.
@@ -110,7 +110,7 @@ class CornerTable:
         """Vector area of each face, (p, 3) float64: along its normal, as long as its area, 0 without corners."""
         triangles, face = self.fans()
         a, b, c = self.vertices[triangles].transpose(1, 0, 2)
-        return sums_by(face, 0.5 * np.cross(b - a, c - a), self.n_faces)
+        return sums_by(face, 0.5 * cross(b - a, c - a), self.n_faces)
 
     def face_means(self, values: np.ndarray) -> np.ndarray:
         """Average values of vertices over the corners of each face.

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -143,6 +144,11 @@ class FaceGraph:
         """The graph with pairs of faces that touch along no length, (k, 2) int64."""
         length = np.concatenate([self.length, np.zeros(len(contacts))])
         return FaceGraph(self.n_faces, np.concatenate([self.pairs, contacts]), length, self.area)
+
+    @cached_property
+    def pieces(self) -> tuple[int, np.ndarray]:
+        """Number of connected components of the faces, and that of each face, (n_faces,) int64, from 0."""
+        return components(self.n_faces, *self.pairs.T)
 
     def boundaries(self, label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Find which labels touch, and along what length.

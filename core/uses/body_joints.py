@@ -82,8 +82,7 @@ def _cuts(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndarra
     low, high = table.edge_labels(labels)
     cut = np.flatnonzero(low < high)
     pairs, which = distinct_pairs(low[cut], high[cut])
-    places = np.stack([np.repeat(which, 2), table.edges[cut].ravel()], axis=1)
-    _, end = np.unique(places, axis=0, return_inverse=True)
+    _, end = distinct_pairs(np.repeat(which, 2), table.edges[cut].ravel())
     first, second = end.reshape(-1, 2).T
     count, of_end = components(int(end.max(initial=-1)) + 1, first, second)
     joint = of_end[first]

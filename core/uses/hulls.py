@@ -12,7 +12,16 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ..surface.arrays import components, cross, lengths, renumbered, second_moments, stable_order, sums_by
+from ..surface.arrays import (
+    components,
+    cross,
+    distinct_pairs,
+    lengths,
+    renumbered,
+    second_moments,
+    stable_order,
+    sums_by,
+)
 from ..surface.corners import CornerTable
 from ..surface.ordering import principal_axes
 
@@ -124,15 +133,14 @@ def _closed(table: CornerTable, labels: np.ndarray) -> tuple[_Surface, np.ndarra
     triangles, face = table.fans()
     start, end = table.corner_vertex, table.corner_vertex[table.next_corner]
     part = labels[table.corner_face]
-    ends = np.stack([part, np.minimum(start, end), np.maximum(start, end)], axis=1)
-    side = np.unique(ends, axis=0, return_inverse=True)[1].reshape(-1)
+    edge = distinct_pairs(np.minimum(start, end), np.maximum(start, end))[1]
+    side = distinct_pairs(part, edge)[1]
     # Inside of a part, faces go along an edge in both directions. The fan goes along a rim against its faces.
     rim = np.bincount(side, np.where(start < end, 1.0, -1.0))[side] != 0
     start, end, rim_part = end[rim], start[rim], part[rim]
     if not len(start):
         return _Surface(table.vertices, triangles), labels[face]
-    both = np.stack([np.tile(rim_part, 2), np.append(start, end)], axis=1)
-    first, second = np.unique(both, axis=0, return_inverse=True)[1].reshape(2, -1)
+    first, second = distinct_pairs(np.tile(rim_part, 2), np.append(start, end))[1].reshape(2, -1)
     count, loop = components(int(max(first.max(), second.max())) + 1, first, second)
     loop = loop[first]
     length = lengths(table.vertices[end] - table.vertices[start]) + np.finfo(float).tiny

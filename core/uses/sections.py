@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import components
+from ..surface.arrays import components, distinct_pairs
+from ..surface.mesh import EdgeTable
 
 # A piece is a little smaller than the box.
 _ROOM = 1 - 1e-4
@@ -71,19 +72,15 @@ def inside_section(flat: np.ndarray, edges: np.ndarray, triangles: np.ndarray) -
     chosen : (s, 3) int64 or None
         Counterclockwise; None unless the curves are all that bounds them.
     """
-    around = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    owner = np.repeat(np.arange(len(triangles)), 3)
-    sides, side, uses = np.unique(around, axis=0, return_inverse=True, return_counts=True)
-    wall = _rows_in(sides, np.sort(edges, axis=1))[side.ravel()]
-    order = np.argsort(side.ravel(), kind="stable")
-    first = np.flatnonzero(np.diff(side.ravel()[order]) == 0)
-    pairs, open_ = np.stack([owner[order[first]], owner[order[first + 1]]], axis=1), wall[order[first]]
-    count, label = components(len(triangles), *pairs[~open_].T)
+    table, edges = EdgeTable.of(triangles, len(flat)), np.sort(edges, axis=1)
+    wall = _rows_in(table.vertices, edges)
+    open_ = wall[table.pair_edge]
+    count, label = components(len(triangles), *table.pairs[~open_].T)
     # Across each curve, what is outside is inside; at the rim of all triangles, it is known.
     inside = np.full(count, -1)
-    rim = uses[side.ravel()] == 1
-    inside[label[owner[rim]]] = wall[rim]
-    beyond = np.unique(label[pairs[open_]], axis=0)
+    face, side = np.nonzero(table.n_faces[table.face_edges] == 1)
+    inside[label[face]] = wall[table.face_edges[face, side]]
+    beyond = distinct_pairs(*label[table.pairs[open_]].T)[0]
     for _ in range(count):
         known = inside[beyond] >= 0
         for here, there in ((0, 1), (1, 0)):
@@ -95,9 +92,8 @@ def inside_section(flat: np.ndarray, edges: np.ndarray, triangles: np.ndarray) -
     a, b, c = flat[chosen].transpose(1, 0, 2)
     turn = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     chosen = np.where(turn[:, None] > 0, chosen, chosen[:, ::-1])
-    sides = np.sort(chosen[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    sides, uses = np.unique(sides, axis=0, return_counts=True)
-    same = np.array_equal(sides[uses == 1], np.unique(np.sort(edges, axis=1), axis=0))
+    table = EdgeTable.of(chosen, len(flat))
+    same = np.array_equal(table.vertices[table.n_faces == 1], distinct_pairs(*edges.T)[0])
     return chosen if same else None
 
 

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ...core.surface.arrays import components, distinct_pairs
+from ...core.surface.mesh import EdgeTable
 from .. import caps, mesh_arrays
 
 if TYPE_CHECKING:
@@ -37,7 +39,6 @@ class Cut:
 
 def shared_cuts(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray) -> list[Cut]:
     """What the pieces have in common: connected faces of caps with the same corners in two of them."""
-    from ...core.surface.arrays import components
     from ...core.uses.joint_places import Cap
 
     keys = sorted(meshes)
@@ -60,7 +61,7 @@ def shared_cuts(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray) -> list[
         points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
         return mesh_arrays.corner_table(mesh).face_pairs()[0], points, *mesh_arrays.triangles(mesh)
 
-    for a, b in np.unique(np.stack([piece[low], piece[high]], axis=1), axis=0).tolist():
+    for a, b in distinct_pairs(piece[low], piece[high])[0].tolist():
         these = (piece[low] == a) & (piece[high] == b)
         one, other = face[low[these]], face[high[these]]
         sort = np.argsort(one)
@@ -78,9 +79,8 @@ def shared_cuts(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray) -> list[
 
 def _rims(triangles: np.ndarray) -> np.ndarray:
     """The edges of some triangles that one of them has, (s, 2)."""
-    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    edges, count = np.unique(edges, axis=0, return_counts=True)
-    return edges[count == 1]
+    table = EdgeTable.of(triangles, int(triangles.max(initial=-1)) + 1)
+    return table.vertices[table.n_faces == 1]
 
 
 def _cap_faces(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -107,8 +107,6 @@ def _names(corners: np.ndarray, faces: list[np.ndarray]) -> np.ndarray:
 def _places(points: np.ndarray) -> np.ndarray:
     """A number for each place; points, (n, 3), that differ by rounding are at one."""
     from scipy.spatial import cKDTree
-
-    from ...core.surface.arrays import components
 
     own, place = np.unique(points, axis=0, return_inverse=True)
     near = cKDTree(own).query_pairs(2e-6 * float(np.linalg.norm(np.ptp(own, axis=0))), output_type="ndarray")
