@@ -7,6 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.parameters import Parameters
 from ..core.sentence import Count
+from ..core.steps import Steps, finished, stretched
 from ..scene import bridge, defaults, jobs, results, targets
 from ..scene.bridge import Shape
 from ..scene.compute import Outcome, compute_all
@@ -27,7 +28,6 @@ from ..scene.settings import (
     take_over_former_names,
 )
 from ..scene.stepped import LARGE, SteppedOperator
-from ..scene.steps import Steps, finished, stretched
 from ..viewport import shading
 
 #: How far all is when a large mesh has been read.

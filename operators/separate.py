@@ -6,6 +6,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
+from ..core.steps import Steps, stretched
 from ..scene import piece_objects, store, targets
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
@@ -14,7 +15,6 @@ from ..scene.reporting import ReportingOperator
 from ..scene.selection import select_objects
 from ..scene.settings import SeparateProperties
 from ..scene.stepped import LARGE, SteppedOperator
-from ..scene.steps import Steps, stretched
 from ..viewport import shading
 from .checks import report_unsound
 

@@ -14,6 +14,7 @@ from functools import partial
 import bpy
 import numpy as np
 
+from ..core.steps import Steps, finished, stretched
 from ..core.surface.arrays import distinct_pairs, stable_order
 from ..core.surface.corners import edge_labels
 from . import cap_looks, caps, element_layers, hidden, mesh_arrays, outputs, quiet, smooth_faces
@@ -21,7 +22,6 @@ from .elements import Elements
 from .holes import Holes
 from .outputs import kept_aside, materials
 from .sculpted_pieces import SculptedMesh, is_sculpted
-from .steps import Steps, finished, stretched
 from .temporary import removed
 
 _NORMAL = "reeb_parts_normal"  # corner attribute: the user's normals, while faces are taken apart

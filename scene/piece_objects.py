@@ -15,6 +15,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
+from ..core.steps import Steps, finished, stretched
 from . import (
     beds,
     bridge,
@@ -36,7 +37,6 @@ from .errors import SceneError
 from .outputs.colors import linear
 from .part_meshes import making_pieces
 from .settings import SeparateProperties
-from .steps import Steps, finished, stretched
 from .store import Stored
 from .temporary import remove_object, removed
 from .units import millimeters

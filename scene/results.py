@@ -11,6 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.graph.fold import unfolded
 from ..core.result.numbering import NumberedParts
+from ..core.steps import Steps, finished
 from . import (
     armature,
     bridge,
@@ -27,7 +28,6 @@ from . import (
 )
 from .compute import Outcome
 from .errors import SceneError
-from .steps import Steps, finished
 
 
 def check_unchanged(digests: dict[str, str]) -> None:

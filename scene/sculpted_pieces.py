@@ -7,15 +7,16 @@ These meshes have few faces of their own, so that the time it takes does not mat
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import bmesh
 import bpy
 import numpy as np
 from bmesh.types import BMesh
 
+from ..core.steps import Steps
 from . import element_layers, mesh_arrays, smooth_faces, targets
 from .holes import Holes
-from .steps import Steps
 from .temporary import freed
 
 
@@ -35,12 +36,12 @@ class SculptedMesh:
         """Divide faces where smooth cuts run, see smooth_faces.divide_faces."""
         mesh, number = self._mesh, smooth_faces.NUMBER
         mesh.attributes.new(number, "INT", "FACE").data.foreach_set("value", face_numbers.astype(np.int32))
-        cuts = smooth_faces.find_cuts(self.whole, face_numbers, stretch, along, self._planar)
-        if len(cuts.odd):
-            _with_bmesh(mesh, lambda bm: smooth_faces.triangulate(bm, cuts.odd))
+        cuts = yield from smooth_faces.finding_cuts(self.whole, face_numbers, stretch, along, self._planar)
+        while len(cuts.odd):  # with triangles in place of some faces, others may become odd
+            _with_bmesh(mesh, partial(smooth_faces.triangulate, faces=cuts.odd))
             whole = element_layers.read(mesh)
             numbers = whole.layers[number].values.astype(np.int64)
-            cuts = smooth_faces.find_cuts(whole, numbers, stretch, along, self._planar)
+            cuts = yield from smooth_faces.finding_cuts(whole, numbers, stretch, along, self._planar)
         yield 0.7
         _with_bmesh(mesh, lambda bm: smooth_faces.divide(bm, cuts))
         face_numbers = mesh_arrays.attribute_values(mesh.attributes[number]).astype(np.int64)

@@ -16,10 +16,10 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMFace, BMVert
 
+from ..core.steps import Steps, stretched
 from ..core.surface.corners import CornerTable
 from . import element_layers
 from .elements import FACE, Elements, Layer, Selection
-from .steps import Steps
 from .temporary import freed, removed
 
 if TYPE_CHECKING:
@@ -55,12 +55,11 @@ def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray
         Number of each face's part, of the faces that there are now.
     cuts : CleanCuts
     """
-    cuts = find_cuts(whole, face_numbers, stretch, along, planar)
-    if len(cuts.odd):
+    cuts = yield from stretched(finding_cuts(whole, face_numbers, stretch, along, planar), 0.0, 0.4)
+    while len(cuts.odd):  # with triangles in place of some faces, others may become odd
         whole, face_numbers = _changed(whole, like, face_numbers, cuts.odd,
                                        lambda bm, _, odd: triangulate(bm, odd))
-        cuts = find_cuts(whole, face_numbers, stretch, along, planar)
-        assert not len(cuts.odd)
+        cuts = yield from stretched(finding_cuts(whole, face_numbers, stretch, along, planar), 0.4, 0.7)
     yield 0.7
     if not len(cuts.face):
         return whole, face_numbers, cuts
@@ -72,17 +71,18 @@ def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray
     return whole, face_numbers, cuts
 
 
-def find_cuts(whole: Elements, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray,
-              planar: bool = False) -> CleanCuts:
-    """Where smooth cuts run; arguments as of ``divide_faces``."""
-    from ..core.uses.clean_cuts.method import clean_cuts  # imports SciPy
+def finding_cuts(whole: Elements, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray,
+                 planar: bool = False) -> Steps[CleanCuts]:
+    """Find where smooth cuts run, in steps; arguments as of ``divide_faces``."""
+    from ..core.uses.clean_cuts import method  # imports SciPy
 
     table = CornerTable(whole.points.astype(np.float64) @ stretch.T, whole.ends, whole.corner_vertex,
                         whole.corner_edge, whole.corner_face, len(whole.count))
-    if not len(along):
-        return clean_cuts(table, face_numbers, planar=planar)
-    sides = np.stack(table.edge_labels(face_numbers), axis=1)
-    return clean_cuts(table, face_numbers, (sides[:, None] == along[None]).all(axis=2).any(axis=1), planar)
+    kept = None
+    if len(along):
+        sides = np.stack(table.edge_labels(face_numbers), axis=1)
+        kept = (sides[:, None] == along[None]).all(axis=2).any(axis=1)
+    return (yield from method.finding_cuts(table, face_numbers, kept, planar))
 
 
 def _changed(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray, faces: np.ndarray,

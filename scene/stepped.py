@@ -9,10 +9,10 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
+from ..core.steps import Steps, finished
 from . import jobs, redraw
 from .errors import SceneError, translated
 from .reporting import ReportingOperator
-from .steps import Steps, finished
 from .transaction import transaction
 
 #: With so many vertices it can take a second or more: then there is progress, and Esc.
@@ -33,7 +33,7 @@ class SteppedOperator(ReportingOperator):
     _work: Steps[None] | None = None
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
-        """Do what the operator is for, see steps.py. Raises SceneError or ReebError."""
+        """Do what the operator is for, see core/steps.py. Raises SceneError or ReebError."""
         raise NotImplementedError
 
     def run(self, context: bpy.types.Context) -> None:

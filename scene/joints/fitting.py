@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ...core.steps import Steps
 from .. import bridge, mesh_arrays, piece_checks
-from ..steps import Steps
 from .cuts import Cut
 from .solids import solid_of, with_solids
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ...core.steps import Steps, finished, stretched
 from .. import bridge, mesh_arrays, piece_checks
-from ..steps import Steps, finished, stretched
 from ..temporary import removed
 from ..units import millimeters
 from .bodies import Body, Side

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...steps import Steps, finished, stretched
 from ...surface.arrays import components, renumbered
 from ...surface.corners import CornerTable
 from .band import Band
@@ -85,11 +86,18 @@ def clean_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | None 
     -----
     O(n) to find what lies near the borders; all else is for that only.
     """
+    return finished(finding_cuts(table, labels, whole, planar))
+
+
+def finding_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | None = None,
+                 planar: bool = False) -> Steps[CleanCuts]:
+    """What ``clean_cuts`` does, in steps."""
     band = Band.of(table, labels, (REACH if planar else max(STEPS)) + 2)
     if band is None:
         return CleanCuts(*(np.empty(0, kind) for kind in (np.int64, float, np.int64, np.int64, np.int64, np.int64)))
     taken = np.zeros(len(band.vertices), bool)
     failed = taken
+    yield 0.1
     found: list[CleanCuts] = []
     pins = Pins.of(band)
     low, high = band.edge_labels()
@@ -97,11 +105,14 @@ def clean_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | None 
     tries = [(steps, pins, 0) for steps in STEPS]
     if planar:
         tries.insert(0, (max(STEPS), Pins.none(), REACH))
-    for steps, held, reach in tries:
+    for place, (steps, held, reach) in enumerate(tries):
         if taken[borders].all():
             break
-        sides = sides_of(band, held, steps, reach)
+        begin, end = (0.1 + 0.9 * (place + step) / len(tries) for step in (0, 1))
+        sides = yield from stretched(sides_of(band, held, steps, reach), begin, end)
+        yield end
         division = divide(band, sides)
+        yield end
         group, good, broken = judged(band, sides, division, reach > 0)
         if whole is not None:
             asked = group[band.ends[(low < high) & whole[band.edges]]]

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, eye_array
 
+from ...steps import Steps
 from ...surface.arrays import distinct_pairs, last_of_each, sums_by
 from .band import Band
 from .pins import Pins
@@ -53,8 +54,8 @@ class Shares:
         return np.divide(first, total, out=np.full(len(ends), 0.5), where=total > 0).clip(0.0, 1.0)
 
 
-def diffused(band: Band, pins: Pins, steps: int) -> Shares:
-    """Shares after so many steps, with the middle of each border where it was."""
+def diffusing(band: Band, pins: Pins, steps: int) -> Steps[Shares]:
+    """Find the shares after so many steps of diffusion, with the middle of each border where it was; in steps."""
     triangles, face = band.triangles()
     a, b, c = band.points[triangles].transpose(1, 0, 2)
     area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
@@ -63,6 +64,7 @@ def diffused(band: Band, pins: Pins, steps: int) -> Shares:
     label = np.repeat(band.labels[face], 3)
     shares = coo_array((np.repeat(area, 3), (triangles.ravel(), label)), shape=shape).tocsr()
     shares = _rows_to_one(shares)
+    yield 0.2
     # What is pinned stays half and half, and nothing diffuses across it.
     moving = np.ones(shape[0])
     moving[pins.vertex] = 0.0
@@ -71,8 +73,10 @@ def diffused(band: Band, pins: Pins, steps: int) -> Shares:
     moving = diags_array(moving).tocsr()
     walk = moving @ _walk(band, triangles)
     shares = moving @ shares + halves
-    for _ in range(steps):
+    for step in range(steps):
+        yield 0.5 + 0.4 * step / steps
         shares = walk @ shares + halves
+    yield 0.9
     shares.sort_indices()
     vertex = np.repeat(np.arange(shape[0]), np.diff(shares.indptr))
     key = vertex * shape[1] + shares.indices

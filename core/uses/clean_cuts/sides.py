@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...steps import Steps, stretched
 from .band import Band
 from .pins import Pins, are_between
 from .planes import planes_of
-from .shares import diffused
+from .shares import diffusing
 
 # A cut as near to a vertex as such a share of the edge goes through the vertex; in a plane, as the second says, in one
 # that was asked for, as the third.
@@ -37,17 +38,19 @@ class Sides:
     plane: np.ndarray
 
 
-def sides_of(band: Band, pins: Pins, steps: int, reach: int = 0) -> Sides:
-    """The sides of smooth curves after so many steps of diffusion.
+def sides_of(band: Band, pins: Pins, steps: int, reach: int = 0) -> Steps[Sides]:
+    """Find the sides of smooth curves after so many steps of diffusion; in steps.
 
     reach : int, planes are taken, too, for bent curves that leave them by up to so many edges.
     """
-    shares = diffused(band, pins, steps)
+    shares = yield from stretched(diffusing(band, pins, steps), 0.0, 0.7)
+    yield 0.7
     top = shares.top
     a, b = band.ends.T
     share = np.full(len(a), np.nan)
     apart = np.flatnonzero(top[a] != top[b])
     share[apart] = shares.crossing(band.ends[apart])
+    yield 0.8
     planes = planes_of(band, top, share, reach or steps, reach > 0)
     top = np.where(planes.number >= 0, np.where(planes.height > 0, planes.above, planes.below), top)
     flat = (planes.number[a] >= 0) & (planes.number[a] == planes.number[b])
