@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cut a part where the user points: along the contour of the field through a place of the graph or surface."""
 
+from functools import partial
+
 import bpy
+import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
+from ..core.steps import Steps
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
 from ..viewport import pointing
@@ -39,7 +43,14 @@ class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):
         self.knife = Knife(obj, self.model)
 
     def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
-        self.preview.lines = None if target is None else self.knife.ring(target)
+        cut = context.scene.reeb_parts_use.cut
+        if target is None or cut == "FACES":
+            self.preview.show(None if target is None else self.knife.ring(target))
+        else:
+            self.preview.show(self.knife.ring(target), partial(self._finding_curve, target, cut == "PLANAR"))
+
+    def _finding_curve(self, target: Target, planar: bool) -> Steps[np.ndarray]:
+        return self.knife.finding_curve(self.model_object(), target, planar)
 
     def press(self, context: bpy.types.Context, target: Target, event: bpy.types.Event) -> set[str]:
         obj = context.view_layer.objects.active

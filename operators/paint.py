@@ -85,14 +85,15 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
     def _show_brush(self, target: Target | None) -> None:
         """A disc as large as the brush, lying on the surface, in the color that it gives."""
         if target is None:
-            self.preview.lines = self.preview.disc = None
+            self.preview.show(None)
+            self.preview.disc = None
             return
         angle = np.linspace(0.0, 2 * np.pi, 49)
         normal = Vector(self._normal(target.face))
         first = normal.orthogonal().normalized()
         axes = np.array([first, normal.cross(first)])
         ring = target.location + self.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1) @ axes
-        self.preview.lines = np.stack([ring[:-1], ring[1:]], axis=1)
+        self.preview.show(np.stack([ring[:-1], ring[1:]], axis=1))
         self.preview.disc, self.preview.disc_color = np.concatenate([[target.location], ring]), self.color
 
     def _normal(self, face: int) -> Vector:

@@ -368,6 +368,10 @@ class ReebPartsSettings(
         name="Outline Chosen Parts", default=True,
         description="Draw a line around the parts that are chosen in the list",
     )
+    show_cuts: BoolProperty(
+        name="Show Cuts", default=False,
+        description="Draw all borders between parts where Separate would cut them, by its setting Cuts",
+    )
     preset: EnumProperty(
         name="Preset", items=PRESET_ITEMS, update=_use_preset,
         description="Set all parameters at once",

@@ -75,7 +75,7 @@ class REEB_PARTS_PT_overlay(SettingsPanel, bpy.types.Panel):
     bl_label = "Overlay"
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_settings(self, context, ("node_size", "line_thickness", "in_front", "highlight", "small"))
+        draw_settings(self, context, ("node_size", "line_thickness", "in_front", "highlight", "show_cuts", "small"))
 
 
 CLASSES = (

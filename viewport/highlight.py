@@ -1,39 +1,89 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The outline of the chosen parts, and a fill of those without one, drawn over the active object in the window.
+"""The outline of the chosen parts, a fill of those without one, and all cuts, drawn over the active object.
 
-Built when the choice or the parts change, drawn as often as the view is; nothing is written anywhere.
+Cuts are drawn where Separate would make them. Built when the choice or the parts change, drawn as often as the view is;
+nothing is written anywhere.
 """
 
 from __future__ import annotations
 
+from functools import partial
+from typing import TYPE_CHECKING
+
 import bpy
 import gpu
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import explode, graph_objects, mesh_arrays, selection, store
+from ..core.steps import Steps
+from ..scene import bridge, cut_curves, explode, graph_objects, mesh_arrays, selection, store
+from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
 from .lines import Lines, Surface
+from .settling import Settling
+from .view_tool import CHANGED
+
+if TYPE_CHECKING:
+    from ..core.uses.clean_cuts.curves import Curves
 
 COLOR = (1.0, 1.0, 1.0, 0.9)
 WIDTH = 2.5
+CUTS_COLOR, CUTS_WIDTH = (1.0, 1.0, 1.0, 0.6), 1.5
 
 FILL = (1.0, 1.0, 1.0, 0.15)  # of loose pieces, which border on nothing
 
+AT_ONCE = 5_000  # up to so many faces curves are found within a redraw
+PLANAR_MOST = 400_000  # of more faces, planar ones are drawn as smooth ones, which are found several times as fast
+
 _built = None  # what the lines and the surface below were built of
 _lines: Lines | None = None
+_cuts: Lines | None = None
 _surface: Surface | None = None
+_settling: Settling[Curves] = Settling(keep=4)
 
 
 def forget() -> None:
     """Free what is kept in memory."""
-    global _built, _lines, _surface
-    _built = _lines = _surface = None
+    global _built, _lines, _cuts, _surface
+    _built = _lines = _cuts = _surface = None
+    _settling.forget()
 
 
-def outline(obj: bpy.types.Object, numbers: list[int]) -> tuple[np.ndarray]:
-    """Where some parts border on others: ends of edges, (2e, 3) float32, in the object's coordinates; in a tuple.
+def curves_of(obj: bpy.types.Object, cut: str) -> Curves | None:
+    """The curves between the parts of an object that has some; None while they are looked for, and along faces.
 
-    Faces that are hidden are in none of them.
+    cut : as of settings.SeparateProperties.
+    """
+    if cut == "FACES":
+        return None
+    if len(obj.data.polygons) > PLANAR_MOST:
+        cut = "SMOOTH"
+    result = obj.data.reeb_parts
+    stretch = bridge.world_stretch(obj)
+    key = (obj.data.session_uid, result.fingerprint, result.numbers, stretch.tobytes(), cut)
+    return _settling.of(key, partial(_finding, obj.name, obj.data.session_uid, cut), len(obj.data.polygons) <= AT_ONCE)
+
+
+def _finding(name: str, uid: int, cut: str) -> Steps[Curves]:
+    """Look for the curves of an object with a mesh. Raises SceneError."""
+    obj = bpy.data.objects.get(name)
+    if obj is None or obj.type != "MESH" or obj.data.session_uid != uid:
+        raise SceneError(rpt_(CHANGED))
+    face_numbers = store.load(obj.data).face_numbers
+    return cut_curves.finding_curves(*cut_curves.read(obj), face_numbers, cut == "PLANAR")
+
+
+def outline(obj: bpy.types.Object, numbers: list[int] | None, curves: Curves | None = None) -> tuple[np.ndarray]:
+    """Where some parts border on others: ends of lines, (2 k, 3) float32, in the object's coordinates; in a tuple.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    numbers : list of int or None
+        Of the parts; None for where any part borders on another one.
+    curves : Curves, optional
+        Without them, the lines are edges of faces; so they are where some faces of a part are hidden, which are in no
+        part then.
 
     Raises
     ------
@@ -41,10 +91,27 @@ def outline(obj: bpy.types.Object, numbers: list[int]) -> tuple[np.ndarray]:
         The parts are out of date.
     """
     mesh = obj.data
-    stored = store.load(mesh)
-    mine = np.isin(stored.face_numbers, numbers) & ~selection.hidden_faces(mesh)
-    edges = mesh_arrays.edge_ends(mesh)[mesh_arrays.cut_edges(mesh, mine.astype(np.int64))]
-    return (mesh_arrays.shown_points(obj)[edges.ravel()],)
+    part, points = store.load(mesh).face_numbers, mesh_arrays.shown_points(obj)
+    hidden, gone = _hidden(mesh, part)
+    if curves is None or (hidden is not None and gone is None):
+        mine = (part if numbers is None else np.isin(part, numbers)).astype(np.int64)
+        if hidden is not None:
+            mine[hidden] = 0
+        return (points[mesh_arrays.edge_ends(mesh)[mesh_arrays.cut_edges(mesh, mine)].ravel()],)
+    here = (~np.isin(curves.pair, gone or []).all(axis=1) if numbers is None
+            else curves.around(np.setdiff1d(numbers, gone or [])))
+    return (curves.points(points)[curves.segments[here].ravel()].astype(np.float32),)
+
+
+def _hidden(mesh: bpy.types.Mesh, part: np.ndarray) -> tuple[np.ndarray | None, list[int] | None]:
+    """Which faces are hidden, (p,) bool, and the parts that these are, if they are whole parts; None for none.
+
+    part : (p,) int64, of each face.
+    """
+    if not selection.hides_faces(mesh) or not (hidden := selection.hidden_faces(mesh)).any():
+        return None, None
+    gone = graph_objects.hidden_parts(mesh, part)
+    return hidden, gone if np.array_equal(np.isin(part, gone), hidden) else None
 
 
 def without_outline(obj: bpy.types.Object, numbers: list[int]) -> np.ndarray:
@@ -68,28 +135,40 @@ def without_outline(obj: bpy.types.Object, numbers: list[int]) -> np.ndarray:
 
 
 def draw() -> None:
-    """Draw the outline of the chosen parts in the viewport that Blender is drawing."""
-    global _built, _lines, _surface
+    """Draw the outline of the chosen parts, and the cuts, in the viewport that Blender is drawing."""
     context = bpy.context
+    settings = context.scene.reeb_parts
     obj = context.object
     of_node = graph_objects.part_of(obj)  # a node that is selected lights its part
     obj, chosen = (of_node[0], obj.select_get()) if of_node else (obj, obj is not None and obj.select_get())
     if (obj is None or obj.type != "MESH" or obj.mode != "OBJECT" or not chosen
-            or not context.scene.reeb_parts.highlight or not context.space_data.overlay.show_overlays
+            or not (settings.highlight or settings.show_cuts) or not context.space_data.overlay.show_overlays
             or not store.has_result(obj.data) or store.is_edited(obj.data)
             or explode.find(obj)):  # the parts are elsewhere then
         return
-    result = obj.data.reeb_parts
-    numbers = chosen_numbers(obj.data)
-    hidden = selection.hidden_faces(obj.data).tobytes() if selection.hides_faces(obj.data) else b""
-    key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers), hash(hidden))
-    if key != _built:
-        _built = key
-        _lines = Lines.of(outline, obj, numbers)
-        _surface = Surface.of(without_outline, obj, numbers)
+    _build(obj, chosen_numbers(obj.data) if settings.highlight else [], settings.show_cuts,
+           context.scene.reeb_parts_use.cut)
     if _surface is not None:
         _surface.draw(obj.matrix_world, FILL, context.region_data.is_perspective)
+    gpu.state.blend_set("ALPHA")
+    if _cuts is not None:
+        _cuts.draw(obj.matrix_world, CUTS_WIDTH, CUTS_COLOR)
     if _lines is not None:
-        gpu.state.blend_set("ALPHA")
         _lines.draw(obj.matrix_world, WIDTH, COLOR)
-        gpu.state.blend_set("NONE")
+    gpu.state.blend_set("NONE")
+
+
+def _build(obj: bpy.types.Object, numbers: list[int], show_cuts: bool, cut: str) -> None:
+    """Build what is drawn, if it is not what was drawn last. numbers : parts with an outline."""
+    global _built, _lines, _cuts, _surface
+    result = obj.data.reeb_parts
+    curves = curves_of(obj, cut)
+    hidden = selection.hidden_faces(obj.data).tobytes() if selection.hides_faces(obj.data) else b""
+    key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers), hash(hidden),
+           show_cuts, cut, curves is None)
+    if key == _built:
+        return
+    _built = key
+    _lines = Lines.of(outline, obj, numbers, curves) if numbers else None
+    _cuts = Lines.of(outline, obj, None, curves) if show_cuts else None
+    _surface = Surface.of(without_outline, obj, numbers) if numbers else None

@@ -9,9 +9,10 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.steps import Steps, stretched
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
-from ..scene import bridge, edits, mesh_arrays, part_list, part_names
+from ..scene import bridge, cut_curves, edits, mesh_arrays, part_list, part_names
 from ..scene.errors import SceneError
 from .pointing import Model, Target
 
@@ -26,6 +27,7 @@ class Knife:
         self.model = model
         self.table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
         self._parts: dict[int, CornerTable] = {}  # corners of the parts that were asked for
+        self._surface: tuple[FaceGraph, CornerTable, np.ndarray] | None = None  # for curves
 
     def contour(self, target: Target) -> tuple[Contours, int]:
         """The contour that a target asks for: all contours of its level in its part, and which one it is.
@@ -48,6 +50,28 @@ class Knife:
         """The lines of the contour, (s, 2, 3) float64 in coordinates of the mesh."""
         found, chosen = self.contour(target)
         return found.segments[found.label == chosen]
+
+    def finding_curve(self, obj: bpy.types.Object, target: Target, planar: bool) -> Steps[np.ndarray]:
+        """Find the lines that Separate would cut along there, in steps; as those of ``ring``.
+
+        The object, which has to be the one that was read, is not touched any more.
+        """
+        if self._surface is None:
+            self._surface = bridge.face_graph(obj)[0], *cut_curves.read(obj)
+        return self._finding_curve(*self._surface, target, planar)
+
+    def _finding_curve(self, face_graph: FaceGraph, table: CornerTable, points: np.ndarray, target: Target,
+                       planar: bool) -> Steps[np.ndarray]:
+        yield 0.0
+        side = self.sides(target, face_graph)
+        if side is None:
+            return self.ring(target)
+        yield 0.1
+        old, new = self.model.number(target), int(self.model.numbers.max()) + 1
+        numbers = np.where(side, new, self.model.numbers)
+        curves = yield from stretched(cut_curves.finding_curves(table, points, numbers, planar), 0.1, 1.0)
+        here = (curves.pair == (old, new)).all(axis=1)
+        return curves.points(self.table.vertices)[curves.segments[here]]
 
     def sides(self, target: Target, face_graph: FaceGraph) -> np.ndarray | None:
         """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off.

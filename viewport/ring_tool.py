@@ -3,18 +3,25 @@
 
 from __future__ import annotations
 
+from functools import partial
+from typing import TYPE_CHECKING
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import edits, mesh_arrays, part_list
+from ..core.steps import Steps
+from ..scene import cut_curves, edits, mesh_arrays, part_list
 from ..scene.errors import SceneError
 from ..scene.store import Stored
 from .boundary import Boundary, write_moved
 from .colored_tool import ColoredTool
 from .pointing import Target
 from .view_tool import turns_view
+
+if TYPE_CHECKING:
+    from ..core.uses.clean_cuts.curves import Curves
 
 _WORDS = ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE")
 _DIGITS = {key: digit for digit, word in enumerate(_WORDS) for key in (word, f"NUMPAD_{digit}")}
@@ -126,8 +133,20 @@ class RingTool(ColoredTool):
         self.rim, self.next = (self.points[self.edges[np.concatenate(some)]] for some in zip(*found, strict=True))
 
     def _show_rings(self, context: bpy.types.Context) -> None:
-        self.preview.lines, self.preview.faint_lines = self.rim, self.next
+        cut = context.scene.reeb_parts_use.cut
+        self.preview.show(self.rim, None if cut == "FACES" else partial(self.finding_rim, self._shown, cut == "PLANAR"))
+        self.preview.faint_lines = self.next
         context.workspace.status_text_set(self.hint())
+
+    def finding_rim(self, numbers: np.ndarray, planar: bool) -> Steps[np.ndarray]:
+        """Find the lines that Separate would cut along if each face were in the part of a number, (p,), in steps."""
+        steps = cut_curves.finding_curves(*cut_curves.read(self.model_object()), numbers, planar)
+        return self._rim_of(steps, [boundary.number for boundary in self.moving])
+
+    def _rim_of(self, steps: Steps[Curves], parts: list[int]) -> Steps[np.ndarray]:
+        curves = yield from steps
+        here = np.any([curves.around([number]) for number in parts], axis=0)
+        return curves.points(self.points)[curves.segments[here]]
 
     def finish(self, context: bpy.types.Context, obj: bpy.types.Object) -> set[str]:
         if not self.rings:

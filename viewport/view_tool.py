@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import bpy
 import gpu
+import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.steps import Steps
 from ..scene import redraw
 from ..scene.errors import SceneError
 from ..scene.reporting import ReportingOperator
@@ -15,6 +19,7 @@ from ..scene.transaction import transaction
 from . import hover, pointing
 from .lines import Lines, fill
 from .pointing import Target
+from .settling import Settling
 
 _CONFIRM = {"RET", "NUMPAD_ENTER"}
 _CANCEL = {"ESC", "RIGHTMOUSE"}
@@ -27,8 +32,11 @@ class Preview:
     """Lines that are drawn over the view while a tool is at work; outlives nothing of Blender's."""
 
     def __init__(self) -> None:
-        self.lines = None  # (k, 2, 3) float, in coordinates of the mesh
-        self.faint_lines = None  # the same, of what comes next
+        self._lines: np.ndarray | None = None  # (k, 2, 3) float, in coordinates of the mesh
+        self._smoothing: Callable[[], Steps[np.ndarray]] | None = None  # makes the steps that find better ones
+        self._shown = 0  # how often lines were shown
+        self._settling: Settling[np.ndarray] = Settling()
+        self.faint_lines = None  # as the lines, of what comes next
         self.disc = None  # (t, 3) float, corners around its middle, which comes first
         self.disc_color = (1.0, 1.0, 1.0, 1.0)
         self.matrix = None  # of the object, in the world
@@ -37,6 +45,21 @@ class Preview:
 
     def remove(self) -> None:
         bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
+        self._settling.forget()
+
+    def show(self, lines: np.ndarray | None, smoothing: Callable[[], Steps[np.ndarray]] | None = None) -> None:
+        """Draw lines, (k, 2, 3) in coordinates of the mesh, and others in their place once the view rests.
+
+        smoothing : makes the steps that find these.
+        """
+        self._lines, self._smoothing = lines, smoothing
+        self._shown += 1
+
+    @property
+    def lines(self) -> np.ndarray | None:
+        """The lines that are drawn now; asked for at each redraw."""
+        smooth = self._settling.of(self._shown, self._smoothing) if self._smoothing is not None else None
+        return self._lines if smooth is None else smooth
 
     def _draw(self) -> None:
         if self.disc is not None:
@@ -161,6 +184,13 @@ class ViewTool(ReportingOperator):
             return None
         region, mouse = place
         return self.model.under(context, obj, region, mouse, graph=self.uses_graph)
+
+    def model_object(self) -> bpy.types.Object:
+        """The object that was read. Raises SceneError if it or its parts have changed since."""
+        obj = bpy.data.objects.get(self.model.name)
+        if not self.is_current(obj):
+            raise SceneError(rpt_(CHANGED))
+        return obj
 
     def is_current(self, obj: bpy.types.Object | None) -> bool:
         """Whether an object is the one that was read, with the parts that it had then; it may be None."""

@@ -345,6 +345,9 @@ TEXTS = {
     "Outline Chosen Parts": "Gewählte Teile umranden",
     "Draw a line around the parts that are chosen in the list":
         "Eine Linie um die Teile zeichnen, die in der Liste gewählt sind",
+    "Show Cuts": "Schnitte zeigen",
+    "Draw all borders between parts where Separate would cut them, by its setting Cuts":
+        "Alle Grenzen zwischen Teilen dort zeichnen, wo Trennen sie nach seiner Einstellung Schnitte schneiden würde",
     "The parameters that new scenes start with": "Die Parameter, mit denen neue Szenen beginnen",
     "The preferences were taken over": "Die Einstellungen wurden übernommen",
     # Die Liste der Teile

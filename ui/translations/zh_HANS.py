@@ -342,6 +342,9 @@ TEXTS = {
     "Draw the graph over the model instead of hidden inside it": "将图绘制在模型之上，而不是隐藏在模型内部",
     "Outline Chosen Parts": "勾勒所选部件",
     "Draw a line around the parts that are chosen in the list": "在列表中所选部件的周围绘制线条",
+    "Show Cuts": "显示切口",
+    "Draw all borders between parts where Separate would cut them, by its setting Cuts":
+        "绘制部件之间的所有边界，即“分离”按其“切口”设置进行切割的位置",
     "The parameters that new scenes start with": "新场景的起始参数",
     "The preferences were taken over": "已采用偏好设置",
     # 部件列表
