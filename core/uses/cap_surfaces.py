@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..surface.arrays import cross, lengths, sums_by
+
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
@@ -97,7 +99,7 @@ def away_from_curve(flat: np.ndarray, before: np.ndarray | None = None, density:
         grid = np.stack(np.meshgrid(x, y), axis=-1)
         grid[1::2, :, 0] += step / 2
         grid = grid.reshape(-1, 2)
-        away = tree.query(grid)[0]
+        away = tree.query(grid, distance_upper_bound=2.001 * _AWAY * step)[0]
         levels.append(grid[(away > _AWAY * step) & (away <= 2 * _AWAY * step)])
         step *= 2
     return np.concatenate(levels)
@@ -110,14 +112,14 @@ def harmonic_weights(points: np.ndarray, triangles: np.ndarray) -> csr_array:
     """
     from scipy.sparse import coo_array
 
-    flat = ((0, 0), (0, 3 - points.shape[1]))
+    if points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points))])
     rows, columns, weights = [], [], []
     for i in range(3):
         apex, p, q = (triangles[:, (i + j) % 3] for j in range(3))
         u, v = points[p] - points[apex], points[q] - points[apex]
-        across = np.cross(np.pad(u, flat), np.pad(v, flat))
-        least = 1e-12 * np.linalg.norm(u, axis=1) * np.linalg.norm(v, axis=1)
-        cotangent = (u * v).sum(axis=1) / np.maximum(np.linalg.norm(across, axis=1), np.maximum(least, 1e-300))
+        least = 1e-12 * lengths(u) * lengths(v)
+        cotangent = (u * v).sum(axis=1) / np.maximum(lengths(cross(u, v)), np.maximum(least, 1e-300))
         rows += [p, q]
         columns += [q, p]
         weights += [cotangent, cotangent]
@@ -153,9 +155,14 @@ def spread(weights: csr_array, values: np.ndarray, fixed: np.ndarray | None = No
     every = np.empty((n, values.shape[1]))
     every[known] = values
     if len(free) and values.shape[1]:
-        part = weights[free]
-        total = part.sum(axis=1)
-        inner = part[:, free]
-        matrix = coo_array((total, (np.arange(len(free)), np.arange(len(free)))), shape=inner.shape) - inner
-        every[free] = splu(matrix.tocsc()).solve(np.ascontiguousarray(part[:, np.flatnonzero(known)] @ values))
+        # By arrays: to take rows and columns out of a small sparse matrix takes several times as long as to solve it.
+        m, place = len(free), np.cumsum(~known) - 1
+        row, column = np.repeat(np.arange(n), np.diff(weights.indptr)), weights.indices
+        here = ~known[row]
+        row, column, weight = place[row[here]], column[here], weights.data[here]
+        inner, own = ~known[column], np.arange(m)
+        entries = np.concatenate([np.bincount(row, weight, m), -weight[inner]])
+        ends = np.concatenate([own, row[inner]]), np.concatenate([own, place[column[inner]]])
+        from_known = sums_by(row[~inner], weight[~inner, None] * every[column[~inner]], m)
+        every[free] = splu(coo_array((entries, ends), shape=(m, m)).tocsc()).solve(from_known)
     return every[free] if fixed is None else every
