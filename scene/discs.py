@@ -23,6 +23,12 @@ from .disc_fitting import depths, pulled, pushed, steep
 _SLEEVES = (3, 10, 1000)
 # At so many triangles of a cap it is asked whether they are inside.
 _PLACES = 60
+# What crosses the model more often than this is not tried any finer: of 36 such caps of 153 models none became sound.
+_FEW = 8
+
+#: How far to go for a surface that crosses nothing, each several times as dear as the one before: over the plane of the
+#: curve or round a circle; led straight in from the rim; finer, pulled off, along the surface.
+PLAIN, LED_IN, ALL = 1, 2, 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +76,37 @@ class Found:
     own: np.ndarray
 
 
+class _Tries:
+    """What was tried to close some curves, (k, 3) each, and the best of it.
+
+    Attributes
+    ----------
+    curve : (k, 3) float64
+        The points of all curves.
+    is_single : bool
+        Whether there is one curve only.
+    rims : list of _Rims
+        How they are seen in a plane.
+    plain : list of Disc
+        The plain surfaces.
+    wide : Body and float, or None
+        See ``Discs._wide``.
+    best : Found
+    done : int
+        How far it went: 0, PLAIN, LED_IN or ALL.
+    follows_surface : bool
+        Whether it has come to surfaces that follow that of a part.
+    """
+
+    def __init__(self, curves: Sequence[np.ndarray]) -> None:
+        self.curve, self.is_single = np.concatenate(curves), len(curves) == 1
+        self.rims = _seen(curves) if len(self.curve) > 3 else []
+        self.plain: list[Disc] = []
+        self.wide: tuple[Body, float] | None = None
+        self.best = Found(None, 0, np.empty(0, np.int64))
+        self.done, self.follows_surface = 0, False
+
+
 class Discs:
     """Surfaces across closed curves on a mesh, each made once, so that it is the same for both sides of a cut.
 
@@ -85,7 +122,7 @@ class Discs:
 
     def __init__(self, points: np.ndarray, triangles: np.ndarray, labels: np.ndarray) -> None:
         self._points, self._triangles, self._labels = points, triangles, labels
-        self._found: dict[bytes, Found] = {}
+        self._tries: dict[bytes, _Tries] = {}
         self._used: set[bytes] = set()
         self._flat: dict[bytes, bool] = {}
         #: Vertices of the curves across which the surface crosses the mesh or itself, and how often all of them do.
@@ -103,12 +140,16 @@ class Discs:
             self.note(found.own, found.faults)
         return found.disc
 
-    def tried(self, *curves: np.ndarray) -> Found:
-        """What ``across`` would give, and how bad it is."""
+    def tried(self, *curves: np.ndarray, effort: int = ALL) -> Found:
+        """What ``across`` would give, and how bad it is, if it went no farther than PLAIN, LED_IN or ALL."""
         key = _key(curves)
-        if key not in self._found:
-            self._found[key] = self._best(curves)
-        return self._found[key]
+        tries = self._tries[key] = self._tries.get(key) or _Tries(curves)
+        ways = (self._plain, self._led_in, self._last)
+        while tries.done < effort and (tries.best.disc is None or tries.best.faults):
+            self._choose(tries, ways[tries.done](tries))
+            tries.done += 1
+        tries.wide = None  # which takes much more memory than what is found
+        return tries.best
 
     def note(self, own: np.ndarray, faults: int) -> None:
         """Note that surfaces at some vertices of the mesh, (k,) int64, cross something so often."""
@@ -130,48 +171,60 @@ class Discs:
         triangles, _ = mesh_arrays.triangulated(curve.astype(np.float32), np.array([len(curve)], np.int32), corners)
         return not len(body.crossings(curve, triangles)[0]) and not self._is_outside(curve, triangles, body)
 
-    def _best(self, curves: Sequence[np.ndarray]) -> Found:
-        """The first surface that is inside and crosses nothing, else the one that nearly does."""
-        curve, best = np.concatenate(curves), Found(None, 0, np.empty(0, np.int64))
-        for disc, body, is_last in self._candidates(curves, curve):
-            places = np.concatenate([curve, disc.places])
+    def _choose(self, tries: _Tries, candidates: Iterator[tuple[Disc, Body]]) -> None:
+        """Keep the first surface that is inside and crosses nothing, else the one that nearly does."""
+        for disc, body in candidates:
+            places, best = np.concatenate([tries.curve, disc.places]), tries.best
             faults = sum(map(len, body.crossings(places, disc.triangles)))
-            faults += self._is_outside(places, disc.triangles, body)
-            if not faults or best.disc is None or faults < best.faults:
-                best = Found(disc, faults or int(is_last), body.vertices[body.own[body.own >= 0]])
+            if best.disc is None or faults < best.faults:
+                faults += self._is_outside(places, disc.triangles, body)
+            if best.disc is None or faults < best.faults:
+                own = body.vertices[body.own[body.own >= 0]]
+                tries.best = Found(disc, faults or int(tries.follows_surface), own)
             if not faults:
                 break
-        return best
 
-    def _candidates(self, curves: Sequence[np.ndarray], curve: np.ndarray) -> Iterator[tuple[Disc, Body, bool]]:
-        """Surfaces across curves, the plain ones first; the body around each, and whether it is a last resort."""
-        rims = _seen(curves) if len(curve) > 3 else []
-        plain: list[Disc] = []
-        wide: tuple[Body, float] | None = None
-        for found in filter(None, map(partial(_disc, curve), rims)):
-            plain.append(found)
-            near = self.around(curve, np.concatenate([curve, found.places]), 0.0)
+    def _plain(self, tries: _Tries) -> Iterator[tuple[Disc, Body]]:
+        """Surfaces across curves with the body around each: as they are seen in a plane, then pushed off the body."""
+        curve = tries.curve
+        for found in filter(None, map(partial(_disc, curve), tries.rims)):
+            near = tries.wide[0] if tries.wide else self.around(curve, np.concatenate([curve, found.places]), 0.0)
             if near is None:
                 return
-            yield found, near, False
-            wide = wide or self._wide(curve, found, near)
-            yield pushed(found, curve, *wide), wide[0], False
-        if wide is None:
-            return
-        for found in plain:
-            yield steep(found, curve, *wide), wide[0], False
-            yield pulled(pushed(found, curve, *wide), curve, *wide), wide[0], False
-        for found in filter(None, (_disc(curve, one, 2.0) for one in rims)):
-            yield steep(found, curve, *wide), wide[0], False
-        if len(curves) == 1:
-            for found in self._along_surface(curve, wide[1]):
-                near = self.around(curve, np.concatenate([curve, found.places]), 0.0)
-                yield found, near or wide[0], True
+            tries.plain.append(found)
+            yield found, near
+            body, side = self._wide(tries)
+            yield pushed(found, curve, body, side), body
 
-    def _wide(self, curve: np.ndarray, disc: Disc, near: Body) -> tuple[Body, float]:
+    def _led_in(self, tries: _Tries) -> Iterator[tuple[Disc, Body]]:
+        """These surfaces led straight in."""
+        for found in tries.plain:
+            body, side = self._wide(tries)
+            yield steep(found, tries.curve, body, side), body
+
+    def _last(self, tries: _Tries) -> Iterator[tuple[Disc, Body]]:
+        """What takes long: the plain surfaces pulled off the body, with more points, and such that follow its faces."""
+        if not tries.plain:
+            return
+        curve, (body, side) = tries.curve, self._wide(tries)
+        if tries.best.faults <= _FEW:
+            for found in tries.plain:
+                yield pulled(pushed(found, curve, body, side), curve, body, side), body
+            for found in filter(None, (_disc(curve, one, 2.0) for one in tries.rims)):
+                yield steep(found, curve, body, side), body
+        if tries.is_single:
+            tries.follows_surface = True
+            for found in self._along_surface(curve, side):
+                yield found, self.around(curve, np.concatenate([curve, found.places]), 0.0) or body
+
+    def _wide(self, tries: _Tries) -> tuple[Body, float]:
         """More of the body around a curve than what is near, and whether its faces look outwards, see ``side``."""
-        body = self.around(curve, curve, 0.2) or near
-        return body, self.side(_samples(np.concatenate([curve, disc.places]), disc.triangles), body)
+        if tries.wide is None:
+            curve, disc = tries.curve, tries.plain[0]
+            body = self.around(curve, curve, 0.2) or self.around(curve, np.concatenate([curve, disc.places]), 0.0)
+            assert body is not None  # or there would be no plain surface
+            tries.wide = body, self.side(_samples(np.concatenate([curve, disc.places]), disc.triangles), body)
+        return tries.wide
 
     def _along_surface(self, curve: np.ndarray, side: float) -> Iterator[Disc]:
         """Surfaces that follow the faces on one side of a curve, under them, and go across where these end."""

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +12,7 @@ from mathutils.bvhtree import BVHTree
 
 from ..core.surface.arrays import components, renumbered, sums_by
 from ..core.uses.cap_surfaces import common_order
+from .discs import LED_IN, PLAIN
 
 if TYPE_CHECKING:
     from .bodies import Body
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
 # A way that is nearer to the surface than such a share of the distance from its ends is bent; so often it is pushed
 # off, to such a share.
 _NEAR, _ROUNDS, _AWAY = 0.1, 10, 0.3
+# A middle whose plain caps cross so many times as often as those of another is not tried any further.
+_HOPELESS = 2
 # A way has at most so many points; for a straight one it is asked at so many whether it is inside.
 _MOST, _TRIED = 16, 8
 
@@ -84,9 +88,19 @@ def _stretches(edges: np.ndarray, ends: np.ndarray) -> list[list[int]]:
 def _best(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]], mean: np.ndarray, step: float,
           discs: Discs) -> list[np.ndarray]:
     """Of several middles with ways to them the first whose caps cross nothing, else the one whose caps do so least."""
-    best, least = [mean[None]] * len(starts), 1 << 30
+    tried, hopeless = [], 1 << 30
     for ways in _choices(points, starts, stretches, mean, step, discs):
-        faults = _faults(points, dict(zip(starts.tolist(), ways, strict=True)), stretches, discs, least)
+        faults = _faults(points, dict(zip(starts.tolist(), ways, strict=True)), stretches, discs, PLAIN, hopeless)
+        if not faults:
+            return ways
+        hopeless = min(hopeless, _HOPELESS * faults)
+        tried.append((faults, len(tried), ways))
+    # No plain caps will do: of the middles, those first whose caps cross least.
+    best, least = tried[0][2], 1 << 30
+    for known, _, ways in sorted(tried, key=itemgetter(0, 1)):
+        if known >= hopeless:
+            break
+        faults = _faults(points, dict(zip(starts.tolist(), ways, strict=True)), stretches, discs, LED_IN, least)
         if faults < least:
             best, least = ways, faults
         if not faults:
@@ -114,8 +128,11 @@ def _choices(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]],
 
 
 def _faults(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[list[int]], discs: Discs,
-            most: int) -> int:
-    """How often the caps of some stretches to the middle cross something or each other; it is not asked beyond most."""
+            effort: int, most: int) -> int:
+    """How often the caps of some stretches to the middle cross something or each other; it is not asked beyond most.
+
+    effort : how far to go for caps that do not, see discs.PLAIN.
+    """
     faults = 0
     every: list[np.ndarray] = []
     sheets: list[np.ndarray] = []
@@ -123,7 +140,7 @@ def _faults(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[lis
         onwards, back = ways[stretch[-1]], ways[stretch[0]]
         curve = np.concatenate([points[stretch], onwards, back[:-1][::-1]]).astype(np.float32).astype(np.float64)
         curve = curve[common_order(curve)]
-        found = discs.tried(curve)
+        found = discs.tried(curve, effort=effort)
         faults += found.faults
         if faults >= most:
             return faults
