@@ -238,7 +238,7 @@ def _pytest(name: str, diagonal: int | None, scratch: Path, extra: list[str], lo
     variables = {**os.environ, **own, **variables}
     variables.pop("PYTHONPATH", None)
     if diagonal is not None:
-        _left_out(f"{name}: all but one situation of each operator")
+        _left_out(f"{name}: all but one situation of each operator, and one of the seeds of ragged pieces")
         variables[DIAGONAL] = str(diagonal)
     (scratch / name).mkdir(exist_ok=True)
     run = ["-c", PYTEST_AND_LEAVE] if environment.blender else ["-m", "pytest"]

@@ -3,6 +3,7 @@
 
 import importlib
 import itertools
+import os
 from pathlib import Path
 
 import bmesh
@@ -28,6 +29,12 @@ SHAPES = {
     "open tube": lambda: shapes.cylinder(24, 16),
     "loose parts": lambda: shapes.together(shapes.tube_tree(), shapes.moved(shapes.dumbbell(40, 12), (9, 0, 0))),
 }
+
+
+def seeds(*every):
+    """All of some seeds in the newest Blender, in each other one another of them: see operators/test_every_operator."""
+    diagonal = os.environ.get("REEB_PARTS_DIAGONAL")
+    return every if diagonal is None else every[int(diagonal) % len(every) :][:1]
 
 
 def read(items, key, dtype=np.float32, width=1):
@@ -197,7 +204,7 @@ def closed_pieces(separate, mesh, numbers, wanted):
     return made.meshes, made.left_open
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", seeds(0, 1, 2, 3))
 def test_closed_pieces_have_no_border_that_was_not_there(shape, separate, seed):
     """Parts around random faces: ragged, with cuts that end on borders, meet, and touch in a vertex."""
     before, bad = borders(shape.data)
@@ -901,10 +908,11 @@ def test_with_holes_closed_the_report_tells_the_truth(obj, capfd):
     assert f"{count} parts are closed and do not cross themselves" in capfd.readouterr().out
 
 
-def test_where_a_smooth_cut_goes_wrong_faces_stay_whole(make, separate):
+@pytest.mark.parametrize("seed", seeds(4, 8))  # most others have no such caps
+def test_where_a_smooth_cut_goes_wrong_faces_stay_whole(make, separate, seed):
     """Ragged parts, some of whose caps cross something: with some borders along faces, fewer do."""
     obj = make(shapes.tube_tree())
-    rng = np.random.default_rng(8)  # others have no such caps, or cost half a minute
+    rng = np.random.default_rng(seed)
     centers = read(obj.data.polygons, "center", np.float32, 3)
     seeds = centers[rng.choice(len(centers), 30, replace=False)]
     numbers = 1 + np.linalg.norm(centers[:, None] - seeds[None], axis=2).argmin(axis=1)
