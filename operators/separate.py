@@ -31,6 +31,13 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         n_vertices = sum(len(obj.data.vertices) for obj in targets.chosen_objects(context))
         return self.start(context) if n_vertices >= LARGE else self.execute(context)
 
+    def draw(self, context: bpy.types.Context) -> None:
+        """The panel after it: in the order of Use Parts, and without what does not count."""
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        for name in self.rows:
+            layout.prop(self, name)
+
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
         made = []

@@ -236,6 +236,14 @@ class SeparateProperties(WhichProperties, JointProperties):
         """Whether holes are closed."""
         return self.caps or self.fit_bed or self.joints != "NONE"
 
+    @property
+    def rows(self) -> list[str]:
+        """Names of the settings in the order in which they are shown, without those that do not count now."""
+        joint = list(JointProperties.__annotations__)
+        return ["which", "cut", "caps", *(["cap_material"] if self.closes else []), "center", "modifiers", "seen",
+                "parent", "hide", "fit_bed", *(["bed"] if self.fit_bed else []),
+                *(joint if self.joints != "NONE" else joint[:1])]
+
     fit_bed: BoolProperty(
         name="Fit the Bed", default=False,
         description="Cut parts that are longer than the printer's bed further, in planes across them",

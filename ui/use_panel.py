@@ -15,7 +15,6 @@ from .panel import SubPanel
 #: Why a cut has no joint, see joints.CutJoints.
 REASONS = {"ROOM": n_("No room with a wall around it"), "BENT": n_("Too bent to have an axis"),
            "BODY": n_("A part is not closed"), "RESULT": n_("It would spoil a part")}
-JOINT_SETTINGS = ("joint_count", "joint_size", "joint_depth", "joint_clearance", "joint_wall")
 
 
 class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
@@ -29,12 +28,8 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         column, room, settings = self.layout.column(), Room(context), context.scene.reeb_parts_use
         # How the button Separate, which is just above, makes objects.
-        joined = settings.joints != "NONE"
-        room.properties(column, settings, (
-            "which", "cut", "caps", *(["cap_material"] if settings.closes else []), "center", "modifiers",
-            "seen", "parent", "hide", "fit_bed", *(["bed"] if settings.fit_bed else []), "joints",
-            *(JOINT_SETTINGS if joined else [])), expanded={"which"})
-        if joined:
+        room.properties(column, settings, settings.rows, expanded={"which"})
+        if settings.joints != "NONE":
             self._draw_cuts(column, context.object)
         column.separator()
         room.properties(column, context.object.reeb_parts_made, ("explode",))

@@ -164,8 +164,10 @@ def _build(obj: bpy.types.Object, numbers: list[int], show_cuts: bool, cut: str)
     result = obj.data.reeb_parts
     curves = curves_of(obj, cut)
     hidden = selection.hidden_faces(obj.data).tobytes() if selection.hides_faces(obj.data) else b""
+    keys = obj.data.shape_keys
+    mix = [(key.value, key.mute) for key in keys.key_blocks] + [obj.active_shape_key_index] if keys else []
     key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers), hash(hidden),
-           show_cuts, cut, curves is None)
+           tuple(mix), show_cuts, cut, curves is None)
     if key == _built:
         return
     _built = key
