@@ -32,7 +32,7 @@ CUTS_COLOR, CUTS_WIDTH = (1.0, 1.0, 1.0, 0.6), 1.5
 
 FILL = (1.0, 1.0, 1.0, 0.15)  # of loose pieces, which border on nothing
 
-AT_ONCE = 5_000  # up to so many faces curves are found within a redraw
+AT_ONCE = 6_000  # up to so many faces curves are found within a redraw
 PLANAR_MOST = 400_000  # of more faces, planar ones are drawn as smooth ones, which are found several times as fast
 
 _built = None  # what the lines and the surface below were built of

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What takes too long to be found at each move: it is looked for step by step once the view rests."""
+"""What takes too long to be found at each move: it is looked for step by step once all rests.
+
+To draw again what is seen already, as Blender does to smooth the edges of its picture, is no move.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +16,32 @@ from ..core.steps import Result, Steps
 from ..scene import redraw
 from ..scene.errors import SceneError
 
-REST = 0.15  # seconds without a redraw
+REST = 0.15  # seconds without a move
 _BREATH = 0.008  # steps are taken for so many seconds before Blender gets on, but at least one
+
+_views: dict[int, tuple[float, ...]] = {}  # what each viewport showed last, by its address
+_last = 0.0  # when the pointer or a view has moved
+
+
+def moved() -> None:
+    """The pointer, a slider or a view has moved."""
+    global _last
+    _last = time.monotonic()
+
+
+def _drawn() -> None:
+    """Blender is drawing a viewport, or nothing."""
+    region, view = bpy.context.region, bpy.context.region_data
+    if region is None or view is None:
+        return
+    seen = tuple(value for row in view.perspective_matrix for value in row)
+    if _views.get(region.as_pointer()) != seen:
+        _views[region.as_pointer()] = seen
+        moved()
 
 
 class Settling(Generic[Result]):
-    """Looks for one thing at a time whenever the view rests, and has the view drawn again once it is found.
+    """Looks for one thing at a time whenever all rests, and has the view drawn again once it is found.
 
     Parameters
     ----------
@@ -32,7 +55,6 @@ class Settling(Generic[Result]):
         self._key: Hashable = None
         self._start: Callable[[], Steps[Result]] | None = None
         self._steps: Steps[Result] | None = None
-        self._last = 0.0
         self._timer = self._go_on  # Blender knows a timer by this very object
 
     def of(self, key: Hashable, start: Callable[[], Steps[Result]], at_once: bool = False) -> Result | None:
@@ -46,11 +68,12 @@ class Settling(Generic[Result]):
             return self._found[key]
         if key != self._key:
             self._look_for(key, start)
+            moved()
         if at_once:
             while self._step():
                 pass
             return self._found[key]
-        self._last = time.monotonic()
+        _drawn()
         if not bpy.app.timers.is_registered(self._timer):
             bpy.app.timers.register(self._timer, first_interval=REST)
         return None
@@ -58,6 +81,7 @@ class Settling(Generic[Result]):
     def forget(self) -> None:
         """Free what is kept in memory, and look for nothing."""
         self._found.clear()
+        _views.clear()
         self._look_for(None, None)
         if bpy.app.timers.is_registered(self._timer):
             bpy.app.timers.unregister(self._timer)
@@ -69,7 +93,7 @@ class Settling(Generic[Result]):
 
     def _go_on(self) -> float | None:
         """Take some steps; returns when Blender's timer is to come again."""
-        rested = time.monotonic() - self._last
+        rested = time.monotonic() - _last
         if self._start is not None and rested < REST:
             return REST - rested
         end = time.monotonic() + _BREATH

@@ -16,7 +16,7 @@ from ..scene import redraw
 from ..scene.errors import SceneError
 from ..scene.reporting import ReportingOperator
 from ..scene.transaction import transaction
-from . import hover, pointing
+from . import hover, pointing, settling
 from .lines import Lines, fill
 from .pointing import Target
 from .settling import Settling
@@ -159,6 +159,7 @@ class ViewTool(ReportingOperator):
 
     def _use(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> set[str]:
         if event.type in _MOVES:
+            settling.moved()
             self.hover(context, target, event)
             redraw.viewports()
             return {"RUNNING_MODAL"}

@@ -136,7 +136,7 @@ def grown():
     """By four rings, with the tool's key."""
     yield from pointer.press(*pointer.surface_places(spot())[number(LEG)])
     yield from pointer.tap("g", "4")
-    yield 0.5
+    yield 3.0  # at rest, the line is the one of Separate
     pointer.shot("grow.png", MODEL)
     yield from pointer.tap("Escape")
     yield 0.3
@@ -149,10 +149,10 @@ def cut():
     yield from pointer.search("Cut Part")
     x, y = pointer.surface_places(spot())[number(BODY)]
     yield from pointer.rest(x, y)
-    yield 0.3
+    yield 3.0
     pointer.shot("cut_ring.png", MODEL)
     yield from pointer.press(x, y)
-    yield 0.4
+    yield 1.0
     pointer.shot("cut_done.png", MODEL)
     yield from pointer.tap("ctrl+z")
     yield 0.4

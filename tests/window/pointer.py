@@ -340,6 +340,15 @@ def fold(label):
         yield from press(*(yield from title("Advanced")))
         yield 0.4
     place = yield from title(label)
+    ui = region("UI")
+    if place[1] > from_top(ui.x, ui.y + 0.5 * unit())[1]:  # below the window
+        yield from rest(*from_top(ui.x + 0.04 * ui.width, ui.y + 0.5 * ui.height))
+        for _ in range(15):
+            xdo("click", 5)
+            yield 0.05
+        PLACES.clear()
+        yield 0.5
+        place = yield from title(label)
     yield from press(*place)
     yield 0.4  # panels slide open and shut
     OPEN.symmetric_difference_update({label})

@@ -222,12 +222,12 @@ def test_what_takes_long_is_found_bit_by_bit_once_the_view_rests(modules):
     assert settling.of("a", lambda: steps("A")) is None
     assert bpy.app.timers.is_registered(settling._timer)
     assert settling._go_on() > 0
-    assert not taken  # it has just been drawn
-    settling._last -= modules.settling.REST
+    assert not taken  # it is asked for just now
+    modules.settling._last -= modules.settling.REST
     assert settling._go_on() == 0.0
     assert taken == [0]
     assert settling.of("b", lambda: steps("B")) is None  # something else: the first is given up
-    settling._last -= modules.settling.REST
+    modules.settling._last -= modules.settling.REST
     while settling._go_on() is not None:
         pass
     assert taken == [0, 0, 1, 2]
@@ -235,6 +235,10 @@ def test_what_takes_long_is_found_bit_by_bit_once_the_view_rests(modules):
     assert settling.of("a", lambda: steps("A"), at_once=True) == "A"
     assert (settling.of("b", None), settling.of("c", lambda: steps("C"), at_once=True)) == ("B", "C")
     assert settling.of("b", lambda: steps("D"), at_once=True) == "D"  # two are remembered
+    assert settling.of("e", lambda: steps("E")) is None
+    modules.settling._last -= modules.settling.REST
+    modules.settling.moved()  # the pointer
+    assert settling._go_on() > 0
     settling.forget()
     assert not bpy.app.timers.is_registered(settling._timer)
 
