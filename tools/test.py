@@ -31,7 +31,7 @@ import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import environments
@@ -148,8 +148,8 @@ def _steps(arguments: argparse.Namespace, for_pytest: list[str], scratch: Path) 
             work = partial(work, REEB_PARTS_FUZZ=str(60 * arguments.fuzz / LONG[name]),
                            REEB_PARTS_FUZZ_COUNTS=str(scratch / COUNTS))
         after = ""
-        if name == "package":  # reads .blend files by a full Blender
-            work = partial(work, BLENDER=arguments.blender or "")
+        if name == "package":
+            work = partial(_package, arguments.blender, scratch, for_pytest)
             if not arguments.blender:
                 _left_out("package: .blend and .fbx, no --blender was given")
         if name == "documents":
@@ -250,15 +250,27 @@ def _pytest(name: str, diagonal: int | None, scratch: Path, extra: list[str], lo
     return _count(name, report, _call([python, *run, folder, *options], log, env=variables))
 
 
+def _package(blender: str | None, scratch: Path, extra: list[str], log: Path | None) -> tuple[int, int]:
+    """Run the tests of the Python package."""
+    return _pytest("package", None, scratch, extra, log, BLENDER=blender or "", BROWSER=_browser() or "")
+
+
+@cache
+def _browser() -> str | None:
+    """A browser for the tests of pages, brought if that is possible; says so if there is none."""
+    with PREPARING:
+        browser = environments.browser()
+    if not browser:
+        _left_out("the tests of pages in a browser, there is no Chromium; as root, run: apt-get install chromium")
+    return browser
+
+
 def _documents(blender: str | None, scratch: Path, extra: list[str], log: Path | None) -> tuple[int, int]:
     """Run the commands that the pages name."""
     # Made here, under the lock, rather than by the commands.
     for environment in (environments.any_blender(), environments.benchmarks(), LINT):
         _prepare(environment)
-    with PREPARING:
-        browser = environments.browser()
-    if not browser:
-        _left_out("the test of the report's page, there is no Chromium; as root, run: apt-get install chromium")
+    browser = _browser()
     if not blender:
         _left_out("the commands of a full Blender that the pages name, no --blender was given")
         return _pytest("documents", None, scratch, extra, log, BLENDER="", BROWSER=browser or "")

@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The page of a report is looked at in a browser, the one that BROWSER names or a Chromium on the PATH."""
+"""The page of a report is looked at in a browser, see browser.py."""
 
-import os
-import shutil
+from browser import BROWSER
 
-BROWSER = os.environ.get("BROWSER") or shutil.which("chromium")
-# ./test brings the browser where it can, says so where it cannot, and counts a skipped test as a failure.
 collect_ignore = [] if BROWSER else ["test_report_page.py"]
 
 

@@ -4,7 +4,6 @@
 import csv
 import os
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -12,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapes
+from browser import after, in_browser
 
 ROOT = Path(__file__).resolve().parents[2]
-BROWSER = os.environ.get("BROWSER") or shutil.which("chromium")
 METHODS = ["Berretti 2009", "Liu 2007"]
 
 
@@ -45,22 +44,13 @@ def run_report(data, out):
     assert done.returncode == 0, done.stderr
 
 
-def in_browser(page, *options):
-    """What the browser gives for a page."""
-    return subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", *options,
-                           page.as_uri()], capture_output=True, text=True, check=True, timeout=120).stdout
-
-
 def order_after(page, *clicks):
     """Meshes of the rows from above, after buttons were clicked and methods chosen in the browser."""
     script = "".join(
         f"document.querySelector('[data-key={key}]').click();" if key else
         f"method.selectedIndex = {METHODS.index(name)}; method.dispatchEvent(new Event('change'));"
         for key, name in clicks)
-    clicked = page.with_name("clicked.html")
-    clicked.write_text(page.read_text(encoding="utf-8").replace("</body>", f"<script>{script}</script></body>"),
-                       encoding="utf-8")
-    dom = in_browser(clicked, "--dump-dom")
+    dom = after(page, script)
     pressed = re.findall(r'data-key="(\w+)" aria-pressed="true"', dom)
     return pressed, [int(number) for number in re.findall(r'<tr data-mesh="(\d+)"', dom)]
 

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from browser import BROWSER
 
 ROOT = Path(__file__).resolve().parents[2]
 # One thread per process: NumPy's own would get in each other's way.
@@ -16,8 +17,8 @@ os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 # What runs in the background of a script ignores Ctrl+C, and so would all that it starts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 BLENDER = os.environ.get("BLENDER")
-# ./test says so where there is no Blender, and counts a skipped test as a failure.
-collect_ignore = [] if BLENDER else ["test_blender.py"]
+# ./test says so where there is no Blender or no browser, and counts a skipped test as a failure.
+collect_ignore = [*([] if BLENDER else ["test_blender.py"]), *([] if BROWSER else ["test_page.py"])]
 
 
 def pytest_configure(config):

@@ -76,7 +76,7 @@ def test_preset_of_the_paper():
     assert paper.method == "berretti"
     assert paper.base_spacing == 0.005
     assert paper.equalize
-    assert paper.n_slabs == 100
+    assert paper.n_slabs == 200
     assert paper.small_region == 0.05
     assert paper.concavity_weight == 0.5
     assert paper.follow_level_sets

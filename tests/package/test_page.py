@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page of a batch in a real browser, where somebody types, chooses and scrolls."""
+
+import re
+
+import pytest
+from browser import after, in_browser
+from reeb_parts.batch.page import page
+
+MODELS = [
+    {"name": "cow.obj", "parts": 9, "faces": 5804, "loops": 0},
+    {"name": "deep/bull </script>.ply", "parts": 11, "faces": 300, "loops": 0},
+    {"name": "cup.stl", "parts": 2, "faces": 30000, "loops": 1, "notes": ["Holes at the rim of a cow's cup"]},
+    {"name": "torn.ply", "status": "unreadable", "reason": "There is no mesh in it: <b>nothing</b>"},
+]
+
+
+@pytest.fixture
+def shown(tmp_path):
+    """A function that gives the names on the page, from above, after words and clicks; and what it counts."""
+    path = tmp_path / "index.html"
+    common = {"status": "done", "reason": "", "seconds": 0.5, "notes": [], "image": "", "link": "x/"}
+    path.write_text(page("Models & more", [common | model for model in MODELS]), encoding="utf-8")
+
+    def look(words="", key="", largest=False):
+        dom = after(path, (f"words.value = {words!r}; words.dispatchEvent(new Event('input'));" if words else "")
+                    + (f"key.value = {key!r}; key.dispatchEvent(new Event('change'));" if key else "")
+                    + ("down.click();" if largest else ""))
+        main = dom[dom.index("<main>"):dom.index("</main>")]
+        found = re.search(r'id="found">(.*?)<', dom)
+        return re.findall(r"<b>(.*?)</b>", main), found and found.group(1), main
+
+    look.path = path
+    return look
+
+
+def test_models_are_sorted_by_what_is_chosen(shown):
+    assert shown()[0] == ["cow.obj", "cup.stl", "deep/bull &lt;/script&gt;.ply", "torn.ply"]
+    assert shown(key="faces")[0] == ["torn.ply", "deep/bull &lt;/script&gt;.ply", "cow.obj", "cup.stl"]
+    assert shown(key="parts", largest=True)[0] == [
+        "deep/bull &lt;/script&gt;.ply", "cow.obj", "cup.stl", "torn.ply"]
+    assert shown(key="loops", largest=True)[0][0] == "cup.stl"
+
+
+def test_every_word_is_looked_for_in_names_reasons_and_notes(shown):
+    assert shown("COW")[:2] == (["cow.obj", "cup.stl"], "2 of 4")
+    assert shown("cow rim")[:2] == (["cup.stl"], "1 of 4")
+    assert shown("unreadable")[:2] == (["torn.ply"], "1 of 4")
+    assert shown("camel")[:2] == ([], "0 of 4")
+
+
+def test_what_models_say_is_text_and_not_part_of_the_page(shown):
+    names, _, main = shown("nothing")
+    assert names == ["torn.ply"]
+    assert "unreadable: There is no mesh in it: &lt;b&gt;nothing&lt;/b&gt;" in main
+
+
+def test_a_picture_of_it_can_be_taken(shown):
+    shot = shown.path.with_name("page.png")
+    in_browser(shown.path, f"--screenshot={shot}", "--window-size=900,500")
+    assert shot.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
