@@ -267,7 +267,8 @@ Parameters.RANGES = {f.name: f.metadata["range"] for f in fields(Parameters)
 PERCEPTUAL_PRESET, BERRETTI_2009, LAVOUE_2005, LIU_2007 = "Perceptual", "Berretti 2009", "Lavoue 2005", "Liu 2007"
 PRESETS = {
     PERCEPTUAL_PRESET: Parameters(),
-    BERRETTI_2009: Parameters(method=BERRETTI, follow_level_sets=True, symmetry=False),
+    # The paper takes a level at every vertex; more than these change little.
+    BERRETTI_2009: Parameters(method=BERRETTI, n_slabs=200, follow_level_sets=True, symmetry=False),
     LAVOUE_2005: Parameters(method=LAVOUE, symmetry=False),
     LIU_2007: Parameters(method=LIU, symmetry=False),
 }
