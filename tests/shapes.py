@@ -71,6 +71,36 @@ def flat_cells(cells) -> Shape:
     return Shape(np.array([(x, y, 0) for x, y in corners], float), split_quads(np.array(quads)))
 
 
+def blocks(solid: np.ndarray, step: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices and quads of the surface of cubes: those of a grid, (a, b, c), that are solid; its middle is at 0."""
+    solid = np.pad(solid, 1)
+    corners = []
+    for axis in range(3):
+        after = np.roll(solid, -1, axis)
+        across = np.roll(np.eye(3, dtype=int), -axis - 1, axis=0)  # the two other axes, and this one
+        square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) @ across[:2]
+        for outside, order in ((solid & ~after, 1), (after & ~solid, -1)):
+            corners.append((np.argwhere(outside) + across[2])[:, None] + square[::order])
+    vertices, quads = np.unique(np.concatenate(corners).reshape(-1, 3), axis=0, return_inverse=True)
+    return step * (vertices - np.array(solid.shape) / 2), quads.reshape(-1, 4)
+
+
+def table_of_blocks() -> tuple[np.ndarray, np.ndarray]:
+    """A top on four legs, its own mirror image in the planes x = 0 and y = 0."""
+    solid = np.zeros((12, 8, 7), bool)
+    solid[:, :, 6] = True
+    solid[np.ix_([0, 11], [0, 7])] = True
+    return blocks(solid)
+
+
+def cross_of_blocks(long: int, short: int) -> tuple[np.ndarray, np.ndarray]:
+    """Two bars across each other, long and short cubes to either side: its own mirror image in three planes."""
+    solid = np.zeros((2 * long, 2 * long, 2), bool)
+    solid[:, long - 1 : long + 1] = True
+    solid[long - 1 : long + 1, long - short : long + short] = True
+    return blocks(solid)
+
+
 def torus(n_ring: int = 48, n_tube: int = 16, ring: float = 1.0, tube: float = 0.35) -> Shape:
     """A ring around the z axis."""
     u = 2 * np.pi * np.arange(n_ring) / n_ring

@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Candidates and their hierarchy made the same on both sides of a plane of symmetry.
+"""Candidates and their hierarchy made the same on both sides of a plane of symmetry, or of several.
 
 One side leads: its candidates and their mirror images are those of the whole, and candidates across the plane are kept
 where both of their halves agree. What parts two of them is what the hierarchy found says, across the plane the mean of
 both sides; average linkage, each merge with its mirror image, makes a hierarchy of that. Any method of cutting can be
 made symmetric in this way, because only labels and a hierarchy are asked for.
+
+Planes across each other divide a shape in quarters, or in eighths, one of which leads. Every way of mirroring in some
+of them is a number, whose bits say in which; one after the other is the exclusive or of both.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import product
 
 import numpy as np
 
@@ -31,32 +36,31 @@ MOST_CANDIDATES = 2_000  # every pair of them is compared; of more, such as the 
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """The candidates of the leading side, and their mirror images.
+    """The candidates of the leading side, and their mirror images, in g ways of mirroring, the first of which is none.
 
     Attributes
     ----------
     label : (p,) int64
         Cell of each face, 0..c-1.
-    own, other : (c,) int64
-        The candidate in which each cell lies, and that in which its mirror image lies; -1 for none.
-    side : (c,) int64
-        1 for a cell of the leading side, -1 for its image, 0 for a cell that is its own image or has none.
-    twin : (c,) int64
-        The image of each cell; -1 for none.
+    found : (c, g) int64
+        The candidate in which each image of each cell lies; -1 for none.
+    leads : (c, g) bool
+        Which images of a cell lie on the leading side; only the cell itself where it has no image.
+    image : (c, g) int64
+        The images of each cell; -1 for none.
     area : (c,) float64
     """
 
     label: np.ndarray
-    own: np.ndarray
-    other: np.ndarray
-    side: np.ndarray
-    twin: np.ndarray
+    found: np.ndarray
+    leads: np.ndarray
+    image: np.ndarray
     area: np.ndarray
 
 
 def symmetric_candidates(
     graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, twin: np.ndarray,
-    height: np.ndarray, first: float = 1.0,
+    height: np.ndarray, first: float | np.ndarray = 1.0, exact: bool = False,
 ) -> tuple[np.ndarray, Hierarchy]:
     """Make candidates and their hierarchy symmetric.
 
@@ -70,12 +74,15 @@ def symmetric_candidates(
         Candidate of each face, 0..c-1, all in use.
     hierarchy : Hierarchy
         Of the candidates; all of them merge in the end.
-    twin : (p,) int64
-        Mirror image of each face; -1 for none.
-    height : (p,) float64
-        Signed distance of each face from the plane.
-    first : float
+    twin : (p,) or (k, p) int64
+        Mirror image of each face in each of k planes; -1 for none. With several planes a face that has an image in one
+        has images in all, and the image of its image does not depend on the order of the two planes.
+    height : (p,) or (k, p) float64
+        Signed distance of each face from each plane.
+    first : float or (k,) float64
         Above 0 if the side to which the normal points is to lead where both are equally good, below 0 for the other.
+    exact : bool
+        Whether all twins are exact: then nothing that was found on a side speaks against a plane.
 
     Returns
     -------
@@ -86,82 +93,125 @@ def symmetric_candidates(
 
     Notes
     -----
-    Of both sides that one leads whose parts, mirrored, are more like those found on the whole. If neither is much like
-    them, everything stays as it was found.
+    Of both sides, or all quarters, that one leads whose parts, mirrored, are most like those found on the whole. If
+    none is much like them, the last of several planes is left out; without any, everything stays as it was found.
     """
     if hierarchy.n_candidates > MOST_CANDIDATES:
         return label, hierarchy
     salience = hierarchy.salience_table(np.arange(hierarchy.n_candidates))
     found = [hierarchy.parts(hierarchy.n_parts(detail))[label] for detail in DETAILS]
-    concerned = _mirrored_area(graph, twin)
+    twin, height, first = np.atleast_2d(twin), np.atleast_2d(height), np.atleast_1d(first)
+    image = _images(twin)
+    concerned = _mirrored_area(graph, image)
     whole = float(concerned.sum())
-    best, least = (label, hierarchy), WORST
-    for leads in (height * first >= 0, height * first <= 0):
-        cells = _cells(graph, label, twin, leads, whole)
+    best, least = (label, hierarchy), np.inf if exact else WORST
+    beside = height * first[:, None]
+    for sides in product((1, -1), repeat=len(beside)):
+        leads = (beside * np.reshape(sides, (-1, 1)) >= 0).all(axis=0)
+        cells = _cells(graph, label, image, leads, whole)
         merges, strength = _linkage(cells, _touching(cells, graph.with_contacts(contacts)), _means(cells, salience))
         tree = Hierarchy.of(len(cells.area), merges, strength)
         error = np.mean([_disagreement(tree.parts(tree.n_parts(detail))[cells.label], parts, concerned)
                          for detail, parts in zip(DETAILS, found, strict=True)])
         if error < least - 1e-9:
             best, least = (cells.label, tree), error
+    if best[0] is label and len(twin) > 1:
+        return symmetric_candidates(graph, contacts, label, hierarchy, twin[:-1], height[:-1], first[:-1], exact)
     return best
 
 
-def _mirrored_area(graph: FaceGraph, twin: np.ndarray) -> np.ndarray:
+def _images(twin: np.ndarray) -> np.ndarray:
+    """The images of each face in all ways of mirroring, (2^k, p) int64, -1 for none; twin : (k, p), in each plane."""
+    image = np.arange(twin.shape[1])[None]
+    for mirrored in twin:
+        again = np.append(mirrored, -1)[image]
+        image = np.concatenate([image, again])
+    return image
+
+
+def _mirrored_area(graph: FaceGraph, image: np.ndarray) -> np.ndarray:
     """Area of the faces, (p,), in the connected pieces that have a twin somewhere; 0 of those in others."""
     count, piece = graph.pieces
-    return np.where((np.bincount(piece, twin >= 0, count) > 0)[piece], graph.area, 0.0)
+    return np.where((np.bincount(piece, (image[1:] >= 0).any(axis=0), count) > 0)[piece], graph.area, 0.0)
 
 
-def _cells(graph: FaceGraph, label: np.ndarray, twin: np.ndarray, leads: np.ndarray, whole: float) -> Cells:
+def _cells(graph: FaceGraph, label: np.ndarray, image: np.ndarray, leads: np.ndarray, whole: float) -> Cells:
     """The candidates of the leading side and their images, and the candidates of what has no image.
 
-    whole : area of the pieces that the plane mirrors.
+    image : (g, p), of the faces. whole : area of the pieces that the planes mirror.
     """
-    faces = np.arange(len(label))
-    image = np.where(twin >= 0, twin, faces)
-    # A face that follows is what its twin is, if that one leads; a small region without twins is what is around it.
-    follows = (twin >= 0) & ~leads & leads[image]
-    lone = (twin < 0) & ~leads & ~_large(graph, (twin < 0) & ~leads, LONE * whole)
-    leader = np.where(follows, image, faces)
-    asked = ~follows & ~lone
-    cell, crosses, seen = _lead_cells(graph, label, np.where(twin >= 0, label[image], -1), leader, asked, whole)
-    full = np.where(lone, -1, 2 * cell[leader] + (follows & ~crosses[cell[leader]]))
+    n_ways, faces = len(image), np.arange(len(label))
+    has = image >= 0
+    image = np.where(has, image, faces)
+    # A face that follows is what its image is, if that one leads; a small region without twins is what is around it.
+    heard = has & leads[image]
+    way = heard.argmax(axis=0)
+    unseen = ~has.all(axis=0) & ~heard.any(axis=0)
+    lone = unseen & ~_large(graph, unseen, LONE * whole)
+    leader = image[way, faces]
+    asked = (way == 0) & ~lone
+    cell, crosses, seen = _lead_cells(graph, label, np.where(has, label[image], -1), leader, asked, whole)
+    kind = _kinds(crosses)
+    full = np.where(lone, -1, n_ways * cell[leader] + kind[cell[leader], way])
     full = connect(graph, fill_unlabeled(graph, full))
-    full = connect(graph, fill_unlabeled(graph, _without_lone(graph, full, crosses & seen, seen, LONE * whole)))
+    full = connect(graph, fill_unlabeled(graph, _without_lone(graph, full, kind, seen, LONE * whole)))
     names, full = renumbered(full)
-    lead, side = names // 2, np.where(names % 2, -1, 1)
-    partner = np.searchsorted(names, names ^ 1).clip(max=len(names) - 1)
-    partner = np.where(names[partner] == names ^ 1, partner, -1)
-    partner = np.where(crosses[lead] & seen[lead], np.arange(len(names)), partner)
+    lead, way = np.divmod(names, n_ways)
+    every = np.arange(n_ways)
+    partner = _places(names, n_ways * lead[:, None] + kind[lead[:, None], way[:, None] ^ every])
     weight = graph.area + 1e-12 * graph.area.sum()
-    own = majority(full, label, weight, len(names))
-    shown = np.where(twin >= 0, label[image], label)
-    other = np.where(partner >= 0, majority(full, shown, weight, len(names)), -1)
-    # What follows says of itself what its image says of it, to the letter.
-    mirrored = np.flatnonzero((side < 0) & (partner >= 0))
-    own[mirrored], other[mirrored] = other[partner[mirrored]], own[partner[mirrored]]
-    side[(partner < 0) | (partner == np.arange(len(names)))] = 0
-    return Cells(full, own, other, side, partner, np.bincount(full, graph.area))
+    found = np.stack([majority(full, np.where(there, label[shown], label), weight, len(names))
+                      for there, shown in zip(has, image, strict=True)], axis=1)
+    found = np.where(partner >= 0, found, -1)
+    # What follows says of itself what the image that leads says of it, to the letter.
+    leading = np.where(way > 0, partner[np.arange(len(names)), way], -1)
+    follows = np.flatnonzero(leading >= 0)
+    found[follows] = found[leading[follows, None], way[follows, None] ^ every]
+    speaks = (partner >= 0) & (way[partner] == 0)
+    speaks[~speaks.any(axis=1), 0] = True
+    return Cells(full, found, speaks, partner, np.bincount(full, graph.area))
 
 
-def _without_lone(graph: FaceGraph, full: np.ndarray, itself: np.ndarray, seen: np.ndarray, least: float) -> np.ndarray:
+def _kinds(crosses: np.ndarray) -> np.ndarray:
+    """The first of the ways of mirroring that make the same image of each leading cell, (c, g) int64.
+
+    crosses : (c, g) bool, which images of a cell are the cell itself.
+    """
+    every = np.arange(crosses.shape[1])
+    kind = np.tile(every, (len(crosses), 1))
+    for way in every[1:]:
+        kind = np.where(crosses[:, way, None], np.minimum(kind, kind[:, every ^ way]), kind)
+    return kind
+
+
+def _places(names: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Place of each of some wanted names among the names there are, which rise; -1 where it is not there."""
+    place = np.searchsorted(names, wanted).clip(max=len(names) - 1)
+    return np.where(names[place] == wanted, place, -1)
+
+
+def _without_lone(graph: FaceGraph, full: np.ndarray, kind: np.ndarray, seen: np.ndarray, least: float) -> np.ndarray:
     """Cell of each face, (p,): -1 for small cells whose image is not there, or not among the images of their neighbors.
 
-    full : (p,), twice the leading cell of each face, and 1 on the side that follows. itself, seen : (c,), which leading
-    cells are their own images, and which have one. least : area from which a cell is not small.
+    full : (p,), g times the leading cell of each face, and the way in which it is mirrored. kind, seen : (c, g), see
+    ``_kinds``, and which images leading cells have. least : area from which a cell is not small.
     """
+    n_ways = kind.shape[1]
     names, place = renumbered(full)
-    image = np.where(itself[names // 2], names, names ^ 1)
-    there = np.isin(image, names)
-    image = np.searchsorted(names, image).clip(max=len(names) - 1)
+    lead, way = np.divmod(names, n_ways)
     pairs = graph.boundaries(place)[0]
-    here, mirrored = (np.sort(ends, axis=1) @ (len(names), 1) for ends in (pairs, image[pairs]))
-    held = np.zeros(len(names), bool)
-    held[pairs[np.isin(mirrored, here) & there[pairs].all(axis=1)]] = True
+    here = np.sort(pairs, axis=1) @ (len(names), 1)
+    alone = np.zeros(len(names), bool)
+    for mirrored in range(1, n_ways):
+        image = _places(names, n_ways * lead + kind[lead, way ^ mirrored])
+        there = image >= 0
+        of_pairs = np.sort(image[pairs], axis=1) @ (len(names), 1)
+        held = np.zeros(len(names), bool)
+        held[pairs[np.isin(of_pairs, here) & there[pairs].all(axis=1)]] = True
+        alone |= seen[lead, mirrored] & ~(held & there)
     free = np.bincount(pairs.ravel(), minlength=len(names)) == 0
     small = np.bincount(place, graph.area) < least
-    return np.where((small & seen[names // 2] & ~(held & there) & ~free)[place], -1, full)
+    return np.where((small & alone & ~free)[place], -1, full)
 
 
 def _disagreement(first: np.ndarray, second: np.ndarray, area: np.ndarray) -> float:
@@ -185,9 +235,9 @@ def _lead_cells(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The candidates on the leading side, in connected pieces.
 
-    mirrored, leader, asked : (p,), candidate of each face's image, -1 for none; the face that speaks for each face; and
-    which faces speak. whole : area of the pieces that the plane mirrors. Returns the cell of each face that speaks,
-    (p,) int64, and whether each cell lies across the plane and whether it has an image, (c,) bool.
+    mirrored : (g, p), candidate of each face's images, -1 for none. leader, asked : (p,), the face that speaks for each
+    face, and which faces speak. whole : area of the pieces that the planes mirror. Returns the cell of each face that
+    speaks, (p,) int64, and which of its images are each cell itself and which it has, (c, g) bool.
     """
     a, b = leader[graph.pairs.T]
     spoken = np.flatnonzero(asked[a] & asked[b])
@@ -201,17 +251,28 @@ def _lead_cells(
     own = np.empty(count, np.int64)
     own[mine] = label[asked]
     weight = graph.area + 1e-12 * graph.area.sum()
-    other = majority(mine, mirrored[asked] + 1, weight[asked], count) - 1
+    other = np.stack([majority(mine, of_way[asked] + 1, weight[asked], count) - 1 for of_way in mirrored], axis=1)
     area = rounded(np.bincount(cell[leader][spoken_for], graph.area[spoken_for], count))
     largest = np.zeros(int(own.max()) + 1)
     np.maximum.at(largest, own, area)
-    crosses = own == other
+    crosses = _closed(own[:, None] == other)
     # What little of a candidate reaches over the plane from the side that follows is cut off there.
-    little = np.bincount(mine, graph.area[asked], count) < OVERHANG * np.bincount(label, graph.area)[own]
-    small = ((area < SMALL * whole) & (area < largest[own])) | little | (crosses & (area < CROSSING * whole))
+    little = (np.bincount(mine, graph.area[asked], count)
+              < OVERHANG * 2 / len(mirrored) * np.bincount(label, graph.area)[own])
+    across = crosses[:, 1:].any(axis=1)
+    small = ((area < SMALL * whole) & (area < largest[own])) | little | (across & (area < CROSSING * whole))
     joins = _joined(FaceGraph(len(label), np.stack([a, b], axis=1), length, graph.area), cell, own, area, small)
     left, cell[asked] = renumbered(joins[mine])
     return cell, crosses[left], other[left] >= 0
+
+
+def _closed(crosses: np.ndarray) -> np.ndarray:
+    """Which images of each cell are the cell itself, (c, g) bool: of two such ways of mirroring, both in turn, too."""
+    crosses = crosses.copy()
+    every = np.arange(crosses.shape[1])
+    for way in every[1:]:
+        crosses |= crosses[:, way, None] & crosses[:, every ^ way]
+    return crosses
 
 
 def _joined(
@@ -235,31 +296,90 @@ def _touching(cells: Cells, graph: FaceGraph) -> np.ndarray:
     pairs = graph.boundaries(cells.label)[0]
     touching = np.zeros((len(cells.area), len(cells.area)), bool)
     touching[tuple(pairs.T)] = True
-    image = cells.twin[pairs]
-    touching[tuple(image[(image >= 0).all(axis=1)].T)] = True
+    for image in cells.image.T[1:]:
+        mirrored = image[pairs]
+        touching[tuple(mirrored[(mirrored >= 0).all(axis=1)].T)] = True
     return touching | touching.T
 
 
 def _means(cells: Cells, salience: np.ndarray) -> np.ndarray:
-    """Salience of what parts two cells, (c, c): as the leading side says, across the plane the mean of both sides.
+    """Salience of what parts two cells, (c, c): as the leading side says, across the planes the mean of all sides.
 
     salience : of what parts two candidates that were found, (c', c').
     """
-    here = salience[cells.own[:, None], cells.own]
-    there = salience[cells.other[:, None], cells.other]
-    unseen = (cells.other < 0)[:, None] | (cells.other < 0)
-    weight = 0.5 + 0.5 * np.sign(cells.side[:, None] + cells.side)
-    weight = np.where(unseen | ((cells.side == 0)[:, None] & (cells.side == 0)), 1.0, weight)
+    count, n_ways = cells.found.shape
+    told, total = np.full((count, count), np.nan), np.zeros((count, count))
+    n_seen = np.zeros((count, count))
+    for way in range(n_ways):
+        found, leads = cells.found[:, way], cells.leads[:, way]
+        seen = (found[:, None] >= 0) & (found >= 0)
+        said = salience[found[:, None], found]
+        first = np.isnan(told) & seen & leads[:, None] & leads
+        told[first] = said[first]
+        total += np.where(seen, said, 0.0)
+        n_seen += seen
+    here = salience[cells.found[:, :1], cells.found[:, 0]]
     # What nothing brought near each other stays apart to the last.
-    return np.where(here >= LAST, here, weight * here + (1.0 - weight) * there)
+    return np.where(here >= LAST, here, np.where(np.isnan(told), total / n_seen, told))
+
+
+@dataclass(frozen=True, eq=False)
+class _Groups:
+    """Sets of ways of mirroring that hold with two ways also both in turn: what leaves a cluster as it is.
+
+    Attributes
+    ----------
+    holds : (s, g) bool
+        Which ways each set holds.
+    size : (s,) int64
+        How many.
+    joined : (s, s) int64
+        The smallest set that holds all ways of two sets.
+    copies, pairs : (s, s) int64
+        How many images the joined set makes of what the first of two sets leaves as it is, and pairs of them.
+    """
+
+    holds: np.ndarray
+    size: np.ndarray
+    joined: np.ndarray
+    copies: np.ndarray
+    pairs: np.ndarray
+
+    @classmethod
+    @cache
+    def of(cls, n_ways: int) -> _Groups:
+        """The sets of n_ways ways, from the one that holds only the first."""
+        single = np.eye(n_ways, dtype=bool) | (np.arange(n_ways) == 0)
+        sets = {tuple(row.tolist()): None for row in _closed(single)}
+        while True:
+            known = np.array(list(sets))
+            either = _closed((known[:, None] | known).reshape(-1, n_ways))
+            sets |= {tuple(row.tolist()): None for row in either}
+            if len(sets) == len(known):
+                break
+        nothing = np.empty(0, np.int64)
+        groups = cls(known, known.sum(axis=1), nothing, nothing, nothing)
+        joined = groups.number(either).reshape(len(known), -1)
+        copies = groups.size[joined] // groups.size[:, None]
+        return replace(groups, joined=joined, copies=copies, pairs=copies * (copies - 1) // 2)
+
+    def number(self, holds: np.ndarray) -> np.ndarray:
+        """Number of each of some sets, (k, g) bool -> (k,) int64."""
+        bits = 1 << np.arange(holds.shape[1])
+        order = np.argsort(self.holds @ bits)
+        return order[np.searchsorted((self.holds @ bits)[order], holds @ bits).clip(max=len(order) - 1)]
 
 
 class _Clusters:
     """Clusters of cells, the salience of what parts each two of them, and their images; ``merge_`` changes them."""
 
     def __init__(self, cells: Cells, touching: np.ndarray, mean: np.ndarray) -> None:
-        self.area, self.twin = cells.area + 1e-12 * cells.area.sum(), cells.twin.copy()
+        self.area, self.image = cells.area + 1e-12 * cells.area.sum(), cells.image.copy()
         self.mean, self.touching = mean.copy(), touching.copy()
+        self.groups = _Groups.of(self.image.shape[1])
+        self.own = np.zeros(len(self.area), np.int64)
+        self.spread = np.zeros((len(self.area), len(self.groups.size)))
+        self.know_(np.arange(len(self.area)))
         np.fill_diagonal(self.touching, False)
         self.of = np.arange(len(self.area))
         self.merges: list[tuple[int, int]] = []
@@ -281,15 +401,26 @@ class _Clusters:
 
         A cluster that is its own image takes in another together with that one's image, which may be far from it.
         """
-        mean, every = self.mean[clusters], np.arange(len(self.area))
-        alone = self.twin == every
-        image = np.where(self.twin >= 0, self.twin, every)
-        apart = self.mean[every, image]
-        three = alone[clusters][:, None] != alone
-        other = np.where(alone, clusters[:, None], every)  # the one of the two that is not its own image
-        three &= self.twin[other] >= 0
-        mine, its = self.area[clusters][:, None] * self.area, self.area[other] ** 2
-        return np.where(three, np.maximum((2 * mine * mean + its * apart[other]) / (2 * mine + its), mean), mean)
+        mean, groups, every = self.mean[clusters], self.groups, np.arange(len(self.area))
+        mine, its = self.own[clusters], self.own
+        both = groups.joined[mine][:, its]
+        copies, its_copies = groups.copies[mine][:, its], groups.copies.T[mine][:, its]
+        area = self.area[clusters][:, None]
+        between = copies * its_copies * area * self.area
+        inside = groups.pairs.T[mine][:, its] * self.area**2
+        weight, total = between + inside, between * mean + inside * self.spread[every, both]
+        inside = groups.pairs[mine][:, its] * area**2
+        weight, total = weight + inside, total + inside * self.spread[clusters[:, None], both]
+        return np.where((copies > 1) | (its_copies > 1), np.fmax(total / weight, mean), mean)
+
+    def know_(self, clusters: np.ndarray) -> None:
+        """Find anew in which ways some clusters are their own images, and what parts them from their other images."""
+        image = self.image[clusters]
+        self.own[clusters] = own = self.groups.number(_closed(image == clusters[:, None]))
+        apart = np.where(image >= 0, self.mean[clusters[:, None], image], np.nan)
+        chosen = self.groups.holds & ~self.groups.holds[own][:, None]
+        self.spread[clusters] = (np.where(chosen, apart[:, None], 0.0).sum(axis=2)
+                                 / np.maximum(chosen.sum(axis=2), 1))
 
     def merge_(self, a: int, b: int, strength: float) -> None:
         """Let cluster b become part of cluster a; the means are weighted by area."""
@@ -304,6 +435,7 @@ class _Clusters:
         self.touching[b] = self.touching[:, b] = False
         self.area[a] += self.area[b]
         self.of[self.of == b] = a
+        self.know_(np.append(a, self.image[a][self.image[a] >= 0]))
         self.least[b] = np.inf
         stale = np.flatnonzero(near | (np.isin(self.nearest, (a, b)) & np.isfinite(self.least)))
         self.search_(np.append(stale, a))
@@ -318,30 +450,29 @@ def _linkage(cells: Cells, touching: np.ndarray, mean: np.ndarray) -> tuple[np.n
     while np.isfinite(clusters.least).any():
         a = int(rounded(clusters.least).argmin())
         b = int(clusters.nearest[a])
-        _merge_with_image_(clusters, min(a, b), max(a, b), float(clusters.least[a]))
+        _merge_with_images_(clusters, min(a, b), max(a, b), float(clusters.least[a]))
     return np.reshape(clusters.merges, (-1, 2)).astype(np.int64), np.array(clusters.strength, float)
 
 
-def _merge_with_image_(clusters: _Clusters, a: int, b: int, strength: float) -> None:
-    """Merge two clusters, and their images if these are others; the union's image is the union of the images."""
-    twin = clusters.twin
-    image_a, image_b = int(twin[a]), int(twin[b])
+def _merge_with_images_(clusters: _Clusters, a: int, b: int, strength: float) -> None:
+    """Merge two clusters, and their images if these are others; the union's images are the unions of the images."""
+    image = clusters.image
+    images_a, images_b = image[a].tolist(), image[b].tolist()
     clusters.merge_(a, b, strength)
-    if image_a < 0 or image_b < 0:  # what has no image follows what has one
-        image = max(image_a, image_b)
-        image = a if image in (a, b) else image
-        twin[a] = image
-        if image >= 0:
-            twin[image] = a
-        return
-    image_a, image_b = int(clusters.of[image_a]), int(clusters.of[image_b])
-    if image_a != image_b and clusters.touching[image_a, image_b]:
-        low, high = sorted((image_a, image_b))
-        clusters.merge_(low, high, strength)
-        image_a = image_b = low
-    whole = int(clusters.of[a])
-    if image_a == image_b:
-        image = int(clusters.of[image_a])
-        twin[whole], twin[image] = image, whole
-    else:
-        twin[[whole, image_a, image_b]] = -1
+    union = [a]
+    for of_a, of_b in zip(images_a[1:], images_b[1:], strict=True):
+        if of_a < 0 or of_b < 0:  # what has no image follows what has one
+            union.append(max(of_a, of_b))
+            continue
+        low, high = sorted((int(clusters.of[of_a]), int(clusters.of[of_b])))
+        if low != high and clusters.touching[low, high]:
+            clusters.merge_(low, high, strength)
+            high = low
+        if low != high:
+            image[[low, high], 1:] = -1
+        union.append(low if low == high else -1)
+    union = [int(clusters.of[k]) if k >= 0 else -1 for k in union]
+    for way, mirrored in enumerate(union):
+        if mirrored >= 0:
+            image[mirrored] = [union[way ^ other] for other in range(len(union))]
+    clusters.know_(np.unique([*(int(clusters.of[k]) for k in (*images_a, *images_b) if k >= 0), a]))

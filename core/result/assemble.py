@@ -106,8 +106,10 @@ def assemble(
     label, hierarchy = _apart(working, face_graph, label, hierarchy)
     mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
     for mirror in mirrors:
-        label, hierarchy = symmetric_candidates(face_graph, contacts, label, hierarchy, mirror.twin, mirror.height,
-                                                mirror.first)
+        planes = (mirror, *mirror.across)
+        label, hierarchy = symmetric_candidates(
+            face_graph, contacts, label, hierarchy, np.array([plane.twin for plane in planes]),
+            np.array([plane.height for plane in planes]), np.array([plane.first for plane in planes]), mirror.exact)
     if len(hint):  # after symmetry: of what was marked on one side only, the other knows nothing
         label, hierarchy = hinted_candidates(face_graph, contacts, label, hierarchy, hint)
     mirror = Mirror.joined(mirrors)

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..surface.mesh import TriMesh
+from ..surface.mirror_plane import MirrorPlane
 from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
-from ..surface.symmetry import LEAST, face_twins, mirror_plane
+from ..surface.symmetry import LEAST, exact_planes, face_twins, mirror_plane
 
 LEAST_BODY = 0.1  # share of the area below which a body has no plane of its own
 
@@ -28,12 +29,18 @@ class Mirror:
         Signed distance of each face from the plane; 0 for a face that is its own image, or that has none.
     first : float
         1.0 or -1.0, the side of the first face beside the plane: it leads where both sides are equally good.
+    exact : bool
+        Whether all faces are exact mirror images of others, or of themselves.
+    across : tuple of Mirror
+        Of an exact one: others across it and each other that are exact, too.
     """
 
     plane: np.ndarray
     twin: np.ndarray
     height: np.ndarray
     first: float = 1.0
+    exact: bool = False
+    across: tuple[Mirror, ...] = ()
 
     @classmethod
     def of(cls, mesh: TriMesh, polygon: np.ndarray, n_polygons: int) -> Mirror | None:
@@ -44,6 +51,14 @@ class Mirror:
         twin = face_twins(mesh, polygon, n_polygons, plane)
         if (twin < 0).all():
             return None
+        exact = [cls._in(other, images, mesh, polygon)
+                 for other, images in exact_planes(mesh, polygon, n_polygons, plane)]
+        return replace(cls._in(plane, twin, mesh, polygon), exact=bool(exact), across=tuple(exact[1:]))
+
+    @classmethod
+    def _in(cls, plane: MirrorPlane, twin: np.ndarray, mesh: TriMesh, polygon: np.ndarray) -> Mirror:
+        """A plane and its twins, (p,), with how far beside it faces lie."""
+        n_polygons = len(twin)
         area, beside = np.bincount(polygon, mesh.face_area, n_polygons), plane.heights(mesh.face_centroids)
         height = np.bincount(polygon, mesh.face_area * beside, n_polygons)
         height = np.divide(height, area, out=np.zeros_like(height), where=area > 0)

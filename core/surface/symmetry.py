@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import even_steps, lengths, rounded_order, second_moments, weighted_sum
+from .arrays import even_steps, inner_products, lengths, rounded_order, second_moments, weighted_sum
 from .contact import diameter
 from .labels import majority
 from .mesh import TriMesh
@@ -46,6 +46,8 @@ MANY_FACES, MOSTLY = 3_000, 0.5
 # A face is the exact twin of another if their centers, mirrored, are nearer than this, in units of its area's root; and
 # a plane is exact if its share is less by this only.
 EXACT = 0.02
+# Planes across another are looked for by moments of z^m, m to MOST_RAYS; one is 0 if below UNEVEN of what it can be.
+MOST_RAYS, UNEVEN = 6, 0.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,25 +237,97 @@ def face_twins(mesh: TriMesh, polygon: np.ndarray, n_polygons: int, plane: Mirro
     return _exact_twins(elements, polygon, n_polygons, local, np.maximum(chosen, -1))
 
 
+def exact_planes(
+    mesh: TriMesh, polygon: np.ndarray, n_polygons: int, plane: MirrorPlane
+) -> list[tuple[MirrorPlane, np.ndarray]]:
+    """Find the planes, a given one and others across it, in which all polygons are exact mirror images.
+
+    Parameters
+    ----------
+    mesh, polygon, n_polygons
+        As for ``face_twins``.
+    plane : MirrorPlane
+
+    Returns
+    -------
+    planes : list of (MirrorPlane, twin)
+        The given one first, then none, one or two others, all across each other; empty if polygons are no exact images
+        in the given one. twin : (n_polygons,) int64, -1 for a polygon without an area. Which of two planes mirrors
+        first makes no difference. Dense meshes are not looked at.
+    """
+    if plane.share < 1 - EXACT or n_polygons > DENSE:
+        return []
+    elements, middle, size = _Elements.of(mesh)
+    given = MirrorPlane(plane.normal, float((plane.offset - middle @ plane.normal) / size), plane.share)
+    whole, present = _polygons(elements, polygon, n_polygons)
+    images, found = [], []
+    for other in (given, *_likely_across(elements, whole, given)):
+        image, same = _exact_images(whole, other)
+        commutes = all(np.array_equal(image[known], known[image]) for known in images)
+        if same.all() and commutes and np.array_equal(image[image], np.arange(len(image))):
+            images.append(image)
+            twin = np.full(n_polygons, -1)
+            twin[present] = present[image]
+            offset = float(size * other.offset + middle @ other.normal)
+            found.append((MirrorPlane(other.normal, offset, other.share), twin))
+        elif other is given:
+            break
+    return found
+
+
+def _likely_across(elements: _Elements, whole: _Elements, plane: MirrorPlane) -> list[MirrorPlane]:
+    """Planes through the middle, across a plane, that match nearly all of the surface. whole : see ``_polygons``."""
+    few, probes = elements.some(COARSE[0]), elements.some(COARSE[1])
+    tried = [_judged(_oriented(normal, 0.0), few, probes) for normal in _across(whole, plane.normal)]
+    return [other for other in tried if other.share >= 1 - EXACT]
+
+
+def _across(elements: _Elements, normal: np.ndarray) -> np.ndarray:
+    """Unit normals, (k, 3), across a given one, of the planes in which what is seen along it may be its own image.
+
+    With z = x + iy of what is seen, a mirror line at the angle t turns the moment of z^m into its conjugate times
+    exp(2imt): the angle of the first moment that is not 0 tells where the lines can be, whatever the number of rays.
+    """
+    axes = np.linalg.svd(normal[None])[2][1:]
+    seen = inner_products(elements.position, axes[0]) + 1j * inner_products(elements.position, axes[1])
+    for count in range(2, MOST_RAYS + 1):
+        moment = (elements.area * seen**count).sum()
+        if abs(moment) > UNEVEN * (elements.area * abs(seen) ** count).sum():
+            angle = np.angle(moment) / count + np.pi / 2 + np.arange(count) * np.pi / count
+            return np.cos(angle)[:, None] * axes[0] + np.sin(angle)[:, None] * axes[1]
+    return np.empty((0, 3))
+
+
 def _exact_twins(
     elements: _Elements, polygon: np.ndarray, n_polygons: int, plane: MirrorPlane, chosen: np.ndarray
 ) -> np.ndarray:
     """The twins, (n_polygons,), with those polygons that are exact mirror images in their place."""
-    area = np.bincount(polygon, elements.area, n_polygons)
-    present = np.flatnonzero(area > 0)
-    position, normal = (
-        np.stack([np.bincount(polygon, elements.area * column, n_polygons) for column in columns.T], axis=1)[present]
-        / area[present, None] for columns in (elements.position, elements.normal))
-    whole = _Elements(position, normal, area[present])
-    image = whole.mirrored(plane)
-    # Normals count as much as a polygon is wide: the two sides of a thin wall have the same center.
-    _, nearest = whole.nearest(image)
-    apart = np.linalg.norm(image.position - position[nearest], axis=1)
-    same = apart <= EXACT * np.sqrt(whole.area)
-    same &= (image.normal * normal[nearest]).sum(axis=1) > 0.99 * (normal**2).sum(axis=1)
-    same &= np.abs(whole.area - whole.area[nearest]) <= EXACT * whole.area
+    whole, present = _polygons(elements, polygon, n_polygons)
+    nearest, same = _exact_images(whole, plane)
     if n_polygons < MANY_FACES and whole.area[same].sum() < MOSTLY:
         return np.full(n_polygons, -1)
     twin = chosen.copy()
     twin[present[same]] = present[nearest[same]]
     return twin
+
+
+def _polygons(elements: _Elements, polygon: np.ndarray, n_polygons: int) -> tuple[_Elements, np.ndarray]:
+    """The k polygons that have an area, as elements with mean normals, and the number of each, (k,) int64."""
+    area = np.bincount(polygon, elements.area, n_polygons)
+    present = np.flatnonzero(area > 0)
+    position, normal = (
+        np.stack([np.bincount(polygon, elements.area * column, n_polygons) for column in columns.T], axis=1)[present]
+        / area[present, None] for columns in (elements.position, elements.normal))
+    return _Elements(position, normal, area[present]), present
+
+
+def _exact_images(whole: _Elements, plane: MirrorPlane) -> tuple[np.ndarray, np.ndarray]:
+    """The polygon nearest to the image of each, (k,) int64, and whether it is the exact image, (k,) bool."""
+    image = whole.mirrored(plane)
+    # Normals count as much as a polygon is wide: the two sides of a thin wall have the same center.
+    _, nearest = whole.nearest(image)
+    apart = np.linalg.norm(image.position - whole.position[nearest], axis=1)
+    same = apart <= EXACT * np.sqrt(whole.area)
+    same &= (image.normal * whole.normal[nearest]).sum(axis=1) > 0.99 * (whole.normal**2).sum(axis=1)
+    same &= np.abs(whole.area - whole.area[nearest]) <= EXACT * whole.area
+    return nearest, same

@@ -91,6 +91,64 @@ def test_parts_of_a_figure_are_exactly_symmetric_at_every_detail(method):
     assert [result.parts(n_parts=n).count for n in range(1, most + 1)] == list(range(1, most + 1))
 
 
+def images_in(vertices, faces, axis):
+    """The face that is the mirror image of each in the plane through 0 across an axis; it must have one."""
+    centers = np.rint(4 * vertices[faces].mean(axis=1)).astype(int)
+    places = {tuple(place): face for face, place in enumerate(centers.tolist())}
+    centers[:, axis] *= -1
+    return np.array([places[tuple(place)] for place in centers.tolist()])
+
+
+@pytest.mark.parametrize(("shape", "axes"), [
+    (shapes.table_of_blocks(), (0, 1)), (shapes.cross_of_blocks(8, 6), (0, 1, 2)),
+    (shapes.cross_of_blocks(7, 7), (0, 1, 2))], ids=["table", "cross", "plus"])
+def test_parts_are_symmetric_in_all_planes_that_cross_each_other(shape, axes):
+    (vertices, faces), rng = shape, np.random.default_rng(len(shape[1]))
+    face = rng.permutation(len(faces))
+    result = decompose(vertices @ shapes.rotation(rng).T + rng.normal(size=3), faces[face])
+    twins = [images_in(vertices, faces[face], axis) for axis in axes]
+    for detail in np.linspace(0, 1, 11):
+        labels = result.parts(detail=detail).labels
+        assert all(same(labels, labels[twin]) for twin in twins)
+    assert len(np.unique(result.parts().labels[twins[0]] != result.parts().labels)) == 2
+    assert [result.parts(n_parts=n).count for n in range(1, 12)] == list(range(1, 12))
+
+
+def test_a_table_has_four_legs():
+    vertices, faces = shapes.table_of_blocks()
+    parts = decompose(vertices, faces).parts()
+    leg = np.bincount(parts.labels) < 100
+    assert leg.tolist().count(True) == 4 == parts.count - 1
+    middle = np.array([vertices[faces[parts.labels == part]].mean(axis=(0, 1)) for part in np.flatnonzero(leg)])
+    assert set(map(tuple, np.sign(middle[:, :2]))) == {(x, y) for x in (-1, 1) for y in (-1, 1)}
+    assert np.ptp(parts.area[leg]) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_one_corner_leads_all_four():
+    # A square of 6 by 6 faces; one corner of 2 by 2 is cut off, and half as surely another next to it.
+    n = 6
+    face = np.arange(n * n).reshape(n, n)
+    pairs = np.concatenate([np.stack([face[1:], face[:-1]], axis=-1).reshape(-1, 2),
+                            np.stack([face[:, 1:], face[:, :-1]], axis=-1).reshape(-1, 2)])
+    label = np.zeros((n, n), np.int64)
+    label[:2, :2], label[:2, -2:] = 1, 2
+    x, y = np.indices((n, n)).reshape(2, -1) - (n - 1) / 2
+    result = symmetric_candidates(
+        FaceGraph(n * n, pairs, np.ones(len(pairs)), np.ones(n * n)), np.empty((0, 2), np.int64), label.ravel(),
+        Hierarchy.of(3, [(0, 2), (0, 1)], [0.4, 0.8]), np.stack([face[::-1].ravel(), face[:, ::-1].ravel()]),
+        np.stack([x, y]), np.ones(2), exact=True)
+    corners = np.where((abs(x) > 1) & (abs(y) > 1), 2 * (x > 0) + (y > 0) + 1, 0)
+    # The second corner leads: with all four cut off where it is, most pairs of points stay as they were found. Corners
+    # and middle are parted by 0.4, corners beside each other by 0.6 (0.8 and 0.4) or 0.4 (0.8 and 0), those across by
+    # 0.6. The middle takes in all four at once: in the mean over pairs of points, of 20 faces and of 4 in each corner.
+    between, inside = 4 * 20 * 4, 6 * 4 * 4
+    mean = (between * 0.4 + inside * (0.6 + 0.4 + 0.6) / 3) / (between + inside)
+    assert same(result[0], corners)
+    assert result[1].salience.tolist() == pytest.approx(4 * [mean])
+    assert same(parts(result, 0.5), np.zeros(n * n, int))
+    assert same(parts(result, 0.6), corners)
+
+
 def test_limbs_of_the_figure_are_pairs():
     shape = shapes.mirrored_figure()
     found = decompose(*shape).parts()

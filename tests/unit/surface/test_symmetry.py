@@ -6,7 +6,15 @@ import pytest
 import shapes
 
 from core.surface.mesh import TriMesh
-from core.surface.symmetry import face_twins, mirror_plane
+from core.surface.polygons import PolygonMesh
+from core.surface.preparation import bodies, repair
+from core.surface.symmetry import exact_planes, face_twins, mirror_plane
+
+
+def small_faces(vertices, faces):
+    """A mesh of one piece with its long edges split, and the face in which each triangle lies."""
+    (body,) = bodies(repair(PolygonMesh.of(vertices, faces)), True, 0.01)
+    return body.mesh, body.polygon
 
 
 def twins_of(mesh, plane):
@@ -55,6 +63,48 @@ def test_another_tessellation_of_one_side_has_twins_within_a_face():
     assert (twin >= 0).mean() > 0.99
     apart = plane.mirrored(both.face_centroids) - both.face_centroids[np.maximum(twin, 0)]
     assert np.linalg.norm(apart[twin >= 0], axis=1).max() < both.edge_length.max()
+
+
+def prism_of_rays(n_rays):
+    """A star, 1 thick, in quads: a plane through each ray and its middle, and one between its two faces."""
+    n = 2 * n_rays
+    angle, far = np.arange(n) * np.pi / n_rays, np.where(np.arange(n) % 2, 0.7, 2.0)
+    outline = np.append(far[:, None] * np.stack([np.sin(angle), np.cos(angle)], axis=1), np.zeros((1, 2)), axis=0)
+    vertices = np.concatenate([np.column_stack([outline, np.full(n + 1, z)]) for z in (-0.5, 0.5)])
+    low, tip = np.arange(n), np.arange(0, n, 2)
+    sides = np.stack([low, np.roll(low, -1), np.roll(low, -1) + n + 1, low + n + 1], axis=1)
+    kites = np.stack([np.full(n_rays, n), tip - 1, tip, tip + 1], axis=1)
+    kites[0, 1] = n - 1
+    return vertices, np.concatenate([sides[:, ::-1], kites, kites[:, ::-1] + n + 1])
+
+
+@pytest.mark.parametrize(("shape", "count"), [
+    (shapes.table_of_blocks(), 2), (shapes.cross_of_blocks(8, 6), 3), (shapes.cross_of_blocks(7, 7), 3),
+    (prism_of_rays(3), 2), (prism_of_rays(4), 3), (prism_of_rays(5), 2), (shapes.mirrored_figure(), 1)])
+def test_planes_across_each_other(shape, count):
+    for seed in range(3):
+        rng = np.random.default_rng(seed)
+        vertices, turn = shape[0], shapes.rotation(rng)
+        component, polygon = small_faces(vertices @ turn.T + rng.normal(size=3), shape[1])
+        planes = exact_planes(component, polygon, len(shape[1]), mirror_plane(component))
+        assert len(planes) == count
+        normals = np.array([plane.normal for plane, _ in planes])
+        assert np.allclose(normals @ normals.T, np.eye(count), atol=1e-6)
+        centers = np.array([vertices[face].mean(axis=0) for face in shape[1]]) @ turn.T
+        for plane, twin in planes:
+            apart = centers[twin] - centers
+            assert np.allclose(apart, (apart @ plane.normal)[:, None] * plane.normal, atol=1e-6)
+            assert all(np.array_equal(twin[other], other[twin]) for _, other in planes)
+
+
+def test_a_dent_on_one_side_leaves_no_exact_plane():
+    vertices, faces = shapes.mirrored_figure()
+    vertices = vertices.copy()
+    vertices[vertices[:, 0].argmax()] *= 0.95
+    mesh = TriMesh(vertices, faces)
+    plane = mirror_plane(mesh)
+    assert plane is not None
+    assert exact_planes(mesh, np.arange(mesh.n_faces), mesh.n_faces, plane) == []
 
 
 def test_a_twisted_tree_has_no_plane():
