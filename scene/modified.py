@@ -3,17 +3,39 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from . import explode, hidden, mesh_arrays, quiet
+from ..core.surface.mirror_plane import MirrorPlane
+from . import bridge, explode, hidden, mesh_arrays, quiet
 from .errors import SceneError
 from .kept import set_values, values_of
 from .temporary import removed
 
 _NUMBER = "reeb_parts_face_number"  # face attribute of the copy that is evaluated
+
+
+@dataclass(frozen=True, eq=False)
+class BothSides:
+    """The parts of a mesh that is seen mirrored, where what lies beside the plane is two.
+
+    Attributes
+    ----------
+    face_numbers : (q,) int64
+        Of each face; behind the plane another one, for a part that does not reach over it.
+    part : dict of int -> int
+        The number of the part, for each of these other numbers.
+    side : dict of int -> int
+        For both numbers of such a part, 1 or -1: that of positive and that of negative coordinates.
+    """
+
+    face_numbers: np.ndarray
+    part: dict[int, int]
+    side: dict[int, int]
 
 
 def has_modifiers(obj: bpy.types.Object) -> bool:
@@ -69,6 +91,46 @@ def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,
                  "modifiers "
                  "and decompose again.").format(name=obj.name, n=Count(lost)))
     return mesh, numbers
+
+
+def both_sides(obj: bpy.types.Object, seen: bpy.types.Mesh, face_numbers: np.ndarray) -> BothSides:
+    """Tell the two images of parts apart that a Mirror modifier shows twice.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    seen : bpy.types.Mesh
+        The object's mesh with its modifiers applied, q faces.
+    face_numbers : (q,) int64
+        Number of the part of each face.
+
+    Returns
+    -------
+    sides : BothSides
+        Of a part whose two images share an edge the image has no number of its own, and neither has any part of an
+        object that is no half model.
+    """
+    shape = bridge.read_shape(obj)
+    if not len(shape.mirror):
+        return BothSides(face_numbers, {}, {})
+    plane = MirrorPlane(shape.mirror[:3], float(shape.mirror[3]))
+    own = 1 if plane.heights(shape.vertices).sum() > 0 else -1
+    centers = mesh_arrays.read(seen.polygons, "center", np.float32, 3) @ shape.stretch.T
+    image = plane.heights(centers) * own < 0
+    corners = mesh_arrays.read(seen.polygons, "loop_total", np.int32)
+    edge, number = mesh_arrays.read(seen.loops, "edge_index", np.int32), np.repeat(face_numbers, corners)
+    found, place = np.unique(np.stack([edge, number], axis=1), axis=0, return_inverse=True)
+    behind = np.repeat(image, corners)
+    reached = [np.bincount(place.ravel(), side, len(found)) > 0 for side in (behind, ~behind)]
+    over = found[reached[0] & reached[1], 1]
+    twice = np.setdiff1d(np.intersect1d(face_numbers[image], face_numbers[~image]), over)
+    another = int(face_numbers.max()) + 1 + np.arange(len(twice))
+    numbers = face_numbers.copy()
+    mirrored = image & np.isin(face_numbers, twice)
+    numbers[mirrored] = another[np.searchsorted(twice, face_numbers[mirrored])]
+    positive = own if plane.normal[np.abs(plane.normal).argmax()] > 0 else -own
+    return BothSides(numbers, dict(zip(another.tolist(), twice.tolist(), strict=True)),
+                     dict.fromkeys(twice.tolist(), positive) | dict.fromkeys(another.tolist(), -positive))
 
 
 def _numbers(mesh: bpy.types.Mesh) -> np.ndarray:

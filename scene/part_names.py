@@ -44,6 +44,20 @@ def distinct(name: str, others: Container[str]) -> str:
     return free
 
 
+def of_side(name: str, side: int, is_image: bool) -> str:
+    """The name of one side of a part that is there twice.
+
+    name : of the part. side : 1 for .L, -1 for .R, 0 for a part that is there once. is_image : if the name has a side,
+    it is that of the part, and its image has the other.
+    """
+    if not side:
+        return name
+    flipped = bpy.utils.flip_name(name)
+    if flipped != name:
+        return flipped if is_image else name
+    return name + (".L" if side > 0 else ".R")
+
+
 def piece_name(obj: bpy.types.Object, number: int) -> str:
     """The name of a part as an object or a file of its own: with the object's name before it."""
     return with_object(obj, part_name(obj.data, number))

@@ -155,11 +155,13 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     face_numbers = stored.shown_parts().face_numbers
     seen = modified.seen_mesh(context, obj, face_numbers) if style.seen and modified.has_modifiers(obj) else None
     mesh, face_numbers = seen or (obj.data, face_numbers)
+    sides = modified.both_sides(obj, mesh, face_numbers) if seen else modified.BothSides(face_numbers, {}, {})
+    wanted = [*numbers, *(key for key, number in sides.part.items() if number in numbers)]
     stretch = bridge.world_stretch(obj)
     close = style.caps or style.fit_bed or style.joints != "NONE"
     with removed(bpy.data.meshes, *([mesh] if seen else [])):
         found = yield from stretched(
-            making_pieces(mesh, face_numbers, numbers, close, None if style.cut == "FACES" else stretch,
+            making_pieces(mesh, sides.face_numbers, wanted, close, None if style.cut == "FACES" else stretch,
                           style.cut == "PLANAR"), 0.0, 0.7)
     fitted = beds.Fitted(found.meshes, {}, [])
     if style.fit_bed:
@@ -168,7 +170,9 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
         cap_looks.map_caps(mesh)
     if style.cap_material:
         cap_looks.own_material(list(fitted.meshes.values()))
-    part, names = fitted.part, _names(obj, sorted(fitted.meshes), fitted.part)
+    origin = {key: fitted.part.get(key, key) for key in sorted(fitted.meshes)}
+    names = _names(obj, origin, sides)
+    part = {key: sides.part.get(own, own) for key, own in origin.items() if sides.part.get(own, own) != key}
     joined = joints.Joined(fitted.meshes, [], [])
     if style.joints != "NONE":
         joined = yield from stretched(
@@ -185,15 +189,18 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     return Separated(pieces, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part, fitted.left)
 
 
-def _names(obj: bpy.types.Object, keys: list[int], part: dict[int, int]) -> dict[int, str]:
-    """What pieces are called without the name of the object: as their parts, with a number if one comes in several."""
-    count = Counter(part.get(key, key) for key in keys)
-    names, place = {}, Counter()
-    for key in keys:
-        number = part.get(key, key)
-        place[number] += 1
-        name = part_names.part_name(obj.data, number)
-        names[key] = name if count[number] == 1 else f"{name} {place[number]}"
+def _names(obj: bpy.types.Object, origin: dict[int, int], sides: modified.BothSides) -> dict[int, str]:
+    """What pieces are called without the name of the object: as their parts, with a number if one comes in several.
+
+    origin : for the key of each piece, that of the piece it was cut from. sides : what is behind a mirror has keys of
+    its own, and its name the other side's ending.
+    """
+    count, names, place = Counter(origin.values()), {}, Counter()
+    for key, own in origin.items():
+        place[own] += 1
+        name = part_names.of_side(part_names.part_name(obj.data, sides.part.get(own, own)), sides.side.get(own, 0),
+                                  own in sides.part)
+        names[key] = name if count[own] == 1 else f"{name} {place[own]}"
     return names
 
 

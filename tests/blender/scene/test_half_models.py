@@ -121,3 +121,56 @@ def shears(obj):
 def test_other_modifiers_are_left_alone(mirrored, plane_of, change):
     change(mirrored)
     assert len(plane_of(mirrored)[0]) == 0
+
+
+def separated(obj, **style):
+    """Pieces by their names behind the object's, and how many faces they have on either side of the plane x = 0."""
+    for other in list(bpy.data.objects):
+        if other is not obj:
+            bpy.data.objects.remove(other)
+    assert bpy.ops.reeb_parts.separate(caps=False, cut="FACES", hide=False, **style) == {"FINISHED"}
+    found = {}
+    for piece in bpy.data.objects:
+        if piece is not obj:
+            across = np.array([face.center.x for face in piece.data.polygons]) + piece.location.x
+            found[piece.name.removeprefix("Figure ")] = (int((across > 0).sum()), int((across < 0).sum()))
+    return found
+
+
+def test_with_the_mirror_applied_both_sides_are_pieces(mirrored, half):
+    """An arm is two pieces then, .L and .R, each with the faces of the half; the trunk is one, of both halves."""
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+    numbers = face_numbers(mirrored.data)
+    names = {part.number: part.name for part in mirrored.data.reeb_parts.parts}
+    far = half.vertices[half.faces].min(axis=(1, 2), where=[True, False, False], initial=np.inf)
+    beside = {number for number in names if far[numbers == number].min() > 1e-4}
+    assert 0 < len(beside) < len(names)
+    counts = {number: int((numbers == number).sum()) for number in names}
+    expected = {names[number]: (counts[number], counts[number]) for number in names if number not in beside}
+    for number in beside:
+        expected |= {f"{names[number]}.L": (counts[number], 0), f"{names[number]}.R": (0, counts[number])}
+    assert separated(mirrored, seen=True) == expected
+    assert separated(mirrored, seen=True) == expected  # and nothing twice
+    # Without, a piece keeps the modifier and shows both sides.
+    assert separated(mirrored) == {name: (counts[number], 0) for number, name in names.items()}
+
+
+def test_a_name_that_has_a_side_is_that_of_the_side_that_is_there(mirrored):
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+    before = separated(mirrored, seen=True)
+    arm = next(part for part in mirrored.data.reeb_parts.parts if f"{part.name}.R" in before)
+    own, image = before[f"{arm.name}.L"], before[f"{arm.name}.R"]
+    arm.name = "Arm.R"
+    found = separated(mirrored, seen=True)
+    assert (found["Arm.R"], found["Arm.L"]) == (own, image)
+
+
+def test_on_the_other_side_left_and_right_are_the_same(make, half):
+    vertices = half.vertices * (-1, 1, 1)
+    obj = make(shapes.Shape(vertices, half.faces[:, ::-1]), "Figure")
+    obj.modifiers.new("Mirror", "MIRROR")
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+    found = separated(obj, seen=True)
+    sided = [name for name in found if name.endswith((".L", ".R"))]
+    assert sided
+    assert all(found[name][name.endswith(".L")] == 0 for name in sided)
