@@ -4,14 +4,16 @@
 from __future__ import annotations
 
 import heapq
+import math
 
 import numpy as np
 
 
 def average_linkage(
-    count: int, pairs: np.ndarray, score: np.ndarray, weight: np.ndarray
+    count: int, pairs: np.ndarray, score: np.ndarray, weight: np.ndarray, size: np.ndarray | None = None,
+    toll: float = 0.0,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Join groups, the best first; the score of two groups is the weighted mean of their pairs' scores.
+    """Join groups, the best first; the score of two groups is the weighted mean of their pairs' scores, less a toll.
 
     Parameters
     ----------
@@ -23,6 +25,11 @@ def average_linkage(
         How surely they belong together; log-odds, whose means tell a sure pair from many unsure ones.
     weight : (e,) float64
         What each pair counts, above 0.
+    size : (count,) float64, optional
+        Of each member, above 0. Groups have the sum.
+    toll : float
+        How much surer groups of e times the size have to be: this, times the logarithm of the size of the smaller, is
+        taken from the score of two groups.
 
     Returns
     -------
@@ -38,26 +45,35 @@ def average_linkage(
     O(e log e) in Python: of parts there are hundreds, not thousands.
     """
     # Of each group, by neighbor: the sum of weighted scores, the weight, and the best pair as (-score, row).
+    sizes = [1.0] * count if size is None else size.tolist()
+
+    def cost_of(a: int, b: int, edge: tuple[float, float, tuple[float, int]]) -> float:
+        return toll * math.log(min(sizes[a], sizes[b])) - edge[0] / edge[1]
+
     around: list[dict[int, tuple[float, float, tuple[float, int]]]] = [{} for _ in range(count)]
     for row, ((a, b), s, w) in enumerate(zip(pairs.tolist(), score.tolist(), weight.tolist(), strict=True)):
         around[a][b] = around[b][a] = (s * w, w, (-s, row))
-    heap = [(-s / w, a, b) for a in range(count) for b, (s, w, _) in around[a].items() if a < b]
+    heap = [(cost_of(a, b, edge), a, b) for a in range(count) for b, edge in around[a].items() if a < b]
     heapq.heapify(heap)
     merges, scores, rows = [], [], []
     while heap:
         cost, a, b = heapq.heappop(heap)
         edge = around[a].get(b)
-        if edge is None or -edge[0] / edge[1] != cost:
+        if edge is None or cost_of(a, b, edge) != cost:
             continue  # gone, or changed since
         merges.append((a, b))
         scores.append(-cost)
         rows.append(edge[2][1])
         del around[a][b], around[b][a]
+        sizes[a] += sizes[b]
+        changed = set(around[a]) if toll else set()
         for other, (s, w, best) in around[b].items():
             del around[other][b]
             known = around[a].get(other)
             joined = (s, w, best) if known is None else (s + known[0], w + known[1], min(best, known[2]))
             around[a][other] = around[other][a] = joined
-            heapq.heappush(heap, (-joined[0] / joined[1], min(a, other), max(a, other)))
+            changed.add(other)
+        for other in changed:
+            heapq.heappush(heap, (cost_of(a, other, around[a][other]), min(a, other), max(a, other)))
         around[b] = {}
     return np.reshape(merges, (-1, 2)).astype(np.int64), np.array(scores, float), np.array(rows, np.int64)

@@ -24,8 +24,8 @@ PART = ("log_area", "extent_1", "extent_2", "extent_3", "repeats", "agd", "agd_d
 PAIR = ("same_piece", "salience", "distance", "gap", "near_small_1", "near_small_2", "near_small_3", "near_large_1",
         "near_large_2", "near_large_3", "elsewhere_small", "elsewhere_large", "inside_small", "inside_large",
         "normals", "agd_change", "log_ratio", "alike", "contact_spread", "contact_extent", "height")
-WHOLE = ("log_pieces", "log_parts", "largest")
-FEATURES = (*PAIR, *(f"small_{n}" for n in PART), *(f"large_{n}" for n in PART), *WHOLE)
+# Nothing of the whole, such as how many pieces it has: that would tell models that were learned from from others.
+FEATURES = (*PAIR, *(f"small_{n}" for n in PART), *(f"large_{n}" for n in PART))
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,8 +92,6 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: np.ndarray, agd: np.n
         "log_ratio": np.log(area[large] / area[small]),
         "alike": np.abs(np.log(extent[small] + 0.003) - np.log(extent[large] + 0.003)).max(axis=1),
         **_contact_columns(near, mesh.face_normals[points.face], level, gap, area[small]),
-        "log_pieces": np.full(len(small), np.log(mesh.face_components[0])),
-        "log_parts": np.full(len(small), np.log(count)), "largest": np.full(len(small), area.max()),
         **{f"small_{n}": shape[n][small] for n in PART}, **{f"large_{n}": shape[n][large] for n in PART},
     }
     features = np.stack([columns[n] for n in FEATURES], axis=1).astype(float)
