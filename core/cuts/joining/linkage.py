@@ -11,9 +11,9 @@ import numpy as np
 
 def average_linkage(
     count: int, pairs: np.ndarray, score: np.ndarray, weight: np.ndarray, size: np.ndarray | None = None,
-    toll: float = 0.0,
+    ease: float = 0.0,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Join groups, the best first; the score of two groups is the weighted mean of their pairs' scores, less a toll.
+    """Join groups, the best first; the score of two groups is the weighted mean of their pairs' scores.
 
     Parameters
     ----------
@@ -27,9 +27,9 @@ def average_linkage(
         What each pair counts, above 0.
     size : (count,) float64, optional
         Of each member, above 0. Groups have the sum.
-    toll : float
-        How much surer groups of e times the size have to be: this, times the logarithm of the size of the smaller, is
-        taken from the score of two groups.
+    ease : float
+        How much more easily small groups join: this, times the logarithm of the size of the smaller, is taken from the
+        score of two groups, where that size is below 1.
 
     Returns
     -------
@@ -48,7 +48,7 @@ def average_linkage(
     sizes = [1.0] * count if size is None else size.tolist()
 
     def cost_of(a: int, b: int, edge: tuple[float, float, tuple[float, int]]) -> float:
-        return toll * math.log(min(sizes[a], sizes[b])) - edge[0] / edge[1]
+        return ease * math.log(min(sizes[a], sizes[b], 1.0)) - edge[0] / edge[1]
 
     around: list[dict[int, tuple[float, float, tuple[float, int]]]] = [{} for _ in range(count)]
     for row, ((a, b), s, w) in enumerate(zip(pairs.tolist(), score.tolist(), weight.tolist(), strict=True)):
@@ -66,7 +66,7 @@ def average_linkage(
         rows.append(edge[2][1])
         del around[a][b], around[b][a]
         sizes[a] += sizes[b]
-        changed = set(around[a]) if toll else set()
+        changed = set(around[a]) if ease else set()
         for other, (s, w, best) in around[b].items():
             del around[other][b]
             known = around[a].get(other)

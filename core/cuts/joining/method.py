@@ -28,9 +28,9 @@ FINE = 0.2
 DECISION = 0.5
 # Between candidates that nothing brought near each other.
 LAST = 0.999
-# Of two groups the smaller of which has MIDDLE of the area the odds are as they are judged; those of an e times larger
-# one have to be better by exp(TOLL): few large groups are one part, and one that should not be costs most.
-MIDDLE, TOLL = 0.05, 0.2
+# Small groups are more often one part than their pairs are judged to be. Below LARGE, a share of the area, the odds of
+# two groups are raised by so many times the smaller is below it, to the power of EASE.
+LARGE, EASE = 0.1, 0.1
 SURE = 1e-4, 1 - 1e-4  # bounds of a judgement, whose log-odds are to be finite
 
 
@@ -102,7 +102,7 @@ def join_parts(
     weight = np.sqrt(pairs.area[pairs.parts].min(axis=1)) + 1e-9
     merges, score, rows = average_linkage(
         len(parts.candidate), pairs.parts, on_grid(np.log(together / (1 - together))), weight,
-        np.maximum(on_grid(pairs.area / MIDDLE), 1e-9), TOLL)
+        np.maximum(on_grid(pairs.area / LARGE), 1e-9), EASE)
     strength = np.interp(1 / (1 + np.exp(-score)), [0.0, DECISION, 1.0], [1.0, 0.5, FINE])
     touching = (pairs.gap <= TOUCH) & ~pairs.same_piece
     contacts = pairs.faces[np.union1d(rows, np.flatnonzero(touching))]
