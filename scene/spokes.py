@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core.surface.arrays import components, renumbered, sums_by
+from ..core.surface.arrays import components, lengths, renumbered, rounded, sums_by
 from ..core.uses.cap_surfaces import common_order
 from .discs import LED_IN, PLAIN
 
@@ -23,6 +23,11 @@ if TYPE_CHECKING:
 _NEAR, _ROUNDS, _AWAY = 0.1, 10, 0.3
 # A middle whose plain caps cross so many times as often as those of another is not tried any further.
 _HOPELESS = 2
+# So many middles are tried, those that are seen from the same places no nearer to each other than such a share of the
+# size of all.
+_MIDDLES, _APART = 12, 0.1
+# After so many middles, no more are tried where these have taken so many caps: of ragged networks, which nothing helps.
+_FIRST, _CAPS = 4, 400
 # A way has at most so many points; for a straight one it is asked at so many whether it is inside.
 _MOST, _TRIED = 16, 8
 
@@ -95,6 +100,8 @@ def _best(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]], me
             return ways
         hopeless = min(hopeless, _HOPELESS * faults)
         tried.append((faults, len(tried), ways))
+        if len(tried) >= _FIRST and len(tried) * len(stretches) >= _CAPS:
+            break
     # No plain caps will do: of the middles, those first whose caps cross least.
     best, least = tried[0][2], 1 << 30
     for known, _, ways in sorted(tried, key=itemgetter(0, 1)):
@@ -104,8 +111,30 @@ def _best(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]], me
         if faults < least:
             best, least = ways, faults
         if not faults:
-            break
+            return ways
+    _note(points, dict(zip(starts.tolist(), best, strict=True)), stretches, discs)
     return best
+
+
+def _note(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[list[int]], discs: Discs) -> None:
+    """Note which caps of some stretches to the middle cross each other; what else they cross ``discs`` notes itself."""
+    sheets, used = [], []
+    for stretch in stretches:
+        curve = _curve(points, ways, stretch)
+        disc = discs.tried(curve).disc
+        if disc is not None:
+            sheets.append((np.concatenate([curve, disc.places]), disc.triangles))
+            used.append(stretch)
+    pairs, count = np.unique(_crossings(sheets), axis=0, return_counts=True)
+    for (a, b), times in zip(pairs.tolist(), count.tolist(), strict=True):
+        discs.note(np.array(used[a] + used[b]), times)
+
+
+def _curve(points: np.ndarray, ways: dict[int, np.ndarray], stretch: list[int]) -> np.ndarray:
+    """A stretch closed by the ways from its ends to the middle, as it will be seen from both sides."""
+    onwards, back = ways[stretch[-1]], ways[stretch[0]]
+    curve = np.concatenate([points[stretch], onwards, back[:-1][::-1]]).astype(np.float32).astype(np.float64)
+    return curve[common_order(curve)]
 
 
 def _choices(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]], mean: np.ndarray, step: float,
@@ -133,34 +162,36 @@ def _faults(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[lis
 
     effort : how far to go for caps that do not, see discs.PLAIN.
     """
-    faults = 0
-    every: list[np.ndarray] = []
-    sheets: list[np.ndarray] = []
+    faults, sheets = 0, []
     for stretch in stretches:
-        onwards, back = ways[stretch[-1]], ways[stretch[0]]
-        curve = np.concatenate([points[stretch], onwards, back[:-1][::-1]]).astype(np.float32).astype(np.float64)
-        curve = curve[common_order(curve)]
+        curve = _curve(points, ways, stretch)
         found = discs.tried(curve, effort=effort)
         faults += found.faults
         if faults >= most:
             return faults
         if found.disc is not None:
-            sheets.append(found.disc.triangles + sum(len(one) for one in every))
-            every.append(np.concatenate([curve, found.disc.places]))
+            sheets.append((np.concatenate([curve, found.disc.places]), found.disc.triangles))
+    return faults + len(_crossings(sheets))
+
+
+def _crossings(sheets: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+    """Which of some surfaces, points and triangles each, cross each other: two for each pair of triangles, (k, 2)."""
     if not sheets:
-        return faults
-    places, number = np.unique(np.concatenate(every), axis=0, return_inverse=True)
-    triangles = number.ravel()[np.concatenate(sheets)]
-    sheet = np.repeat(np.arange(len(sheets)), [len(one) for one in sheets])
+        return np.empty((0, 2), np.int64)
+    count = [len(every) for every, _ in sheets]
+    places, number = np.unique(np.concatenate([every for every, _ in sheets]), axis=0, return_inverse=True)
+    own = np.concatenate([one + before for (_, one), before in zip(sheets, np.cumsum(count) - count, strict=True)])
+    triangles = number.ravel()[own]
+    sheet = np.repeat(np.arange(len(sheets)), [len(one) for _, one in sheets])
     tree = BVHTree.FromPolygons(places.tolist(), triangles.tolist(), all_triangles=True)
     pairs = np.array(tree.overlap(tree), np.int64).reshape(-1, 2)
     pairs = pairs[sheet[pairs[:, 0]] < sheet[pairs[:, 1]]]
     apart = (triangles[pairs[:, 0]][:, :, None] != triangles[pairs[:, 1]][:, None]).all(axis=(1, 2))
-    return faults + int(apart.sum())
+    return sheet[pairs[apart]]
 
 
 def _middles(starts: np.ndarray, mean: np.ndarray, body: Body, side: float) -> list[np.ndarray]:
-    """Places for a middle: the mean of some places, half the way through the body from there, and what they see best.
+    """Places for a middle: the mean of some places, half the way through the body from there, what most of them see.
 
     starts : (k, 3), the points that the body has as its own.
     """
@@ -173,7 +204,12 @@ def _middles(starts: np.ndarray, mean: np.ndarray, body: Body, side: float) -> l
     if not len(places):
         return [mean]
     seen = np.array([_sees(starts, np.broadcast_to(place, starts.shape), body) for place in places])
-    return [mean, places[0], places[int(seen.sum(axis=1).argmax())]]
+    order = np.lexsort((-rounded(lengths(places - mean)), -seen.sum(axis=1))).tolist()
+    found, apart = [mean, places[0], places[order[0]]], _APART * float(np.linalg.norm(np.ptp(starts, axis=0)))
+    for index in order:
+        if len(found) < _MIDDLES and lengths(places[index] - found[1:]).min() > apart:
+            found.append(places[index])
+    return found
 
 
 def _sees(ends: np.ndarray, starts: np.ndarray, body: Body) -> np.ndarray:

@@ -908,18 +908,31 @@ def test_with_holes_closed_the_report_tells_the_truth(obj, capfd):
     assert f"{count} parts are closed and do not cross themselves" in capfd.readouterr().out
 
 
-@pytest.mark.parametrize("seed", seeds(4, 8))  # most others have no such caps
-def test_where_a_smooth_cut_goes_wrong_faces_stay_whole(make, separate, seed):
+def ragged_parts(obj, count, seed):
+    """The number of each face's part: of so many random faces the nearest."""
+    centers = read(obj.data.polygons, "center", np.float32, 3)
+    around = centers[np.random.default_rng(seed).choice(len(centers), count, replace=False)]
+    return 1 + np.linalg.norm(centers[:, None] - around[None], axis=2).argmin(axis=1)
+
+
+@pytest.mark.parametrize("seed", seeds(3, 4, 5, 18))
+def test_where_no_cap_was_seen_to_cross_anything_no_piece_does(make, separate, seed):
+    """Ragged parts: where caps cross nothing of the model, those that go to one middle may cross each other."""
+    obj = make(shapes.tube_tree())
+    made = separate.piece_meshes(obj.data, ragged_parts(obj, 14, seed), range(1, 15), True, np.eye(3))
+    crossing = [crossings(mesh) > 0 for mesh in made.meshes.values()]
+    assert any(crossing) == (made.n_crossings > 0) == (seed == 5)  # of that one, no caps are known that cross nothing
+
+
+@pytest.mark.parametrize(("count", "seed"), seeds((14, 18), (8, 14), (30, 4)))  # the last takes long
+def test_where_a_smooth_cut_goes_wrong_faces_stay_whole(make, separate, count, seed):
     """Ragged parts, some of whose caps cross something: with some borders along faces, fewer do."""
     obj = make(shapes.tube_tree())
-    rng = np.random.default_rng(seed)
-    centers = read(obj.data.polygons, "center", np.float32, 3)
-    seeds = centers[rng.choice(len(centers), 30, replace=False)]
-    numbers = 1 + np.linalg.norm(centers[:, None] - seeds[None], axis=2).argmin(axis=1)
-    made = separate.piece_meshes(obj.data, numbers, range(1, 31), True, np.eye(3))
+    numbers, wanted = ragged_parts(obj, count, seed), list(range(1, count + 1))
+    made = separate.piece_meshes(obj.data, numbers, wanted, True, np.eye(3))
     plain = separate.PlainMesh(separate.plain_copy(obj.data))
     smooth = separate.finished(
-        separate._made(plain, numbers, list(range(1, 31)), True, np.eye(3), np.empty((0, 2), np.int64)))
+        separate._made(plain, numbers, wanted, True, np.eye(3), np.empty((0, 2), np.int64)))
     assert made.n_crossings < smooth.n_crossings
     assert made.along_faces > smooth.along_faces
     assert all(borders(mesh) == (set(), 0) for mesh in made.meshes.values())
