@@ -198,6 +198,8 @@ def triangulated(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarra
     found, face = corner_vertex[corner].reshape(-1, 3), np.flatnonzero(three).astype(np.int32)
     if three.all():
         return found, face
+    if four.all():
+        return _halves(points, corner_vertex.reshape(-1, 4)), np.repeat(np.arange(len(count), dtype=np.int32), 2)
     halves = _halves(points, corner_vertex[np.repeat(four, count)].reshape(-1, 4))
     found = np.concatenate([found, halves])
     face = np.concatenate([face, np.repeat(np.flatnonzero(four), 2).astype(np.int32)])
@@ -216,9 +218,8 @@ def _halves(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     a, b, c, d = (points[quads[:, i]] for i in range(4))
     diagonal = c - a
     flip = np.einsum("ij,ij->i", cross(b - a, diagonal), cross(d - a, diagonal)) > 0
-    other = np.array([[0, 1, 3], [1, 2, 3]])[None]
-    corners = np.where(flip[:, None, None], other, np.array([[0, 1, 2], [0, 2, 3]])[None])
-    return np.take_along_axis(quads, corners.reshape(len(quads), 6), axis=1).reshape(-1, 3)
+    i, j, k, m = quads.T
+    return np.stack([i, j, np.where(flip, m, k), np.where(flip, j, i), k, m], axis=1).reshape(-1, 3)
 
 
 def _of_larger_faces(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -797,10 +797,11 @@ def test_a_pipe_in_a_pipe_and_rims_between_other_parts(make, separate):
 
 
 @pytest.mark.parametrize("flat", [False, True])
-def test_quads_and_larger_faces_are_divided_as_blender_divides_them(package, flat):
+@pytest.mark.parametrize("corners", [(3, 7), (3, 5), (4, 5)])  # from, to less than
+def test_quads_and_larger_faces_are_divided_as_blender_divides_them(package, flat, corners):
     """Random ones, most of them not flat or crossing themselves, and some with three equal corners."""
     module = importlib.import_module(f"{package}.scene.mesh_arrays")
-    count = np.random.default_rng(0).integers(3, 7, 600)
+    count = np.random.default_rng(0).integers(*corners, 600)
     points = np.random.default_rng(1).normal(size=(count.sum(), 3)).astype(np.float32)
     points = points.round() if flat else points
     mesh = bpy.data.meshes.new("Faces")
