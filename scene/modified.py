@@ -10,6 +10,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
+from ..core.surface.arrays import distinct_pairs
 from ..core.surface.mirror_plane import MirrorPlane
 from . import bridge, explode, hidden, mesh_arrays, quiet
 from .errors import SceneError
@@ -119,9 +120,9 @@ def both_sides(obj: bpy.types.Object, seen: bpy.types.Mesh, face_numbers: np.nda
     image = plane.heights(centers) * own < 0
     corners = mesh_arrays.read(seen.polygons, "loop_total", np.int32)
     edge, number = mesh_arrays.read(seen.loops, "edge_index", np.int32), np.repeat(face_numbers, corners)
-    found, place = np.unique(np.stack([edge, number], axis=1), axis=0, return_inverse=True)
+    found, place = distinct_pairs(edge, number)
     behind = np.repeat(image, corners)
-    reached = [np.bincount(place.ravel(), side, len(found)) > 0 for side in (behind, ~behind)]
+    reached = [np.bincount(place, side, len(found)) > 0 for side in (behind, ~behind)]
     over = found[reached[0] & reached[1], 1]
     twice = np.setdiff1d(np.intersect1d(face_numbers[image], face_numbers[~image]), over)
     another = int(face_numbers.max()) + 1 + np.arange(len(twice))

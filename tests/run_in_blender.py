@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Install the built extension into a full Blender and test the installed package.
 
-    python3 tests/run_in_blender.py --blender PATH [--part install|inside|command|window] [--gui PATH] [-k WORDS]
+    python3 tests/run_in_blender.py --blender PATH [--part install|inside|command|window|speed] [--gui PATH] [-k WORDS]
 
 Run tools/build.py first. Nothing of the user's Blender settings is touched: the extension goes into a
 settings folder of its own, which --resources keeps. The parts are
@@ -10,6 +10,7 @@ install  nothing more than that
 inside   tests/unit and tests/blender, in Blender's own Python, on the shipped files
 command  tests/installed: "blender --command reeb_parts" and scripts, as processes
 window   tests/window: buttons pressed with the real pointer; --gui names the program that opens the window
+speed    of those, what measures how long a person waits, for which nothing else may run
 
 Blender executes this file too, to run pytest in itself.
 """
@@ -25,7 +26,9 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-PARTS = {"inside": ["tests/unit", "tests/blender"], "command": ["tests/installed"], "window": ["tests/window"]}
+SPEED = ["tests/window/test_fluid.py", "tests/window/test_hands.py", "tests/window/test_large.py"]
+PARTS = {"inside": ["tests/unit", "tests/blender"], "command": ["tests/installed"],
+         "window": ["tests/window", *(f"--ignore={path}" for path in SPEED)], "speed": SPEED}
 # What takes long and asks nothing of Blender is tried in unit-newest: costs, whole runs of the presets
 # "Lavoue 2005" and "Liu 2007", and most whole runs of the others; those of the bundled models are tried here, too.
 ELSEWHERE = ("not 2005 and not 2007 and not test_cost and not test_scale and not test_flat_figures and not huge "

@@ -13,8 +13,8 @@ Blender comes with. The newest of these tries every operator in every situation;
 once and every situation at least once, on diagonals of this table that differ. What this machine has no Python for is
 left out, and said so.
 
-Two steps run at a time, the tests in the real window alone; what each printed is shown when it ends. A single step, or
---jobs 1, prints at once.
+Two steps run at a time, what is timed in the real window alone; what each printed is shown when it ends. A single step,
+or --jobs 1, prints at once.
 """
 
 from __future__ import annotations
@@ -303,8 +303,8 @@ def _full_blender(blender: str, gui: str | None, scratch: Path) -> list[Step]:
 
     if not gui:
         _left_out("the real-window tests, no --gui was given")
-    # Window tests measure how long a person waits, and draw in software: they need both cores.
-    parts = {"inside": False, "command": False, **({"window": True} if gui else {})}
+    # Some window tests measure how long a person waits, and draw in software: they need both cores.
+    parts = {"inside": False, "command": False, **({"window": False, "speed": True} if gui else {})}
     return [Step("build", build), *(Step(f"installed, {name}", partial(part, name), after="build", alone=alone)
                                     for name, alone in parts.items())]
 
