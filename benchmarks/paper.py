@@ -35,7 +35,8 @@ from scores import mean
 from tqdm import tqdm
 
 from core import Parameters, TriMesh, decompose
-from core.metrics import Overlap, rand_index_error
+from core.metrics import rand_index_error
+from core.surface.labels import majority
 
 RG, CC, SE, OURS = "Berretti 2009", "Lavoue 2005", "Liu 2007", "Perceptual"
 METHODS = (RG, CC, SE, OURS)
@@ -99,10 +100,7 @@ def merged_error(data: Path, labels: Path) -> float:
         people = arrays["human"].astype(np.int64)
     errors = []
     for person in people:
-        overlap = Overlap.of(parts, person)
-        most = np.zeros(overlap.pair[:, 0].max() + 1, np.int64)
-        order = np.argsort(overlap.n_elements, kind="stable")
-        most[overlap.pair[order, 0]] = overlap.pair[order, 1]  # the last one counts
+        most = majority(parts, person, np.ones(len(parts)), int(parts.max()) + 1)
         errors.append(rand_index_error(most[parts], person))
     return mean(errors)
 

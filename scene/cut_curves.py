@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..core.steps import Steps, stretched
-from ..core.surface.arrays import renumbered
+from ..core.surface.arrays import distinct_pairs, renumbered
 from ..core.surface.corners import CornerTable
 from . import bridge, mesh_arrays, smooth_faces
 from .temporary import freed
@@ -80,8 +80,7 @@ def _with_triangles(table: CornerTable, points: np.ndarray, labels: np.ndarray,
     # Edges by their ends: those there were, then those that divide faces.
     sides = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
     known = np.sort(table.edges[table.corner_edge[corner]], axis=1)
-    every, row = np.unique(np.concatenate([known, sides]), axis=0, return_inverse=True)
-    row = row.reshape(-1)
+    every, row = distinct_pairs(*np.concatenate([known, sides]).T)
     edge = np.full(len(every), -1)
     edge[row[: len(known)]] = table.corner_edge[corner]
     new = edge < 0

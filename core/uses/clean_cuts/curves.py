@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import renumbered
+from ...surface.arrays import renumbered, stable_order
 from ...surface.corners import CornerTable
 from .method import CleanCuts
 
@@ -108,7 +108,7 @@ def _sides(table: CornerTable, cuts: CleanCuts, after: np.ndarray, divided: np.n
     vertex, edge, face = table.corner_vertex[corner], table.corner_edge[corner], table.corner_face[corner]
     halved = crossed[edge]
     forward = table.edges[edge, 0] == vertex
-    order = np.argsort(np.concatenate([2 * corner, 2 * corner[halved] + 1]), kind="stable")
+    order = stable_order(np.concatenate([2 * corner, 2 * corner[halved] + 1]))
     point, key, face = (np.concatenate(columns)[order].astype(np.int64) for columns in (
         (vertex, len(table.vertices) + edge[halved]),
         (2 * edge + (halved & ~forward), 2 * edge[halved] + forward[halved]),
