@@ -12,6 +12,7 @@ from mathutils.geometry import delaunay_2d_cdt
 from scipy.sparse import coo_array, csr_array
 
 from ..core.surface.arrays import components, cross
+from ..core.surface.mesh import EdgeTable
 from ..core.uses.cap_surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
 from ..core.uses.rims import is_inside
 from ..core.uses.sleeves import Sleeve, sleeve
@@ -370,9 +371,8 @@ def _triangulated(rims: _Rims, inner: np.ndarray) -> tuple[np.ndarray, np.ndarra
 
 def _joining(triangles: np.ndarray, k: int) -> np.ndarray:
     """Edges inside that join two points of the curve, (j, 2)."""
-    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    edges, count = np.unique(edges, axis=0, return_counts=True)
-    return edges[(count == 2) & (edges < k).all(axis=1)]
+    table = EdgeTable.of(triangles, int(triangles.max(initial=-1)) + 1)
+    return table.vertices[(table.n_faces == 2) & (table.vertices < k).all(axis=1)]
 
 
 def _sleeved(found: Sleeve, curve: np.ndarray, body: Body, side: float) -> Iterator[Disc]:
