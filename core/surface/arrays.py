@@ -157,7 +157,7 @@ def stable_order(keys: np.ndarray) -> np.ndarray:
         return np.argsort(keys, kind="stable")
     keys = np.asarray(keys, np.int64)
     least, most = int(keys.min()), int(keys.max())
-    if most - least >= 2**62:
+    if most - least >= 2**63:
         return np.argsort(keys, kind="stable")
     for_place = (len(keys) - 1).bit_length()
     room = 63 - for_place
@@ -293,9 +293,15 @@ def expanded(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarr
     row, number : (count.sum(),) int64
         Range of each number, and the numbers.
     """
-    row = np.repeat(np.arange(len(first)), count)
-    step = np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count)
-    return row, first[row] + step
+    return np.repeat(np.arange(len(first)), count), ranges(first, count)
+
+
+def ranges(first: np.ndarray, count: np.ndarray) -> np.ndarray:
+    """What ``expanded`` returns without the range of each number: (count.sum(),) int64."""
+    before = np.cumsum(count, dtype=np.int64)
+    total = int(before[-1]) if len(before) else 0
+    before -= count
+    return np.arange(total) + np.repeat(first - before, count)
 
 
 def spread_evenly(area: np.ndarray, order: np.ndarray, count: int) -> np.ndarray:

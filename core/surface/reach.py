@@ -37,11 +37,12 @@ def within_reach(points: np.ndarray, triangles: np.ndarray, tried: np.ndarray, s
     -----
     O(t + 128**3) time and memory.
     """
-    low, size = points.min(axis=0), float(np.ptp(points, axis=0).max()) or 1.0
+    # By columns, which is many times as fast as all three together.
+    low, size = np.array([axis.min() for axis in points.T]), max(float(np.ptp(axis)) for axis in points.T) or 1.0
     n = int(np.clip(np.sqrt(len(triangles) / 6), 8, _MOST_CELLS))
     # One more cell on each side, for what is widened.
     scaled, start = ((places - low) * (n / size) + 1.0 for places in (points, start))
-    corners = [scaled[triangles[:, i]] for i in range(3)]
+    corners = [np.take(scaled, triangles[:, i], axis=0) for i in range(3)]
     first = (np.minimum(np.minimum(*corners[:2]), corners[2]) - _WIDER).astype(np.int32)
     last = (np.maximum(np.maximum(*corners[:2]), corners[2]) + _WIDER).astype(np.int32)
     marked = _boxes(first[tried], last[tried], n + 3) > 0

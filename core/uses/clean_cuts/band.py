@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from ...surface.arrays import expanded, renumbered, sums_by
+from ...surface.arrays import cross, lengths, ranges, renumbered, sums_by
 from ...surface.corners import CornerTable, next_of_owner
 
 
@@ -58,16 +59,17 @@ class Band:
         return cls(len(table.vertices), vertices, edges, faces, table.vertices[vertices], ends, corner_vertex,
                    corner_edge, corner_face, own, names)
 
-    @property
+    @cached_property
     def n_corners(self) -> np.ndarray:
         """(f,) int64, of each face."""
         return np.bincount(self.corner_face, minlength=len(self.faces))
 
-    @property
+    @cached_property
     def following(self) -> np.ndarray:
         """(c,) int64, the next corner of the face of each corner."""
         return next_of_owner(self.corner_face)
 
+    @cached_property
     def edge_labels(self) -> tuple[np.ndarray, np.ndarray]:
         """Smallest and largest label at each edge, (e,) int64 each."""
         low = np.full(len(self.edges), len(self.names))
@@ -76,6 +78,7 @@ class Band:
         np.maximum.at(high, self.corner_edge, self.labels[self.corner_face])
         return low, high
 
+    @cached_property
     def triangles(self) -> tuple[np.ndarray, np.ndarray]:
         """A fan of triangles for each face: (t, 3) vertices, and the face of each, (t,)."""
         count = self.n_corners
@@ -85,35 +88,51 @@ class Band:
         corners = np.stack([first[face], first[face] + step + 1, first[face] + step + 2], axis=1)
         return self.corner_vertex[corners], face
 
+    @cached_property
     def normals(self) -> np.ndarray:
         """Normal of each face as long as its area, (f, 3)."""
-        triangles, face = self.triangles()
+        triangles, face = self.triangles
         a, b, c = self.points[triangles].transpose(1, 0, 2)
-        return sums_by(face, 0.5 * np.cross(b - a, c - a), len(self.faces))
+        return sums_by(face, 0.5 * cross(b - a, c - a), len(self.faces))
 
+    @cached_property
+    def convex(self) -> np.ndarray:
+        """Whether each face has no corner that is turned in, (f,) bool."""
+        if (self.n_corners == 3).all():
+            return np.ones(len(self.faces), bool)
+        ahead = self.points[self.corner_vertex[self.following]] - self.points[self.corner_vertex]
+        behind = np.empty_like(ahead)
+        behind[self.following] = ahead
+        turn = (cross(behind, ahead) * self.normals[self.corner_face]).sum(axis=1)
+        inward = np.zeros(len(self.faces), bool)
+        inward[self.corner_face[turn <= 0]] = True
+        return ~inward
+
+    @cached_property
     def edge_length(self) -> np.ndarray:
         """(e,) float64."""
-        return np.linalg.norm(self.points[self.ends[:, 0]] - self.points[self.ends[:, 1]], axis=1)
+        return lengths(self.points[self.ends[:, 0]] - self.points[self.ends[:, 1]])
 
 
 def _around(table: CornerTable, vertices: np.ndarray, rings: int) -> np.ndarray:
     """The faces less than so many faces away from some vertices, (p,) bool."""
-    from scipy.sparse import coo_array  # imported here for the reason that surface.arrays.components gives
+    from scipy.sparse import csr_array  # imported here for the reason that surface.arrays.components gives
 
     n_corners = len(table.corner_vertex)
-    at = coo_array((np.ones(n_corners, np.int8), (table.corner_vertex, np.arange(n_corners))),
-                   shape=(len(table.vertices), n_corners)).tocsr()  # the corners at each vertex
     count = np.bincount(table.corner_face, minlength=table.n_faces)
-    first = np.cumsum(count) - count
+    end = np.cumsum(count)
+    first = end - count
+    of_faces = csr_array((np.ones(n_corners, np.int8), table.corner_vertex, np.append(0, end)),
+                         shape=(table.n_faces, len(table.vertices)))
+    at = of_faces.tocsc()  # the faces at each vertex
     near, inside = np.zeros(len(table.vertices), bool), np.zeros(table.n_faces, bool)
     reached = np.unique(vertices)
     near[reached] = True
     for _ in range(rings):
-        corners = at.indices[expanded(at.indptr[reached], np.diff(at.indptr)[reached])[1]]
-        faces = np.unique(table.corner_face[corners])
+        faces = np.unique(at.indices[ranges(at.indptr[reached], np.diff(at.indptr)[reached])])
         faces = faces[~inside[faces]]
         inside[faces] = True
-        reached = np.unique(table.corner_vertex[expanded(first[faces], count[faces])[1]])
+        reached = np.unique(table.corner_vertex[ranges(first[faces], count[faces])])
         reached = reached[~near[reached]]
         near[reached] = True
     return inside

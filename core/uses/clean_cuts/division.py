@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from ...surface.arrays import inverse
+from ...surface.arrays import inverse, stable_order
 from ...surface.corners import next_of_owner
 from ...surface.labels import majority
 from .band import Band
@@ -47,6 +48,13 @@ class Division:
     piece: np.ndarray
     odd: np.ndarray
 
+    @cached_property
+    def beside(self) -> tuple[np.ndarray, np.ndarray]:
+        """Portions of two faces that are the two sides of the same stretch, two (k,) int64."""
+        order = stable_order(self.side)
+        same = self.side[order[1:]] == self.side[order[:-1]]
+        return order[:-1][same], order[1:][same]
+
 
 def divide(band: Band, sides: Sides) -> Division:
     """Divide the faces by the sides that their corners are on."""
@@ -58,7 +66,7 @@ def divide(band: Band, sides: Sides) -> Division:
     # A piece that is one portion only would lie between the portion and itself: the face stays whole.
     thin = changes & changes[following]
     slim = (count == 2) & (np.bincount(face[thin], minlength=len(count)) > 0)
-    odd = (count > 1) & ~slim & (band.n_corners > 3) & (~_convex(band) | (count > 3))
+    odd = (count > 1) & ~slim & (band.n_corners > 3) & (~band.convex | (count > 3))
     whole = slim | odd | (count > 3)
     label = np.where(whole[face], _most(band, face, label, len(count))[face], label)
     changes &= ~whole[face]
@@ -83,7 +91,7 @@ def _portions(band: Band, sides: Sides) -> tuple[np.ndarray, ...]:
     second_common = (high_here == low_there) | (high_here == high_there)
     low = np.where(cut | first_common, low_here, high_here)
     high = np.where(cut | second_common, high_here, low_here)
-    order = np.argsort(np.concatenate([2 * corner, 2 * corner[cut] + 1]), kind="stable")
+    order = stable_order(np.concatenate([2 * corner, 2 * corner[cut] + 1]))
     edge = band.corner_edge
     columns = (
         (band.corner_face, band.corner_face[cut]),
@@ -100,32 +108,25 @@ def _decided(band: Band, face: np.ndarray, low: np.ndarray, high: np.ndarray) ->
     open_ = low < high
     if not open_.any():
         return low
+    asked = np.flatnonzero(open_)
+    here = np.zeros(len(band.faces), bool)
+    here[face[asked]] = True
+    others = np.flatnonzero(here[face] & ~open_)
     width = len(band.names)
-    key, count = np.unique(face[~open_] * width + low[~open_], return_counts=True)
+    key, count = np.unique(face[others] * width + low[others], return_counts=True)
 
     def number(label: np.ndarray) -> np.ndarray:
-        wanted = face * width + label
+        wanted = face[asked] * width + label
         place = np.minimum(np.searchsorted(key, wanted), max(len(key) - 1, 0))
-        own = 0.5 * (band.labels[face] == label)  # of equal ones, what the face was before
+        own = 0.5 * (band.labels[face[asked]] == label)  # of equal ones, what the face was before
         return own + (np.where(key[place] == wanted, count[place], 0) if len(key) else 0)
 
-    return np.where(open_ & (number(high) > number(low)), high, low)
+    label = low.copy()
+    label[asked] = np.where(number(high[asked]) > number(low[asked]), high[asked], low[asked])
+    return label
 
 
 def _most(band: Band, face: np.ndarray, label: np.ndarray, n_faces: int) -> np.ndarray:
     """The label of most portions of each face, of equal ones that of the face before, (f,) int64."""
     own = 0.5 * (label == band.labels[face]) / np.maximum(np.bincount(face, minlength=n_faces), 1)[face]
     return majority(face, label, 1.0 + own, n_faces)
-
-
-def _convex(band: Band) -> np.ndarray:
-    """Whether each face has no corner that is turned in, (f,) bool."""
-    if (band.n_corners == 3).all():
-        return np.ones(len(band.faces), bool)
-    ahead = band.points[band.corner_vertex[band.following]] - band.points[band.corner_vertex]
-    behind = np.empty_like(ahead)
-    behind[band.following] = ahead
-    turn = (np.cross(behind, ahead) * band.normals()[band.corner_face]).sum(axis=1)
-    inward = np.zeros(len(band.faces), bool)
-    inward[band.corner_face[turn <= 0]] = True
-    return ~inward

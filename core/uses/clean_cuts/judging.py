@@ -31,7 +31,7 @@ def judged(band: Band, sides: Sides, division: Division,
     broken : (groups,) bool
         Whether a part would be lost or torn, or the borders branch into several surfaces.
     """
-    low, high = band.edge_labels()
+    low, high = band.edge_labels
     faces = np.zeros(len(band.faces), bool)
     faces[band.corner_face[(low < high)[band.corner_edge]]] = True
     several = np.bincount(division.face[division.begins], minlength=len(faces)) > 1
@@ -100,9 +100,7 @@ def _segments(band: Band, division: Division) -> tuple[np.ndarray, np.ndarray]:
     three = count[face] == 3
     inner = np.stack([face[three], start[three]], axis=1)
     spokes = np.stack([len(band.vertices) + len(band.ends) + face[three], start[three]], axis=1)
-    order = np.argsort(division.side, kind="stable")
-    same = division.side[order[1:]] == division.side[order[:-1]]
-    one, other = order[:-1][same], order[1:][same]
+    one, other = division.beside
     along = one[division.label[one] != division.label[other]]
     stretch = np.stack([division.point[along], division.point[next_of_owner(division.face)[along]]], axis=1)
     return np.concatenate([chords, spokes, stretch]), inner
@@ -110,9 +108,7 @@ def _segments(band: Band, division: Division) -> tuple[np.ndarray, np.ndarray]:
 
 def _torn(band: Band, division: Division) -> np.ndarray:
     """Faces of parts that are lost, and faces in what is torn off a part, (f,) bool."""
-    order = np.argsort(division.side, kind="stable")
-    same = division.side[order[1:]] == division.side[order[:-1]]
-    one, other = order[:-1][same], order[1:][same]
+    one, other = division.beside
     a, b = division.face[one], division.face[other]
     kept = band.labels[a] == band.labels[b]
     count, before = components(len(band.faces), a[kept], b[kept])

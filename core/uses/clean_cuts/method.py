@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...steps import Steps, finished, stretched
-from ...surface.arrays import components, renumbered
+from ...surface.arrays import components, renumbered, stable_order
 from ...surface.corners import CornerTable
 from .band import Band
 from .division import Division, divide
 from .judging import judged
 from .pins import Pins
+from .shares import Diffusion
 from .sides import Sides, sides_of
 
 # How often shares are diffused, half an edge each time; where that goes wrong, as often as the next says.
@@ -97,10 +98,12 @@ def finding_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | Non
         return CleanCuts(*(np.empty(0, kind) for kind in (np.int64, float, np.int64, np.int64, np.int64, np.int64)))
     taken = np.zeros(len(band.vertices), bool)
     failed = taken
+    yield 0.05
+    diffusion = Diffusion.of(band)
     yield 0.1
     found: list[CleanCuts] = []
     pins = Pins.of(band)
-    low, high = band.edge_labels()
+    low, high = band.edge_labels
     borders = np.unique(band.ends[low < high])
     tries = [(steps, pins, 0) for steps in STEPS]
     if planar:
@@ -109,7 +112,7 @@ def finding_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | Non
         if taken[borders].all():
             break
         begin, end = (0.1 + 0.9 * (place + step) / len(tries) for step in (0, 1))
-        sides = yield from stretched(sides_of(band, held, steps, reach), begin, end)
+        sides = yield from stretched(sides_of(band, diffusion, held, steps, reach), begin, end)
         yield end
         division = divide(band, sides)
         yield end
@@ -147,13 +150,13 @@ def _chosen(band: Band, sides: Sides, division: Division, used: np.ndarray) -> C
 
 def _together(band: Band, found: list[CleanCuts], failed: np.ndarray) -> CleanCuts:
     """One answer of several, and how many groups of borders are at vertices that failed, (v,) bool."""
-    low, high = band.edge_labels()
+    low, high = band.edge_labels
     left = (low < high) & failed[band.ends].all(axis=1)
     _, vertex = renumbered(band.ends[left])
     kept = components(int(vertex.max(initial=-1)) + 1, vertex[:, 0], vertex[:, 1])[0] if left.any() else 0
     columns = {name: np.concatenate([getattr(one, name) for one in found])
                for name in ("edge", "share", "face", "start", "label", "odd")}
-    order = np.argsort(columns["face"], kind="stable")
+    order = stable_order(columns["face"])
     for name in ("face", "start", "label"):
         columns[name] = columns[name][order]
     return CleanCuts(**columns, planes=sum(one.planes for one in found), kept=kept)

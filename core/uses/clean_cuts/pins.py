@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...surface.arrays import stable_order, unit
 from .band import Band
 from .turning import turning
 
@@ -37,7 +38,7 @@ class Pins:
     @classmethod
     def of(cls, band: Band) -> Pins:
         """The vertices of creases that borders follow, also where they leave one for a few edges."""
-        low, high = band.edge_labels()
+        low, high = band.edge_labels
         sharp = _sharp(band)
         both = np.flatnonzero(sharp & (low < high))
         point, angle = turning(band.points, band.ends[both])
@@ -66,9 +67,8 @@ class Pins:
 
 def _sharp(band: Band) -> np.ndarray:
     """Whether the two faces at each edge turn by the angle of a crease, (e,) bool."""
-    normal = band.normals()
-    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
-    order = np.argsort(band.corner_edge, kind="stable")
+    normal = unit(band.normals)
+    order = stable_order(band.corner_edge)
     edge, face = band.corner_edge[order], band.corner_face[order]
     two = np.flatnonzero((edge[1:] == edge[:-1]) & (np.bincount(edge)[edge[1:]] == 2))
     sharp = np.zeros(len(band.edges), bool)

@@ -54,7 +54,7 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: 
     moments = sums_by(curve, (offset[:, :, None] * offset[:, None]).reshape(-1, 9), count).reshape(-1, 3, 3)
     size, axes = np.linalg.eigh(moments / np.bincount(curve)[:, None, None])
     normal = axes[:, :, 0]
-    length = sums_by(curve, band.edge_length()[crossed], count) / np.bincount(curve)
+    length = sums_by(curve, band.edge_length[crossed], count) / np.bincount(curve)
     away = np.zeros(count)
     np.maximum.at(away, curve, np.abs((offset * normal[curve]).sum(axis=1)))
     pair = np.sort(np.stack([top[a], top[b]], axis=1), axis=1)

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, eye_array
 
 from ...steps import Steps
-from ...surface.arrays import distinct_pairs, last_of_each, sums_by
+from ...surface.arrays import cross, distinct_pairs, last_of_each, lengths, sums_by
 from .band import Band
 from .pins import Pins
 
@@ -54,25 +54,46 @@ class Shares:
         return np.divide(first, total, out=np.full(len(ends), 0.5), where=total > 0).clip(0.0, 1.0)
 
 
-def diffusing(band: Band, pins: Pins, steps: int) -> Steps[Shares]:
+@dataclass(frozen=True, eq=False)
+class Diffusion:
+    """What diffusion starts from, and a step of it, whatever is pinned.
+
+    Attributes
+    ----------
+    shares : (v, n_labels) csr_array
+        Of the faces around each vertex, by area.
+    walk : (v, v) csr_array
+        One step.
+    """
+
+    shares: csr_array
+    walk: csr_array
+
+    @classmethod
+    def of(cls, band: Band) -> Diffusion:
+        """That of a band."""
+        triangles, face = band.triangles
+        a, b, c = band.points[triangles].transpose(1, 0, 2)
+        area = 0.5 * lengths(cross(b - a, c - a))
+        area += 1e-6 * area.mean()
+        shape = (len(band.vertices), len(band.names))
+        label = np.repeat(band.labels[face], 3)
+        shares = coo_array((np.repeat(area, 3), (triangles.ravel(), label)), shape=shape).tocsr()
+        return cls(_rows_to_one(shares), _walk(band, triangles))
+
+
+def diffusing(band: Band, diffusion: Diffusion, pins: Pins, steps: int) -> Steps[Shares]:
     """Find the shares after so many steps of diffusion, with the middle of each border where it was; in steps."""
-    triangles, face = band.triangles()
-    a, b, c = band.points[triangles].transpose(1, 0, 2)
-    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    area += 1e-6 * area.mean()
-    shape = (len(band.vertices), len(band.names))
-    label = np.repeat(band.labels[face], 3)
-    shares = coo_array((np.repeat(area, 3), (triangles.ravel(), label)), shape=shape).tocsr()
-    shares = _rows_to_one(shares)
-    yield 0.2
+    shape = diffusion.shares.shape
     # What is pinned stays half and half, and nothing diffuses across it.
     moving = np.ones(shape[0])
     moving[pins.vertex] = 0.0
     held = np.repeat(pins.vertex, 2), pins.pair.ravel()
     halves = coo_array((np.full(len(held[0]), 0.5), held), shape=shape).tocsr()
     moving = diags_array(moving).tocsr()
-    walk = moving @ _walk(band, triangles)
-    shares = moving @ shares + halves
+    walk = moving @ diffusion.walk
+    shares = moving @ diffusion.shares + halves
+    yield 0.5
     for step in range(steps):
         yield 0.5 + 0.4 * step / steps
         shares = walk @ shares + halves
@@ -97,7 +118,7 @@ def _walk(band: Band, triangles: np.ndarray) -> csr_array:
     for i in range(3):
         apex, p, q = (triangles[:, (i + k) % 3] for k in range(3))
         u, v = band.points[p] - band.points[apex], band.points[q] - band.points[apex]
-        across = np.linalg.norm(np.cross(u, v), axis=1)
+        across = lengths(cross(u, v))
         cotangent = np.divide((u * v).sum(axis=1), across, out=np.zeros(len(u)), where=across > 0).clip(-10, 10)
         rows += [p, q]
         columns += [q, p]
@@ -111,9 +132,9 @@ def _walk(band: Band, triangles: np.ndarray) -> csr_array:
 
 def _shifts(band: Band, shares: Shares) -> np.ndarray:
     """What to add to the shares of each part so that on average they are equal on the borders, (n_labels,)."""
-    low, high = band.edge_labels()
+    low, high = band.edge_labels
     cut = np.flatnonzero(low < high)
-    ends, length = band.ends[cut], band.edge_length()[cut]
+    ends, length = band.ends[cut], band.edge_length[cut]
     pairs, pair = distinct_pairs(low[cut], high[cut])
     gap = sum(shares.of(end, low[cut]) - shares.of(end, high[cut]) for end in ends.T) / 2
     total = sums_by(pair, length, len(pairs))

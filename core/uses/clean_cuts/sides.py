@@ -11,7 +11,7 @@ from ...steps import Steps, stretched
 from .band import Band
 from .pins import Pins, are_between
 from .planes import planes_of
-from .shares import diffusing
+from .shares import Diffusion, diffusing
 
 # A cut as near to a vertex as such a share of the edge goes through the vertex; in a plane, as the second says, in one
 # that was asked for, as the third.
@@ -38,12 +38,12 @@ class Sides:
     plane: np.ndarray
 
 
-def sides_of(band: Band, pins: Pins, steps: int, reach: int = 0) -> Steps[Sides]:
+def sides_of(band: Band, diffusion: Diffusion, pins: Pins, steps: int, reach: int = 0) -> Steps[Sides]:
     """Find the sides of smooth curves after so many steps of diffusion; in steps.
 
     reach : int, planes are taken, too, for bent curves that leave them by up to so many edges.
     """
-    shares = yield from stretched(diffusing(band, pins, steps), 0.0, 0.7)
+    shares = yield from stretched(diffusing(band, diffusion, pins, steps), 0.0, 0.7)
     yield 0.7
     top = shares.top
     a, b = band.ends.T

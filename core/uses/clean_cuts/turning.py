@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...surface.arrays import stable_order
+
 
 def turning(points: np.ndarray, segments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Measure by how much curves of straight segments turn at their points.
@@ -23,7 +25,7 @@ def turning(points: np.ndarray, segments: np.ndarray) -> tuple[np.ndarray, np.nd
         By how much the direction changes there, in radians.
     """
     ends = segments.ravel()
-    order = np.argsort(ends, kind="stable")
+    order = stable_order(ends)
     count = np.bincount(ends, minlength=len(points))
     point = np.flatnonzero(count == 2)
     place = np.cumsum(count)[point] - 2

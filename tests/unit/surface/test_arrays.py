@@ -4,16 +4,27 @@
 import numpy as np
 import pytest
 
-from core.surface.arrays import MANY, components, cross, expanded, first_of_rows, lengths, rounded_order, stable_order
+from core.surface.arrays import (
+    MANY,
+    components,
+    cross,
+    expanded,
+    first_of_rows,
+    lengths,
+    ranges,
+    rounded_order,
+    stable_order,
+)
 
 
 def test_ranges_are_listed_one_after_the_other():
     row, number = expanded(np.array([5, 0, 7, 2]), np.array([2, 0, 1, 3]))
     assert row.tolist() == [0, 0, 2, 3, 3, 3]
     assert number.tolist() == [5, 6, 7, 2, 3, 4]
+    assert not len(ranges(np.empty(0, np.int32), np.empty(0, np.int32)))
 
 
-@pytest.mark.parametrize(("low", "high"), [(0, 7), (-4, 4), (0, 2**40), (-(2**61), 2**61), (-(2**63), 2**63 - 1)])
+@pytest.mark.parametrize(("low", "high"), [(0, 7), (-4, 4), (0, 2**40), (-(2**61), 2**61), (0, 2**63 - 1), (-(2**63), 2**63 - 1)])
 @pytest.mark.parametrize("n", [0, 1, 50, 40_000])
 def test_equal_numbers_stay_in_their_order(low, high, n):
     keys = np.random.default_rng(n).integers(low, high, n)
