@@ -115,7 +115,7 @@ def _least(mesh: bpy.types.Mesh, stretch: np.ndarray, box: np.ndarray) -> int:
 def _surface(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The corners of the faces of a mesh, along the axes of the object, and the area that each stands for."""
     vertex, face = mesh_arrays.face_corners(mesh)
-    total = mesh_arrays.read(mesh.polygons, "loop_total", np.int32)
+    total = mesh_arrays.face_sizes(mesh)
     area = mesh_arrays.read(mesh.polygons, "area", np.float32).astype(np.float64) / total
     return mesh_arrays.basis_points(mesh)[vertex].astype(np.float64) @ stretch.T, area[face]
 

@@ -12,6 +12,13 @@ from mathutils.bvhtree import BVHTree
 from ..core.surface.arrays import cross, sums_by, unit
 
 
+def search_tree(points: np.ndarray, triangles: np.ndarray) -> BVHTree:
+    """A tree of triangles, (t, 3) int, between points, (n, 3) float64."""
+    # Tuples made of columns take two thirds of the time of lists made of rows.
+    rows = (list(zip(*array.T.tolist(), strict=True)) for array in (points, triangles))
+    return BVHTree.FromPolygons(*rows, all_triangles=True)
+
+
 @dataclass(frozen=True, eq=False)
 class Body:
     """Some triangles of a mesh, with numbers of their own for the vertices.
@@ -47,7 +54,7 @@ class Body:
         points, triangles = points[used], number[triangles]
         maybe = np.flatnonzero(np.isin(points[:, 0], curve[:, 0]))
         place = {bytes(points[index]): index for index in maybe.tolist()}
-        tree = BVHTree.FromPolygons(points.tolist(), triangles.tolist(), all_triangles=True)
+        tree = search_tree(points, triangles)
         own = np.array([place.get(bytes(point), -1) for point in np.ascontiguousarray(curve)])
         return cls(tree, points, triangles, labels, own, used)
 
@@ -112,7 +119,7 @@ class Body:
         within : (q, 2) int64
             Triangles of the surface.
         """
-        tree = BVHTree.FromPolygons(places.tolist(), triangles.tolist(), all_triangles=True)
+        tree = search_tree(places, triangles)
         pairs = np.array(tree.overlap(self.tree), np.int64).reshape(-1, 2)
         own = np.concatenate([self.own, np.full(len(places) - len(self.own), -2)])[triangles[pairs[:, 0]]]
         touch = (own[:, :, None] == self.triangles[pairs[:, 1]][:, None]).any(axis=(1, 2))

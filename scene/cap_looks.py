@@ -23,7 +23,7 @@ def map_caps(mesh: bpy.types.Mesh) -> None:
     if not cap.any() or not len(mesh.uv_layers):
         return
     points = mesh_arrays.basis_points(mesh).astype(np.float64)
-    count = mesh_arrays.read(mesh.polygons, "loop_total", np.int32)
+    count = mesh_arrays.face_sizes(mesh)
     vertex, on_cap = mesh_arrays.corner_vertices(mesh), np.repeat(cap, count)
     face = np.repeat(np.arange(len(count)), count)
     area = mesh_arrays.read(mesh.polygons, "area", np.float32)[~cap].sum(dtype=np.float64)

@@ -233,7 +233,7 @@ def _between_rims(bm: BMesh, holes: list[list[BMVert]], rims: list[list[BMVert]]
     corners = [*rim, *_inner(bm, rim, disc)]
     hole = holes[place[rim[0]]]
     step = 1 if hole[(hole.index(rim[0]) + 1) % len(hole)] == rim[1] else -1
-    return [tuple(corners[i] for i in triangle[::step]) for triangle in disc.triangles.tolist()], used
+    return _triangles_of(disc, corners, step), used
 
 
 def _fill(bm: BMesh, hole: list[BMVert], polygons: list[tuple[BMVert, ...]]) -> list[BMFace]:
@@ -277,7 +277,12 @@ def _surface(bm: BMesh, hole: list[BMVert], points: np.ndarray, discs: Discs) ->
     corners = [*rim, *_inner(bm, rim, disc)]
     # The triangles go round as the points do in the common order, which may be against the hole.
     step = -1 if order[1] != (order[0] + 1) % len(order) else 1
-    return [tuple(corners[i] for i in triangle[::step]) for triangle in disc.triangles.tolist()]
+    return _triangles_of(disc, corners, step)
+
+
+def _triangles_of(disc: Disc, corners: list[BMVert], step: int) -> list[tuple[BMVert, ...]]:
+    """The corners of each triangle of a surface, forwards, 1, or backwards, -1."""
+    return [(corners[i], corners[j], corners[k]) for i, j, k in disc.triangles[:, ::step].tolist()]
 
 
 def _inner(bm: BMesh, rim: list[BMVert], disc: Disc) -> list[BMVert]:

@@ -39,7 +39,7 @@ def read(mesh: bpy.types.Mesh) -> Elements:
             layers[f"\0{FREESTYLE} {domain}"] = Layer(FREESTYLE, domain, marks)
     if (weights := _weights(mesh)) is not None:
         layers[f"\0{WEIGHTS}"] = Layer(WEIGHTS, POINT, weights)
-    return Elements(mesh_arrays.edge_ends(mesh), mesh_arrays.read(mesh.polygons, "loop_total", np.int32),
+    return Elements(mesh_arrays.edge_ends(mesh), mesh_arrays.face_sizes(mesh),
                     mesh_arrays.corner_vertices(mesh), mesh_arrays.corner_edges(mesh), layers)
 
 

@@ -8,11 +8,12 @@ a second, where a BMesh takes many seconds.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from ..core.surface.arrays import expanded
+from ..core.surface.arrays import ranges
 
 POINT, EDGE, FACE, CORNER = DOMAINS = "POINT", "EDGE", "FACE", "CORNER"
 
@@ -107,7 +108,7 @@ class Elements:
         """(v, 3) float32."""
         return self.layers["position"].values
 
-    @property
+    @cached_property
     def corner_face(self) -> np.ndarray:
         """Face of each corner, (c,) int32."""
         return np.repeat(np.arange(len(self.count), dtype=np.int32), self.count)
@@ -126,17 +127,24 @@ class Elements:
         """Some faces, (k,) int64, and all that belongs to them."""
         count = self.count[faces].astype(np.int64)
         first = (np.cumsum(self.count, dtype=np.int64) - self.count)[faces]
-        corners = expanded(first, count)[1]
+        corners = ranges(first, count)
         return Selection(_used(self.corner_vertex[corners], len(self.points)),
                          _used(self.corner_edge[corners], len(self.ends)), faces, corners)
 
     def taken(self, chosen: Selection) -> Elements:
         """The elements that were chosen, with what they carry."""
-        vertex, edge = _numbers(chosen.vertices, len(self.points)), _numbers(chosen.edges, len(self.ends))
-        layers = {name: replace(layer, values=_take(layer.values, chosen.of(layer.domain)))
+        all_of = {domain: len(chosen.of(domain)) == self.size(domain) for domain in (POINT, EDGE)}
+        layers = {name: layer if all_of.get(layer.domain) else
+                  replace(layer, values=_take(layer.values, chosen.of(layer.domain)))
                   for name, layer in self.layers.items()}
-        return Elements(vertex[self.ends[chosen.edges]], self.count[chosen.faces],
-                        vertex[self.corner_vertex[chosen.corners]], edge[self.corner_edge[chosen.corners]], layers)
+        ends = self.ends if all_of[EDGE] else self.ends[chosen.edges]
+        vertex, edge = np.take(self.corner_vertex, chosen.corners), np.take(self.corner_edge, chosen.corners)
+        if not all_of[POINT]:
+            number = _numbers(chosen.vertices, len(self.points))
+            ends, vertex = number[ends], number[vertex]
+        if not all_of[EDGE]:
+            edge = _numbers(chosen.edges, len(self.ends))[edge]
+        return Elements(ends, self.count[chosen.faces], vertex, edge, layers)
 
     def grafted(self, other: Elements, vertices: np.ndarray, edges: np.ndarray, n_faces: int) -> Elements:
         """These elements, and those of another mesh that are new there, at the end.
@@ -204,7 +212,7 @@ def _take(values: Values, index: np.ndarray) -> Values:
         return np.take(values, index, axis=0)
     count = values.count[index]
     first = (np.cumsum(values.count) - values.count)[index]
-    return Ragged(count, values.items[expanded(first, count)[1]])
+    return Ragged(count, values.items[ranges(first, count)])
 
 
 def _nothing(like: Values, count: int) -> Values:

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from numpy.typing import DTypeLike
 
-from ..core.surface.arrays import cross, stable_order
+from ..core.surface.arrays import cross
 from ..core.surface.corners import CornerTable, edge_labels
 
 _VALUES = {  # of an attribute: the name of its values, their type, how many
@@ -110,7 +110,7 @@ def face_corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     fingerprint = mesh.reeb_parts.fingerprint if mesh.is_property_set("reeb_parts") else ""
     key = (fingerprint, len(mesh.vertices), len(mesh.polygons), len(mesh.loops))
     if key not in _face_corners:
-        total = read(mesh.polygons, "loop_total", np.int32)
+        total = face_sizes(mesh)
         face = np.repeat(np.arange(len(total), dtype=np.int32), total)
         corners = corner_vertices(mesh), face
         if not fingerprint:
@@ -150,6 +150,15 @@ def corner_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> Corn
     return CornerTable(points.astype(np.float64), edge_ends(mesh), vertex, corner_edges(mesh), face, len(mesh.polygons))
 
 
+def face_sizes(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Number of corners of each face, (p,) int32; not in Edit Mode."""
+    n = len(mesh.polygons)
+    if len(mesh.loops) == 3 * n:
+        return np.full(n, 3, np.int32)
+    # Where faces begin can be read faster than how many corners they have.
+    return np.diff(read(mesh.polygons, "loop_start", np.int32), append=np.int32(len(mesh.loops)))
+
+
 def cut_edges(mesh: bpy.types.Mesh, numbers: np.ndarray) -> np.ndarray:
     """Whether faces of different parts meet at each edge, (e,) bool."""
     _, face = face_corners(mesh)
@@ -166,14 +175,7 @@ def triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Blender's own triangulation, and the face of each triangle; not in Edit Mode."""
     if len(mesh.loops) == 3 * len(mesh.polygons):
         return corner_vertices(mesh).reshape(-1, 3), np.arange(len(mesh.polygons), dtype=np.int32)
-    return triangulated(basis_points(mesh), read(mesh.polygons, "loop_total", np.int32), corner_vertices(mesh))
-
-
-def _loop_triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Blender's list, which is slow to read."""
-    mesh.calc_loop_triangles()
-    items = mesh.loop_triangles
-    return read(items, "vertices", np.int32, 3), read(items, "polygon_index", np.int32)
+    return triangulated(basis_points(mesh), face_sizes(mesh), corner_vertices(mesh))
 
 
 def triangulated(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -194,20 +196,19 @@ def triangulated(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarra
         Rising.
     """
     three, four = count == 3, count == 4
-    corner = np.repeat(three, count)
-    found, face = corner_vertex[corner].reshape(-1, 3), np.flatnonzero(three).astype(np.int32)
     if three.all():
-        return found, face
+        return corner_vertex.reshape(-1, 3), np.arange(len(count), dtype=np.int32)
     if four.all():
         return _halves(points, corner_vertex.reshape(-1, 4)), np.repeat(np.arange(len(count), dtype=np.int32), 2)
-    halves = _halves(points, corner_vertex[np.repeat(four, count)].reshape(-1, 4))
-    found = np.concatenate([found, halves])
-    face = np.concatenate([face, np.repeat(np.flatnonzero(four), 2).astype(np.int32)])
+    number = np.maximum(count - 2, 0)
+    face = np.repeat(np.arange(len(count), dtype=np.int32), number)
+    found = np.empty((len(face), 3), np.int32)
+    of_three, of_four = np.repeat(three, number), np.repeat(four, number)
+    found[of_three] = corner_vertex[np.repeat(three, count)].reshape(-1, 3)
+    found[of_four] = _halves(points, corner_vertex[np.repeat(four, count)].reshape(-1, 4))
     if not (three | four).all():
-        others, of = _of_larger_faces(points, count, corner_vertex)
-        found, face = np.concatenate([found, others]), np.concatenate([face, of])
-    order = stable_order(face)
-    return found[order], face[order]
+        found[~(of_three | of_four)] = _of_larger_faces(points, count, corner_vertex)
+    return found, face
 
 
 def _halves(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
@@ -215,15 +216,15 @@ def _halves(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
 
     By the diagonal from the first to the third corner, unless both others lie on the same side of it.
     """
-    a, b, c, d = (points[quads[:, i]] for i in range(4))
+    a, b, c, d = (np.take(points, quads[:, i], axis=0) for i in range(4))  # faster than points[...]
     diagonal = c - a
     flip = np.einsum("ij,ij->i", cross(b - a, diagonal), cross(d - a, diagonal)) > 0
     i, j, k, m = quads.T
     return np.stack([i, j, np.where(flip, m, k), np.where(flip, j, i), k, m], axis=1).reshape(-1, 3)
 
 
-def _of_larger_faces(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The triangles of the faces of five corners or more, and the face of each; arguments as of ``triangulated``."""
+def _of_larger_faces(points: np.ndarray, count: np.ndarray, corner_vertex: np.ndarray) -> np.ndarray:
+    """The triangles of the faces of five corners or more, in their order; arguments as of ``triangulated``."""
     three = count <= 4
     corner = np.repeat(three, count)
     on = np.zeros(len(points), bool)
@@ -238,8 +239,8 @@ def _of_larger_faces(points: np.ndarray, count: np.ndarray, corner_vertex: np.nd
         mesh.attributes["position"].data.foreach_set("vector", points[used].ravel())
         mesh.attributes[".corner_vert"].data.foreach_set("value", place)
         mesh.polygons.foreach_set("loop_start", np.cumsum(count[~three], dtype=np.int32) - count[~three])
-        others, of = _loop_triangles(mesh)
-        return used[others], np.flatnonzero(~three)[of].astype(np.int32)
+        mesh.calc_loop_triangles()
+        return used[read(mesh.loop_triangles, "vertices", np.int32, 3)]  # which Blender lists face by face
     finally:
         bpy.data.meshes.remove(mesh)
 

@@ -118,7 +118,7 @@ def both_sides(obj: bpy.types.Object, seen: bpy.types.Mesh, face_numbers: np.nda
     own = 1 if plane.heights(shape.vertices).sum() > 0 else -1
     centers = mesh_arrays.read(seen.polygons, "center", np.float32, 3) @ shape.stretch.T
     image = plane.heights(centers) * own < 0
-    corners = mesh_arrays.read(seen.polygons, "loop_total", np.int32)
+    corners = mesh_arrays.face_sizes(seen)
     edge, number = mesh_arrays.read(seen.loops, "edge_index", np.int32), np.repeat(face_numbers, corners)
     found, place = distinct_pairs(edge, number)
     behind = np.repeat(image, corners)

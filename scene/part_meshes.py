@@ -231,6 +231,6 @@ def _set_normals(mesh: bpy.types.Mesh) -> None:
     if kept is None:
         return
     normals = mesh_arrays.read(kept.data, "vector", np.float32, 3)
-    normals[np.repeat(caps.is_cap(mesh), mesh_arrays.read(mesh.polygons, "loop_total", np.int32))] = 0
+    normals[np.repeat(caps.is_cap(mesh), mesh_arrays.face_sizes(mesh))] = 0
     mesh.attributes.remove(kept)
     mesh.normals_split_custom_set(normals)

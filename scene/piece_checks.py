@@ -10,9 +10,10 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core.surface.arrays import cross, renumbered
+from ..core.surface.arrays import cross, renumbered, stable_order
 from ..core.surface.reach import within_reach
 from . import caps, mesh_arrays, transaction
+from .bodies import search_tree
 
 CHECK = "reeb_parts_check"  # on a piece: what was found, as JSON
 
@@ -98,7 +99,7 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
     none = np.zeros(n_faces, bool)
     if not len(triangles):
         return Check(), Faults(none, none, none, none)
-    a, b, c = (points[triangles[:, i]] for i in range(3))
+    a, b, c = (np.take(points, triangles[:, i], axis=0) for i in range(3))
     vector = cross(b - a, c - a)  # as long as twice the area
     places = _Places.of(points, triangles, vector)
     tried = _tried(mesh, face)
@@ -161,7 +162,7 @@ def _tried(mesh: bpy.types.Mesh, face: np.ndarray) -> np.ndarray:
 def _tree(points: np.ndarray, triangles: np.ndarray) -> BVHTree:
     """A tree of some triangles."""
     used, place = renumbered(triangles) if len(triangles) < len(points) else (slice(None), triangles)
-    return BVHTree.FromPolygons(points[used].tolist(), place.tolist(), all_triangles=True)
+    return search_tree(points[used], place)
 
 
 def _crossing(tree: BVHTree, points: np.ndarray, triangles: np.ndarray, tried: np.ndarray,
@@ -204,11 +205,11 @@ class _Places:
     def of(cls, points: np.ndarray, triangles: np.ndarray, vector: np.ndarray) -> _Places:
         """Triangles of all sizes; vector : (t, 3), as long as twice the area."""
         area = np.sqrt(np.einsum("ij,ij->i", vector, vector))
-        # Large triangles first: what is thin is thin over some area.
-        some = np.sort(np.argsort(-area, kind="stable")[:: max(len(area) // _PLACES, 1)][:_PLACES])
+        # Large triangles first: what is thin is thin over some area. Their bits are in the order of the areas.
+        some = np.sort(stable_order(-area.view(np.int64))[:: max(len(area) // _PLACES, 1)][:_PLACES])
         some = some[area[some] > 0]
         out = vector[some] / area[some, None]
-        depth = 1e-5 * float(np.linalg.norm(np.ptp(points, axis=0)))
+        depth = 1e-5 * float(np.linalg.norm([np.ptp(axis) for axis in points.T]))
         return cls(some, points[triangles[some]].mean(axis=1) - depth * out, out, depth)
 
 

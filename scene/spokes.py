@@ -8,10 +8,10 @@ from operator import itemgetter
 from typing import TYPE_CHECKING
 
 import numpy as np
-from mathutils.bvhtree import BVHTree
 
 from ..core.surface.arrays import components, lengths, renumbered, rounded, sums_by
 from ..core.uses.cap_surfaces import common_order
+from .bodies import search_tree
 from .discs import LED_IN, PLAIN
 
 if TYPE_CHECKING:
@@ -183,7 +183,7 @@ def _crossings(sheets: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
     own = np.concatenate([one + before for (_, one), before in zip(sheets, np.cumsum(count) - count, strict=True)])
     triangles = number.ravel()[own]
     sheet = np.repeat(np.arange(len(sheets)), [len(one) for _, one in sheets])
-    tree = BVHTree.FromPolygons(places.tolist(), triangles.tolist(), all_triangles=True)
+    tree = search_tree(places, triangles)
     pairs = np.array(tree.overlap(tree), np.int64).reshape(-1, 2)
     pairs = pairs[sheet[pairs[:, 0]] < sheet[pairs[:, 1]]]
     apart = (triangles[pairs[:, 0]][:, :, None] != triangles[pairs[:, 1]][:, None]).all(axis=(1, 2))

@@ -153,6 +153,8 @@ def remove_one(obj: bpy.types.Object, name: str) -> None:
 def remove(obj: bpy.types.Object) -> None:
     """Remove the vertex groups that were made, and no other."""
     result = obj.data.reeb_parts
+    if {part.group for part in result.parts} >= set(obj.vertex_groups.keys()):
+        obj.vertex_groups.clear()  # at once, where each takes as long as all
     for part in result.parts:
         remove_one(obj, part.group)
         part.group = ""

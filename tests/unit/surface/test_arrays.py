@@ -24,7 +24,8 @@ def test_ranges_are_listed_one_after_the_other():
     assert not len(ranges(np.empty(0, np.int32), np.empty(0, np.int32)))
 
 
-@pytest.mark.parametrize(("low", "high"), [(0, 7), (-4, 4), (0, 2**40), (-(2**61), 2**61), (0, 2**63 - 1), (-(2**63), 2**63 - 1)])
+@pytest.mark.parametrize(("low", "high"), [
+    (0, 7), (-4, 4), (0, 2**40), (-(2**61), 2**61), (0, 2**63 - 1), (-(2**63), 2**63 - 1)])
 @pytest.mark.parametrize("n", [0, 1, 50, 40_000])
 def test_equal_numbers_stay_in_their_order(low, high, n):
     keys = np.random.default_rng(n).integers(low, high, n)
