@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import zip_longest
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from ..errors import ReebError
 from ..sentence import Sentence
 from ..surface.arrays import frozen, on_grid
 
-ROWS = 64  # number of rows evaluated at once; their intermediate arrays fit into the processor's cache
+ROWS = 8  # number of rows evaluated at once; their intermediate arrays fit into the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,25 +103,27 @@ class BoostedTrees:
         # Values that are 0 but for rounding are 0. The thresholds were trained on values of 32 bits.
         rows = (np.rint(rows * 2.0**26) / 2.0**26).astype(np.float32)
         feature, threshold, mask = self._by_node
-        every = np.uint16(0xFFFF)
         n_trees, n_leaves = self.leaf.shape
-        first = np.arange(n_trees) * n_leaves
+        first, lowest = np.arange(n_trees) * n_leaves, _lowest_bit()
         total = np.empty(len(rows))
         for start in range(0, len(rows), ROWS):
-            columns = np.ascontiguousarray(rows[start:start + ROWS].T)
-            left = np.where(columns[feature] <= threshold, every, mask)
-            left = np.bitwise_and.reduce(left.reshape(n_leaves - 1, n_trees, -1), axis=0)
-            lowest = left & (~left + np.uint16(1))
-            place = np.frexp(lowest.astype(np.float32))[1].T - 1
+            some = rows[start:start + ROWS]
+            goes_left = some.take(feature, axis=1, mode="clip") <= threshold
+            # -1, all bits set, where a row goes left: several times as fast as np.where.
+            reached = np.negative(goes_left.view(np.int8)).astype(np.int16).view(np.uint16) | mask
+            reached = np.bitwise_and.reduce(reached.reshape(len(some), n_leaves - 1, n_trees), axis=1)
             # One row at a time, in the order of the trees: the sum does not depend on the other rows.
-            total[start:start + ROWS] = np.ascontiguousarray(self.leaf.ravel()[first + place]).sum(axis=1)
+            total[start:start + ROWS] = self.leaf.ravel()[first + lowest[reached]].sum(axis=1)
         return on_grid(1.0 / (1.0 + np.exp(-total)))
 
     @cached_property
     def _by_node(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Feature, (t * i,), and threshold and mask, (t * i, 1), of all inner nodes: the first of every tree first.
+        """Feature, threshold and mask of all inner nodes, (t * i,) each: the first of every tree first."""
+        return self.feature.T.ravel(), self.threshold.T.ravel(), self.mask.T.ravel()
 
-        NumPy is several times faster when rows lie side by side in memory and nodes do not.
-        """
-        return (self.feature.T.ravel(), np.ascontiguousarray(self.threshold.T).reshape(-1, 1),
-                np.ascontiguousarray(self.mask.T).reshape(-1, 1))
+
+@cache
+def _lowest_bit() -> np.ndarray:
+    """Place of the lowest bit set in each number of 16 bits, (65536,) uint8; 0 for the number 0."""
+    number = np.arange(1 << 16)
+    return (np.frexp((number & -number).astype(np.float32))[1] - 1).clip(min=0).astype(np.uint8)

@@ -229,9 +229,15 @@ class Hierarchy:
 
         candidates : (k,) int64. Returns (k, k) float64: 1 where no merge joins two candidates, 0 of one and itself.
         """
-        a, b = np.meshgrid(candidates, candidates, indexing="ij")
-        table = np.append(self.salience, 1.0)[self.merge_of(a.ravel(), b.ravel())].reshape(a.shape)
-        table[a == b] = 0.0
+        order = np.argsort(self.dendrogram.place[candidates], kind="stable")
+        row = candidates[order]
+        step = np.append(self.salience, 1.0)[self.merge_of(row[:-1], row[1:])]
+        step[row[:-1] == row[1:]] = 0.0
+        # In the order of the dendrogram, two are parted by the most that parts any two neighbors between them.
+        between = np.triu(np.tile(np.append(0.0, step), (len(row), 1)), 1)
+        between = np.maximum.accumulate(between, axis=1)
+        table = np.empty_like(between)
+        table[np.ix_(order, order)] = between + between.T
         return table
 
 

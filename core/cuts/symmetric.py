@@ -13,7 +13,7 @@ of them is a number, whose bits say in which; one after the other is the exclusi
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from itertools import product
 
 import numpy as np
@@ -365,9 +365,15 @@ class _Groups:
 
     def number(self, holds: np.ndarray) -> np.ndarray:
         """Number of each of some sets, (k, g) bool -> (k,) int64."""
-        bits = 1 << np.arange(holds.shape[1])
+        bits, order, known = self._known
+        return order[np.searchsorted(known, holds @ bits).clip(max=len(order) - 1)]
+
+    @cached_property
+    def _known(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """What each way counts, (g,); the order of the sets by their sums of it, (s,); and these sums, which rise."""
+        bits = 1 << np.arange(self.holds.shape[1])
         order = np.argsort(self.holds @ bits)
-        return order[np.searchsorted((self.holds @ bits)[order], holds @ bits).clip(max=len(order) - 1)]
+        return bits, order, (self.holds @ bits)[order]
 
 
 class _Clusters:
@@ -437,7 +443,7 @@ class _Clusters:
         self.of[self.of == b] = a
         self.know_(np.append(a, self.image[a][self.image[a] >= 0]))
         self.least[b] = np.inf
-        stale = np.flatnonzero(near | (np.isin(self.nearest, (a, b)) & np.isfinite(self.least)))
+        stale = np.flatnonzero(near | (((self.nearest == a) | (self.nearest == b)) & np.isfinite(self.least)))
         self.search_(np.append(stale, a))
 
 

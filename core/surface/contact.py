@@ -20,6 +20,7 @@ from .mesh import TriMesh
 TOUCH, NEAR, SLACK = 0.01, 0.03, 0.005
 MAX_POINTS = 8_000  # of a denser surface so many are taken
 MAX_PAIRS = 2_000_000  # of points near each other that are looked at one by one
+FEW_LABELS = 24  # up to so many it is faster to search the nearest of each than to look at all pairs of points
 FAR_POINTS = 1_500  # to look farther than NEAR, where all pairs of points are compared in the end
 
 
@@ -93,23 +94,30 @@ def near_pairs(points: SurfacePoints, label: np.ndarray, radius: float) -> tuple
         A point, and the nearest one of another label.
     distance : (k,) float64
     """
-    tree = cKDTree(points.position)
-    if tree.count_neighbors(tree, radius) > MAX_PAIRS:
-        found = _nearest_of_each_label(points.position, label, radius)
-    else:
-        found = tree.query_pairs(radius, output_type="ndarray")
-        found = found[label[found[:, 0]] != label[found[:, 1]]]
-        found = np.concatenate([found, found[:, ::-1]]).astype(np.int64)
+    found = _near_points(points.position, label, radius)
     distance = np.linalg.norm(points.position[found[:, 0]] - points.position[found[:, 1]], axis=1)
     cells, cell = distinct_pairs(found[:, 0], label[found[:, 1]])
     nearest = last_of_each(cell, -distance, -found[:, 1], count=len(cells))
     return found[nearest], distance[nearest]
 
 
-def _nearest_of_each_label(position: np.ndarray, label: np.ndarray, radius: float) -> np.ndarray:
-    """Pairs (k, 2) int64 of a point and the nearest one of another label, one label after the other.
+def _near_points(position: np.ndarray, label: np.ndarray, radius: float) -> np.ndarray:
+    """Pairs (k, 2) int64 of points of different labels, with the nearest of each other label within the radius."""
+    if np.count_nonzero(np.bincount(label)) <= FEW_LABELS:
+        return _nearest_of_each_label(position, label, radius)
+    tree = cKDTree(position)
+    if tree.count_neighbors(tree, radius) > MAX_PAIRS:
+        return _nearest_of_each_label(position, label, radius)
+    found = tree.query_pairs(radius, output_type="ndarray")
+    found = found[label[found[:, 0]] != label[found[:, 1]]]
+    return np.concatenate([found, found[:, ::-1]]).astype(np.int64)
 
-    Slower than looking at all pairs of points, but not when thousands of points lie within the radius of each.
+
+def _nearest_of_each_label(position: np.ndarray, label: np.ndarray, radius: float) -> np.ndarray:
+    """Pairs (k, 2) int64 of a point and the nearest two of another label, one label after the other.
+
+    Faster than looking at all pairs of points where there are few labels, or thousands of points within the radius of
+    each. Two, because rounding must not choose among points that are equally near.
     """
     found = [np.empty((0, 2), np.int64)]
     order = np.argsort(label, kind="stable")
@@ -118,9 +126,9 @@ def _nearest_of_each_label(position: np.ndarray, label: np.ndarray, radius: floa
         others = np.flatnonzero(((position >= low) & (position <= high)).all(axis=1) & (label != label[mine[0]]))
         # Up to and with the radius.
         distance, nearest = cKDTree(position[mine]).query(
-            position[others], distance_upper_bound=np.nextafter(radius, np.inf))
-        within = np.isfinite(distance)
-        found.append(np.stack([others[within], mine[nearest[within]]], axis=1))
+            position[others], k=[1, 2], distance_upper_bound=np.nextafter(radius, np.inf))
+        other, rank = np.nonzero(np.isfinite(distance))
+        found.append(np.stack([others[other], mine[nearest[other, rank]]], axis=1))
     return np.concatenate(found)
 
 

@@ -8,7 +8,7 @@ between both [Podolak2006], [Besl1992].
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
@@ -108,6 +108,11 @@ class _Elements:
         equal = distance <= distance[:, :1] + SAME
         return distance[:, 0], np.where(equal, nearest, len(self.position)).min(axis=1)
 
+    @classmethod
+    def joined(cls, several: list[_Elements]) -> _Elements:
+        """All elements of some sets, one set after the other."""
+        return cls(*(np.concatenate([getattr(one, field.name) for one in several]) for field in fields(cls)))
+
     def mirrored(self, plane: MirrorPlane) -> _Elements:
         """The mirror images."""
         return _Elements(plane.mirrored(self.position), plane.turned(self.normal), self.area)
@@ -131,17 +136,17 @@ def mirror_plane(mesh: TriMesh) -> MirrorPlane | None:
     elements, middle, size = _Elements.of(mesh)
     few, probes = elements.some(COARSE[0]), elements.some(COARSE[1])
     start = [_oriented(normal, 0.0) for normal in _directions(elements)]
-    tried = [_improved(plane, few, probes, ROUGH) for plane in start]
+    tried = _improved(start, few, probes, ROUGH)
     share = max(plane.share for plane in tried)
     if share < LIKELY:
         return None
     chosen = next(k for k, plane in enumerate(tried) if plane.share >= share - EQUAL)
     many, probes = elements.some(FINE[0]), elements.some(FINE[1])
-    best = _improved(tried[chosen], many, probes)
+    best, = _improved([tried[chosen]], many, probes)
     if best.share < LEAST:
         return None
     if len(many.area) < mesh.n_faces:
-        best = _improved(best, elements, probes)
+        best, = _improved([best], elements, probes)
     # A plane through the middle, across a principal axis, is exact where the shape is, and the same in all poses.
     if (exact := _judged(start[chosen], many, probes)).share >= best.share - EXACT:
         best = exact
@@ -157,19 +162,24 @@ def _directions(elements: _Elements) -> np.ndarray:
     return np.array(tried)
 
 
-def _improved(plane: MirrorPlane, surface: _Elements, probes: _Elements, still: float = STILL) -> MirrorPlane:
-    """The plane of symmetry near a given one, and its share; still : by how little a plane moves that is found."""
+def _improved(
+    planes: list[MirrorPlane], surface: _Elements, probes: _Elements, still: float = STILL
+) -> list[MirrorPlane]:
+    """The planes of symmetry near given ones, and their shares; still : by how little a plane moves that is found."""
+    planes, moving = list(planes), list(range(len(planes)))
+    worst = int(KEPT * len(probes.area))
     for _ in range(STEPS):
-        image = probes.mirrored(plane)
-        distance, nearest = surface.nearest(image)
-        used = distance <= np.partition(distance, int(KEPT * len(distance)))[int(KEPT * len(distance))]
-        before, after = probes.position[used], surface.position[nearest[used]]
-        better = _halfway(before, after)
-        moved = np.abs(better.normal - plane.normal).max() + abs(better.offset - plane.offset)
-        plane = better
-        if moved < still:
+        found = surface.nearest(_Elements.joined([probes.mirrored(planes[k]) for k in moving]))
+        distance, nearest = (of_image.reshape(len(moving), -1) for of_image in found)
+        used = distance <= np.partition(distance, worst, axis=1)[:, worst, None]
+        before = [planes[k] for k in moving]
+        for k, chosen, image in zip(moving, used, nearest, strict=True):
+            planes[k] = _halfway(probes.position[chosen], surface.position[image[chosen]])
+        moving = [k for k, plane in zip(moving, before, strict=True)
+                  if np.abs(planes[k].normal - plane.normal).max() + abs(planes[k].offset - plane.offset) >= still]
+        if not moving:
             break
-    return _judged(plane, surface, probes)
+    return [_judged(plane, surface, probes) for plane in planes]
 
 
 def _judged(plane: MirrorPlane, surface: _Elements, probes: _Elements) -> MirrorPlane:
