@@ -10,7 +10,7 @@ from ..core.steps import Steps, stretched
 from ..scene import piece_objects, store, targets
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
-from ..scene.part_list import wanted_numbers
+from ..scene.part_list import check_parts, wanted_numbers
 from ..scene.reporting import ReportingOperator
 from ..scene.selection import select_objects
 from ..scene.settings import SeparateProperties
@@ -26,6 +26,14 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
     bl_label = "Separate Parts into Objects"
     stage = n_("separating parts")
 
+    @classmethod
+    def check_context(cls, context: bpy.types.Context) -> None:
+        # Then a piece is active. Blender shows the panel with the settings of what was done last only where that could
+        # be done again, and asks before it takes back what was done.
+        done = context.window_manager.operators
+        if not done or done[-1].bl_idname != cls.__name__:
+            super().check_context(context)
+
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, SeparateProperties, context)
         n_vertices = sum(len(obj.data.vertices) for obj in targets.chosen_objects(context))
@@ -36,9 +44,10 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
         for name in self.rows:
-            layout.prop(self, name)
+            layout.row().prop(self, name, expand=name == "which")
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
+        check_parts(context.view_layer.objects.active)
         objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
         made = []
         with object_mode(context):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a person does first, in a real window: import a model, open the tab, press Decompose, undo.
+"""What a person does first, in a real window: import a model, open the tab, press Decompose, undo; separate, adjust.
 
 Executed inside Blender by a program that opens its window on a display of its own, where ``xdotool`` and
 ImageMagick's ``import`` are at hand (pointer.py uses them). Each value that steps() yields is the seconds to
@@ -40,6 +40,7 @@ def steps():
     seen["redone"] = scene_facts()
     yield 0.5
     pointer.shot("4_redone.png")
+    yield from adjust_separate(seen)
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
 
@@ -75,6 +76,30 @@ def press_decompose(seen):
         raise TimeoutError("no parts after a click on Decompose, see failed.png")
     yield from pointer.rest(*pointer.in_view(0.4))
     yield 1.0
+
+
+def adjust_separate(seen):
+    """Press Separate, open the panel of what was done last, and have the holes closed there."""
+    yield from pointer.push("reeb_parts.separate")
+    yield from pointer.until(lambda: pieces(), pointer.PATIENCE)
+    yield 1.0
+    seen["separated"] = pieces()
+    panel = pointer.region("HUD")
+    yield from pointer.press(*pointer.from_top(panel.x + pointer.unit(), panel.y + 0.5 * panel.height))
+    yield from pointer.until(lambda: panel.height > 10 * pointer.unit())
+    yield 0.5
+    # Under its title, the parts and the cuts.
+    row = pointer.from_top(panel.x + 0.45 * panel.width, panel.y + panel.height - 4.5 * pointer.unit())
+    yield from pointer.press(*row)
+    yield from pointer.until(lambda: any(pieces().values()), pointer.PATIENCE)
+    yield 0.5
+    seen["adjusted"] = pieces()
+    pointer.shot("5_adjusted.png")
+
+
+def pieces():
+    """The pieces that there are, and whether each has closed holes."""
+    return {obj.name: "reeb_cap" in obj.data.attributes for obj in bpy.data.objects if "reeb_parts_number" in obj}
 
 
 def scene_facts():

@@ -39,7 +39,13 @@ def test_redo_brings_all_of_it_again(seen):
     assert seen["redone"] == seen["after"]
 
 
+def test_separate_can_be_adjusted_once_a_piece_is_active(seen):
+    assert len(seen["separated"]) == len(seen["after"]["parts"])
+    assert seen["separated"] == dict.fromkeys(seen["separated"], False)
+    assert seen["adjusted"] == dict.fromkeys(seen["separated"], True)
+
+
 def test_pictures_are_left(seen):
     assert [path.name for path in sorted(OUT.glob("*.png"))] == [
-        "1_tab.png", "2_decomposed.png", "3_undone.png", "4_redone.png",
+        "1_tab.png", "2_decomposed.png", "3_undone.png", "4_redone.png", "5_adjusted.png",
     ]  # fmt: skip
