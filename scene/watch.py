@@ -11,7 +11,7 @@ import time
 import bpy
 from bpy.app.handlers import persistent
 
-from . import graph_follow, graph_objects, mesh_arrays, redraw, store, transaction
+from . import graph_follow, graph_objects, mesh_arrays, redraw, seen_points, store, transaction
 
 REST = 0.3  # seconds
 
@@ -39,6 +39,7 @@ def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if not found:
         return
     for obj in found:
+        seen_points.evaluated(obj)
         graph_follow.soon(obj)
     _waiting.update(obj.data.session_uid for obj in found)
     _last = time.monotonic()
@@ -57,6 +58,7 @@ def _changed_objects(depsgraph: bpy.types.Depsgraph) -> list[bpy.types.Object]:
 def _animated(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Another frame is shown, which is no edit."""
     for obj in _changed_objects(depsgraph):
+        seen_points.evaluated(obj)
         graph_follow.soon(obj)
 
 
@@ -64,6 +66,7 @@ def _animated(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
 def _opened(*_: object) -> None:
     """A file was opened: where graphs are seen is not stored."""
     graph_follow.forget()
+    seen_points.forget()
     for collection in bpy.data.collections:
         source = collection.get(graph_objects.SOURCE)
         if source is not None and any(modifier.show_viewport for modifier in source.modifiers):
@@ -100,6 +103,7 @@ def unregister() -> None:
     bpy.app.handlers.frame_change_post.remove(_animated)
     bpy.app.handlers.depsgraph_update_post.remove(_changed)
     graph_follow.stop()
+    seen_points.forget()
     if bpy.app.timers.is_registered(_look):
         bpy.app.timers.unregister(_look)
     if bpy.app.timers.is_registered(_tidy):

@@ -19,6 +19,7 @@ from ..core.steps import Steps
 from ..scene import bridge, cut_curves, explode, graph_objects, mesh_arrays, selection, store
 from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
+from ..scene.seen_points import seen_points, version
 from .lines import Lines, Surface
 from .settling import Settling
 from .view_tool import CHANGED
@@ -91,7 +92,7 @@ def outline(obj: bpy.types.Object, numbers: list[int] | None, curves: Curves | N
         The parts are out of date.
     """
     mesh = obj.data
-    part, points = store.load(mesh).face_numbers, mesh_arrays.shown_points(obj)
+    part, points = store.load(mesh).face_numbers, seen_points(bpy.context, obj)
     hidden, gone = _hidden(mesh, part)
     if curves is None or (hidden is not None and gone is None):
         mine = (part if numbers is None else np.isin(part, numbers)).astype(np.int64)
@@ -131,7 +132,7 @@ def without_outline(obj: bpy.types.Object, numbers: list[int]) -> np.ndarray:
     if not whole.any():
         return np.empty((0, 3, 3), np.float32)
     corners, of = mesh_arrays.triangles(mesh)
-    return mesh_arrays.shown_points(obj)[corners[whole[of]]]
+    return seen_points(bpy.context, obj)[corners[whole[of]]]
 
 
 def draw() -> None:
@@ -167,7 +168,7 @@ def _build(obj: bpy.types.Object, numbers: list[int], show_cuts: bool, cut: str)
     keys = obj.data.shape_keys
     mix = [(key.value, key.mute) for key in keys.key_blocks] + [obj.active_shape_key_index] if keys else []
     key = (obj.session_uid, obj.data.session_uid, result.fingerprint, result.numbers, tuple(numbers), hash(hidden),
-           tuple(mix), show_cuts, cut, curves is None)
+           tuple(mix), version(obj), show_cuts, cut, curves is None)
     if key == _built:
         return
     _built = key

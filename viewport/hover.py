@@ -15,6 +15,7 @@ import numpy as np
 
 from ..scene import explode, mesh_arrays, part_names, store
 from ..scene.errors import SceneError
+from ..scene.seen_points import seen_points, version
 from . import pointing, settling
 from .lines import Surface
 
@@ -63,7 +64,7 @@ def clear() -> None:
 
 def number(obj: bpy.types.Object) -> int:
     """The part of an object that is filled, 0 for none."""
-    return _pointed.number if _pointed is not None and _pointed.key == pointing.result_key(obj) else 0
+    return _pointed.number if _pointed is not None and _pointed.key == _key(obj) else 0
 
 
 def point(context: bpy.types.Context, mouse: tuple[int, int]) -> None:
@@ -79,9 +80,14 @@ def point(context: bpy.types.Context, mouse: tuple[int, int]) -> None:
     if target is None:
         _pointed = None
         return
-    key, part = pointing.result_key(obj), model.number(target)
+    key, part = _key(obj), model.number(target)
     if _pointed is None or (_pointed.key, _pointed.number) != (key, part):
         _pointed = Pointed(key, part, part_names.part_name(obj.data, part), _triangles(obj, key, model, part))
+
+
+def _key(obj: bpy.types.Object) -> tuple:
+    """Changes with the object, its mesh and its parts, and where these are seen."""
+    return *pointing.result_key(obj), version(obj)
 
 
 def _triangles(obj: bpy.types.Object, key: tuple, model: pointing.Model, part: int) -> np.ndarray:
@@ -91,7 +97,7 @@ def _triangles(obj: bpy.types.Object, key: tuple, model: pointing.Model, part: i
         return np.empty((0, 3, 3), np.float32)
     if _surface is None or _surface[0] != key:
         corners, face = mesh_arrays.triangles(obj.data)
-        _surface = key, mesh_arrays.shown_points(obj)[corners], model.numbers[face]
+        _surface = key, seen_points(bpy.context, obj)[corners], model.numbers[face]
     return _surface[1][_surface[2] == part]
 
 
@@ -99,7 +105,7 @@ def draw(context: bpy.types.Context) -> None:
     """Fill the part, in the viewport that Blender is drawing."""
     global _named_in
     obj = context.view_layer.objects.active
-    if _pointed is None or context.window.modal_operators or _pointed.key != pointing.result_key(obj):
+    if _pointed is None or context.window.modal_operators or _pointed.key != _key(obj):
         return
     _named_in = context.region.as_pointer()
     if not len(_pointed.triangles):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
@@ -14,6 +15,7 @@ from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
 from ..scene import bridge, cut_curves, edits, mesh_arrays, part_list, part_names
 from ..scene.errors import SceneError
+from ..scene.seen_points import seen_points
 from .pointing import Model, Target
 
 if TYPE_CHECKING:
@@ -26,6 +28,7 @@ class Knife:
     def __init__(self, obj: bpy.types.Object, model: Model) -> None:
         self.model = model
         self.table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
+        self.seen = seen_points(bpy.context, obj).astype(np.float64)  # where the vertices are drawn
         self._parts: dict[int, CornerTable] = {}  # corners of the parts that were asked for
         self._surface: tuple[FaceGraph, CornerTable, np.ndarray] | None = None  # for curves
 
@@ -47,9 +50,12 @@ class Knife:
         return found, found.around(target.location) if target.on_graph else found.through(target.face)
 
     def ring(self, target: Target) -> np.ndarray:
-        """The lines of the contour, (s, 2, 3) float64 in coordinates of the mesh."""
+        """The lines of the contour, (s, 2, 3) float64 in coordinates of the mesh, where they are seen."""
+        from ..core.graph.contours import contours
+
         found, chosen = self.contour(target)
-        return found.segments[found.label == chosen]
+        table = replace(self._parts[self.model.number(target)], vertices=self.seen)
+        return contours(self.model.stored.decomposition.field, target.level, table).segments[found.label == chosen]
 
     def finding_curve(self, obj: bpy.types.Object, target: Target, planar: bool) -> Steps[np.ndarray]:
         """Find the lines that Separate would cut along there, in steps; as those of ``ring``.
@@ -71,7 +77,7 @@ class Knife:
         numbers = np.where(side, new, self.model.numbers)
         curves = yield from stretched(cut_curves.finding_curves(table, points, numbers, planar), 0.1, 1.0)
         here = (curves.pair == (old, new)).all(axis=1)
-        return curves.points(self.table.vertices)[curves.segments[here]]
+        return curves.points(self.seen)[curves.segments[here]]
 
     def sides(self, target: Target, face_graph: FaceGraph) -> np.ndarray | None:
         """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off.

@@ -14,6 +14,7 @@ from ..core.sentence import Count
 from ..core.steps import Steps
 from ..scene import cut_curves, edits, mesh_arrays, part_list
 from ..scene.errors import SceneError
+from ..scene.seen_points import seen_points
 from ..scene.store import Stored
 from .boundary import Boundary, write_moved
 from .colored_tool import ColoredTool
@@ -91,7 +92,7 @@ class RingTool(ColoredTool):
         self.moving = self.boundaries(obj, self.model.stored)
         lows, highs = zip(*(boundary.most for boundary in self.moving), strict=True)
         self.limits = max(lows), max(highs)
-        self.points, self.edges = mesh_arrays.shown_points(obj), mesh_arrays.edge_ends(obj.data)
+        self.points, self.edges = seen_points(bpy.context, obj), mesh_arrays.edge_ends(obj.data)
         self.typed = ""
 
     def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:

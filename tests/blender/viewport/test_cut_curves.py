@@ -82,7 +82,8 @@ MESHES = {
 
 @pytest.fixture
 def modules(package):
-    names = {"core": ("steps",), "scene": ("cut_curves", "part_meshes", "bridge", "mesh_arrays", "errors"),
+    names = {"core": ("steps",),
+             "scene": ("cut_curves", "part_meshes", "bridge", "mesh_arrays", "errors", "seen_points"),
              "viewport": ("highlight", "knife", "pointing", "ring_tool", "settling")}
     return SimpleNamespace(**{name: importlib.import_module(f"{package}.{folder}.{name}")
                               for folder, several in names.items() for name in several})
@@ -206,6 +207,79 @@ def test_rings_at_rest_are_the_curve_of_the_parts_that_are_shown(tree, modules):
     tool.go_to(tree, 2)
     assert not np.array_equal(tool._shown, model.numbers)
     assert len(modules.steps.finished(tool.finding_rim(tool._shown, False)))
+
+
+@pytest.fixture
+def hooked(tree):
+    """What a hook does to all vertices of the tree, (4, 4), and the empty that moves them."""
+    empty = bpy.data.objects.new("Hook", None)
+    bpy.context.collection.objects.link(empty)
+    empty.matrix_world = Matrix.Rotation(0.8, 4, "Y") @ Matrix.Translation((3.0, -2.0, 1.0))
+    hook = tree.modifiers.new("Hook", "HOOK")
+    hook.falloff_type, hook.object = "NONE", empty
+    hook.vertex_indices_set(range(len(tree.data.vertices)))
+    bpy.context.view_layer.update()
+    hook.matrix_inverse = tree.matrix_world
+    bpy.context.view_layer.update()
+    return np.array(tree.matrix_world.inverted() @ empty.matrix_world @ tree.matrix_world), empty
+
+
+def moved(lines, matrix):
+    return lines @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+@pytest.mark.parametrize("others", [[], ["SUBSURF"], ["EDGE_SPLIT"], ["WEIGHTED_NORMAL", "MULTIRES", "SUBSURF"]])
+@pytest.mark.parametrize("cut", ["SMOOTH", "FACES"])
+def test_lines_go_where_modifiers_move_the_surface(tree, hooked, modules, cut, others):
+    (active, *_) = [part.number for part in tree.data.reeb_parts.parts]
+    curves = modules.highlight.curves_of(tree, cut)
+    model, tool = modules.pointing.Model(tree), modules.ring_tool.RingTool()
+    tool.model, tool._key, tool._shown = model, modules.pointing.result_key(tree), model.numbers
+    target = model._on_face(0, model.face_center[0])
+
+    def drawn():
+        bpy.context.view_layer.update()
+        tool.read(tree)
+        tool.go_to(tree, 1)
+        return [*(modules.highlight.outline(tree, parts, curves)[0] for parts in ([active], None)),
+                modules.knife.Knife(tree, model).ring(target).reshape(-1, 3), tool.rim.reshape(-1, 3)]
+
+    tree.modifiers["Hook"].show_viewport = False
+    at_rest = drawn()
+    tree.modifiers["Hook"].show_viewport = True
+    for kind in others:
+        modifier = tree.modifiers.new(kind, kind)
+        if kind == "SUBSURF":
+            modifier.subdivision_type = "SIMPLE"  # new vertices, but all in the faces that there were
+    assert min(map(len, at_rest)) > 5
+    for before, after in zip(at_rest, drawn(), strict=True):
+        assert after == pytest.approx(moved(before, hooked[0]), abs=1e-4)
+
+
+def test_lines_lie_on_a_smoothed_surface_and_stay_where_other_faces_are_made(tree, modules):
+    at_rest = modules.highlight.outline(tree, None)[0]
+    tree.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    bpy.context.view_layer.update()
+    seen = tree.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    smoothed = modules.highlight.outline(tree, None)[0]
+    away = cKDTree(read(seen.vertices, "co", np.float32, 3)).query(smoothed)[0]
+    assert away.max() == 0.0
+    assert np.abs(smoothed - at_rest).max() > 1e-3
+    tree.modifiers.new("Decimate", "DECIMATE").ratio = 0.5
+    bpy.context.view_layer.update()
+    assert np.array_equal(modules.highlight.outline(tree, None)[0], at_rest)
+
+
+def test_lines_are_built_again_once_the_object_is_evaluated_anew(tree, hooked, modules):
+    before = modules.seen_points.version(tree)
+    hooked[1].location.x += 1
+    bpy.context.view_layer.update()
+    after = modules.seen_points.version(tree)
+    assert after > before > 0
+    bpy.context.view_layer.update()
+    assert modules.seen_points.version(tree) == after
+    tree.modifiers["Hook"].show_viewport = False
+    assert modules.seen_points.version(tree) == 0
 
 
 def test_what_takes_long_is_found_bit_by_bit_once_the_view_rests(modules):

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the vertices of a mesh are seen: in a pose, and as other modifiers move them."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from . import mesh_arrays
+
+# Modifiers that move vertices or change what these carry, and such that put new ones behind those that there were.
+_MOVE = {
+    "ARMATURE", "CAST", "CLOTH", "CORRECTIVE_SMOOTH", "CURVE", "DATA_TRANSFER", "DISPLACE", "HOOK", "LAPLACIANDEFORM",
+    "LAPLACIANSMOOTH", "LATTICE", "MESH_CACHE", "MESH_DEFORM", "NORMAL_EDIT", "SHRINKWRAP", "SIMPLE_DEFORM", "SMOOTH",
+    "SOFT_BODY", "SURFACE_DEFORM", "UV_PROJECT", "UV_WARP", "VERTEX_WEIGHT_EDIT", "VERTEX_WEIGHT_MIX",
+    "VERTEX_WEIGHT_PROXIMITY", "WARP", "WAVE", "WEIGHTED_NORMAL",
+}  # fmt: skip
+_DIVIDE = {"MULTIRES", "SUBSURF"}
+
+_counts: dict[int, int] = {}  # by session_uid of objects: how often they were evaluated anew
+
+
+def forget() -> None:
+    """Free what is kept in memory."""
+    _counts.clear()
+
+
+def evaluated(obj: bpy.types.Object) -> None:
+    """An object was evaluated anew."""
+    _counts[obj.session_uid] = _counts.get(obj.session_uid, 0) + 1
+
+
+def version(obj: bpy.types.Object) -> int:
+    """A number that changes when an object with modifiers is evaluated anew; 0 without modifiers that are seen."""
+    return 1 + _counts.get(obj.session_uid, 0) if _is_modified(obj) else 0
+
+
+def seen_points(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray:
+    """Where each vertex of an object's mesh is seen, (n, 3) float32 in the object's coordinates; not in Edit Mode.
+
+    Where modifiers make other faces than the mesh has and do not just divide them, as Remesh does, that is where it
+    is without them.
+    """
+    points, own = mesh_arrays.shown_points(obj), obj.data
+    if not _is_modified(obj):
+        return points
+    mesh = obj.evaluated_get(context.evaluated_depsgraph_get()).data
+    seen = mesh_arrays.basis_points(mesh)
+    if (len(mesh.polygons), len(mesh.loops)) == (len(own.polygons), len(own.loops)):
+        before, after = mesh_arrays.corner_vertices(own), mesh_arrays.corner_vertices(mesh)
+        if len(seen) == len(points) and np.array_equal(before, after):
+            return seen
+        points[before] = seen[after]  # where edges are split, there are more vertices
+    elif {modifier.type for modifier in _shown(obj)} <= _MOVE | _DIVIDE and len(seen) > len(points):
+        return seen[: len(points)]
+    return points
+
+
+def _is_modified(obj: bpy.types.Object) -> bool:
+    return bool(_shown(obj))
+
+
+def _shown(obj: bpy.types.Object) -> list[bpy.types.Modifier]:
+    return [modifier for modifier in obj.modifiers if modifier.show_viewport]
