@@ -192,20 +192,26 @@ def _to_the_middle(bm: BMesh, stretches: list[list[BMVert]], ways: list[np.ndarr
     These are the same for all parts that meet. So each stretch is closed alike on both sides, and nothing is left out
     between the parts.
     """
+    from .spokes import apart
+
     starts = [stretch[0] for stretch in stretches]
     n = len(starts)
-    middle = _moved(bm, _between(bm, starts, np.full(n, 1 / n)), ways[0][-1])
+    made = {ways[0][-1].tobytes(): _moved(bm, _between(bm, starts, np.full(n, 1 / n)), ways[0][-1])}
     spokes = []
     for index, way in enumerate(ways):
-        around, spoke = starts[index:] + starts[:index], []
-        for place, share in zip(way[:-1], np.arange(1, len(way)) / len(way), strict=True):
-            weights = np.full(n, share / n)
-            weights[0] += 1 - share
-            spoke.append(_moved(bm, _between(bm, around, weights), place))
-        spokes.append(spoke)
-    after = [*spokes[1:], spokes[0]]
-    return [[*stretch, *onwards, middle, *reversed(back)]
-            for stretch, onwards, back in zip(stretches, after, spokes, strict=True)]
+        around = starts[index:] + starts[:index]
+        for place, share in zip(way, np.arange(1, len(way) + 1) / len(way), strict=True):
+            if place.tobytes() not in made:
+                weights = np.full(n, share / n)
+                weights[0] += 1 - share
+                made[place.tobytes()] = _moved(bm, _between(bm, around, weights), place)
+        spokes.append([made[place.tobytes()] for place in way])
+    walks = []
+    for index, stretch in enumerate(stretches):
+        ahead = (index + 1) % n
+        onwards, back = apart(ways[ahead], ways[index])
+        walks.append([*stretch, *spokes[ahead][: len(onwards)], *reversed(spokes[index][: len(back) - 1])])
+    return walks
 
 
 def _moved(bm: BMesh, vertex: BMVert, place: np.ndarray) -> BMVert:

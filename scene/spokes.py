@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core.surface.arrays import components, lengths, renumbered, rounded, sums_by
 from ..core.uses.cap_surfaces import common_order
+from ..core.uses.networks import nested_sides, own_places
 from .bodies import search_tree
 from .discs import LED_IN, PLAIN
 
@@ -28,6 +29,8 @@ _HOPELESS = 2
 _MIDDLES, _APART = 12, 0.1
 # After so many middles, no more are tried where these have taken so many caps: of ragged networks, which nothing helps.
 _FIRST, _CAPS = 4, 400
+# For each of several middles, so many places are tried besides the means of the others.
+_OPTIONS = 6
 # A way has at most so many points; for a straight one it is asked at so many whether it is inside.
 _MOST, _TRIED = 16, 8
 
@@ -112,8 +115,55 @@ def _best(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]], me
             best, least = ways, faults
         if not faults:
             return ways
+    several = _several_middles(points, starts, stretches, discs)
+    if several is not None:
+        faults = _faults(points, dict(zip(starts.tolist(), several, strict=True)), stretches, discs, LED_IN, least)
+        best = several if faults < least else best
     _note(points, dict(zip(starts.tolist(), best, strict=True)), stretches, discs)
     return best
+
+
+def _several_middles(points: np.ndarray, starts: np.ndarray, stretches: list[list[int]],
+                     discs: Discs) -> list[np.ndarray] | None:
+    """Ways over several middles, from one to the next by lines that caps have in common; None if there are none.
+
+    Around a handle, no place is seen from all others. The middles are those of groups of places between which few
+    stretches go; each goes in turn where caps cross least, as long as that helps, twice at most.
+    """
+    number = {vertex: index for index, vertex in enumerate(starts.tolist())}
+    pairs = np.array([(number[stretch[0]], number[stretch[-1]]) for stretch in stretches]).reshape(-1, 2)
+    sides = nested_sides(points[starts], pairs)
+    if not len(sides):
+        return None
+    through = np.append(sides, np.ones((1, len(starts)), bool), axis=0).T  # middles on the way from each place
+    options = [_places(points[starts[own]], discs) for own in own_places(sides)]
+    options = [[*own, *(other[0] for other in options if other is not own)] for own in options]
+    middles = np.array([own[0] for own in options])
+    least = 1 << 30
+    for effort in (PLAIN, PLAIN, LED_IN):
+        least = 1 << 30 if effort == LED_IN else least
+        for index, own in enumerate(options):
+            for place in (middles[index], *own):
+                tried = middles.copy()
+                tried[index] = place
+                if len(np.unique(tried, axis=0)) < len(tried):
+                    continue  # a line between two of them would have no length
+                ways = dict(zip(starts.tolist(), (tried[here] for here in through), strict=True))
+                faults = _faults(points, ways, stretches, discs, effort, least)
+                if faults < least and all(discs.tried(_curve(points, ways, one)).disc is not None for one in stretches):
+                    middles, least = tried, faults
+        if not least:
+            break
+    return [middles[here] for here in through] if least < 1 << 30 else None
+
+
+def _places(starts: np.ndarray, discs: Discs) -> list[np.ndarray]:
+    """Places for the middle of some places on the surface, (k, 3), the mean of which is the first."""
+    mean = starts.mean(axis=0)
+    body = discs.around(starts, np.append(starts, mean[None], axis=0), 0.1)
+    if body is None or (body.own < 0).any():
+        return [mean]
+    return _middles(starts, mean, body, discs.side(mean[None], body))[:_OPTIONS]
 
 
 def _note(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[list[int]], discs: Discs) -> None:
@@ -130,9 +180,17 @@ def _note(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[list[
         discs.note(np.array(used[a] + used[b]), times)
 
 
+def apart(one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Two ways to a middle, (s, 3) and (t, 3), up to the first place from which they are the same."""
+    n = 1
+    while n < min(len(one), len(other)) and np.array_equal(one[-n - 1], other[-n - 1]):
+        n += 1
+    return one[: len(one) - n + 1], other[: len(other) - n + 1]
+
+
 def _curve(points: np.ndarray, ways: dict[int, np.ndarray], stretch: list[int]) -> np.ndarray:
     """A stretch closed by the ways from its ends to the middle, as it will be seen from both sides."""
-    onwards, back = ways[stretch[-1]], ways[stretch[0]]
+    onwards, back = apart(ways[stretch[-1]], ways[stretch[0]])
     curve = np.concatenate([points[stretch], onwards, back[:-1][::-1]]).astype(np.float32).astype(np.float64)
     return curve[common_order(curve)]
 
