@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Regions of [Berretti2009] (section 3.1): between events, then fused by adjacency, then ranked by size."""
+"""Regions of [Berretti2009] (section 3.1): between events, then fused by adjacency, then ranked."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
 from ...surface.arrays import components, distinct_pairs, renumbered
 from ..hierarchy import Hierarchy
+from .fusion import fuse_small, fuse_weakest
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +25,7 @@ class Regions:
     count : int
         Number of regions.
     hierarchy : Hierarchy
-        Merges of the regions, the smallest region first, until one is left.
+        Merges of the regions, the weakest boundary first, until one is left.
     """
 
     piece_region: np.ndarray
@@ -57,9 +58,7 @@ def berretti_regions(
 
 
 def rank_regions(sets: LevelSets, region: np.ndarray, small_region: float) -> Regions:
-    """Rank regions: find the order in which they merge, the smallest first.
-
-    A merge at area ratio r has the salience r / (r + small_region).
+    """Rank regions: find the order in which they merge, see ``fuse_weakest``.
 
     Parameters
     ----------
@@ -76,8 +75,7 @@ def rank_regions(sets: LevelSets, region: np.ndarray, small_region: float) -> Re
         With regions numbered from 0.
     """
     names, region = renumbered(region)
-    merges, ratio = fuse_small(sets, len(names), region)
-    salience = ratio / (ratio + small_region)
+    merges, salience = fuse_weakest(sets, len(names), region, small_region)
     return Regions(region, len(names), Hierarchy.of(len(names), merges, salience))
 
 
@@ -154,62 +152,6 @@ def with_finer(sets: LevelSets, topology: ReebTopology, regions: Regions, small_
         np.concatenate([least * ratio / (ratio + small_region), regions.hierarchy.salience])))
 
 
-class FusionGraph:
-    """The regions while they are fused, with their areas and the lengths of the boundaries between them.
-
-    Parameters
-    ----------
-    sets : LevelSets
-        P pieces.
-    count : int
-        Number of regions.
-    region : (P,) int64
-        Region of each piece, 0..count-1.
-    contours : (C,) bool, optional
-        Contours across which regions are neighbors; all without.
-
-    Attributes
-    ----------
-    area : list of float
-        Area of each region, in squared units of the vertices.
-    neighbors : list of dict of int -> float
-        For each region the length of its boundary with each neighbor, in units of the vertices.
-    alive : set of int
-        Regions that have not been fused into another.
-    """
-
-    def __init__(self, sets: LevelSets, count: int, region: np.ndarray, contours: np.ndarray | None = None) -> None:
-        self.area = np.bincount(region, sets.piece_area, count).tolist()
-        self.neighbors = [{} for _ in range(count)]
-        self.alive = set(range(count))
-        chosen = np.ones(sets.n_contours, bool) if contours is None else contours
-        lower, upper = region[sets.contour_pieces[chosen]].T
-        for a, b, length in zip(lower.tolist(), upper.tolist(), sets.contour_length[chosen].tolist(),
-                                strict=True):
-            if a != b:
-                self.neighbors[a][b] = self.neighbors[a].get(b, 0.0) + length
-                self.neighbors[b][a] = self.neighbors[b].get(a, 0.0) + length
-
-    def merge(self, keep: int, gone: int) -> None:
-        """Fuse region ``gone`` into region ``keep``."""
-        self.area[keep] += self.area[gone]
-        self.alive.discard(gone)
-        for other, length in self.neighbors[gone].items():
-            del self.neighbors[other][gone]
-            if other != keep:
-                for a, b in ((keep, other), (other, keep)):
-                    self.neighbors[a][b] = self.neighbors[a].get(b, 0.0) + length
-        self.neighbors[gone] = {}
-
-    def longest_boundary(self, region: int) -> int:
-        """Find the neighbor with which a region shares its longest boundary.
-
-        region : int. Returns that neighbor, of equal ones the one of smallest number. ValueError without neighbors.
-        """
-        around = self.neighbors[region]
-        return max(sorted(around), key=lambda other: around[other])
-
-
 def fuse_equal_adjacency(
     sets: LevelSets, count: int, region: np.ndarray
 ) -> tuple[int, np.ndarray]:
@@ -251,43 +193,3 @@ def fuse_equal_adjacency(
             left, target = components(count, *equal[[least]].T)
         count, region = left, target[region]
     return count, region
-
-
-def fuse_small(
-    sets: LevelSets, count: int, region: np.ndarray, contours: np.ndarray | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Fuse the smallest region into the neighbor along its longest boundary, until no two regions touch.
-
-    Parameters
-    ----------
-    sets : LevelSets
-        Level sets of one connected component, P pieces.
-    count : int
-        Number of regions.
-    region : (P,) int64
-        Region of each piece, 0..count-1.
-    contours : (C,) bool, optional
-        Contours across which regions may be fused; all without.
-
-    Returns
-    -------
-    merges : (s, 2) int64
-        The region that stays and the region fused into it, in order; count - 1 unless level sets tear the component
-        apart, as they do where a long bridge between two pieces spans whole slabs.
-    ratio : (s,) float64
-        Area of the fused region over that of the region that was then the largest.
-    """
-    graph = FusionGraph(sets, count, region, contours)
-    merges, ratio, alone = [], [], 0.0
-    while len(graph.alive) > 1:
-        smallest = min(graph.alive, key=lambda r: (graph.area[r], r))
-        if not graph.neighbors[smallest]:
-            graph.alive.discard(smallest)
-            alone = max(alone, graph.area[smallest])
-            continue
-        largest = max(alone, *(graph.area[r] for r in graph.alive))
-        neighbor = graph.longest_boundary(smallest)
-        merges.append((neighbor, smallest))
-        ratio.append(graph.area[smallest] / largest)
-        graph.merge(neighbor, smallest)
-    return np.array(merges, np.int64).reshape(-1, 2), np.array(ratio)

@@ -1,17 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The paper's regions: intervals, equal adjacency, small regions."""
+"""The paper's regions: intervals, equal adjacency."""
 
 import numpy as np
 import pytest
 import shapes
 
-from core.cuts.berretti.regions import (
-    FusionGraph,
-    berretti_regions,
-    fuse_equal_adjacency,
-    fuse_small,
-    regions_between_events,
-)
+from core.cuts.berretti.fusion import fuse_small
+from core.cuts.berretti.regions import berretti_regions, fuse_equal_adjacency, regions_between_events
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
@@ -133,27 +128,6 @@ def test_no_two_regions_of_equal_adjacency_touch(made):
         assert (degree[pairs[:, 0]] != degree[pairs[:, 1]]).all()
 
 
-def test_small_regions_go_smallest_first(made):
-    sets, topology = made
-    count, region = fuse_equal_adjacency(sets, *regions_between_events(sets, topology))
-    merges, ratio = fuse_small(sets, count, region)
-    assert merges.shape == (count - 1, 2)
-    area, part = np.bincount(region, sets.piece_area, count), np.arange(count)
-    for (keep, gone), share in zip(merges, ratio, strict=True):
-        alive, total = np.unique(part, return_inverse=True)
-        now = np.bincount(total.reshape(-1), area)
-        assert share == pytest.approx(now.min() / now.max())
-        assert now[np.flatnonzero(alive == part[gone])[0]] == pytest.approx(now.min())
-        # The neighbor along the longest boundary.
-        lower, upper = part[region[sets.contour_pieces]].T
-        mine = (lower == part[gone]) != (upper == part[gone])
-        other = np.where(lower == part[gone], upper, lower)[mine]
-        length = np.bincount(other, sets.contour_length[mine], count)
-        assert length[part[keep]] == pytest.approx(length.max())
-        part[part == part[gone]] = part[keep]
-    assert len(np.unique(part)) == 1
-
-
 def test_the_decision_is_the_papers_threshold():
     # Salience 0.5 where the ratio is the threshold: what is left has no region below it.
     for threshold in (0.02, 0.05, 0.2):
@@ -163,24 +137,6 @@ def test_the_decision_is_the_papers_threshold():
         kept = regions.hierarchy.parts(regions.hierarchy.n_parts(0.5))[regions.piece_region]
         area = np.bincount(kept, sets.piece_area)
         assert area.min() >= threshold * area.max() or len(area) == 1
-
-
-def test_region_graph_by_hand():
-    # A strip of heights 0 1 0 1 0 cut at one half: areas 1/2, 1, 1, 1, 1/2 in a row.
-    sets = cut_at_levels(TriMesh(*shapes.flat_grid(4, 1)), np.repeat([0.0, 1, 0, 1, 0], 2), np.array([0.5]))
-    left_to_right = sets.vertex_piece[::2]
-    region = np.empty(5, np.int64)
-    region[left_to_right] = np.arange(5)
-    graph = FusionGraph(sets, 5, region)
-    assert graph.area == pytest.approx([0.5, 1, 1, 1, 0.5])
-    assert graph.neighbors[2] == pytest.approx({1: 1.0, 3: 1.0})
-    graph.merge(1, 2)
-    assert graph.neighbors[1] == pytest.approx({0: 1.0, 3: 1.0})
-    graph.merge(3, 0)  # not a neighbor of 3: only the bookkeeping is asked for
-    assert graph.neighbors[1] == pytest.approx({3: 2.0})
-    assert graph.alive == {1, 3, 4}
-    assert sum(graph.area[r] for r in graph.alive) == pytest.approx(4)
-    assert graph.longest_boundary(3) == 1
 
 
 def test_flat_field_is_one_region():

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fusion of the regions of [Berretti2009]: of the small ones, and of those that do not stick out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...graph.level_sets import LevelSets
+
+
+class FusionGraph:
+    """The regions while they are fused, with their areas and the lengths of the boundaries between them.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        P pieces.
+    count : int
+        Number of regions.
+    region : (P,) int64
+        Region of each piece, 0..count-1.
+    contours : (C,) bool, optional
+        Contours across which regions are neighbors; all without.
+
+    Attributes
+    ----------
+    area : list of float
+        Area of each region, in squared units of the vertices.
+    neighbors : list of dict of int -> float
+        For each region the length of its boundary with each neighbor, in units of the vertices.
+    contours : list of dict of int -> (int, float)
+        Number of contours of each of these boundaries, and length of the longest.
+    alive : set of int
+        Regions that have not been fused into another.
+    """
+
+    def __init__(self, sets: LevelSets, count: int, region: np.ndarray, contours: np.ndarray | None = None) -> None:
+        self.area = np.bincount(region, sets.piece_area, count).tolist()
+        self.neighbors, self.contours = ([{} for _ in range(count)] for _ in range(2))
+        self.alive = set(range(count))
+        chosen = np.ones(sets.n_contours, bool) if contours is None else contours
+        lower, upper = region[sets.contour_pieces[chosen]].T
+        for a, b, length in zip(lower.tolist(), upper.tolist(), sets.contour_length[chosen].tolist(),
+                                strict=True):
+            if a != b:
+                self._add(a, b, length, (1, length))
+
+    def _add(self, a: int, b: int, length: float, contours: tuple[int, float]) -> None:
+        """Add contours to the boundary between two regions: their length, their number and the longest one's length."""
+        number, longest = self.contours[a].get(b, (0, 0.0))
+        for one, other in ((a, b), (b, a)):
+            self.neighbors[one][other] = self.neighbors[one].get(other, 0.0) + length
+            self.contours[one][other] = number + contours[0], max(longest, contours[1])
+
+    def merge(self, keep: int, gone: int) -> None:
+        """Fuse region ``gone`` into region ``keep``."""
+        self.area[keep] += self.area[gone]
+        self.alive.discard(gone)
+        around = [(other, length, self.contours[gone][other]) for other, length in self.neighbors[gone].items()]
+        for other, length, contours in around:
+            del self.neighbors[other][gone], self.contours[other][gone]
+            if other != keep:
+                self._add(keep, other, length, contours)
+        self.neighbors[gone], self.contours[gone] = {}, {}
+
+    def longest_boundary(self, region: int) -> int:
+        """Find the neighbor with which a region shares its longest boundary.
+
+        region : int. Returns that neighbor, of equal ones the one of smallest number. ValueError without neighbors.
+        """
+        around = self.neighbors[region]
+        return max(sorted(around), key=lambda other: around[other])
+
+    def bridges(self) -> dict[tuple[int, int], float]:
+        """Find the contours that part the surface in two.
+
+        Returns
+        -------
+        side : dict of (int, int) -> float
+            The two neighbors at each such contour, the smaller number first, and the area of its smaller side. The
+            contours that are crossed on the way around a hole, such as the feet of a handle, are none of them.
+
+        Notes
+        -----
+        The bridges of a graph, by one depth-first search [Tarjan1974]: O(regions + boundaries).
+        """
+        place: dict[int, int] = {}  # of each region in the search
+        earliest: dict[int, int] = {}  # least place of what it touches, or what follows from it
+        beyond: dict[int, float] = {}  # area of it and of what follows from it
+        found = {}
+        for root in sorted(self.alive):
+            trail = [] if root in place else [(root, self._visit(root, place, earliest, beyond))]
+            ends = []
+            while trail:
+                region, ahead = trail[-1]
+                other = next(ahead, None)
+                before = trail[-2][0] if len(trail) > 1 else -1
+                if other is None:
+                    trail.pop()
+                    if before >= 0:
+                        earliest[before] = min(earliest[before], earliest[region])
+                        beyond[before] += beyond[region]
+                        if earliest[region] > place[before] and self.contours[before][region][0] == 1:
+                            ends.append((before, region))
+                elif other not in place:
+                    trail.append((other, self._visit(other, place, earliest, beyond)))
+                elif other != before:
+                    earliest[region] = min(earliest[region], place[other])
+            for before, region in ends:
+                found[min(before, region), max(before, region)] = min(beyond[region], beyond[root] - beyond[region])
+        return found
+
+    def _visit(self, region: int, place: dict, earliest: dict, beyond: dict) -> Iterator[int]:
+        """Enter a region into the tables of ``bridges``; returns its neighbors in order."""
+        place[region] = earliest[region] = len(place)
+        beyond[region] = self.area[region]
+        return iter(sorted(self.neighbors[region]))
+
+
+def fuse_small(
+    sets: LevelSets, count: int, region: np.ndarray, contours: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Fuse the smallest region into the neighbor along its longest boundary, until no two regions touch.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        Level sets of one connected component, P pieces.
+    count : int
+        Number of regions.
+    region : (P,) int64
+        Region of each piece, 0..count-1.
+    contours : (C,) bool, optional
+        Contours across which regions may be fused; all without.
+
+    Returns
+    -------
+    merges : (s, 2) int64
+        The region that stays and the region fused into it, in order; count - 1 unless level sets tear the component
+        apart, as they do where a long bridge between two pieces spans whole slabs.
+    ratio : (s,) float64
+        Area of the fused region over that of the region that was then the largest.
+    """
+    graph = FusionGraph(sets, count, region, contours)
+    merges, ratio, alone = [], [], 0.0
+    while len(graph.alive) > 1:
+        smallest = min(graph.alive, key=lambda r: (graph.area[r], r))
+        if not graph.neighbors[smallest]:
+            graph.alive.discard(smallest)
+            alone = max(alone, graph.area[smallest])
+            continue
+        largest = max(alone, *(graph.area[r] for r in graph.alive))
+        neighbor = graph.longest_boundary(smallest)
+        merges.append((neighbor, smallest))
+        ratio.append(graph.area[smallest] / largest)
+        graph.merge(neighbor, smallest)
+    return np.array(merges, np.int64).reshape(-1, 2), np.array(ratio)
+
+
+def fuse_weakest(
+    sets: LevelSets, count: int, region: np.ndarray, small_region: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Fuse regions where the cut between them is weakest, until no two regions touch.
+
+    A region is small, as [Berretti2009] has it, by its area over that of the largest region; the smallest joins the
+    neighbor along its longest boundary. Beyond this, a contour cuts off a protrusion, "a portion of the surface that
+    sticks out of the remaining surface", only if there is more area than in a flat disc whose border is as long: on
+    its smaller side, or in the smaller region at it where it parts nothing, as on the way around a hole. Else it is
+    weak, and the smaller region at it joins the larger one.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        Level sets of one connected component, P pieces.
+    count : int
+        Number of regions.
+    region : (P,) int64
+        Region of each piece, 0..count-1.
+    small_region : float
+        Area of a region over that of the largest region at which a merge has salience 0.5.
+
+    Returns
+    -------
+    merges : (s, 2) int64
+        See ``fuse_small``.
+    salience : (s,) float64
+        Of each merge, 0..1; need not rise. With x the area ratio over ``small_region``, or that area over the disc's,
+        x / (x + 1).
+    """
+    graph = FusionGraph(sets, count, region)
+    area, nothing = graph.area, 1e-12 * sets.mesh.area
+    # A contour that parts the surface does so whatever is fused elsewhere, and its sides stay the same.
+    sides = graph.bridges()
+    merges, salience = [], []
+    while touching := [r for r in sorted(graph.alive) if graph.neighbors[r]]:
+        small = min(touching, key=lambda r: (area[r], r))
+        worth = area[small] / (area[small] + small_region * max(area[r] for r in graph.alive))
+        weakest = (worth, small, graph.longest_boundary(small))
+        for a in touching:
+            for b, (_, longest) in graph.contours[a].items():
+                if (area[a], a) < (area[b], b):
+                    beyond = sides.get((min(a, b), max(a, b)), area[a])
+                    weakest = min(weakest, (beyond / (beyond + disc(longest) + nothing), a, b))
+        worth, gone, keep = weakest
+        merges.append((keep, gone))
+        salience.append(worth)
+        graph.merge(keep, gone)
+        moved = {pair: tuple(sorted(keep if r == gone else r for r in pair)) for pair in sides}
+        sides = {moved[pair]: side for pair, side in sides.items() if moved[pair] != (keep, keep)}
+    return np.array(merges, np.int64).reshape(-1, 2), np.array(salience)
+
+
+def disc(length: float) -> float:
+    """Area of a flat disc with a border of this length, the most that a curve can hold in a plane.
+
+    length : float, in any unit. Returns the area, in the square of the unit.
+    """
+    return length**2 / (4 * np.pi)
