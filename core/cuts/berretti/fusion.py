@@ -207,8 +207,9 @@ def fuse_weakest(
         merges.append((keep, gone))
         salience.append(worth)
         graph.merge(keep, gone)
-        moved = {pair: tuple(sorted(keep if r == gone else r for r in pair)) for pair in sides}
-        sides = {moved[pair]: side for pair, side in sides.items() if moved[pair] != (keep, keep)}
+        if_gone = {gone: keep}
+        ends = [(if_gone.get(a, a), if_gone.get(b, b)) for a, b in sides]
+        sides = {(min(a, b), max(a, b)): side for (a, b), side in zip(ends, sides.values(), strict=True) if a != b}
     return np.array(merges, np.int64).reshape(-1, 2), np.array(salience)
 
 
