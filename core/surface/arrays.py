@@ -239,8 +239,10 @@ def inner_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
     Returns (n,) or (n, k) float64, the same everywhere, see ``weighted_sum``.
     """
-    x, y, z = (np.multiply.outer(a[:, i], b[..., i]) for i in range(3))
-    return x + y + z
+    total = np.multiply.outer(a[:, 0], b[..., 0])
+    for i in (1, 2):
+        total += np.multiply.outer(a[:, i], b[..., i])
+    return total
 
 
 def second_moments(points: np.ndarray, weights: np.ndarray) -> np.ndarray:

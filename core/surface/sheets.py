@@ -41,7 +41,7 @@ WRINKLES = 0.15  # width over which a sheet is smoothed, in units of the square 
 # Share of their diagonal that is added to the matrices of linear systems: among needles, whose cotangents are as large
 # as numbers of this precision can tell apart, they would have no solution.
 ROUNDING = 1e-12
-CHUNK = 4_000_000  # number of distances that are computed at once
+CHUNK = 250_000  # number of distances that are computed at once: they fit into the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -268,7 +268,9 @@ def _ball_height(mesh: TriMesh, thin: np.ndarray, within: np.ndarray) -> np.ndar
     rest, height = radius**2 - (center**2).sum(axis=1), np.zeros(mesh.n_vertices)
     for some in np.array_split(np.flatnonzero(within), 1 + len(center) * mesh.n_vertices // CHUNK):
         x = place[some]
-        height[some] = (2 * inner_products(x, center) + rest).max(axis=1) - (x**2).sum(axis=1)
+        products = inner_products(x, 2 * center)
+        products += rest
+        height[some] = products.max(axis=1) - (x**2).sum(axis=1)
     return unit * np.sqrt(np.maximum(height, 0.0))
 
 
