@@ -297,8 +297,8 @@ NOTES = (
     "- **CC finds the cuts of machine parts, and many more**: its classes are planes, cylinders and fillets, 11 "
     "regions of a part in which people see 2.6. Joined as people would, its regions are as near to people's as those "
     "of SE and nearer than those of RG (CAD, above); its merges do not know where to stop.",
-    "- **RG on cups, tables and machine parts** is far from people, as the paper says of CAD parts: every rim, "
-    "corner and fold is a local maximum of the field, a limb by its rules.",
+    "- **RG on cups and tables** is far from people, as the paper says of CAD parts: what lies beyond a rim or a "
+    "corner often has more area than a disc, and so sticks out by its rules.",
     "- **RG's numbers of parts** are at most two above the paper's Table 1.",
     "",
 )
