@@ -17,7 +17,8 @@ from .conformal import ConformalFactor, solved
 
 # Weights change within this many radii of a joint on either side. A joint of radius r that is bent by the angle t
 # shortens its inner side by t r; so that no face turns over there, the weights must not change faster than 1 / (t r).
-_REACH = 1.6
+# Where a face turns over in spite of that, the next ones are tried, and what turns over the fewest is kept.
+_REACHES = (1.6, 2.4, 2.0, 3.0)
 # Where a part ends within reach, its farthest tenth has the weight that the distance gives it.
 _TIP = 0.9
 # So many times, weights at faces that bending turns over are averaged with those around them.
@@ -44,6 +45,13 @@ class Weights:
     bone: np.ndarray
     weight: np.ndarray
 
+    def of_bones(self, count: int) -> np.ndarray:
+        """The weight of each of so many bones at each vertex, (n, count)."""
+        every = np.zeros((len(self.bone), count))
+        vertex, place = np.nonzero(self.bone >= 0)
+        every[vertex, self.bone[vertex, place]] = self.weight[vertex, place]
+        return every
+
 
 def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weights:
     """Find weights that change smoothly across each joint.
@@ -52,7 +60,7 @@ def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weig
     follow it, and all others. The share of a vertex that goes beyond is harmonic between the two distances from the
     border, 1.6 times its radius, at which all or nothing does. A vertex near several joints goes beyond in
     proportion to the odds of each. Where bending a joint by 60 degrees would turn a face over, weights are evened
-    out further.
+    out further, and change over other distances.
 
     Parameters
     ----------
@@ -67,9 +75,26 @@ def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weig
     -------
     weights : Weights
     """
-    odds = _odds(table, labels, bones)
+    joints = np.flatnonzero(bones.parent >= 0)
+    odds = np.zeros((len(table.vertices), len(bones.parent)))
+    odds[:, joints] = _odds(table, labels, bones, joints, _REACHES[0])
+    found = _of_odds(table, labels, bones, odds)
+    folds = _folds(table, found, bones)
+    for reach in _REACHES[1:]:
+        if not folds.any():
+            break
+        folding, other = np.flatnonzero(folds), odds.copy()
+        other[:, folding] = _odds(table, labels, bones, folding, reach)
+        again = _of_odds(table, labels, bones, other)
+        if (left := _folds(table, again, bones)).sum() < folds.sum():
+            odds, found, folds = other, again, left
+    return found
+
+
+def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones, odds: np.ndarray) -> Weights:
+    """The weights where each vertex goes beyond the joint of each bone with such odds, (n, count)."""
     children = [np.flatnonzero(bones.parent == bone) for bone in range(len(bones.parent))]
-    mass = np.zeros((len(table.vertices), len(bones.parent)))
+    mass = np.zeros(odds.shape)
     mass[:, bones.parent < 0] = _roots(table, labels, bones)
     for bone in bones.order:
         taken = odds[:, children[bone]]
@@ -77,6 +102,20 @@ def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weig
         mass[:, children[bone]] = share * taken
         mass[:, bone] = share[:, 0]
     return limited(_evened(table, mass, bones))
+
+
+def _folds(table: CornerTable, weights: Weights, bones: Bones) -> np.ndarray:
+    """How many faces each bone turns over when it is bent at its joint, (count,) int64; 0 for roots."""
+    mass, beyond = weights.of_bones(len(bones.parent)), following(bones.parent, bones.order)
+    folds = np.zeros(len(bones.parent), np.int64)
+    for bone in np.flatnonzero(bones.parent >= 0).tolist():
+        folds[bone] = _turned_by(table, mass, beyond[bone], bones, bone).sum()
+    return folds
+
+
+def _turned_by(table: CornerTable, mass: np.ndarray, beyond: np.ndarray, bones: Bones, bone: int) -> np.ndarray:
+    """Which faces a bone turns over when it is bent at its joint, (p,) bool. beyond : (count,) bool, what it moves."""
+    return turned_over(table, mass[:, beyond].sum(axis=1), bones.head[bone], bones.tail[bone] - bones.head[bone], BENT)
 
 
 def limited(mass: np.ndarray) -> Weights:
@@ -98,25 +137,28 @@ def limited(mass: np.ndarray) -> Weights:
     return Weights(bone, weight)
 
 
-def _odds(table: CornerTable, labels: np.ndarray, bones: Bones) -> np.ndarray:
-    """For each vertex the odds that it goes beyond the joint of each bone, (n, count); 0 for roots."""
+def _odds(table: CornerTable, labels: np.ndarray, bones: Bones, joints: np.ndarray, reach: float) -> np.ndarray:
+    """For each vertex the odds that it goes beyond the joints of some bones, (n, k).
+
+    joints : (k,) int64, the bones. reach : how far the weights change, in radii of a joint.
+    """
     n = len(table.vertices)
     length = np.maximum(table.edge_length(np.arange(len(table.edges))), 1e-12 * np.ptp(table.vertices, axis=0).max())
     graph, laplacian = symmetric_matrix(table.edges, length, n), ConformalFactor.of(table).laplacian
     beyond = following(bones.parent, bones.order)
-    odds = np.zeros((n, len(bones.parent)))
-    for bone in np.flatnonzero(bones.parent >= 0).tolist():
+    odds = np.zeros((n, len(joints)))
+    for column, bone in enumerate(joints.tolist()):
         inside = beyond[bone][labels].astype(np.int64)
         low, high = table.edge_labels(inside)
         border = np.unique(table.edges[(low == 0) & (high == 1)])
-        reach = _REACH * np.linalg.norm(table.vertices[border] - bones.head[bone], axis=1).max(initial=0.0)
+        far = reach * np.linalg.norm(table.vertices[border] - bones.head[bone], axis=1).max(initial=0.0)
         side = np.full(n, -1.0)
         side[table.corner_vertex[inside[table.corner_face] == 1]] = 1.0
         side[border] = 0.0
-        distance = dijkstra(graph, directed=False, indices=border, min_only=True, limit=reach)
-        share = _harmonic(laplacian, distance, side, max(reach, np.finfo(float).tiny))
+        distance = dijkstra(graph, directed=False, indices=border, min_only=True, limit=far)
+        share = _harmonic(laplacian, distance, side, max(far, np.finfo(float).tiny))
         share = 0.5 * share + 0.5 * share**2 * (3 - 2 * share)  # less of a crease where the change begins and ends
-        odds[:, bone] = share / np.maximum(1 - share, 1e-9)
+        odds[:, column] = share / np.maximum(1 - share, 1e-9)
     return odds
 
 
@@ -150,8 +192,7 @@ def _evened(table: CornerTable, mass: np.ndarray, bones: Bones) -> np.ndarray:
         turned &= ~changed
         some = table.within(changed)
         for bone in joints:
-            share = mass[:, beyond[bone]].sum(axis=1)
-            turned |= turned_over(some, share, bones.head[bone], bones.tail[bone] - bones.head[bone], BENT)
+            turned |= _turned_by(some, mass, beyond[bone], bones, bone)
         if not turned.any():
             break
         around = np.zeros(len(mass), bool)

@@ -7,6 +7,7 @@ import shapes
 
 from core import decompose
 from core.surface.corners import CornerTable
+from core.uses import skinning
 from core.uses.bones import Bones, following, limb_bones
 from core.uses.skinning import bends, limited, smooth_weights, turned_over
 
@@ -59,6 +60,25 @@ def test_no_face_is_turned_over_by_60_degrees():
     for bone, share in ((1, found[:, 1] + found[:, 2]), (2, found[:, 2])):
         assert not turned_over(table, share, bones.head[bone], np.array([1.0, 0, 0]), np.pi / 3).any()
         assert turned_over(table, (share > 0.5).astype(float), bones.head[bone], np.array([1.0, 0, 0]), 2.5).any()
+
+
+def test_where_faces_turn_over_weights_change_over_another_distance(monkeypatch):
+    table, labels = rod()
+    bones = chain(-6, -2, 2, 6)
+
+    def folds(*reaches):
+        monkeypatch.setattr(skinning, "_REACHES", reaches)
+        found = dense(smooth_weights(table, labels, bones), 3)
+        return sum(turned_over(table, share, bones.head[bone], np.array([1.0, 0, 0]), np.pi / 3).sum()
+                   for bone, share in ((1, found[:, 1] + found[:, 2]), (2, found[:, 2]))), found
+
+    monkeypatch.setattr(skinning, "_ROUNDS", 0)
+    too_near, _ = folds(0.3)
+    assert too_near > 0
+    none, chosen = folds(0.3, 0.2, 1.6)
+    assert none == 0
+    np.testing.assert_array_equal(chosen, folds(1.6)[1])
+    assert folds(0.3, 0.2)[0] <= too_near
 
 
 @pytest.mark.parametrize("seed", range(2))
