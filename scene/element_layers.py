@@ -119,10 +119,10 @@ def _set_weights(mesh: bpy.types.Mesh, weights: Ragged) -> None:
     group, weight, vertices = group[order], weight[order], vertex[order].tolist()
     new = np.append(True, (group[1:] != group[:-1]) | (weight[1:] != weight[:-1]))[: len(group)]
     first = np.flatnonzero(new)
+    end = np.append(first, len(vertices))[1:]  # none where no vertex has a weight
     twin = bpy.data.objects.new("Reeb Parts", mesh)
     with removed(bpy.data.objects, twin):
         groups = list(twin.vertex_groups)
-        runs = zip(group[first].tolist(), weight[first].tolist(), first.tolist(), [*first[1:].tolist(), len(vertices)],
-                   strict=True)
-        for index, value, start, end in runs:
-            groups[index].add(vertices[start:end], value, "REPLACE")
+        runs = zip(group[first].tolist(), weight[first].tolist(), first.tolist(), end.tolist(), strict=True)
+        for index, value, here, there in runs:
+            groups[index].add(vertices[here:there], value, "REPLACE")

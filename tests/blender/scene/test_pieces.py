@@ -192,6 +192,15 @@ def test_without_custom_normals_none_are_made(obj):
     assert not any(piece.data.has_custom_normals for piece in pieces())
 
 
+@pytest.mark.parametrize("cut", ["SMOOTH", "FACES"])
+def test_a_vertex_group_may_be_empty(obj, cut):
+    obj.vertex_groups.new(name="Nobody")
+    bpy.ops.reeb_parts.decompose()
+    assert bpy.ops.reeb_parts.separate(cut=cut, caps=True) == {"FINISHED"}
+    assert all([group.name for group in piece.vertex_groups] == ["Nobody"] for piece in pieces())
+    assert not any(vertex.groups for piece in pieces() for vertex in piece.data.vertices)
+
+
 @pytest.fixture
 def separate(package):
     """The module behind the operator, to try parts that no decomposition would give."""
