@@ -76,13 +76,11 @@ def measured(vertices: np.ndarray, faces: np.ndarray) -> tuple[float, ...]:
 
 def bent(table: CornerTable, faces: np.ndarray, labels: np.ndarray, bones) -> tuple[int, int, int, int]:
     """Poses, joints that turn a face over, such faces, and poses that change the volume by more than 10 %."""
-    weights = smooth_weights(table, labels, bones)
-    full = np.zeros((len(table.vertices), len(bones.head) + 1))  # the last column is of no bone
-    np.add.at(full, (np.arange(len(full))[:, None], weights.bone), weights.weight)
+    full = smooth_weights(table, labels, bones).of_bones(len(bones.head))
     beyond, before = following(bones.parent, bones.order), volume_of(table.vertices, faces)
     poses = joints = turned = changed = 0
     for bone in np.flatnonzero(bones.parent >= 0).tolist():
-        share, along = full[:, :-1][:, beyond[bone]].sum(axis=1), bones.tail[bone] - bones.head[bone]
+        share, along = full[:, beyond[bone]].sum(axis=1), bones.tail[bone] - bones.head[bone]
         over = turned_over(table, share, bones.head[bone], along, BENT).sum()
         joints, turned = joints + (over > 0), turned + over
         for turn in bends(along, BENT):

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
@@ -51,11 +50,8 @@ class Knife:
 
     def ring(self, target: Target) -> np.ndarray:
         """The lines of the contour, (s, 2, 3) float64 in coordinates of the mesh, where they are seen."""
-        from ..core.graph.contours import contours
-
         found, chosen = self.contour(target)
-        table = replace(self._parts[self.model.number(target)], vertices=self.seen)
-        return contours(self.model.stored.decomposition.field, target.level, table).segments[found.label == chosen]
+        return found.moved(self.seen)[found.label == chosen]
 
     def finding_curve(self, obj: bpy.types.Object, target: Target, planar: bool) -> Steps[np.ndarray]:
         """Find the lines that Separate would cut along there, in steps; as those of ``ring``.

@@ -34,12 +34,22 @@ class Contours:
         Face in which each segment lies.
     label : (s,) int64
         Contour of each segment, 0..count-1.
+    edge : (s, 2, 2) int64
+        The two vertices of the edge on which each end lies.
+    share : (s, 2) float64
+        Share of that edge's length at which it lies, from the first vertex, 0..1.
     """
 
     count: int
     segments: np.ndarray
     face: np.ndarray
     label: np.ndarray
+    edge: np.ndarray
+    share: np.ndarray
+
+    def moved(self, vertices: np.ndarray) -> np.ndarray:
+        """The segments, (s, 2, 3) float64, where the vertices of the mesh are elsewhere, (n, 3) float64."""
+        return _between(vertices, self.edge, self.share)
 
     @property
     def length(self) -> np.ndarray:
@@ -93,8 +103,7 @@ def contours(field: np.ndarray, level: float, table: CornerTable) -> Contours:
     on = np.flatnonzero(crossed[table.corner_edge])
     edge, face = table.corner_edge[on], table.corner_face[on]
     share = (level - low[edge]) / (high[edge] - low[edge])
-    start, end = table.vertices[table.edges[edge]].transpose(1, 0, 2)
-    point = start + share[:, None] * (end - start)
+    ends, share = table.edges[edge].reshape(-1, 2, 2), share.reshape(-1, 2)
     # Along the border of a face the field crosses the level an even number of times.
     edge, face = edge.reshape(-1, 2), face.reshape(-1, 2)[:, 0]
     edges_crossed, index = renumbered(edge)
@@ -102,7 +111,13 @@ def contours(field: np.ndarray, level: float, table: CornerTable) -> Contours:
     of_face = of_face + len(edges_crossed)
     count, label = components(
         len(edges_crossed) + len(faces_crossed), np.concatenate([index[:, 0], index[:, 1]]), np.tile(of_face, 2))
-    return Contours(count, point.reshape(-1, 2, 3), face, label[of_face])
+    return Contours(count, _between(table.vertices, ends, share), face, label[of_face], ends, share)
+
+
+def _between(vertices: np.ndarray, edge: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Points on edges, (s, 2, 3); edge : (s, 2, 2), their vertices; share : (s, 2), from the first vertex."""
+    start, end = vertices[edge[..., 0]], vertices[edge[..., 1]]
+    return start + share[..., None] * (end - start)
 
 
 def contour_sides(

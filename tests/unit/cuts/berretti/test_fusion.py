@@ -4,10 +4,11 @@
 import numpy as np
 import pytest
 import shapes
+from heights import HEIGHTS
 
 from core.cuts.berretti.fusion import FusionGraph, fuse_small, fuse_weakest
 from core.cuts.berretti.regions import fuse_equal_adjacency, regions_between_events
-from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.graph.level_sets import cut_at_levels
 from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
 from core.parameters import Parameters
@@ -18,22 +19,9 @@ from core.surface.mesh import TriMesh
 LEAST = 1e-9  # a threshold at which no region is small
 
 
-def along(shape, direction, n_slabs=40, noise=0.0):
-    values = shape.vertices @ np.asarray(direction, float)
-    values = (values - values.min()) / np.ptp(values)
-    values = values + noise * np.random.default_rng(0).random(len(values))
-    return cut_at_levels(TriMesh(*shape), values / values.max(), uniform_levels(n_slabs))
-
-
-@pytest.fixture(params=["genus 1", "genus 3", "tree", "dumbbell", "noise"])
+@pytest.fixture(params=HEIGHTS)
 def made(request):
-    sets = {
-        "genus 1": lambda: along(shapes.surface_of_genus(1), (1, 0.1, 0)),
-        "genus 3": lambda: along(shapes.surface_of_genus(3), (1, 0.1, 0)),
-        "tree": lambda: along(shapes.tube_tree(), (0.3, 1, 0.2)),
-        "dumbbell": lambda: along(shapes.dumbbell(), (0, 0, 1)),
-        "noise": lambda: along(shapes.tube_tree(), (0.3, 1, 0.2), noise=0.4),
-    }[request.param]()
+    sets = HEIGHTS[request.param]()
     topology = simplify(sets, reeb_topology(sets), 0.0025, 1)
     return sets, *fuse_equal_adjacency(sets, *regions_between_events(sets, topology))
 

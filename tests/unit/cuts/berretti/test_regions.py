@@ -4,21 +4,15 @@
 import numpy as np
 import pytest
 import shapes
+from heights import HEIGHTS, along
 
 from core.cuts.berretti.fusion import fuse_small
 from core.cuts.berretti.regions import berretti_regions, fuse_equal_adjacency, regions_between_events
-from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.graph.level_sets import cut_at_levels
 from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
 from core.surface.arrays import components
 from core.surface.mesh import TriMesh
-
-
-def along(shape, direction, n_slabs=40, noise=0.0):
-    values = shape.vertices @ np.asarray(direction, float)
-    values = (values - values.min()) / np.ptp(values)
-    values = values + noise * np.random.default_rng(0).random(len(values))
-    return cut_at_levels(TriMesh(*shape), values / values.max(), uniform_levels(n_slabs))
 
 
 def y_shape():
@@ -89,15 +83,9 @@ def test_a_region_ends_where_its_own_level_set_joins_or_splits():
             assert len(levels) - len(np.unique(levels)) <= (topology.piece_node[region == r] >= 0).sum()
 
 
-@pytest.fixture(params=["genus 1", "genus 3", "tree", "dumbbell", "noise"])
+@pytest.fixture(params=HEIGHTS)
 def made(request):
-    sets = {
-        "genus 1": lambda: along(shapes.surface_of_genus(1), (1, 0.1, 0)),
-        "genus 3": lambda: along(shapes.surface_of_genus(3), (1, 0.1, 0)),
-        "tree": lambda: along(shapes.tube_tree(), (0.3, 1, 0.2)),
-        "dumbbell": lambda: along(shapes.dumbbell(), (0, 0, 1)),
-        "noise": lambda: along(shapes.tube_tree(), (0.3, 1, 0.2), noise=0.4),
-    }[request.param]()
+    sets = HEIGHTS[request.param]()
     return sets, simplify(sets, reeb_topology(sets), 0.0025, 1)
 
 
