@@ -61,6 +61,18 @@ class CornerTable:
         return CornerTable(self.vertices, self.edges[used], self.corner_vertex[kept], corner_edge,
                            self.corner_face[kept], self.n_faces)
 
+    def vertices_of(self, mask: np.ndarray) -> np.ndarray:
+        """Which vertices are corners of some faces, (n,) bool. mask : (p,) bool, the faces."""
+        found = np.zeros(len(self.vertices), bool)
+        found[self.corner_vertex[mask[self.corner_face]]] = True
+        return found
+
+    def faces_at(self, mask: np.ndarray) -> np.ndarray:
+        """Which faces have a corner at some vertices, (p,) bool. mask : (n,) bool, the vertices."""
+        found = np.zeros(self.n_faces, bool)
+        found[self.corner_face[mask[self.corner_vertex]]] = True
+        return found
+
     def face_pairs(self) -> tuple[np.ndarray, np.ndarray]:
         """List the faces that share an edge.
 

@@ -3,30 +3,36 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from operator import itemgetter
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, diags
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
-from ..surface.arrays import symmetric_matrix
+from ..surface.arrays import lengths, symmetric_matrix
 from ..surface.corners import CornerTable
 from .bones import Bones, following
 from .conformal import ConformalFactor, solved
 
-# Weights change within this many radii of a joint on either side. A joint of radius r that is bent by the angle t
-# shortens its inner side by t r; so that no face turns over there, the weights must not change faster than 1 / (t r).
-# Where a face turns over in spite of that, the next ones are tried, and what turns over the fewest is kept.
-_REACHES = (1.6, 2.4, 2.0, 3.0)
+# Ways to weights, tried in turn until none turns a face over. The first number: weights change within so many radii of
+# a joint on either side. A joint of radius r that is bent by the angle t shortens its inner side by t r; so that no
+# face turns over there, the weights must not change faster than 1 / (t r). The second: the share of a vertex's fifth
+# largest weight that is taken from all its weights, so that none of the four that are kept begins with a step.
+_WAYS = ((1.6, 0.0), (1.6, 1.0), (2.4, 0.0), (1.2, 1.0))
+# In each round, faces that turned over in the one before, and those around them, resist a change of weights so many
+# times as much as they did. A way is left when so many rounds brought nothing better.
+_STIFFER, _PATIENCE = 4.0, 4
 # Where a part ends within reach, its farthest tenth has the weight that the distance gives it.
 _TIP = 0.9
-# So many times, weights at faces that bending turns over are averaged with those around them.
-_ROUNDS = 12
 #: The angle at which no face should be turned over, in radians.
 BENT = np.pi / 3
 #: How many bones may move a vertex; what game engines take.
 MOST = 4
+_LITTLE = 1e-9
+_NEEDLE = 0.5e-6  # area of a needle over the square of its length
 _STEPS = 1024  # weights are multiples of 1 / _STEPS
 
 
@@ -59,8 +65,9 @@ def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weig
     A joint divides the parts of a tree of bones into those beyond, which are those of its bone and of the bones that
     follow it, and all others. The share of a vertex that goes beyond is harmonic between the two distances from the
     border, 1.6 times its radius, at which all or nothing does. A vertex near several joints goes beyond in
-    proportion to the odds of each. Where bending a joint by 60 degrees would turn a face over, weights are evened
-    out further, and change over other distances.
+    proportion to the odds of each. Where bending a joint by 60 degrees turns a face over, the surface is made stiffer
+    and the weights are found again, so that they change elsewhere; of all weights found, those that turn over the
+    fewest faces are kept.
 
     Parameters
     ----------
@@ -75,20 +82,92 @@ def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weig
     -------
     weights : Weights
     """
-    joints = np.flatnonzero(bones.parent >= 0)
-    odds = np.zeros((len(table.vertices), len(bones.parent)))
-    odds[:, joints] = _odds(table, labels, bones, joints, _REACHES[0])
-    found = _of_odds(table, labels, bones, odds)
-    folds = _folds(table, found, bones)
-    for reach in _REACHES[1:]:
-        if not folds.any():
-            break
-        folding, other = np.flatnonzero(folds), odds.copy()
-        other[:, folding] = _odds(table, labels, bones, folding, reach)
-        again = _of_odds(table, labels, bones, other)
-        if (left := _folds(table, again, bones)).sum() < folds.sum():
-            odds, found, folds = other, again, left
-    return found
+    tries = _tries(table, labels, bones)
+    best, fewest = next(tries)
+    while fewest and (found := next(tries, None)):
+        best, fewest = min((best, fewest), found, key=itemgetter(1))
+    return best
+
+
+@dataclass(frozen=True, eq=False)
+class _Joint:
+    """The part of a surface around a joint on which weights change.
+
+    bone : int. near : (k,) int64, vertices within reach of the border. depth : (k,) float64, their distance from it
+    over the reach. side : (n,) int8, of all vertices, 1 beyond the border, -1 on this side, 0 on it.
+    """
+
+    bone: int
+    near: np.ndarray
+    depth: np.ndarray
+    side: np.ndarray
+
+    def odds(self, laplacian: csr_array) -> np.ndarray:
+        """The odds that each vertex goes beyond, (n,): by a share that is harmonic near the joint."""
+        share, side = 0.5 + 0.5 * self.side, self.side[self.near]
+        share[self.near] = 0.5 + 0.5 * side * self.depth
+        free = np.ones(len(self.near), bool)
+        for sign in (-1, 1):
+            deepest = np.max(self.depth, where=side == sign, initial=0.0)
+            free &= (side != sign) | (self.depth < _TIP * deepest) | (deepest >= _TIP)
+        inside = self.near[free]
+        if len(inside):
+            known, rows = share.copy(), laplacian[inside]
+            known[inside] = 0.0
+            share[inside] = solved(rows[:, inside], -(rows @ known)).clip(0.0, 1.0)
+        share = 0.5 * share + 0.5 * share**2 * (3 - 2 * share)  # less of a crease where the change begins and ends
+        return share / np.maximum(1 - share, 1e-9)
+
+
+def _joints(table: CornerTable, labels: np.ndarray, bones: Bones, reach: float) -> list[_Joint]:
+    """The joints of all bones. reach : how far the weights change, in radii of a joint."""
+    n = len(table.vertices)
+    length = np.maximum(table.edge_length(np.arange(len(table.edges))), 1e-12 * np.ptp(table.vertices, axis=0).max())
+    graph, beyond = symmetric_matrix(table.edges, length, n), following(bones.parent, bones.order)
+    joints = []
+    for bone in np.flatnonzero(bones.parent >= 0).tolist():
+        inside = beyond[bone][labels].astype(np.int64)
+        low, high = table.edge_labels(inside)
+        border = np.unique(table.edges[(low == 0) & (high == 1)])
+        far = reach * np.linalg.norm(table.vertices[border] - bones.head[bone], axis=1).max(initial=0.0)
+        side = np.full(n, -1, np.int8)
+        side[table.corner_vertex[inside[table.corner_face] == 1]] = 1
+        side[border] = 0
+        distance = dijkstra(graph, directed=False, indices=border, min_only=True, limit=far)
+        near = np.flatnonzero(distance < far)
+        joints.append(_Joint(bone, near, distance[near] / max(far, np.finfo(float).tiny), side))
+    return joints
+
+
+def _tries(table: CornerTable, labels: np.ndarray, bones: Bones) -> Iterator[tuple[Weights, int]]:
+    """Weights of all ways and rounds, each with how many faces they turn over."""
+    laplacian = ConformalFactor.of(table).laplacian
+    for reach, fifth in _WAYS:
+        joints, stiffness = _joints(table, labels, bones, reach), np.zeros(table.n_faces)
+        odds, changed = np.zeros((len(table.vertices), len(bones.parent))), np.ones(len(table.vertices), bool)
+        fewest, since = np.inf, 0
+        while since < _PATIENCE:
+            stiff = _stiffened(laplacian, table, stiffness)
+            for joint in joints:
+                if changed[joint.near].any():
+                    odds[:, joint.bone] = joint.odds(stiff)
+            found = limited(_of_odds(table, labels, bones, odds), fifth)
+            turned = _turned(table, found, bones)
+            count = int(turned.sum())
+            yield found, count
+            fewest, since = min(fewest, count), 0 if count < fewest else since + 1
+            around = table.faces_at(table.vertices_of(turned))
+            stiffness[around] = np.maximum(_STIFFER * stiffness[around], 1.0)
+            changed = table.vertices_of(around)
+
+
+def _stiffened(laplacian: csr_array, table: CornerTable, stiffness: np.ndarray) -> csr_array:
+    """The matrix with a spring at each edge, as stiff as the stiffer of its faces, (p,) float64."""
+    spring = np.zeros(len(table.edges))
+    np.maximum.at(spring, table.corner_edge, stiffness[table.corner_face])
+    some = np.flatnonzero(spring)
+    springs = symmetric_matrix(table.edges[some], spring[some], len(table.vertices))
+    return csr_array(laplacian + diags(np.asarray(springs.sum(axis=1)).ravel()) - springs)
 
 
 def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones, odds: np.ndarray) -> Weights:
@@ -101,29 +180,30 @@ def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones, odds: np.ndar
         share = mass[:, [bone]] / (1 + taken.sum(axis=1, keepdims=True))
         mass[:, children[bone]] = share * taken
         mass[:, bone] = share[:, 0]
-    return limited(_evened(table, mass, bones))
+    return mass
 
 
-def _folds(table: CornerTable, weights: Weights, bones: Bones) -> np.ndarray:
-    """How many faces each bone turns over when it is bent at its joint, (count,) int64; 0 for roots."""
+def _turned(table: CornerTable, weights: Weights, bones: Bones) -> np.ndarray:
+    """Which faces some bone turns over when it is bent at its joint, (p,) bool."""
     mass, beyond = weights.of_bones(len(bones.parent)), following(bones.parent, bones.order)
-    folds = np.zeros(len(bones.parent), np.int64)
+    turned = np.zeros(table.n_faces, bool)
     for bone in np.flatnonzero(bones.parent >= 0).tolist():
-        folds[bone] = _turned_by(table, mass, beyond[bone], bones, bone).sum()
-    return folds
+        along = bones.tail[bone] - bones.head[bone]
+        turned |= turned_over(table, mass[:, beyond[bone]].sum(axis=1), bones.head[bone], along, BENT)
+    return turned
 
 
-def _turned_by(table: CornerTable, mass: np.ndarray, beyond: np.ndarray, bones: Bones, bone: int) -> np.ndarray:
-    """Which faces a bone turns over when it is bent at its joint, (p,) bool. beyond : (count,) bool, what it moves."""
-    return turned_over(table, mass[:, beyond].sum(axis=1), bones.head[bone], bones.tail[bone] - bones.head[bone], BENT)
-
-
-def limited(mass: np.ndarray) -> Weights:
+def limited(mass: np.ndarray, fifth: float = 0.0) -> Weights:
     """Keep the four largest weights of each vertex.
 
-    mass : (n, count) float64, 0 or more; what share of a vertex each bone moves, in any unit. Returns Weights.
+    mass : (n, count) float64, 0 or more; what share of a vertex each bone moves, in any unit. fifth : the share of the
+    fifth largest that is taken from each of them; of four that are hardly larger, little less than all. Returns
+    Weights.
     """
     n, count = mass.shape
+    if fifth and count > MOST:
+        largest = -np.partition(-mass, MOST, axis=1)[:, [MOST]]
+        mass = np.maximum(mass - fifth * largest, _LITTLE * mass)
     bone, weight = np.full((n, MOST), -1), np.zeros((n, MOST))
     few = min(MOST, count)
     bone[:, :few] = np.argsort(-mass, axis=1, kind="stable")[:, :few]
@@ -137,79 +217,13 @@ def limited(mass: np.ndarray) -> Weights:
     return Weights(bone, weight)
 
 
-def _odds(table: CornerTable, labels: np.ndarray, bones: Bones, joints: np.ndarray, reach: float) -> np.ndarray:
-    """For each vertex the odds that it goes beyond the joints of some bones, (n, k).
-
-    joints : (k,) int64, the bones. reach : how far the weights change, in radii of a joint.
-    """
-    n = len(table.vertices)
-    length = np.maximum(table.edge_length(np.arange(len(table.edges))), 1e-12 * np.ptp(table.vertices, axis=0).max())
-    graph, laplacian = symmetric_matrix(table.edges, length, n), ConformalFactor.of(table).laplacian
-    beyond = following(bones.parent, bones.order)
-    odds = np.zeros((n, len(joints)))
-    for column, bone in enumerate(joints.tolist()):
-        inside = beyond[bone][labels].astype(np.int64)
-        low, high = table.edge_labels(inside)
-        border = np.unique(table.edges[(low == 0) & (high == 1)])
-        far = reach * np.linalg.norm(table.vertices[border] - bones.head[bone], axis=1).max(initial=0.0)
-        side = np.full(n, -1.0)
-        side[table.corner_vertex[inside[table.corner_face] == 1]] = 1.0
-        side[border] = 0.0
-        distance = dijkstra(graph, directed=False, indices=border, min_only=True, limit=far)
-        share = _harmonic(laplacian, distance, side, max(far, np.finfo(float).tiny))
-        share = 0.5 * share + 0.5 * share**2 * (3 - 2 * share)  # less of a crease where the change begins and ends
-        odds[:, column] = share / np.maximum(1 - share, 1e-9)
-    return odds
-
-
-def _harmonic(laplacian: csr_array, distance: np.ndarray, side: np.ndarray, reach: float) -> np.ndarray:
-    """Share of each vertex that goes beyond a joint, (n,): harmonic where the border is within reach.
-
-    distance : (n,), from the border, inf out of reach. side : (n,), 1 beyond the border, -1 on this side, 0 on it.
-    """
-    share = 0.5 + 0.5 * side * np.minimum(distance / reach, 1.0)
-    near = distance < reach
-    known = ~near
-    for sign in (-1.0, 1.0):
-        deepest = np.max(distance, where=near & (side == sign), initial=0.0)
-        ends = near & (side == sign) & (distance >= _TIP * deepest)
-        known |= ends if deepest < _TIP * reach else False
-    free = np.flatnonzero(~known)
-    if len(free):
-        rows = laplacian[free]
-        share[free] = solved(rows[:, free], -(rows @ np.where(known, share, 0.0)))
-    return share.clip(0.0, 1.0)
-
-
-def _evened(table: CornerTable, mass: np.ndarray, bones: Bones) -> np.ndarray:
-    """The weights, (n, count), averaged around faces that bending a joint would turn over, until none is or in vain."""
-    beyond = following(bones.parent, bones.order)
-    beside = symmetric_matrix(table.edges, np.ones(len(table.edges)), len(mass))
-    count = np.maximum(np.asarray(beside.sum(axis=1)).ravel(), 1.0)
-    joints = np.flatnonzero(bones.parent >= 0).tolist()
-    turned, changed = np.zeros(table.n_faces, bool), np.ones(table.n_faces, bool)
-    for _ in range(_ROUNDS):
-        turned &= ~changed
-        some = table.within(changed)
-        for bone in joints:
-            turned |= _turned_by(some, mass, beyond[bone], bones, bone)
-        if not turned.any():
-            break
-        around = np.zeros(len(mass), bool)
-        around[table.corner_vertex[turned[table.corner_face]]] = True
-        around |= beside @ around > 0
-        mass[around] = 0.5 * mass[around] + 0.5 * (beside[around] @ mass) / count[around, None]
-        changed = np.zeros(table.n_faces, bool)
-        changed[table.corner_face[around[table.corner_vertex]]] = True
-    return mass
-
-
 def turned_over(
     table: CornerTable, share: np.ndarray, joint: np.ndarray, along: np.ndarray, angle: float
 ) -> np.ndarray:
     """Tell which faces are turned over when a joint is bent, to four sides.
 
-    A face is turned over if it looks against the direction in which the average of its corners' motions turns it.
+    A face is turned over if it looks against the direction in which the average of its corners' motions turns it. A
+    needle whose height is a millionth of its length or less looks nowhere.
 
     Parameters
     ----------
@@ -226,27 +240,29 @@ def turned_over(
     -------
     turned : (p,) bool
     """
-    low, high = np.full(table.n_faces, np.inf), np.full(table.n_faces, -np.inf)
+    turned, low, high = np.zeros(table.n_faces, bool), np.full(table.n_faces, np.inf), np.zeros(table.n_faces)
     np.minimum.at(low, table.corner_face, share[table.corner_vertex])
     np.maximum.at(high, table.corner_face, share[table.corner_vertex])
-    faces = high - low > 1e-6
-    turned = np.zeros(table.n_faces, bool)
-    if not faces.any():
-        return turned
-    some = table.within(faces)
-    corner = some.corner_face
-    total = np.bincount(corner, share[some.corner_vertex], table.n_faces)[faces]
-    average = (total / np.bincount(corner, minlength=table.n_faces)[faces])[:, None, None]
+    some = _of_area(table.within(high - low > 1e-6))
+    size = np.bincount(some.corner_face, minlength=table.n_faces)
+    faces = np.flatnonzero(size)
+    average = (np.bincount(some.corner_face, share[some.corner_vertex], table.n_faces)[faces] / size[faces])[:, None]
     before = some.face_vectors()[faces]
     for turn in bends(along, angle):
         moved = share[:, None] * ((table.vertices - joint) @ (turn - np.eye(3)).T)
-        after = CornerTable(table.vertices + moved, some.edges, some.corner_vertex, some.corner_edge, some.corner_face,
-                            some.n_faces).face_vectors()[faces]
-        motion = (1 - average) * np.eye(3) + average * turn
-        cofactor = np.linalg.inv(motion).transpose(0, 2, 1) * np.linalg.det(motion)[:, None, None]
-        expected = (cofactor @ before[:, :, None])[:, :, 0]
+        after = replace(some, vertices=table.vertices + moved).face_vectors()[faces]
+        # The cofactors of (1 - a) I + a R, which turn vector areas, are (1 - a)^2 I + a^2 R + a (1 - a) (tr R I - R^T).
+        mixed = np.trace(turn) * before - before @ turn
+        expected = (1 - average) ** 2 * before + average**2 * (before @ turn.T) + average * (1 - average) * mixed
         turned[faces] |= (expected * after).sum(axis=1) < 0
     return turned
+
+
+def _of_area(table: CornerTable) -> CornerTable:
+    """The table without needles."""
+    longest = np.zeros(table.n_faces)
+    np.maximum.at(longest, table.corner_face, table.edge_length(np.arange(len(table.edges)))[table.corner_edge])
+    return table.within(lengths(table.face_vectors()) > _NEEDLE * longest**2)
 
 
 def bends(along: np.ndarray, angle: float) -> list[np.ndarray]:

@@ -62,23 +62,44 @@ def test_no_face_is_turned_over_by_60_degrees():
         assert turned_over(table, (share > 0.5).astype(float), bones.head[bone], np.array([1.0, 0, 0]), 2.5).any()
 
 
-def test_where_faces_turn_over_weights_change_over_another_distance(monkeypatch):
+def turned_faces(table, labels, bones):
+    """How many faces some joint turns over when it is bent by 60 degrees."""
+    found, turned = dense(smooth_weights(table, labels, bones), len(bones.head)), np.zeros(table.n_faces, bool)
+    for bone in np.flatnonzero(bones.parent >= 0):
+        share = found[:, following(bones.parent, bones.order)[bone]].sum(axis=1)
+        turned |= turned_over(table, share, bones.head[bone], bones.tail[bone] - bones.head[bone], np.pi / 3)
+    return turned.sum()
+
+
+def test_where_faces_turn_over_the_surface_is_made_stiffer(monkeypatch):
+    """For 60 degrees weights must change over pi / 6 radii on either side, and evenly if over hardly more."""
+    table, labels = rod()
+    bones = chain(-6, -2, 2, 6)
+    monkeypatch.setattr(skinning, "_WAYS", ((0.54, 0.0),))
+    assert turned_faces(table, labels, bones) == 0
+    monkeypatch.setattr(skinning, "_stiffened", lambda laplacian, *others: laplacian)
+    assert turned_faces(table, labels, bones) > 0
+
+
+def test_where_that_is_in_vain_other_ways_are_gone_and_the_best_kept(monkeypatch):
     table, labels = rod()
     bones = chain(-6, -2, 2, 6)
 
-    def folds(*reaches):
-        monkeypatch.setattr(skinning, "_REACHES", reaches)
-        found = dense(smooth_weights(table, labels, bones), 3)
-        return sum(turned_over(table, share, bones.head[bone], np.array([1.0, 0, 0]), np.pi / 3).sum()
-                   for bone, share in ((1, found[:, 1] + found[:, 2]), (2, found[:, 2]))), found
+    def with_ways(*ways):
+        monkeypatch.setattr(skinning, "_WAYS", tuple((reach, 0.0) for reach in ways))
+        return dense(smooth_weights(table, labels, bones), 3), turned_faces(table, labels, bones)
 
-    monkeypatch.setattr(skinning, "_ROUNDS", 0)
-    too_near, _ = folds(0.3)
-    assert too_near > 0
-    none, chosen = folds(0.3, 0.2, 1.6)
-    assert none == 0
-    np.testing.assert_array_equal(chosen, folds(1.6)[1])
-    assert folds(0.3, 0.2)[0] <= too_near
+    nearest, turned = with_ways(0.1)  # within two rings of faces
+    assert 0 < turned < with_ways(0.3)[1]
+    for ways, best in (((0.3, 0.1), nearest), ((0.1, 0.3), nearest), ((0.3, 1.6), with_ways(1.6)[0])):
+        np.testing.assert_array_equal(with_ways(*ways)[0], best)
+
+
+def test_many_short_bones_bend_though_a_vertex_has_only_four():
+    table, _ = rod()
+    ends = np.linspace(-6, 6, 21)
+    labels = np.digitize(table.face_means(table.vertices)[:, 0], ends[1:-1])
+    assert turned_faces(table, labels, chain(*ends)) == 0
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -111,6 +132,28 @@ def test_only_the_four_largest_are_kept():
     assert found.bone.tolist() == [[0, 2, 4, 3], [-1] * 4, [2, -1, -1, -1]]
     assert found.weight[0] == pytest.approx(np.array([5, 4, 3, 2]) / 14, abs=1 / 1024)
     assert found.weight.sum(axis=1).tolist() == [1, 0, 1]
+
+
+def test_weights_without_the_fifth_change_as_slowly_as_what_they_are_made_of():
+    share = np.linspace(0, 1, 2001)[:, None]
+    mass = (1 - share) * [6.0, 3, 3, 2, 1, 0] + share * [6.0, 3, 3, 1, 2, 0]  # one bone takes the place of another
+
+    def largest_step(fifth):
+        return np.abs(np.diff(limited(mass, fifth).of_bones(6), axis=0)).max()
+
+    assert largest_step(0.0) > 0.09
+    assert largest_step(1.0) < 3 / 1024
+    assert limited(np.ones((1, 6)), 1.0).weight == pytest.approx(0.25, abs=1 / 1024)  # equal ones are not lost
+
+
+def test_a_needle_is_not_turned_over():
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [2, 1e-7, 0], [1, 1, 0]])
+    table = CornerTable.of(points, np.array([[0, 1, 2], [1, 2, 3]]))
+    joint, along = np.array([0.0, 0, 5]), np.array([0.0, 1, 0])
+    share = np.array([0.0, 1, 0, 0])
+    assert turned_over(table, share, joint, along, 3.0).tolist() == [False, True]
+    thicker = CornerTable.of(points * [1, 1e3, 1], np.array([[0, 1, 2], [1, 2, 3]]))
+    assert turned_over(thicker, share, joint, along, 3.0)[0]
 
 
 def test_bends_are_rotations_across_the_bone():
