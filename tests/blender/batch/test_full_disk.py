@@ -6,6 +6,7 @@ import re
 import bpy
 import process
 import pytest
+from diagonal import some
 
 
 @pytest.fixture
@@ -26,7 +27,7 @@ def full(model, tmp_path):
     return run_full
 
 
-@pytest.mark.parametrize("compress", [False, True])
+@pytest.mark.parametrize("compress", some(False, True))
 def test_a_scene(full, obj, tmp_path, compress):
     bpy.context.preferences.filepaths.use_file_compression = compress
     path = tmp_path / "out.blend"
@@ -34,7 +35,7 @@ def test_a_scene(full, obj, tmp_path, compress):
     full(50_000, "out.blend", "--save", path)
 
 
-@pytest.mark.parametrize("kind", ["obj", "ply", "stl", "glb"])
+@pytest.mark.parametrize("kind", some("obj", "ply", "stl", "glb"))
 def test_parts(full, tmp_path, kind):
     (tmp_path / "parts").mkdir()
     (tmp_path / "parts" / f"Tree Part 01.{kind}").write_text("an earlier one")

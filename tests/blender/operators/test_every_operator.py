@@ -4,12 +4,11 @@
 And undo brings back exactly what was there before, redo what was there after. An operator that is new needs
 a case here; what it does to the parts is tested elsewhere.
 
-The environment variable REEB_PARTS_DIAGONAL, a number, chooses a diagonal through the table of operators and
-situations: every operator once, every situation at least once. Without it, all of the table is tried.
+All but the newest Blender try a diagonal through the table of operators and situations: every operator once, every
+situation at least once.
 """
 
 import importlib
-import os
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -18,6 +17,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from diagonal import diagonal
 from mathutils import Vector
 from snapshot import activate, changes, snapshot
 
@@ -367,9 +367,9 @@ def test_every_operator_has_a_case(package):
 
 def table():
     """The pairs of a situation and an operator that are tried."""
-    if "REEB_PARTS_DIAGONAL" not in os.environ:
+    first = diagonal()
+    if first is None:
         return [(situation, name) for situation in SITUATIONS for name in CASES]
-    first = int(os.environ["REEB_PARTS_DIAGONAL"])
     return [(SITUATIONS[(first + i) % len(SITUATIONS)], name) for i, name in enumerate(CASES)]
 
 

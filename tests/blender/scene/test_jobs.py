@@ -18,6 +18,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from diagonal import some
 
 TESTS = Path(__file__).resolve().parents[2]
 WAIT = 60.0  # seconds for a computation of some thousand vertices on a busy machine
@@ -123,7 +124,7 @@ def broken() -> list:
             shapes.with_unused_vertices(tree)]
 
 
-@pytest.mark.parametrize("preset", ["Perceptual", "Berretti 2009"])
+@pytest.mark.parametrize("preset", some("Perceptual", "Berretti 2009"))
 def test_the_results_are_those_of_blenders_own_process_bit_by_bit(jobs, compute, read, parameters, preset):
     chosen = parameters.preset(preset, n_parts=3)
     given = read(shapes.tube_tree(), *broken())
@@ -255,12 +256,12 @@ def other_python(monkeypatch, tmp_path):
     return replace
 
 
-@pytest.mark.parametrize(("name", "text"), [
+@pytest.mark.parametrize(("name", "text"), some(
     ("", None),                                      # in a program that embeds Python
     ("host", "#!/bin/sh\ntouch $(dirname $0)/started"),  # which must not be started again
     ("python3", None),
     ("python3", "#!/bin/sh\nexit 3"),
-])  # fmt: skip
+))  # fmt: skip
 def test_where_no_python_can_be_started_blender_computes(
         jobs, compute, read, parameters, other_python, name, text, tmp_path):
     given = read(shapes.tube_tree(), shapes.two_spheres())

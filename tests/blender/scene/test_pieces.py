@@ -3,7 +3,6 @@
 
 import importlib
 import itertools
-import os
 from pathlib import Path
 
 import bmesh
@@ -12,6 +11,7 @@ import numpy as np
 import pieces as carried
 import pytest
 import shapes
+from diagonal import some
 from mathutils import Matrix
 from mathutils.bvhtree import BVHTree
 from pieces import volume
@@ -29,12 +29,6 @@ SHAPES = {
     "open tube": lambda: shapes.cylinder(24, 16),
     "loose parts": lambda: shapes.together(shapes.tube_tree(), shapes.moved(shapes.dumbbell(40, 12), (9, 0, 0))),
 }
-
-
-def seeds(*every):
-    """All of some seeds in the newest Blender, in each other one another of them: see operators/test_every_operator."""
-    diagonal = os.environ.get("REEB_PARTS_DIAGONAL")
-    return every if diagonal is None else every[int(diagonal) % len(every) :][:1]
 
 
 def read(items, key, dtype=np.float32, width=1):
@@ -213,7 +207,7 @@ def closed_pieces(separate, mesh, numbers, wanted):
     return made.meshes, made.left_open
 
 
-@pytest.mark.parametrize("seed", seeds(0, 1, 2, 3))
+@pytest.mark.parametrize("seed", some(0, 1, 2, 3))
 def test_closed_pieces_have_no_border_that_was_not_there(shape, separate, seed):
     """Parts around random faces: ragged, with cuts that end on borders, meet, and touch in a vertex."""
     before, bad = borders(shape.data)
@@ -489,7 +483,7 @@ def spot():
     activate(bpy.context.selected_objects[0])
 
 
-@pytest.mark.parametrize("parts", [{}, {"n_parts": 25}, {"pieces": "separate"}])
+@pytest.mark.parametrize("parts", some({}, {"n_parts": 25}, {"pieces": "separate"}))
 @pytest.mark.parametrize("model", ["Spot", "Suzanne", "jug"])
 def test_models_in_closed_pieces_lose_nothing(model, parts, make):
     """As benchmarks/separate.py, which also does models that are not here."""
@@ -624,7 +618,7 @@ def height_of(points):
     return 0.5 + points[:, 2] / 100
 
 
-@pytest.mark.parametrize("caps", [False, True])
+@pytest.mark.parametrize("caps", some(False, True))
 def test_smooth_cuts_interpolate_all_that_is_carried(linear, caps):
     bpy.ops.reeb_parts.decompose()
     before = snapshot()["meshes"]["Tree"]
@@ -925,7 +919,7 @@ def ragged_parts(obj, count, seed):
     return 1 + np.linalg.norm(centers[:, None] - around[None], axis=2).argmin(axis=1)
 
 
-@pytest.mark.parametrize("seed", seeds(3, 4, 5, 18))
+@pytest.mark.parametrize("seed", some(3, 4, 5, 18))
 def test_where_no_cap_was_seen_to_cross_anything_no_piece_does(make, separate, seed):
     """Ragged parts: where caps cross nothing of the model, those that go to one middle may cross each other."""
     obj = make(shapes.tube_tree())
@@ -934,7 +928,7 @@ def test_where_no_cap_was_seen_to_cross_anything_no_piece_does(make, separate, s
     assert any(crossing) == (made.n_crossings > 0) == (seed == 5)  # of that one, no caps are known that cross nothing
 
 
-@pytest.mark.parametrize(("count", "seed"), seeds((14, 18), (8, 14), (30, 4)))  # the last takes long
+@pytest.mark.parametrize(("count", "seed"), some((14, 18), (8, 14), (30, 4)))  # the last takes long
 def test_where_a_smooth_cut_goes_wrong_faces_stay_whole(make, separate, count, seed):
     """Ragged parts, some of whose caps cross something: with some borders along faces, fewer do."""
     obj = make(shapes.tube_tree())
@@ -1004,7 +998,7 @@ def seen_points(obj):
     return read(seen.data.vertices, "co", np.float32, 3) @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-@pytest.mark.parametrize("style", [WHOLE, {}])
+@pytest.mark.parametrize("style", some(WHOLE, {}))
 def test_what_is_sculpted_with_multires_stays(obj, style):
     """Its displacement can be read as no array. Away from the cuts a piece is seen where the model is."""
     modifier = obj.modifiers.new("Multires", "MULTIRES")

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What every Blender tries of a table, and what the newest tries alone.
+
+The environment variable REEB_PARTS_DIAGONAL, a number, is set for all Blenders but the newest, another one for each:
+of what is long and hardly depends on the version, each tries another part. Without it, all is tried.
+"""
+
+import os
+
+
+def diagonal() -> int | None:
+    """The number, or None where all is to be tried."""
+    number = os.environ.get("REEB_PARTS_DIAGONAL")
+    return None if number is None else int(number)
+
+
+def some(*every):
+    """All of some values for pytest.mark.parametrize, or one of them."""
+    number = diagonal()
+    return every if number is None else every[number % len(every) :][:1]
