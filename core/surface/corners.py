@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -60,6 +60,27 @@ class CornerTable:
         used, corner_edge = renumbered(self.corner_edge[kept])
         return CornerTable(self.vertices, self.edges[used], self.corner_vertex[kept], corner_edge,
                            self.corner_face[kept], self.n_faces)
+
+    def joined(self) -> tuple[CornerTable, np.ndarray]:
+        """Join the border vertices at one place: files keep them apart where textures or normals have seams.
+
+        Returns
+        -------
+        table : CornerTable
+            Of the same vertices and faces; corners and edges have the first vertex at each place, edges other numbers.
+        first : (n,) int64
+            The first border vertex at the place of each border vertex; all others themselves.
+        """
+        first = np.arange(len(self.vertices))
+        border = np.unique(self.edges[np.bincount(self.corner_edge, minlength=len(self.edges)) == 1])
+        # Adding 0.0 turns -0.0 into 0.0: both are one place.
+        _, place, inverse = np.unique(self.vertices[border] + 0.0, axis=0, return_index=True, return_inverse=True)
+        first[border] = border[place[inverse.reshape(-1)]]
+        if (first[border] == border).all():
+            return self, first
+        edges, number = distinct_pairs(*np.sort(first[self.edges], axis=1).T)
+        return replace(self, edges=edges, corner_vertex=first[self.corner_vertex],
+                       corner_edge=number[self.corner_edge]), first
 
     def vertices_of(self, mask: np.ndarray) -> np.ndarray:
         """Which vertices are corners of some faces, (n,) bool. mask : (p,) bool, the faces."""

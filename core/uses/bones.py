@@ -74,7 +74,7 @@ def part_bones(
     -------
     bones : Bones
     """
-    count = int(labels.max()) + 1
+    table, count = table.joined()[0], int(labels.max()) + 1
     center = table.face_means(table.vertices)
     weight = np.maximum(area, 1e-12 * max(area.sum(), 1e-300))
     share = np.bincount(labels, weight, count)
@@ -118,7 +118,7 @@ def limb_bones(
     part_bone : (count,) int64
         The bone that moves each part.
     """
-    owner = np.arange(int(labels.max()) + 1)
+    table, owner = table.joined()[0], np.arange(int(labels.max()) + 1)
     while True:
         bone_part, part_bone = np.unique(owner, return_inverse=True)
         of_face = part_bone[labels]

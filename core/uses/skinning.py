@@ -67,7 +67,7 @@ def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weig
     border, 1.6 times its radius, at which all or nothing does. A vertex near several joints goes beyond in
     proportion to the odds of each. Where bending a joint by 60 degrees turns a face over, the surface is made stiffer
     and the weights are found again, so that they change elsewhere; of all weights found, those that turn over the
-    fewest faces are kept.
+    fewest faces are kept. Border vertices at one place have the same weights.
 
     Parameters
     ----------
@@ -82,11 +82,12 @@ def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weig
     -------
     weights : Weights
     """
+    table, first = table.joined()
     tries = _tries(table, labels, bones)
     best, fewest = next(tries)
     while fewest and (found := next(tries, None)):
         best, fewest = min((best, fewest), found, key=itemgetter(1))
-    return best
+    return Weights(best.bone[first], best.weight[first])
 
 
 @dataclass(frozen=True, eq=False)

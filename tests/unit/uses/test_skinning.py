@@ -119,6 +119,28 @@ def test_weights_do_not_depend_on_order_pose_or_size(seed):
     assert found[place] == pytest.approx(known, abs=2 / 1024)
 
 
+def unjoined(table, apart):
+    """The table where some vertices, (n,) bool, are apart for each of their corners; which vertex each was."""
+    corner = apart[table.corner_vertex]
+    own = np.where(corner, len(apart) + np.cumsum(corner) - 1, table.corner_vertex)
+    source = np.concatenate([np.arange(len(apart)), table.corner_vertex[corner]])
+    return CornerTable.of(table.vertices[source], own.reshape(-1, 4)), source
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 1.0])
+def test_seams_of_textures_and_normals_do_not_tear(share):
+    table, labels = rod(along=49)
+    other, source = unjoined(table, np.random.default_rng(0).random(len(table.vertices)) < share)
+    height = table.vertices[:, 0]
+    bones, part_bone = limbs(table, labels, height)
+    again, other_bone = limbs(other, labels, height[source])
+    assert other_bone.tolist() == part_bone.tolist()
+    np.testing.assert_allclose(again.head, bones.head, atol=1e-9)
+    used = np.unique(other.corner_vertex)
+    np.testing.assert_allclose(dense(smooth_weights(other, labels, again), 3)[used],
+                               dense(smooth_weights(table, labels, bones), 3)[source[used]], atol=1.5 / 1024)
+
+
 def test_trees_apart_do_not_move_each_other():
     vertices, faces = shapes.icosphere(1)
     table = CornerTable.of(np.concatenate([vertices, vertices + 3]), np.concatenate([faces, faces + len(vertices)]))
