@@ -157,6 +157,21 @@ def test_no_part_is_taken_away():
     assert (pieces_of(table, cuts, labels) > 0).all()
 
 
+@pytest.mark.parametrize("seed", [46, 86, 380, 396])
+def test_no_part_of_several_islands_is_taken_away(seed):
+    """One island would be diffused into nothing now, and the others, fewer times, in another try."""
+    table, rng = table_of(shapes.icosphere(3)), np.random.default_rng(seed)
+    normal = rng.normal(size=3)
+    labels = (centers(table) @ normal > 0.2 * np.linalg.norm(normal)).astype(np.int64)
+    count = rng.integers(1, 4)
+    for _ in range(2):
+        apart = np.linalg.norm(centers(table) - centers(table)[rng.integers(table.n_faces)], axis=1)
+        labels[np.argsort(apart)[:count]] = 2
+    cuts = clean_cuts(table, labels)
+    assert len(cuts.edge)
+    assert (pieces_of(table, cuts, labels) > 0).all()
+
+
 def test_without_borders_there_is_nothing_to_do():
     table = table_of(shapes.octahedron())
     cuts = clean_cuts(table, np.zeros(8, np.int64))
