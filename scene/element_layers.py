@@ -18,6 +18,8 @@ from .temporary import freed, removed
 #: What is no attribute. Their layers have names that no attribute can have.
 SPECIAL = KEY, WEIGHTS, SKIN, FREESTYLE = "shape key", "weights", "skin", "Freestyle"
 
+# Of attributes, the beginnings of names that say what is selected, hidden or pinned, which is no work.
+_PASSING = (".select_", ".hide_", ".uv_select", ".vs.", ".es.", ".pn.")
 _TOPOLOGY = {".edge_verts", ".corner_vert", ".corner_edge"}
 _ITEMS = {POINT: "vertices", EDGE: "edges", FACE: "polygons", CORNER: "loops"}
 _WEIGHT = np.dtype([("group", np.int32), ("weight", np.float32)])
@@ -41,6 +43,27 @@ def read(mesh: bpy.types.Mesh) -> Elements:
         layers[f"\0{WEIGHTS}"] = Layer(WEIGHTS, POINT, weights)
     return Elements(mesh_arrays.edge_ends(mesh), mesh_arrays.face_sizes(mesh),
                     mesh_arrays.corner_vertices(mesh), mesh_arrays.corner_edges(mesh), layers)
+
+
+def contents(mesh: bpy.types.Mesh) -> str:
+    """Changes when something is done to what the elements carry: maps, colors, weights, shape keys, marks ...
+
+    Not when vertices move, which mesh_arrays.fingerprint tells, when elements are selected or hidden, nor when Blender
+    makes a layer that says nothing. Not in Edit Mode.
+    """
+    digests = []
+    for name, layer in sorted(read(mesh).layers.items()):
+        values = layer.values
+        says = values.count.any() if isinstance(values, Ragged) else values.any()
+        if says and name != "position" and not name.startswith(_PASSING):
+            arrays = (values.count, values.items) if isinstance(values, Ragged) else (_bytes(values),)
+            digests.append((name, layer.kind, layer.domain, mesh_arrays.digest(*arrays)))
+    return str(digests)
+
+
+def _bytes(values: np.ndarray) -> np.ndarray:
+    """Values whose bytes tell them apart: of text, the text itself instead of where it is kept."""
+    return np.array([str(value) for value in values]) if values.dtype == object else values
 
 
 def made(elements: Elements, like: bpy.types.Mesh) -> bpy.types.Mesh:

@@ -21,6 +21,7 @@ from . import (
     bridge,
     cap_looks,
     cut_list,
+    element_layers,
     explode,
     graph_objects,
     hidden,
@@ -307,7 +308,8 @@ def looks(piece: bpy.types.Object) -> str:
     place = [round(value, 6) for row in piece.matrix_basis for value in row]
     materials = [slot.material.name if slot.material else "" for slot in piece.material_slots]
     parent = piece.parent.name if piece.parent else ""
-    return str([piece.name, mesh_arrays.fingerprint(piece.data), place, parent, piece.modifiers.keys(), materials])
+    return str([piece.name, mesh_arrays.fingerprint(piece.data), element_layers.contents(piece.data), place, parent,
+                piece.modifiers.keys(), piece.vertex_groups.keys(), materials])
 
 
 def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: SeparateProperties) -> bpy.types.Object:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...surface.arrays import components, renumbered, sums_by
+from ...surface.arrays import components, last_of_each, renumbered, sums_by
 from ...surface.corners import next_of_owner
 from .band import Band
 from .division import Division
@@ -27,7 +27,7 @@ def judged(band: Band, sides: Sides, division: Division,
     group : (v,) int64
         Group of each vertex of a face that is at a border before or after; -1 of others.
     good : (groups,) bool
-        Whether the curves of the group turn less than its borders do, and nothing is lost or torn by them.
+        Whether the curves of the group turn less than its borders do, and no part is lost or torn by them.
     broken : (groups,) bool
         Whether a part would be lost or torn, or the borders branch into several surfaces.
     """
@@ -107,7 +107,7 @@ def _segments(band: Band, division: Division) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _torn(band: Band, division: Division) -> np.ndarray:
-    """Faces of what is lost, of any part, and faces in what is torn off a part, (f,) bool."""
+    """Faces of parts that are lost, and faces in what is torn off a part, (f,) bool."""
     one, other = division.beside
     a, b = division.face[one], division.face[other]
     kept = band.labels[a] == band.labels[b]
@@ -115,10 +115,13 @@ def _torn(band: Band, division: Division) -> np.ndarray:
     name = np.zeros(count, np.int64)
     name[before] = band.labels
     n_before = np.bincount(name, minlength=len(band.names))
-    # Whatever hangs together keeps some of its own faces: if one of two ends of a part were lost now, and the other by
-    # another try, nothing of the part would be left.
+    # In each try the largest of what hangs together of a part keeps some of its own faces: if one of two islands were
+    # lost in one try, and the other in the next, nothing of the part would be left.
     alive = np.zeros(count, bool)
     alive[before[division.face[division.label == band.labels[division.face]]]] = True
+    largest = last_of_each(name, np.bincount(before, minlength=count), -np.arange(count), count=len(band.names))
+    lost = np.zeros(count, bool)
+    lost[largest] = ~alive[largest]
     label = division.label[division.begins]
     kept = division.label[one] == division.label[other]
     count, after = components(len(label), division.piece[one[kept]], division.piece[other[kept]])
@@ -130,6 +133,6 @@ def _torn(band: Band, division: Division) -> np.ndarray:
     first = np.searchsorted(name[order], name[order])
     off = np.zeros(count, bool)
     off[order] = np.arange(count) - first >= n_before[name[order]]
-    torn = ~alive[before]
+    torn = lost[before]
     torn[division.face[off[after[division.piece]]]] = True
     return torn

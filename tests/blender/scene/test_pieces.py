@@ -395,27 +395,68 @@ def test_other_parts_replace_the_earlier_pieces(obj):
     assert len(bpy.data.meshes) < meshes
 
 
-@pytest.mark.parametrize("work", ["mesh", "place", "name", "modifier", "material"])
+WORK = {
+    "mesh": lambda piece: setattr(piece.data.vertices[0].co, "x", 0.01),
+    "place": lambda piece: setattr(piece.location, "z", 1),
+    "name": lambda piece: setattr(piece, "name", "Body"),
+    "modifier": lambda piece: piece.modifiers.new("Bevel", "BEVEL"),
+    "material": lambda piece: piece.data.materials.append(bpy.data.materials.new("Gold")),
+    "the material of a face": lambda piece: setattr(piece.data.polygons[0], "material_index", 1),
+    "map": lambda piece: setattr(piece.data.uv_layers.new().data[0], "uv", (0.3, 0.4)),
+    "group": lambda piece: piece.vertex_groups.new(name="Bone"),
+    "weight": lambda piece: piece.vertex_groups["Bend"].add([0], 0.3, "REPLACE"),
+    "color": lambda piece: setattr(piece.data.color_attributes.new("Paint", "BYTE_COLOR", "CORNER").data[0], "color",
+                                   (1, 0, 0, 1)),
+    "text": lambda piece: setattr(piece.data.attributes.new("Word", "STRING", "FACE").data[0], "value", b"a"),
+    "seam": lambda piece: setattr(piece.data.edges[0], "use_seam", True),
+    "shape key": lambda piece: (piece.shape_key_add(name="Basis"), piece.shape_key_add(name="Smile")),
+    "parts": lambda piece: (activate(piece), bpy.ops.reeb_parts.decompose(graph=False)),
+}
+
+
+@pytest.mark.parametrize("work", WORK)
 def test_pieces_that_somebody_worked_on_are_kept(obj, work):
+    obj.vertex_groups.new(name="Bend").add(range(len(obj.data.vertices)), 0.5, "REPLACE")
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP)
     count = len(pieces())
     mine = pieces()[0]
-    if work == "mesh":
-        mine.data.vertices[0].co.x += 0.01
-    elif work == "place":
-        mine.location.z += 1
-    elif work == "name":
-        mine.name = "Body"
-    elif work == "modifier":
-        mine.modifiers.new("Bevel", "BEVEL")
-    else:
-        mine.data.materials.append(bpy.data.materials.new("Gold"))
+    WORK[work](mine)
     activate(obj)
     bpy.ops.reeb_parts.separate(**KEEP)
     assert mine in bpy.data.objects[:]
     assert mine not in pieces()
     assert len(pieces()) == count
+
+
+def test_pieces_that_somebody_only_looked_at_are_replaced(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    looked, count = pieces()[0], len(pieces())
+    activate(looked)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.hide()
+    bpy.ops.mesh.reveal()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    activate(obj)
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert len(bpy.data.collections["Parts of Tree"].objects) == len(pieces()) == count
+
+
+def test_a_piece_that_was_decomposed_is_separated_together_with_its_original(obj):
+    """Both chosen: what the original is separated into again does not take the place of the piece."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    mine = max(pieces(), key=lambda piece: len(piece.data.polygons))
+    name = mine.name
+    activate(mine)
+    bpy.ops.reeb_parts.decompose(detail=0.9, graph=False)
+    obj.select_set(True)
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert mine.name == name
+    assert len(pieces()) == len(obj.data.reeb_parts.parts)
+    assert len(pieces(name)) == len(mine.data.reeb_parts.parts) > 1
 
 
 def test_only_the_chosen_parts(obj):
