@@ -7,7 +7,7 @@ Run tools/build.py first. Nothing of the user's Blender settings is touched: the
 settings folder of its own, which --resources keeps. The parts are
 
 install  nothing more than that
-inside   whole runs of tests/unit, and tests/blender, in Blender's own Python, on the shipped files
+inside   the stored answers of tests/unit, and tests/blender, in Blender's own Python, on the shipped files
 command  tests/installed: "blender --command reeb_parts" and scripts, as processes
 window   tests/window: buttons pressed with the real pointer; --gui names the program that opens the window
 speed    of those, what measures how long a person waits, for which nothing else may run
@@ -27,13 +27,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SPEED = ["tests/window/test_fluid.py", "tests/window/test_hands.py", "tests/window/test_large.py"]
-RUNS = sorted(str(path.relative_to(ROOT)) for path in ROOT.glob("tests/unit/test_*.py"))
-PARTS = {"inside": [*RUNS, "tests/blender"], "command": ["tests/installed"],
+PARTS = {"inside": ["tests/unit/test_everywhere.py", "tests/blender"], "command": ["tests/installed"],
          "window": ["tests/window", *(f"--ignore={path}" for path in SPEED)], "speed": SPEED}
-# What takes long and asks nothing of Blender is tried in unit-newest: single stages, costs, whole runs of the presets
-# "Lavoue 2005" and "Liu 2007", and most whole runs of the others; those of the bundled models are tried here, too.
-ELSEWHERE = ("not 2005 and not 2007 and not test_cost and not test_scale and not huge and not test_resolutions "
-             "and (not test_pipeline or test_models)")
 PACKAGE = "bl_ext.user_default.reeb_parts"
 
 
@@ -58,8 +53,7 @@ def main() -> int:
         if arguments.part == "install":
             return 0
         pytest_arguments = ["-q", "-p", "no:cacheprovider", *PARTS[arguments.part]]
-        words = arguments.k or (ELSEWHERE if arguments.part == "inside" else "")
-        pytest_arguments += ["-k", words] if words else []
+        pytest_arguments += ["-k", arguments.k] if arguments.k else []
         if arguments.junit:
             pytest_arguments.append(f"--junitxml={arguments.junit.resolve()}")
         if arguments.part == "inside":

@@ -55,15 +55,16 @@ class Suite:
 
 
 SUITES = {
+    # In the order of how long they take, so that a short one is the last to end.
     # Whole runs, but for what takes long; single stages are in unit-newest alone, and what is made of parts runs in
     # Blender 4.2 with the same NumPy. That the versions agree is held by the stored answers of test_everywhere.py.
     "unit-oldest": Suite(OLDEST, "tests/unit/test_*.py", "not 2005 and not 2007 and not test_cost and not huge and "
                          "not bag_of and not test_scale and not test_resolutions"),
-    "unit-newest": Suite(NEWEST, "tests/unit"),
     "package": Suite(PACKAGE, "tests/package"),
     "documents": Suite(NEWEST, "tests/documents"),
     "fuzz-core": Suite(FUZZ, "tests/fuzz/core"),
     "fuzz-blender": Suite(environments.BLENDER_52, "tests/fuzz/blender"),
+    "unit-newest": Suite(NEWEST, "tests/unit"),
     "blender-4.2": Suite(environments.BLENDER_42, "tests/blender"),
     "blender-4.5": Suite(environments.BLENDER_45, "tests/blender"),
     "blender-5.2": Suite(environments.BLENDER_52, "tests/blender"),
@@ -142,7 +143,7 @@ def _steps(arguments: argparse.Namespace, for_pytest: list[str], scratch: Path) 
         else:
             _left_out(f"{name} needs Python {SUITES[name].environment.python}, which was not found here")
     blenders = [name for name in SUITES if name in chosen and SUITES[name].folder == "tests/blender"]
-    for name in reversed(chosen):  # the longest are the last ones of SUITES
+    for name in reversed(chosen):  # the longest first
         number = blenders.index(name) if name in blenders[:-1] else None
         work = partial(_pytest, name, number, scratch, for_pytest)
         if arguments.fuzz and name in LONG:
@@ -299,8 +300,8 @@ def _full_blender(blender: str, gui: str | None, scratch: Path) -> list[Step]:
         own, report = scratch / f"resources-{name}", scratch / f"{name}.xml"
         shutil.copytree(resources, own, symlinks=True)
         if name == "inside":
-            _left_out("installed, inside: single stages; all but one situation of each operator, and of what "
-                      "tests/diagonal.py names")
+            _left_out("installed, inside: the unit tests but for the stored answers; all but one situation of each "
+                      "operator, and of what tests/diagonal.py names")
         command = [_prepare(NEWEST), *runner, "--part", name, "--resources", str(own), "--junit", str(report)]
         return _count(name, report, _call(command, log, env={**os.environ, DIAGONAL: str(len(SUITES))}))
 
