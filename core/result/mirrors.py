@@ -8,9 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..surface.mesh import TriMesh
+from ..surface.mirror_images import Images
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
-from ..surface.symmetry import LEAST, exact_planes, face_twins, mirror_plane
+from ..surface.small_faces import SmallFaces
+from ..surface.symmetry import LEAST, mirror_plane
 
 LEAST_BODY = 0.1  # share of the area below which a body has no plane of its own
 
@@ -45,15 +47,15 @@ class Mirror:
     @classmethod
     def of(cls, mesh: TriMesh, polygon: np.ndarray, n_polygons: int) -> Mirror | None:
         """The plane of symmetry of small faces that lie in some of the caller's; None if there is none."""
-        plane = mirror_plane(mesh)
+        faces = SmallFaces(mesh, polygon, n_polygons)
+        plane = mirror_plane(faces)
         if plane is None:
             return None
-        twin = face_twins(mesh, polygon, n_polygons, plane)
-        if (twin < 0).all():
+        images = Images(faces, plane)
+        if (images.twins < 0).all():
             return None
-        exact = [cls._in(other, images, mesh, polygon)
-                 for other, images in exact_planes(mesh, polygon, n_polygons, plane)]
-        return replace(cls._in(plane, twin, mesh, polygon), exact=bool(exact), across=tuple(exact[1:]))
+        across = tuple(cls._in(other.plane, other.exact_twins, mesh, polygon) for other in images.exact[1:])
+        return replace(cls._in(plane, images.twins, mesh, polygon), exact=bool(images.exact), across=across)
 
     @classmethod
     def _in(cls, plane: MirrorPlane, twin: np.ndarray, mesh: TriMesh, polygon: np.ndarray) -> Mirror:

@@ -6,19 +6,25 @@ import pytest
 import shapes
 
 from core.surface.mesh import TriMesh
+from core.surface.mirror_images import Images
 from core.surface.polygons import PolygonMesh
 from core.surface.preparation import bodies, repair
-from core.surface.symmetry import exact_planes, face_twins, mirror_plane
+from core.surface.small_faces import SmallFaces
+from core.surface.symmetry import mirror_plane
 
 
 def small_faces(vertices, faces):
-    """A mesh of one piece with its long edges split, and the face in which each triangle lies."""
+    """Those of a mesh of one piece, its long edges split."""
     (body,) = bodies(repair(PolygonMesh.of(vertices, faces)), True, 0.01)
-    return body.mesh, body.polygon
+    return SmallFaces(body.mesh, body.polygon, len(faces))
+
+
+def plane_of(mesh):
+    return mirror_plane(SmallFaces.of(mesh))
 
 
 def twins_of(mesh, plane):
-    return face_twins(mesh, np.arange(mesh.n_faces), mesh.n_faces, plane)
+    return Images(SmallFaces.of(mesh), plane).twins
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -28,7 +34,7 @@ def test_a_turned_figure_has_the_turned_plane_and_exact_twins(seed):
     turn, offset, scale = shapes.rotation(rng), rng.normal(size=3) * 100, 10.0 ** rng.uniform(-3, 3)
     (moved, faces), _, _ = shapes.shuffled(shapes.Shape(scale * (vertices @ turn.T + offset), faces), rng)
     mesh = TriMesh(moved, faces)
-    plane = mirror_plane(mesh)
+    plane = plane_of(mesh)
     assert abs(plane.normal @ turn[:, 0]) == pytest.approx(1.0, abs=1e-9)
     assert plane.offset == pytest.approx(scale * offset @ plane.normal, abs=1e-6 * scale)
     assert plane.share == pytest.approx(1.0)
@@ -42,7 +48,7 @@ def test_an_arm_that_only_one_side_has_has_no_twin():
     vertices, faces = shapes.mirrored_figure()
     mesh = TriMesh(vertices, faces)
     kept = mesh.face_centroids[:, 0] > -0.7  # one arm ends at the elbow
-    plane = mirror_plane(mesh.submesh(np.flatnonzero(kept))[0])
+    plane = plane_of(mesh.submesh(np.flatnonzero(kept))[0])
     half = mesh.submesh(np.flatnonzero(kept))[0]
     assert abs(plane.normal[0]) > 0.999
     lone = half.face_centroids[:, 0] > 1.05
@@ -57,7 +63,7 @@ def test_another_tessellation_of_one_side_has_twins_within_a_face():
     left, right = mesh.face_centroids[:, 0] < 0, finer.face_centroids[:, 0] > 0
     halves = shapes.Shape(vertices, faces[left]), shapes.Shape(fine.vertices, fine.faces[right])
     both = TriMesh(*shapes.together(*halves))
-    plane = mirror_plane(both)
+    plane = plane_of(both)
     assert plane.normal[0] == pytest.approx(1.0, abs=1e-3)
     twin = twins_of(both, plane)
     assert (twin >= 0).mean() > 0.99
@@ -85,8 +91,8 @@ def test_planes_across_each_other(shape, count):
     for seed in range(3):
         rng = np.random.default_rng(seed)
         vertices, turn = shape[0], shapes.rotation(rng)
-        component, polygon = small_faces(vertices @ turn.T + rng.normal(size=3), shape[1])
-        planes = exact_planes(component, polygon, len(shape[1]), mirror_plane(component))
+        found = small_faces(vertices @ turn.T + rng.normal(size=3), shape[1])
+        planes = [(images.plane, images.exact_twins) for images in Images(found, mirror_plane(found)).exact]
         assert len(planes) == count
         normals = np.array([plane.normal for plane, _ in planes])
         assert np.allclose(normals @ normals.T, np.eye(count), atol=1e-6)
@@ -102,17 +108,17 @@ def test_a_dent_on_one_side_leaves_no_exact_plane():
     vertices = vertices.copy()
     vertices[vertices[:, 0].argmax()] *= 0.95
     mesh = TriMesh(vertices, faces)
-    plane = mirror_plane(mesh)
+    plane = plane_of(mesh)
     assert plane is not None
-    assert exact_planes(mesh, np.arange(mesh.n_faces), mesh.n_faces, plane) == []
+    assert Images(SmallFaces.of(mesh), plane).exact == []
 
 
 def test_a_twisted_tree_has_no_plane():
-    assert mirror_plane(TriMesh(*shapes.tube_tree())) is None
+    assert plane_of(TriMesh(*shapes.tube_tree())) is None
 
 
 def test_the_two_sides_of_a_thin_plate_are_not_confused():
     mesh = TriMesh(*shapes.subdivide(shapes.subdivide(shapes.subdivide(shapes.box((4.0, 1.0, 0.02))))))
-    plane = mirror_plane(mesh)
+    plane = plane_of(mesh)
     twin = twins_of(mesh, plane)
     assert np.allclose(plane.turned(mesh.face_normals), mesh.face_normals[twin], atol=1e-4)

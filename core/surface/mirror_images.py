@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mirror twin of each face, and the planes in which all faces are exact mirror images."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .arrays import inner_products
+from .labels import majority
+from .mirror_plane import MirrorPlane
+from .small_faces import DENSE, Elements, SmallFaces
+from .symmetry import COARSE, EXACT, judged, oriented
+
+# How far a mirrored face may lie beside the surface where twins are found, on a model bent to one side a little; in
+# units of the size.
+BENT = 0.03
+# Number of faces from which on they are small enough to be mirrored where the tessellation is not; share of the area
+# that must have exact twins on a mesh of fewer.
+MANY_FACES, MOSTLY = 3_000, 0.5
+# A face is the exact twin of another if their centers, mirrored, are nearer than this, in units of its area's root, and
+# their areas differ by less, in units of its area.
+NEAR = 0.02
+# Planes across another are looked for by moments of z^m, m to MOST_RAYS; one is 0 if below UNEVEN of what it can be.
+MOST_RAYS, UNEVEN = 6, 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class Images:
+    """What a plane does to small faces and to the polygons in which they lie.
+
+    Attributes
+    ----------
+    faces : SmallFaces
+    plane : MirrorPlane
+    """
+
+    faces: SmallFaces
+    plane: MirrorPlane
+
+    @cached_property
+    def twins(self) -> np.ndarray:
+        """(n_polygons,) int64, the polygon that is the mirror image of each, or on which most of its image lies.
+
+        -1 where there is none, and everywhere if there are few polygons and most of them have no exact image.
+        """
+        faces, elements, n_polygons = self.faces, self.faces.elements, self.faces.n_polygons
+        matched = elements.matched(elements.mirrored(self._local), self._nearest, BENT)
+        if n_polygons == len(elements.area) > DENSE:
+            return np.where(matched, self._nearest, -1)
+        # Halves of a face that was split vote alike to the last digit, whatever the pose.
+        weight = np.round(elements.area, 9) + 1e-12
+        twin = majority(faces.polygon, np.where(matched, faces.polygon[self._nearest] + 1, 0), weight, n_polygons) - 1
+        twin = np.maximum(twin, -1)
+        image, same = self._polygons
+        if n_polygons < MANY_FACES and faces.polygons.area[same].sum() < MOSTLY:
+            return np.full(n_polygons, -1)
+        twin[faces.present[same]] = faces.present[image[same]]
+        return twin
+
+    @cached_property
+    def exact(self) -> list[Images]:
+        """Planes, this one and others across it, in which all polygons are exact mirror images.
+
+        This one first, then none, one or two others, all across each other; empty if polygons are no exact images in
+        this one. Which of two planes mirrors first makes no difference. Dense meshes are not looked at.
+        """
+        if self.plane.share < 1 - EXACT or self.faces.n_polygons > DENSE:
+            return []
+        found: list[Images] = []
+        for other in (self, *(Images(self.faces, plane) for plane in _likely_across(self.faces, self.plane))):
+            image, same = other._polygons
+            known = [images._polygons[0] for images in found]
+            commutes = all(np.array_equal(image[before], before[image]) for before in known)
+            if same.all() and commutes and np.array_equal(image[image], np.arange(len(image))):
+                found.append(other)
+            elif other is self:
+                break
+        return found
+
+    @property
+    def exact_twins(self) -> np.ndarray:
+        """(n_polygons,) int64, the polygon nearest to the image of each; -1 for one without an area."""
+        twin = np.full(self.faces.n_polygons, -1)
+        twin[self.faces.present] = self.faces.present[self._polygons[0]]
+        return twin
+
+    @cached_property
+    def _local(self) -> MirrorPlane:
+        return self.faces.inwards(self.plane)
+
+    @cached_property
+    def _nearest(self) -> np.ndarray:
+        """(m,) int64, the face nearest to the image of each."""
+        elements = self.faces.elements
+        return elements.nearest(elements.mirrored(self._local))[1]
+
+    @cached_property
+    def _polygons(self) -> tuple[np.ndarray, np.ndarray]:
+        """The polygon nearest to the image of each that has an area, (k,) int64, and whether it is exact, (k,) bool."""
+        whole = self.faces.polygons
+        image = whole.mirrored(self._local)
+        # Normals count as much as a polygon is wide: the two sides of a thin wall have the same center.
+        nearest = self._nearest if whole is self.faces.elements else whole.nearest(image)[1]
+        apart = np.linalg.norm(image.position - whole.position[nearest], axis=1)
+        same = apart <= NEAR * np.sqrt(whole.area)
+        same &= (image.normal * whole.normal[nearest]).sum(axis=1) > 0.99 * (whole.normal**2).sum(axis=1)
+        same &= np.abs(whole.area - whole.area[nearest]) <= NEAR * whole.area
+        return nearest, same
+
+
+def _likely_across(faces: SmallFaces, plane: MirrorPlane) -> list[MirrorPlane]:
+    """Planes through the middle, across a plane, that match nearly all of the surface."""
+    elements = faces.elements
+    few, probes = elements.some(COARSE[0]), elements.some(COARSE[1])
+    tried = [judged(oriented(normal, 0.0), few, probes) for normal in _across(faces.polygons, plane.normal)]
+    return [faces.outwards(other) for other in tried if other.share >= 1 - EXACT]
+
+
+def _across(elements: Elements, normal: np.ndarray) -> np.ndarray:
+    """Unit normals, (k, 3), across a given one, of the planes in which what is seen along it may be its own image.
+
+    With z = x + iy of what is seen, a mirror line at the angle t turns the moment of z^m into its conjugate times
+    exp(2imt): the angle of the first moment that is not 0 tells where the lines can be, whatever the number of rays.
+    """
+    axes = np.linalg.svd(normal[None])[2][1:]
+    seen = inner_products(elements.position, axes[0]) + 1j * inner_products(elements.position, axes[1])
+    for count in range(2, MOST_RAYS + 1):
+        moment = (elements.area * seen**count).sum()
+        if abs(moment) > UNEVEN * (elements.area * abs(seen) ** count).sum():
+            angle = np.angle(moment) / count + np.pi / 2 + np.arange(count) * np.pi / count
+            return np.cos(angle)[:, None] * axes[0] + np.sin(angle)[:, None] * axes[1]
+    return np.empty((0, 3))
