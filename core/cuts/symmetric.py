@@ -396,26 +396,30 @@ class _Clusters:
 
     def search_(self, clusters: np.ndarray) -> None:
         """Find the nearest neighbor of some clusters anew."""
-        if not len(clusters):
+        touching = self.touching[clusters]
+        others = np.flatnonzero(touching.any(axis=0))
+        self.least[clusters] = np.inf
+        if not len(others):
             return
-        reach = np.where(self.touching[clusters], self.cost(clusters), np.inf)
-        self.nearest[clusters] = rounded(reach).argmin(axis=1)
-        self.least[clusters] = reach[np.arange(len(clusters)), self.nearest[clusters]]
+        reach = np.where(touching[:, others], self.cost(clusters, others), np.inf)
+        nearest = rounded(reach).argmin(axis=1)
+        self.nearest[clusters] = others[nearest]
+        self.least[clusters] = reach[np.arange(len(clusters)), nearest]
 
-    def cost(self, clusters: np.ndarray) -> np.ndarray:
-        """What some clusters cost to merge with each: the mean over all pairs of cells that come together, (k, c).
+    def cost(self, clusters: np.ndarray, others: np.ndarray) -> np.ndarray:
+        """What some clusters, (k,), cost to merge with others, (l,): the mean over all pairs of cells, (k, l).
 
         A cluster that is its own image takes in another together with that one's image, which may be far from it.
         """
-        mean, groups, every = self.mean[clusters], self.groups, np.arange(len(self.area))
-        mine, its = self.own[clusters], self.own
-        both = groups.joined[mine][:, its]
-        copies, its_copies = groups.copies[mine][:, its], groups.copies.T[mine][:, its]
-        area = self.area[clusters][:, None]
-        between = copies * its_copies * area * self.area
-        inside = groups.pairs.T[mine][:, its] * self.area**2
-        weight, total = between + inside, between * mean + inside * self.spread[every, both]
-        inside = groups.pairs[mine][:, its] * area**2
+        mean, groups = self.mean[clusters[:, None], others], self.groups
+        mine, its = self.own[clusters][:, None], self.own[others]
+        both = groups.joined[mine, its]
+        copies, its_copies = groups.copies[mine, its], groups.copies[its, mine]
+        area, its_area = self.area[clusters][:, None], self.area[others]
+        between = copies * its_copies * area * its_area
+        inside = groups.pairs[its, mine] * its_area**2
+        weight, total = between + inside, between * mean + inside * self.spread[others, both]
+        inside = groups.pairs[mine, its] * area**2
         weight, total = weight + inside, total + inside * self.spread[clusters[:, None], both]
         return np.where((copies > 1) | (its_copies > 1), np.fmax(total / weight, mean), mean)
 
