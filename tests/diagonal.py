@@ -3,9 +3,13 @@
 
 The environment variable REEB_PARTS_DIAGONAL, a number, is set for all Blenders but the newest, another one for each:
 of what is long and hardly depends on the version, each tries another part. Without it, all is tried.
+
+REEB_PARTS_THIRD, 0 to 2, leaves a third of all tests, always the same ones: for the Blenders between the oldest and the
+newest, where time is short.
 """
 
 import os
+import zlib
 
 
 def diagonal() -> int | None:
@@ -18,3 +22,9 @@ def some(*every):
     """All of some values for pytest.mark.parametrize, or one of them."""
     number = diagonal()
     return every if number is None else every[number % len(every) :][:1]
+
+
+def in_third(name):
+    """Whether the test of a name is in the third that is asked for; all are if none is."""
+    third = os.environ.get("REEB_PARTS_THIRD")
+    return third is None or zlib.crc32(name.encode()) % 3 == int(third)

@@ -6,12 +6,21 @@ In Blender as a module the checkout is the package; in a full Blender the instal
 
 import os
 import sys
+from pathlib import Path
 
 import bpy
 import checkout
 import pytest
 import shapes
+from diagonal import in_third
 from snapshot import activate
+
+
+def pytest_collection_modifyitems(config, items):
+    """Leave out what of this folder is not in the third that is asked for."""
+    out = [item for item in items if Path(__file__).parent in item.path.parents and not in_third(item.nodeid)]
+    items[:] = [item for item in items if item not in out]
+    config.hook.pytest_deselected(items=out)
 
 
 @pytest.fixture(scope="session")
