@@ -4,8 +4,8 @@
 The environment variable REEB_PARTS_DIAGONAL, a number, is set for all Blenders but the newest, another one for each:
 of what is long and hardly depends on the version, each tries another part. Without it, all is tried.
 
-REEB_PARTS_THIRD, 0 to 2, leaves a third of all tests, always the same ones: for the Blenders between the oldest and the
-newest, where time is short.
+REEB_PARTS_THIRDS, such as 12, leaves the second and the last third of all tests, always the same ones: where time is
+short, each Blender but the newest tries others.
 """
 
 import os
@@ -24,7 +24,6 @@ def some(*every):
     return every if number is None else every[number % len(every) :][:1]
 
 
-def in_third(name):
-    """Whether the test of a name is in the third that is asked for; all are if none is."""
-    third = os.environ.get("REEB_PARTS_THIRD")
-    return third is None or zlib.crc32(name.encode()) % 3 == int(third)
+def in_thirds(name):
+    """Whether the test of a name is in the thirds that are asked for."""
+    return str(zlib.crc32(name.encode()) % 3) in os.environ.get("REEB_PARTS_THIRDS", "012")

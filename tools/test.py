@@ -5,7 +5,7 @@
     ./test unit-newest blender-5.2             only these
     ./test --blender PATH [--gui PATH]         also on the built extension, installed into a full Blender
     ./test unit-newest -- -k torus --pdb       everything after -- goes to pytest
-    ./test --brief                             a third of the tests in Blenders between the oldest and the newest
+    ./test --brief                             each test in some of the versions only
     ./test --fuzz MINUTES                      look for faults, and store each as a case in tests/fuzz/cases
 
 The unit tests of core/ need no Blender and run with the oldest and the newest NumPy and SciPy that the
@@ -75,10 +75,11 @@ SUITES = {
 PYTEST_AND_LEAVE = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
 #: What of their tables the Blenders but the newest try, see tests/diagonal.py.
 DIAGONAL = "REEB_PARTS_DIAGONAL"
-#: What leaves a third of the operator tests, see there, too, and which third of them where time is short: in what lies
-#: between the oldest and the newest Blender, and in the full one, which is the newest once more.
-THIRD = "REEB_PARTS_THIRD"
-THIRDS = {"blender-4.5": "0", "inside": "1"}
+#: Where time is short: what leaves thirds of the operator tests, see there, too, and which; of the unit tests, which.
+THIRDS = "REEB_PARTS_THIRDS"
+BRIEF_THIRDS = {"blender-4.2": "12", "blender-4.5": "0", "inside": "1"}
+BRIEF_WORDS = {"unit-oldest": "test_everywhere or test_models or (test_pipeline and (2005 or 2007))",
+               "unit-newest": "not test_pipeline or test_models or not (2005 or 2007)"}
 #: The suites that can run for long, and how many tests in each share that time.
 LONG = {"fuzz-core": 1, "fuzz-blender": 3}
 COUNTS = "counts.txt"
@@ -118,7 +119,7 @@ def main() -> None:
     parser.add_argument("--lint", action="store_true", help="also check the style and the types")
     parser.add_argument("--blender", metavar="PATH", help="also build, install and test in this full Blender")
     parser.add_argument("--gui", metavar="PATH", help="with --blender: also press the buttons in a real window")
-    parser.add_argument("--brief", action="store_true", help="where Blenders are alike, try a third of the tests")
+    parser.add_argument("--brief", action="store_true", help="try each test in some of the versions only")
     parser.add_argument("--fuzz", type=float, metavar="MINUTES", help="run the harness of tests/fuzz for so long")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="steps at a time, default 2")
     arguments = parser.parse_args(ours)
@@ -151,9 +152,12 @@ def _steps(arguments: argparse.Namespace, for_pytest: list[str], scratch: Path) 
     blenders = [name for name in SUITES if name in chosen and SUITES[name].folder == "tests/blender"]
     for name in reversed(chosen):  # the longest first
         number = blenders.index(name) if name in blenders[:-1] else None
-        work = partial(_pytest, name, number, scratch, for_pytest)
-        if arguments.brief and name in THIRDS:
-            work = partial(work, **_third(name))
+        words = ["-k", BRIEF_WORDS[name]] if arguments.brief and name in BRIEF_WORDS else []
+        if words:
+            _left_out(f"{name}: all but \"{words[1]}\" (--brief)")
+        work = partial(_pytest, name, number, scratch, [*words, *for_pytest])
+        if arguments.brief:
+            work = partial(work, **_thirds(name))
         if arguments.fuzz and name in LONG:
             work = partial(work, REEB_PARTS_FUZZ=str(60 * arguments.fuzz / LONG[name]),
                            REEB_PARTS_FUZZ_COUNTS=str(scratch / COUNTS))
@@ -289,10 +293,12 @@ def _documents(blender: str | None, scratch: Path, extra: list[str], log: Path |
     return _pytest("documents", None, scratch, extra, log, BLENDER=blender, BROWSER=browser or "")
 
 
-def _third(name: str) -> dict[str, str]:
-    """The variable that leaves a third of the operator tests of a step, and says so."""
-    _left_out(f"{name}: two thirds of tests/blender (--brief)")
-    return {THIRD: THIRDS[name]}
+def _thirds(name: str) -> dict[str, str]:
+    """The variable that leaves thirds of the operator tests of a step, and says so; nothing for other steps."""
+    if name not in BRIEF_THIRDS:
+        return {}
+    _left_out(f"{name}: of tests/blender all but the thirds {', '.join(BRIEF_THIRDS[name])} of 0, 1, 2 (--brief)")
+    return {THIRDS: BRIEF_THIRDS[name]}
 
 
 def _full_blender(blender: str, gui: str | None, scratch: Path, brief: bool) -> list[Step]:
@@ -317,7 +323,7 @@ def _full_blender(blender: str, gui: str | None, scratch: Path, brief: bool) -> 
             _left_out("installed, inside: the unit tests but for the stored answers; all but one situation of each "
                       "operator, and of what tests/diagonal.py names")
         command = [_prepare(NEWEST), *runner, "--part", name, "--resources", str(own), "--junit", str(report)]
-        variables = {**os.environ, DIAGONAL: str(len(SUITES)), **(_third(name) if brief and name in THIRDS else {})}
+        variables = {**os.environ, DIAGONAL: str(len(SUITES)), **(_thirds(name) if brief else {})}
         return _count(name, report, _call(command, log, env=variables))
 
     if not gui:
