@@ -75,9 +75,10 @@ SUITES = {
 PYTEST_AND_LEAVE = "import os, sys, pytest; status = pytest.main(); sys.stdout.flush(); os._exit(status)"
 #: What of their tables the Blenders but the newest try, see tests/diagonal.py.
 DIAGONAL = "REEB_PARTS_DIAGONAL"
-#: Where time is short: what leaves thirds of the operator tests, see there, too, and which; of the unit tests, which.
+#: Where time is short: what leaves thirds of the operator tests, see there, too, and which: the newest Blender tries
+#: all, as a module or in full, and the older two try all together. Of the unit tests, which.
 THIRDS = "REEB_PARTS_THIRDS"
-BRIEF_THIRDS = {"blender-4.2": "12", "blender-4.5": "0", "inside": "1"}
+BRIEF_THIRDS = {"blender-4.2": "12", "blender-4.5": "0", "blender-5.2": "02", "inside": "1"}
 BRIEF_WORDS = {"unit-oldest": "test_everywhere or test_models or (test_pipeline and (2005 or 2007))",
                "unit-newest": "not test_pipeline or test_models or not (2005 or 2007)"}
 #: The suites that can run for long, and how many tests in each share that time.
@@ -319,11 +320,11 @@ def _full_blender(blender: str, gui: str | None, scratch: Path, brief: bool) -> 
         # Several Blenders run at a time: each has settings of its own.
         own, report = scratch / f"resources-{name}", scratch / f"{name}.xml"
         shutil.copytree(resources, own, symlinks=True)
+        variables = {**os.environ, **(_thirds(name) if brief else {DIAGONAL: str(len(SUITES))})}
         if name == "inside":
-            _left_out("installed, inside: the unit tests but for the stored answers; all but one situation of each "
-                      "operator, and of what tests/diagonal.py names")
+            _left_out("installed, inside: the unit tests but for the stored answers" + ("" if brief else
+                      "; all but one situation of each operator, and of what tests/diagonal.py names"))
         command = [_prepare(NEWEST), *runner, "--part", name, "--resources", str(own), "--junit", str(report)]
-        variables = {**os.environ, DIAGONAL: str(len(SUITES)), **(_thirds(name) if brief else {})}
         return _count(name, report, _call(command, log, env=variables))
 
     if not gui:
