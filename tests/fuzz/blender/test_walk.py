@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
-from blender.operators.test_every_operator import furnish
+from blender.operators.test_every_operator import BEFORE, furnish
 from fuzz import budget
 from fuzz.blender.test_faults import silent
 from snapshot import activate, changes, snapshot
@@ -21,8 +21,16 @@ from snapshot import activate, changes, snapshot
 STEPS = 40  # of one walk
 TIMES = 8  # that a walk is taken on which something goes wrong
 
-SIMPLE = ("release", "merge", "merge_neighbour", "split", "grow", "shrink", "from_face_sets", "to_nodes", "from_nodes",
-          "split_at_node", "show_original", "cancel", "use_preferences", "reset_parameters")
+SIMPLE = ("release", "merge", "merge_neighbour", "merge_small", "split", "grow", "shrink", "from_face_sets", "to_nodes",
+          "from_nodes", "split_at_node", "show_original", "cancel", "use_preferences", "reset_parameters", "frame",
+          "hide", "no_key", "choose", "check_pieces", "repair_piece", "show_colors", "suggest_names", "show_graph",
+          "find_similar")
+#: Commands whose settings are all tried, each one time in three another value than the one that it has.
+SETTINGS = ("decompose", "separate", "unwrap", "armature", "hulls", "rigid_bodies", "step_detail", "select_faults",
+            "names_from_active")
+#: Settings of which other values take long.
+BOUNDS = {"n_slabs": (3, 60), "n_clusters": (2, 20), "bed": (1000.0, 5000.0)}
+
 
 
 class Walk:
@@ -33,6 +41,8 @@ class Walk:
         make(shapes.tube_tree(int(rng.integers(1, 5)), float(rng.choice([0.25, 0.3, 0.4]))))
         if rng.random() < 0.5:
             furnish(bpy.context.object)
+        if rng.random() < 0.3:
+            BEFORE[str(rng.choice(sorted(set(BEFORE) - {"hidden from render"})))](bpy.context.object)
 
     @property
     def tree(self):
@@ -54,11 +64,8 @@ class Walk:
         chance = lambda: bool(rng.integers(2))  # noqa: E731
         place = lambda: tuple(shapes.TREE_TIPS[0] * rng.uniform(-1, 1.2))  # noqa: E731
         done = {name: getattr(ours, name) for name in SIMPLE}
+        done |= {name: lambda name=name: getattr(ours, name)(**self.settings(name)) for name in SETTINGS}
         done |= {
-            "decompose": lambda: ours.decompose(
-                detail=float(rng.random()), n_parts=int(rng.choice([0, 0, 3])), materials=chance(), seams=chance(),
-                face_sets=chance(), field=chance(), graph=chance(), colors=chance(), vertex_groups=chance(),
-                method=str(rng.choice(["perceptual", "berretti"]))),
             "clear": lambda: ours.clear() if rng.random() < 0.3 else None,
             "select": lambda: ours.select(action=str(rng.choice(["SET", "ADD", "SUBTRACT"]))),
             "isolate": lambda: ours.isolate(show_all=chance()),
@@ -71,9 +78,8 @@ class Walk:
             "seams": lambda: ours.seams(remove=chance()),
             "face_sets": lambda: ours.face_sets(remove=chance()),
             "materials": lambda: ours.materials(remove=chance()),
-            "separate": lambda: ours.separate(caps=chance(), hide=chance(), parent=chance(), center=chance()),
-            "unwrap": lambda: ours.unwrap(open_parts=chance()),
-            "armature": lambda: ours.armature(deform=chance()),
+            "from_arc": lambda: ours.from_arc(location=place()),
+            "rename": lambda: ours.rename(new_name=str(rng.choice(["", "Leg", "Part 01"]))),
             "detail": lambda: setattr(self.result, "detail", float(rng.random())),
             "number": lambda: setattr(self.result, "n_parts", int(rng.integers(1, 15))),
             "click": lambda: setattr(self.result, "active", int(rng.integers(12))),
@@ -92,6 +98,25 @@ class Walk:
             "delete": self.delete,
         }
         return done
+
+    def settings(self, name):
+        """Any values for some settings of a command."""
+        found, rng = {}, self.rng
+        for setting in getattr(bpy.ops.reeb_parts, name).get_rna_type().properties:
+            if setting.identifier == "rna_type" or rng.random() > 1 / 3:
+                continue
+            size = getattr(setting, "array_length", 0) or 1
+            if setting.type == "BOOLEAN":
+                values = rng.integers(2, size=size).astype(bool).tolist()
+            elif setting.type == "ENUM":
+                values = [str(rng.choice([item.identifier for item in setting.enum_items]))]
+            elif setting.type in ("INT", "FLOAT"):
+                low, high = BOUNDS.get(setting.identifier, (setting.soft_min, setting.soft_max))
+                values = rng.uniform(low, high, size).astype(int if setting.type == "INT" else float).tolist()
+            else:
+                continue
+            found[setting.identifier] = values if size > 1 else values[0]
+        return found
 
     def mode(self):
         obj = bpy.context.object
