@@ -19,7 +19,7 @@ _KEPT = f"{PREFIX}_material"
 
 def own_slots(mesh: bpy.types.Mesh) -> np.ndarray:
     """The material slot of each face, (p,) int32, as the user has it."""
-    if mesh.reeb_parts.has_materials and _KEPT in mesh.attributes:
+    if _KEPT in mesh.attributes and mesh.reeb_parts.has_materials:  # see seams.own
         return mesh_arrays.attribute_values(mesh.attributes[_KEPT])
     return mesh_arrays.read(mesh.polygons, _MATERIAL_INDEX, np.int32)
 

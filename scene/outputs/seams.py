@@ -15,7 +15,7 @@ _KEPT = f"{PREFIX}_seam"
 
 def own(mesh: bpy.types.Mesh) -> np.ndarray:
     """Which edges are seams of the user, (e,) bool."""
-    if mesh.reeb_parts.has_seams and _KEPT in mesh.attributes:
+    if _KEPT in mesh.attributes and mesh.reeb_parts.has_seams:  # to ask a mesh without a result would give it one
         return mesh_arrays.attribute_values(mesh.attributes[_KEPT])
     return mesh_arrays.read(mesh.edges, "use_seam", bool)
 

@@ -54,3 +54,11 @@ def test_in_edit_mode(ball):
     assert bpy.ops.reeb_parts.decompose(hints="MATERIALS", detail=0.5) == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")
     assert follows(obj.data, upper)
+
+
+@pytest.mark.parametrize("kind", ["MATERIALS", "SEAMS", "SHARP"])
+def test_to_read_them_leaves_nothing(make, kind):
+    obj = make(([(0, 0, 0)], []), "Empty")
+    with pytest.raises(RuntimeError, match="The mesh has no faces"):
+        bpy.ops.reeb_parts.decompose(hints=kind)
+    assert not obj.data.is_property_set("reeb_parts")
