@@ -336,6 +336,27 @@ def even_steps(area: np.ndarray, count: int) -> np.ndarray:
     return np.unique(np.searchsorted(total, steps).clip(max=len(area) - 1))
 
 
+def first_at_place(points: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+    """Find the first of some points that lie at one place.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    chosen : (k,) int64
+        Those of them that are compared, rising.
+
+    Returns
+    -------
+    first : (n,) int64
+        The first chosen point at the place of each chosen point; all others themselves.
+    """
+    first = np.arange(len(points))
+    # Adding 0.0 turns -0.0 into 0.0: both are one place.
+    _, place, inverse = np.unique(points[chosen] + 0.0, axis=0, return_index=True, return_inverse=True)
+    first[chosen] = chosen[place[inverse.reshape(-1)]]
+    return first
+
+
 def renumbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Number the distinct values of an array from 0.
 

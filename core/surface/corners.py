@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import cross, distinct_pairs, lengths, renumbered, stable_order, sums_by
+from .arrays import cross, distinct_pairs, first_at_place, lengths, renumbered, stable_order, sums_by
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,11 +71,8 @@ class CornerTable:
         first : (n,) int64
             The first border vertex at the place of each border vertex; all others themselves.
         """
-        first = np.arange(len(self.vertices))
         border = np.unique(self.edges[np.bincount(self.corner_edge, minlength=len(self.edges)) == 1])
-        # Adding 0.0 turns -0.0 into 0.0: both are one place.
-        _, place, inverse = np.unique(self.vertices[border] + 0.0, axis=0, return_index=True, return_inverse=True)
-        first[border] = border[place[inverse.reshape(-1)]]
+        first = first_at_place(self.vertices, border)
         if (first[border] == border).all():
             return self, first
         edges, number = distinct_pairs(*np.sort(first[self.edges], axis=1).T)

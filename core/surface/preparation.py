@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..sentence import Sentence
-from .arrays import components, distinct_pairs, frozen, inverse, renumbered, stable_order
+from .arrays import components, distinct_pairs, first_at_place, frozen, inverse, renumbered, stable_order
 from .contact import Bridges, bridges
 from .mesh import TriMesh
 from .ordering import Ordering
@@ -301,14 +301,7 @@ def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]
     A border vertex is joined to the first border vertex at its place, any other vertex to itself: two closed surfaces
     that touch stay two components.
     """
-    joined = np.arange(mesh.n_vertices)
-    border = np.unique(mesh.edges.vertices[mesh.edges.n_faces == 1])
-    if not len(border):
-        return joined, ()
-    # Adding 0.0 turns -0.0 into 0.0: both are one place.
-    _, first, inverse = np.unique(
-        mesh.vertices[border] + 0.0, axis=0, return_index=True, return_inverse=True)
-    joined[border] = border[first[inverse.reshape(-1)]]
+    joined = first_at_place(mesh.vertices, np.unique(mesh.edges.vertices[mesh.edges.n_faces == 1]))
     n_joined = int((joined != np.arange(len(joined))).sum())
     if not n_joined:
         return joined, ()
