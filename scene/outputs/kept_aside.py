@@ -48,6 +48,12 @@ def keep_aside(mesh: bpy.types.Mesh, items: bpy.types.bpy_prop_collection, key: 
     mesh.attributes[name].data.foreach_set("value", values)
 
 
+def is_kept(mesh: bpy.types.Mesh, name: str, flag: str) -> bool:
+    """Whether a hidden attribute is there, and the result stored with the mesh says by a flag that it counts."""
+    # To ask a mesh without a result for it would give it an empty one.
+    return name in mesh.attributes and mesh.is_property_set("reeb_parts") and getattr(mesh.reeb_parts, flag)
+
+
 def bring_back(mesh: bpy.types.Mesh, items: Callable[[], bpy.types.bpy_prop_collection], key: str, name: str) -> None:
     """Copy a hidden attribute back to where it came from, and remove it."""
     attribute = mesh.attributes[name]

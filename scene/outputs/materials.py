@@ -11,7 +11,7 @@ import numpy as np
 from ...core.result.numbering import NumberedParts
 from .. import mesh_arrays, transaction
 from .colors import linear
-from .kept_aside import PREFIX, bring_back, keep_aside, remove_attribute
+from .kept_aside import PREFIX, bring_back, is_kept, keep_aside, remove_attribute
 
 _MATERIAL_INDEX = "material_index"
 _KEPT = f"{PREFIX}_material"
@@ -19,7 +19,7 @@ _KEPT = f"{PREFIX}_material"
 
 def own_slots(mesh: bpy.types.Mesh) -> np.ndarray:
     """The material slot of each face, (p,) int32, as the user has it."""
-    if _KEPT in mesh.attributes and mesh.reeb_parts.has_materials:  # see seams.own
+    if is_kept(mesh, _KEPT, "has_materials"):
         return mesh_arrays.attribute_values(mesh.attributes[_KEPT])
     return mesh_arrays.read(mesh.polygons, _MATERIAL_INDEX, np.int32)
 

@@ -8,14 +8,14 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from .. import mesh_arrays, transaction
-from .kept_aside import PREFIX, bring_back, keep_aside, remove_attribute
+from .kept_aside import PREFIX, bring_back, is_kept, keep_aside, remove_attribute
 
 _KEPT = f"{PREFIX}_seam"
 
 
 def own(mesh: bpy.types.Mesh) -> np.ndarray:
     """Which edges are seams of the user, (e,) bool."""
-    if _KEPT in mesh.attributes and mesh.reeb_parts.has_seams:  # to ask a mesh without a result would give it one
+    if is_kept(mesh, _KEPT, "has_seams"):
         return mesh_arrays.attribute_values(mesh.attributes[_KEPT])
     return mesh_arrays.read(mesh.edges, "use_seam", bool)
 
