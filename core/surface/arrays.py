@@ -150,8 +150,8 @@ def stable_order(keys: np.ndarray) -> np.ndarray:
 
     Notes
     -----
-    NumPy sorts numbers up to ten times faster than it finds their order, so each is sorted together with its place,
-    packed into one integer; where both do not fit, by its last binary digits first.
+    Each way is the fastest for the keys that it is for. Where no other is, each number is sorted together with its
+    place, packed into one integer, which NumPy does up to ten times faster than it finds their order.
     """
     if len(keys) < 2_000:
         return np.argsort(keys, kind="stable")
@@ -159,12 +159,32 @@ def stable_order(keys: np.ndarray) -> np.ndarray:
     least, most = int(keys.min()), int(keys.max())
     if most - least >= 2**63:
         return np.argsort(keys, kind="stable")
+    if most - least < 2**16:  # NumPy counts numbers of 16 bits
+        return np.argsort((keys - least).astype(np.uint16), kind="stable")
+    if most - least < len(keys) and (order := _counted_order(keys - least, most - least + 1)) is not None:
+        return order
+    return _packed_order(keys - least, (most - least).bit_length())
+
+
+def _counted_order(keys: np.ndarray, count: int) -> np.ndarray | None:
+    """What ``stable_order`` returns for keys 0..count-1, found by counting; None without SciPy."""
+    try:
+        from scipy.sparse import csr_array  # imported here for the reason that ``components`` gives
+    except ImportError:
+        return None
+    rows = np.arange(len(keys) + 1)
+    matrix = csr_array((np.ones(len(keys), np.int8), keys, rows), shape=(len(keys), count))
+    return matrix.tocsc().indices.astype(np.int64)
+
+
+def _packed_order(keys: np.ndarray, width: int) -> np.ndarray:
+    """What ``stable_order`` returns for keys of so many bits, each sorted with its place; by its last bits first."""
     for_place = (len(keys) - 1).bit_length()
     room = 63 - for_place
     place = np.arange(len(keys))
     order = place
-    for shift in range(0, (most - least).bit_length(), room):
-        digits = (((keys if shift == 0 else keys[order]) - least) >> shift) & ((1 << room) - 1)
+    for shift in range(0, width, room):
+        digits = ((keys if shift == 0 else keys[order]) >> shift) & ((1 << room) - 1)
         step = np.sort(digits << for_place | place) & ((1 << for_place) - 1)
         order = step if shift == 0 else order[step]
     return order
@@ -372,12 +392,23 @@ def renumbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         Place of each value in ``names``, 0..c-1.
     """
     flat = np.ravel(labels)
+    least, most = (int(flat.min()), int(flat.max())) if len(flat) else (0, 0)
+    if most - least <= 2 * len(flat):
+        return _few_names(flat, least, most - least + 1, np.shape(labels))
     order = stable_order(flat)
     values = flat[order]
     new = np.append(True, values[1:] != values[:-1])[: len(values)]
     index = np.empty(len(flat), np.int64)
     index[order] = np.cumsum(new) - 1
     return values[new], index.reshape(np.shape(labels))
+
+
+def _few_names(flat: np.ndarray, least: int, count: int, shape: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """What ``renumbered`` returns for values of least..least+count-1, found without sorting them."""
+    value = flat.astype(np.int64) - least
+    there = np.zeros(count, bool)
+    there[value] = True
+    return (np.flatnonzero(there) + least).astype(flat.dtype), (np.cumsum(there) - 1)[value].reshape(shape)
 
 
 def distinct_pairs(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Idioms of whole arrays, by hand."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ from core.surface.arrays import (
     first_of_rows,
     lengths,
     ranges,
+    renumbered,
     rounded_order,
     stable_order,
 )
@@ -25,11 +28,32 @@ def test_ranges_are_listed_one_after_the_other():
 
 
 @pytest.mark.parametrize(("low", "high"), [
-    (0, 7), (-4, 4), (0, 2**40), (-(2**61), 2**61), (0, 2**63 - 1), (-(2**63), 2**63 - 1)])
-@pytest.mark.parametrize("n", [0, 1, 50, 40_000])
+    (0, 7), (-4, 4), (-3, 65_532), (-3, 65_533), (7, 90_000), (0, 2**40),
+    (-(2**61), 2**61), (0, 2**63 - 1), (-(2**63), 2**63 - 1)])
+@pytest.mark.parametrize("n", [0, 1, 50, 100_000])
 def test_equal_numbers_stay_in_their_order(low, high, n):
     keys = np.random.default_rng(n).integers(low, high, n)
     assert (stable_order(keys) == np.argsort(keys, kind="stable")).all()
+
+
+def test_the_order_of_numbers_does_not_need_scipy(monkeypatch):
+    keys = np.random.default_rng(0).integers(0, 90_000, 100_000)
+    monkeypatch.setitem(sys.modules, "scipy.sparse", None)
+    assert (stable_order(keys) == np.argsort(keys, kind="stable")).all()
+
+
+@pytest.mark.parametrize("shape", [(0,), (1,), (2, 30), (4_000, 3)])
+@pytest.mark.parametrize(("low", "high"), [(0, 3), (-9, 7), (1_000_000, 1_000_040), (-(2**62), 2**62)])
+@pytest.mark.parametrize("dtype", [np.int64, np.int32])
+def test_values_are_numbered_as_numpy_numbers_them(shape, low, high, dtype):
+    bounds = np.clip([low, high], np.iinfo(dtype).min, np.iinfo(dtype).max)
+    labels = np.random.default_rng(0).integers(*bounds, shape, dtype)
+    names, index = renumbered(labels)
+    wanted, places = np.unique(labels, return_inverse=True)
+    assert names.dtype == dtype
+    assert index.dtype == np.int64
+    assert np.array_equal(names, wanted)
+    assert np.array_equal(index, places.reshape(shape))
 
 
 def test_numbers_that_differ_by_rounding_stay_in_their_order():
