@@ -15,6 +15,7 @@ from ..cuts.hierarchy import Candidates, Dendrogram, Hierarchy
 from ..cuts.hinted import hinted_candidates
 from ..cuts.joining.method import LAST
 from ..cuts.symmetric import symmetric_candidates
+from ..cuts.symmetric_regions import MANY, symmetric_on_regions
 from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebGraph, ReebTopology
@@ -106,10 +107,7 @@ def assemble(
     label, hierarchy = _apart(working, face_graph, label, hierarchy)
     mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
     for mirror in mirrors:
-        planes = (mirror, *mirror.across)
-        label, hierarchy = symmetric_candidates(
-            face_graph, contacts, label, hierarchy, np.array([plane.twin for plane in planes]),
-            np.array([plane.height for plane in planes]), np.array([plane.first for plane in planes]), mirror.exact)
+        label, hierarchy = _symmetric(face_graph, contacts, label, hierarchy, mirror)
     if len(hint):  # after symmetry: of what was marked on one side only, the other knows nothing
         label, hierarchy = hinted_candidates(face_graph, contacts, label, hierarchy, hint)
     mirror = Mirror.joined(mirrors)
@@ -126,6 +124,18 @@ def assemble(
         point_candidate=points, contacts=contacts, mirror=mirror.plane, face_twin=mirror.twin,
         face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters, notes=working.notes + notes,
         seconds=seconds)
+
+
+def _symmetric(
+    graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, mirror: Mirror
+) -> tuple[np.ndarray, Hierarchy]:
+    """Candidate of each face, (p,) int64, and hierarchy, after both are made symmetric."""
+    if graph.n_faces > MANY and not mirror.exact:
+        return symmetric_on_regions(graph, contacts, label, hierarchy, mirror.twin, mirror.height, mirror.first)
+    planes = (mirror, *mirror.across)
+    return symmetric_candidates(
+        graph, contacts, label, hierarchy, np.array([plane.twin for plane in planes]),
+        np.array([plane.height for plane in planes]), np.array([plane.first for plane in planes]), mirror.exact)
 
 
 @dataclass(frozen=True, eq=False)

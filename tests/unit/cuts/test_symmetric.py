@@ -8,17 +8,25 @@ import shapes
 from core import Parameters, decompose
 from core.cuts.hierarchy import Hierarchy
 from core.cuts.symmetric import symmetric_candidates
+from core.cuts.symmetric_regions import symmetric_on_regions
 from core.metrics import rand_index_error
+from core.result import assemble
 from core.surface.labels import FaceGraph
 
 
-def row(label, merges, salience):
+@pytest.fixture(params=[symmetric_candidates, symmetric_on_regions])
+def make(request):
+    """What makes candidates symmetric: face by face, or on regions."""
+    return request.param
+
+
+def row(make, label, merges, salience):
     """Faces in a row, an even number, mirrored in its middle."""
     n = len(label)
     graph = FaceGraph(n, np.array([(i, i + 1) for i in range(n - 1)]), np.ones(n - 1), np.ones(n))
-    return symmetric_candidates(
+    return make(
         graph, np.empty((0, 2), np.int64), np.array(label), Hierarchy.of(max(label) + 1, merges, salience),
-        np.arange(n)[::-1], np.arange(n) - (n - 1) / 2)
+        np.arange(n)[::-1], np.arange(n) - (n - 1) / 2, 1.0)
 
 
 def parts(result, detail):
@@ -30,45 +38,45 @@ def same(first, second):
     return rand_index_error(first, second) == 0
 
 
-def test_a_symmetric_result_stays_as_it_is():
+def test_a_symmetric_result_stays_as_it_is(make):
     label = [0, 0, 1, 2, 2, 3, 4, 4]
-    result = row(label, [(1, 2), (2, 3), (0, 1), (3, 4)], [0.3, 0.3, 0.8, 0.8])
+    result = row(make, label, [(1, 2), (2, 3), (0, 1), (3, 4)], [0.3, 0.3, 0.8, 0.8])
     assert same(result[0], label)
     assert result[1].salience.tolist() == pytest.approx([0.3, 0.3, 0.8, 0.8])
     assert same(parts(result, 0.5), [0, 0, 1, 1, 1, 1, 2, 2])
 
 
-def test_a_cut_that_only_one_side_has_is_on_both_or_on_neither():
+def test_a_cut_that_only_one_side_has_is_on_both_or_on_neither(make):
     # The left end is cut off, the right one is not.
-    result = row([0] + 98 * [1] + [2], [(1, 2), (0, 1)], [0.2, 0.9])
+    result = row(make, [0] + 98 * [1] + [2], [(1, 2), (0, 1)], [0.2, 0.9])
     for detail in (0.05, 0.3, 0.5, 0.9):
         found = parts(result, detail)
         assert same(found, found[::-1])
     assert len(set(parts(result, 0.0))) == 1
 
 
-def test_a_candidate_that_hangs_over_the_plane_is_cut_off_there():
-    result = row(51 * [0] + 49 * [1], [(0, 1)], [0.9])
+def test_a_candidate_that_hangs_over_the_plane_is_cut_off_there(make):
+    result = row(make, 51 * [0] + 49 * [1], [(0, 1)], [0.9])
     assert same(parts(result, 0.5), 50 * [0] + 50 * [1])
 
 
-def test_what_speaks_against_the_plane_is_left_as_it_is():
+def test_what_speaks_against_the_plane_is_left_as_it_is(make):
     label = 20 * [0] + 80 * [1]
-    assert row(label, [(0, 1)], [0.9])[0].tolist() == label
+    assert row(make, label, [(0, 1)], [0.9])[0].tolist() == label
 
 
-def test_thousands_of_candidates_are_left_as_they_are():
+def test_thousands_of_candidates_are_left_as_they_are(make):
     label = list(range(20_000))  # a table of all their pairs would take 3 GB
-    result = row(label, [(i, i + 1) for i in range(len(label) - 1)], np.linspace(0, 1, len(label) - 1))
+    result = row(make, label, [(i, i + 1) for i in range(len(label) - 1)], np.linspace(0, 1, len(label) - 1))
     assert result[0].tolist() == label
     assert result[1].n_candidates == len(label)
 
 
-def test_parts_without_an_image_keep_their_own():
+def test_parts_without_an_image_keep_their_own(make):
     graph = FaceGraph(5, np.array([(0, 1), (1, 2), (2, 3), (3, 4)]), np.ones(4), np.ones(5))
-    label, hierarchy = symmetric_candidates(
+    label, hierarchy = make(
         graph, np.empty((0, 2), np.int64), np.array([0, 1, 1, 1, 2]), Hierarchy.of(3, [(0, 1), (1, 2)], [0.4, 0.8]),
-        np.array([-1, 3, 2, 1, -1]), np.array([-2.0, -1, 0, 1, 2]))
+        np.array([-1, 3, 2, 1, -1]), np.array([-2.0, -1, 0, 1, 2]), 1.0)
     assert same(label, [0, 1, 1, 1, 2])
     assert hierarchy.salience.tolist() == pytest.approx([0.4, 0.8])
 
@@ -89,6 +97,20 @@ def test_parts_of_a_figure_are_exactly_symmetric_at_every_detail(method):
     most = min(result.n_candidates, 11)
     assert most > 5
     assert [result.parts(n_parts=n).count for n in range(1, most + 1)] == list(range(1, most + 1))
+
+
+def test_regions_give_what_faces_give_but_for_slivers(monkeypatch):
+    vertices, faces = shapes.subdivide(shapes.mirrored_figure())
+    bent = vertices + 0.003 * np.ptp(vertices) * np.sin(vertices[:, [1, 2, 0]] / np.ptp(vertices) * 9)
+    found = []
+    for most in (0, len(faces)):
+        monkeypatch.setattr(assemble, "MANY", most)
+        result = decompose(bent, faces)
+        labels, twin = result.parts().labels, result.face_twin
+        assert labels.max() > 3
+        assert rand_index_error(labels[twin >= 0], labels[twin[twin >= 0]]) < 0.002
+        found.append(labels)
+    assert rand_index_error(*found) < 0.002
 
 
 def images_in(vertices, faces, axis):
