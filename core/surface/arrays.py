@@ -265,6 +265,12 @@ def inner_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return total
 
 
+def row_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Inner product of each point and that of the same row, (n, 3) each: (n,) float64, the same everywhere."""
+    (ax, ay, az), (bx, by, bz) = a.T, b.T
+    return ax * bx + ay * by + az * bz
+
+
 def second_moments(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """Sum of the outer product of each point, (n, 3), with itself, times its weight, (n,): (3, 3) float64."""
     x, y, z = points.T

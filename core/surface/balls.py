@@ -6,6 +6,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from .arrays import lengths, row_products
+
 STEPS = 12  # upper bound of the number of times that a ball shrinks
 # Cosine of the smallest angle between the two points that a ball touches, seen from its center. A ball stops shrinking
 # before the angle falls below this one: it would only fit into the roughness of the surface.
@@ -41,8 +43,8 @@ def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest
         center = p + BEFORE * radius[active, None] * d
         distance, nearest = tree.query(center)
         offset = tree.data[nearest] - p
-        height = (offset * d).sum(axis=1)
-        smaller = (offset**2).sum(axis=1) / np.maximum(2 * height, 1e-12)
+        height = row_products(offset, d)
+        smaller = row_products(offset, offset) / np.maximum(2 * height, 1e-12)
         shrinks = (distance < radius[active] * (1 - 1e-3)) & (height > 1e-9)
         shrinks &= (smaller < radius[active]) & (_cosine(p, offset, smaller[:, None] * d) < SEPARATION)
         active = active[shrinks]
@@ -58,5 +60,5 @@ def _cosine(point: np.ndarray, offset: np.ndarray, to_center: np.ndarray) -> np.
     offset, to_center : (k, 3), from the first point to the second and to the center.
     """
     a, b = -to_center, offset - to_center
-    length = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
-    return (a * b).sum(axis=1) / np.maximum(length, 1e-300)
+    length = lengths(a) * lengths(b)
+    return row_products(a, b) / np.maximum(length, 1e-300)

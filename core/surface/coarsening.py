@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import both_ways, first_of_rows, inverse, lengths, rounded, stable_order, sums_by
+from .arrays import both_ways, first_of_rows, inverse, lengths, rounded, row_products, stable_order, sums_by
 from .mesh import TriMesh
 from .ordering import rank_by_place
 
@@ -170,7 +170,7 @@ def prolong(mesh: TriMesh, coarsening: Coarsening, values: np.ndarray) -> np.nda
     coarse = coarsening.mesh
     gradient = _gradients(coarse, coarsening.links, values)
     offset = mesh.vertices - coarse.vertices[coarsening.owner]
-    fine = values[coarsening.owner] + (gradient[coarsening.owner] * offset).sum(axis=1)
+    fine = values[coarsening.owner] + row_products(gradient[coarsening.owner], offset)
     a, b = coarsening.fine_links.T
     degree = np.bincount(a, minlength=len(fine)) + np.bincount(b, minlength=len(fine))
     for _ in range(SMOOTHING_STEPS):
@@ -184,7 +184,7 @@ def _gradients(mesh: TriMesh, links: np.ndarray, values: np.ndarray) -> np.ndarr
     a, b = both_ways(links).T
     step = mesh.vertices[b] - mesh.vertices[a]
     rise = values[b] - values[a]
-    weight = 1.0 / np.maximum((step**2).sum(axis=1), np.finfo(float).tiny)
+    weight = 1.0 / np.maximum(row_products(step, step), np.finfo(float).tiny)
     n = len(values)
     weighted = weight[:, None] * step
     normal = sums_by(a, (weighted[:, :, None] * step[:, None, :]).reshape(-1, 9), n).reshape(n, 3, 3)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import MeshError
 from ..sentence import Sentence
-from .arrays import components, cross, frozen, lengths, renumbered, stable_order
+from .arrays import components, cross, frozen, lengths, renumbered, row_products, stable_order
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,10 +162,10 @@ class TriMesh:
         """
         left, right = self.edges.pairs.T
         sine = cross(self.face_normals[left], self.face_normals[right])
-        cosine = (self.face_normals[left] * self.face_normals[right]).sum(axis=1)
+        cosine = row_products(self.face_normals[left], self.face_normals[right])
         angle = np.arctan2(lengths(sine), cosine)
         across = self.face_centroids[right] - self.face_centroids[left]
-        convex = ((self.face_normals[left] - self.face_normals[right]) * across).sum(axis=1) <= 0
+        convex = row_products(self.face_normals[left] - self.face_normals[right], across) <= 0
         return np.where(convex, angle, -angle)
 
     @cached_property

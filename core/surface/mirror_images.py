@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import inner_products
+from .arrays import inner_products, row_products
 from .labels import majority
 from .mirror_plane import MirrorPlane
 from .small_faces import DENSE, Elements, SmallFaces
@@ -47,7 +47,7 @@ class Images:
         -1 where there is none, and everywhere if there are few polygons and most of them have no exact image.
         """
         faces, elements, n_polygons = self.faces, self.faces.elements, self.faces.n_polygons
-        matched = elements.matched(elements.mirrored(self._local), self._nearest, BENT)
+        matched = elements.matched(self._image, self._nearest, BENT)
         if n_polygons == len(elements.area) > DENSE:
             return np.where(matched, self._nearest, -1)
         # Halves of a face that was split vote alike to the last digit, whatever the pose.
@@ -92,21 +92,25 @@ class Images:
         return self.faces.inwards(self.plane)
 
     @cached_property
+    def _image(self) -> Elements:
+        """The image of each face."""
+        return self.faces.elements.mirrored(self._local)
+
+    @cached_property
     def _nearest(self) -> np.ndarray:
         """(m,) int64, the face nearest to the image of each."""
-        elements = self.faces.elements
-        return elements.nearest(elements.mirrored(self._local))[1]
+        return self.faces.elements.nearest(self._image)[1]
 
     @cached_property
     def _polygons(self) -> tuple[np.ndarray, np.ndarray]:
         """The polygon nearest to the image of each that has an area, (k,) int64, and whether it is exact, (k,) bool."""
         whole = self.faces.polygons
-        image = whole.mirrored(self._local)
+        image = self._image if whole is self.faces.elements else whole.mirrored(self._local)
         # Normals count as much as a polygon is wide: the two sides of a thin wall have the same center.
         nearest = self._nearest if whole is self.faces.elements else whole.nearest(image)[1]
         apart = np.linalg.norm(image.position - whole.position[nearest], axis=1)
         same = apart <= NEAR * np.sqrt(whole.area)
-        same &= (image.normal * whole.normal[nearest]).sum(axis=1) > 0.99 * (whole.normal**2).sum(axis=1)
+        same &= row_products(image.normal, whole.normal[nearest]) > 0.99 * row_products(whole.normal, whole.normal)
         same &= np.abs(whole.area - whole.area[nearest]) <= NEAR * whole.area
         return nearest, same
 

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import even_steps, lengths, rounded_order, weighted_sum
+from .arrays import even_steps, lengths, rounded_order, row_products, weighted_sum
 from .contact import diameter
 from .mesh import TriMesh
 from .mirror_plane import MirrorPlane
@@ -47,7 +47,7 @@ class Elements:
     @cached_property
     def _outwards(self) -> np.ndarray:
         """(k,) int64, the elements by their distance from the middle."""
-        return rounded_order((self.position**2).sum(axis=1))
+        return rounded_order(row_products(self.position, self.position))
 
     @property
     def place(self) -> np.ndarray:
@@ -76,9 +76,9 @@ class Elements:
     def matched(self, image: Elements, nearest: np.ndarray, most: float) -> np.ndarray:
         """Whether images lie on the surface, or beside it by so much, at the element nearest to each, (k,) bool."""
         offset = image.position - self.position[nearest]
-        beside = np.abs((offset * self.normal[nearest]).sum(axis=1))
+        beside = np.abs(row_products(offset, self.normal[nearest]))
         spacing = 2.0 / np.sqrt(len(self.area))  # elements of a surface whose diameter and area are about 1
-        aligned = (image.normal * self.normal[nearest]).sum(axis=1) > 0.5
+        aligned = row_products(image.normal, self.normal[nearest]) > 0.5
         within = lengths(offset) <= most + spacing
         return (beside <= most) & within & aligned
 

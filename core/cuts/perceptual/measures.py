@@ -15,7 +15,7 @@ import numpy as np
 
 from ...field.agd import ScalarField, equalize
 from ...graph.level_sets import LevelSets
-from ...surface.arrays import weighted_sum
+from ...surface.arrays import row_products, weighted_sum
 from ...surface.curvature import angle_defect, curvature_across
 from .thickness import LARGEST, thickness
 
@@ -109,7 +109,7 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
     face = np.column_stack([
         np.ones(mesh.n_faces), center, products(center), normal, products(normal),
         level, level**2, agd, log_thickness, log_thickness**2, log_clearance, log_clearance**2,
-        (center * normal).sum(axis=1), log_contour, log_contour**2,
+        row_products(center, normal), log_contour, log_contour**2,
     ]) * share[:, None]
     face = np.column_stack([face, angle_defect(mesh), _bins(log_thickness) * share[:, None]])
     curvature = curvature_across(mesh)
@@ -120,7 +120,7 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
         np.ones(len(a)), *curvature, *(np.minimum(c, 0.0) for c in curvature),
         *(curvature < CREASE), np.minimum(mesh.dihedral, 0.0),
         *((x[a] + x[b]) / 2 for x in (level, agd, log_thickness, log_clearance, log_contour)),
-        middle, (middle**2).sum(axis=1),
+        middle, row_products(middle, middle),
     ]) * (mesh.pair_length / unit)[:, None]
     return SurfaceMeasures(face, pair, level, agd)
 

@@ -19,6 +19,7 @@ from ...surface.arrays import (
     last_of_each,
     renumbered,
     rounded,
+    row_products,
     symmetric_matrix,
     weighted_sum,
     whole_steps,
@@ -138,15 +139,20 @@ def _first_seeds(mesh: TriMesh, count: int) -> np.ndarray:
     """Faces found by farthest-point sampling with straight distances, (count,) int64 or fewer."""
     center = mesh.face_centroids
     middle = weighted_sum(mesh.face_area, center) / mesh.area
-    seeds = [first_largest(((center - middle) ** 2).sum(axis=1))]
+    seeds = [first_largest(_squares(center - middle))]
     nearest = np.full(mesh.n_faces, np.inf)
     while len(seeds) < min(count, mesh.n_faces):
-        nearest = np.minimum(nearest, ((center - center[seeds[-1]]) ** 2).sum(axis=1))
+        nearest = np.minimum(nearest, _squares(center - center[seeds[-1]]))
         farthest = first_largest(nearest)
         if nearest[farthest] <= 0:
             break
         seeds.append(farthest)
     return np.array(seeds, np.int64)
+
+
+def _squares(vectors: np.ndarray) -> np.ndarray:
+    """Squares of the lengths of vectors, (n, 3): (n,) float64."""
+    return row_products(vectors, vectors)
 
 
 def _connected(mesh: TriMesh, cell: np.ndarray) -> np.ndarray:
