@@ -120,7 +120,7 @@ def decompose(
         begin = MESH_SHARE + done * width
         watch.share = begin
         found = decompose_component(component, parameters, watch, begin, width, model)
-        results.append(join_pieces(found, join_model))
+        results.append(join_pieces(found, parameters, join_model))
     with watch.stage("parts", 1.0):
         result = assemble(given, working, results, parameters, watch.seconds, hint)
         result = result.scaled(given.exponent).reordered(ordering)
@@ -167,13 +167,16 @@ def decompose_component(
     return ComponentResult(component, field, sets, topology, graph, candidates)
 
 
-def join_pieces(found: ComponentResult, model: BoostedTrees | None = None) -> ComponentResult:
+def join_pieces(
+    found: ComponentResult, parameters: Parameters, model: BoostedTrees | None = None
+) -> ComponentResult:
     """Extend the hierarchies of the pieces of a body to one over all its candidates.
 
     Parameters
     ----------
     found : ComponentResult
         As ``decompose_component`` made it.
+    parameters : Parameters
     model : BoostedTrees, optional
         What judges pairs of parts; the one that ships with the package without.
 
@@ -185,6 +188,7 @@ def join_pieces(found: ComponentResult, model: BoostedTrees | None = None) -> Co
     if found.component.mesh.face_components[0] == 1:
         return found
     hierarchy = found.candidates.hierarchy
-    parts = fine_parts(found.component.mesh, found.face_candidate, hierarchy, found.field.normalized)
+    parts = fine_parts(found.component.mesh, found.face_candidate, hierarchy, found.field.normalized,
+                       learned=parameters.method == "perceptual")
     hierarchy, contacts = join_parts(parts, hierarchy, model)
     return replace(found, candidates=Candidates(found.candidates.element_candidate, hierarchy), contacts=contacts)

@@ -39,6 +39,8 @@ class PartPairs:
     features : (e, len(FEATURES)) float64
     same_piece : (e,) bool
         Whether both lie in one piece.
+    salience : (e,) float64
+        Of the cut between them, 0..1; 1 between pieces.
     gap : (e,) float64
         Least distance of two points, in units of the diameter.
     faces : (e, 2) int64
@@ -50,6 +52,7 @@ class PartPairs:
     parts: np.ndarray
     features: np.ndarray
     same_piece: np.ndarray
+    salience: np.ndarray
     gap: np.ndarray
     faces: np.ndarray
     area: np.ndarray
@@ -81,9 +84,9 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: np.ndarray, agd: np.n
     small, large = np.where(swap[:, None], near.parts[:, ::-1], near.parts).T
     same = shape["piece"][small] == shape["piece"][large]
     nearest, gap = near.nearest()
-    extent = shape["extents"]
+    extent, cut = shape["extents"], np.where(same, salience[small, large], 1.0)
     columns = {
-        "same_piece": same, "salience": np.where(same, salience[small, large], 1.0),
+        "same_piece": same, "salience": cut,
         "distance": np.linalg.norm(shape["center"][small] - shape["center"][large], axis=1),
         "gap": gap,
         **_share_columns(near, area, swap, shape["touched"][small], shape["touched"][large]),
@@ -95,7 +98,7 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: np.ndarray, agd: np.n
         **{f"small_{n}": shape[n][small] for n in PART}, **{f"large_{n}": shape[n][large] for n in PART},
     }
     features = np.stack([columns[n] for n in FEATURES], axis=1).astype(float)
-    return PartPairs(near.parts, features, same, gap, points.face[nearest], area)
+    return PartPairs(near.parts, features, same, cut, gap, points.face[nearest], area)
 
 
 @dataclass(frozen=True, eq=False)
