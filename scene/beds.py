@@ -177,7 +177,7 @@ def _imprint(mesh: bpy.types.Mesh, shared: BVHTree, planes: list[tuple[np.ndarra
                                    plane_no=normal)
         bm.faces.layers.int.remove(own)
         _split_straight(bm)
-        bm.to_mesh(mesh)
+        mesh_arrays.write(bm, mesh)
 
 
 def _split_straight(bm: BMesh) -> None:
@@ -265,7 +265,7 @@ def _half(mesh: bpy.types.Mesh, bm: BMesh, kept: np.ndarray, cap: np.ndarray, la
             face[layer], face.material_index = 1, material
         bmesh.ops.delete(half, geom=gone, context="FACES")
         half.normal_update()
-        half.to_mesh(made)
+        mesh_arrays.write(half, made)
     return made
 
 
@@ -289,7 +289,7 @@ def _bodies(mesh: bpy.types.Mesh) -> list[bpy.types.Mesh]:
             bm.faces.ensure_lookup_table()
             gone = [bm.faces[i] for i in np.flatnonzero(label != index).tolist()]
             bmesh.ops.delete(bm, geom=gone, context="FACES")
-            bm.to_mesh(body)
+            mesh_arrays.write(bm, body)
         made.append(body)
     bpy.data.meshes.remove(mesh)
     return made

@@ -95,7 +95,7 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, joined: np.ndarray, way
                 made += _fill(bm, sheet, _polygons(bm, sheet, pairs, discs))
         for face in made:
             face[layer] = 1
-        bm.to_mesh(mesh)
+        mesh_arrays.write(bm, mesh)
     return count, left
 
 

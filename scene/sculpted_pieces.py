@@ -75,4 +75,4 @@ def _with_bmesh(mesh: bpy.types.Mesh, work: Callable[[BMesh], None]) -> None:
     with freed(bmesh.new()) as bm:
         bm.from_mesh(mesh, face_normals=False, vertex_normals=False)
         work(bm)
-        bm.to_mesh(mesh)
+        mesh_arrays.write(bm, mesh)
