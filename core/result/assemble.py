@@ -28,6 +28,7 @@ from ..surface.preparation import Component, WorkingMesh
 from .decomposition import Decomposition
 from .fans import boundaries
 from .mirrors import Mirror, find_mirrors
+from .slivers import without_slivers
 from .votes import WIDTH, FaceVotes
 
 # Added to the areas and lengths by which faces vote for labels: as a share of the area of the mesh, and in units of the
@@ -108,6 +109,8 @@ def assemble(
     mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
     for mirror in mirrors:
         label, hierarchy = _symmetric(face_graph, contacts, label, hierarchy, mirror)
+    if parameters.method == PERCEPTUAL:  # the others are as they were published
+        label = without_slivers(face_graph, label, hierarchy)
     if len(hint):  # after symmetry: of what was marked on one side only, the other knows nothing
         label, hierarchy = hinted_candidates(face_graph, contacts, label, hierarchy, hint)
     mirror = Mirror.joined(mirrors)

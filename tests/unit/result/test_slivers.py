@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is too small to be a part joins its neighbor; what is not stays, and so do pieces and ties."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import TriMesh, decompose
+from core.cuts.hierarchy import Hierarchy
+from core.result.slivers import SHARD, TINY, without_slivers
+from core.surface.labels import FaceGraph
+
+
+def strip(*lengths):
+    """A strip of quads; each number is how many of them the next candidate has. Graph of the quads and their labels."""
+    n = sum(lengths)
+    graph = FaceGraph(n, np.stack([np.arange(n - 1), np.arange(1, n)], axis=1), np.ones(n - 1), np.ones(n))
+    return graph, np.repeat(np.arange(len(lengths)), lengths)
+
+
+def all_apart(count):
+    """Every candidate is a part of its own at detail 0.5."""
+    return Hierarchy.of(count, [(0, other) for other in range(1, count)], np.full(count - 1, 0.9))
+
+
+def test_a_tiny_part_joins_the_neighbor_with_the_longest_boundary():
+    graph, label = strip(3000, 1, 1000)
+    graph.length[2999] = 2.0
+    assert np.bincount(without_slivers(graph, label, all_apart(3))).tolist() == [3001, 0, 1000]
+    assert 1 / 4001 < TINY < 2.5 / 4003
+    graph, label = strip(3000, 3, 1000)
+    graph.length[2999] = 2.0
+    assert without_slivers(graph, label, all_apart(3)).tolist() == label.tolist()
+
+
+def test_a_tiny_part_between_two_equal_boundaries_stays():
+    """It may lie on a plane of symmetry."""
+    graph, label = strip(3000, 1, 3000)
+    assert without_slivers(graph, label, all_apart(3)).tolist() == label.tolist()
+
+
+@pytest.mark.parametrize(("shard", "joins"), [(19, True), (21, False)])
+def test_what_is_left_over_of_a_part_joins_what_is_around_it(shard, joins):
+    """Candidates 0 and 2 are one part, with 1 between them."""
+    graph, label = strip(100, 50, shard, 50)
+    graph.length[149] = 2.0
+    hierarchy = Hierarchy.of(4, [(0, 2), (0, 1), (0, 3)], [0.1, 0.9, 0.9])
+    found = without_slivers(graph, label, hierarchy)
+    assert found.tolist() == (np.where(label == 2, 1, label) if joins else label).tolist()
+    assert SHARD * 100 == 20
+
+
+def test_a_small_piece_of_its_own_stays_and_is_no_left_over():
+    graph, label = strip(5000, 1)
+    apart = FaceGraph(graph.n_faces, graph.pairs[:-1], graph.length[:-1], graph.area)
+    touching = FaceGraph(graph.n_faces, graph.pairs, np.append(graph.length[:-1], 0.0), graph.area)
+    for together in (0.1, 0.9):
+        hierarchy = Hierarchy.of(2, [(0, 1)], [together])
+        for pieces in (apart, touching):
+            assert without_slivers(pieces, label, hierarchy).tolist() == label.tolist()
+
+
+def test_slivers_of_two_candidates_join_one():
+    graph, label = strip(9000, 1, 1, 3000)
+    graph.length[8999] = 2.0
+    hierarchy = Hierarchy.of(4, [(1, 2), (0, 1), (0, 3)], [0.1, 0.9, 0.9])
+    assert np.bincount(without_slivers(graph, label, hierarchy)).tolist() == [9002, 0, 0, 3000]
+
+
+@pytest.mark.parametrize("name", ["mirrored_figure", "tube_tree", "dumbbell"])
+def test_no_part_of_a_model_is_a_sliver(name):
+    shape = getattr(shapes, name)()
+    mesh = TriMesh(*shape)
+    share = np.bincount(decompose(*shape).parts().labels, mesh.face_area) / mesh.area
+    assert len(share) > 2
+    assert share.min() >= TINY
