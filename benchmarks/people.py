@@ -11,6 +11,7 @@ import numpy as np
 
 from core.cuts.perceptual.measures import SurfaceMeasures, surface_measures
 from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
+from core.cuts.perceptual.method import inflate
 from core.cuts.perceptual.patches import concave_patches
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
@@ -45,7 +46,7 @@ class Subject:
     Attributes
     ----------
     mesh, measures, label
-        As in core.cuts.perceptual.method, of the refined mesh.
+        As in core.cuts.perceptual.method, of the refined mesh; of a sheet, of the inflated one.
     votes : (patches, people's parts) float64
         Faces of the benchmark in each patch with each label of each person.
     n_people : int
@@ -105,6 +106,9 @@ def prepare(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray,
     radius = np.sqrt(parameters.base_spacing * mesh.area)
     field = agd_field(mesh, coarse_agd(Pyramid(mesh), radius), True)
     sets = cut_at_levels(mesh, field.values, uniform_levels(parameters.n_slabs))
+    solid = inflate(sets, field)
+    if solid is not None:
+        mesh, sets, field, owner = solid.sets.mesh, solid.sets, solid.field, owner[solid.shape.face_source]
     label = concave_patches(mesh, *([n_patches] if n_patches else []))
     weight = 1.0 / np.bincount(owner, minlength=len(faces))[owner]
     votes = []

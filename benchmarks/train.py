@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Learn from people which cuts to keep; writes core/cuts/perceptual/cut_model.npz.
+"""Learn from people which cuts to keep; writes cut_model.npz and sheet_model.npz.
 
-    python3 benchmarks/train.py MESHES [--out core/cuts/perceptual/cut_model.npz] [--rounds 2]
+    python3 benchmarks/train.py MESHES [--out core/cuts/perceptual] [--rounds 2]
 
 MESHES holds N.npz with ``vertices`` (n, 3), ``faces`` (m, 3) and ``human`` (people, m): the layout
 of the Princeton Segmentation Benchmark as converted for this project. Cuts are learned without
-their category or any other knowledge of what the mesh shows.
+their category or any other knowledge of what the mesh shows. The model of sheets is learned from
+the same meshes, which are closed, and from figures made at random, see known_sheets.py.
 
 The model first sees the states that merging with people's help goes through, then, round by round,
 those that its own merging reaches on meshes it was not trained on: a model that never met its own
@@ -16,6 +17,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import packages
@@ -24,10 +26,12 @@ packages.need("numpy", "scipy", "lightgbm")
 
 import lightgbm
 import numpy as np
+from known_sheets import known_sheets
 from people import Run, Subject, category_of, merge_and_record, mesh_numbers, prepare, varied
 
 from core.cuts.boosted_trees import BoostedTrees
 from core.cuts.perceptual.features import FEATURES
+from core.cuts.perceptual.method import SHEET_DECISION
 
 N_TREES = 250
 SETTINGS = {
@@ -38,10 +42,11 @@ SETTINGS = {
 }
 POWER = 0.75  # a row counts by the pairs of faces it concerns, to this power; every run counts alike
 N_FOLDS = 5
+SHEET_WEIGHT = 0.25
 N_MODELS = 3  # in what ships; their mean is steadier than each
 
 
-def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES) -> BoostedTrees:
+def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES, sheets: Sequence[Run] = ()) -> BoostedTrees:
     """Boosted trees from the states met on some meshes.
 
     Parameters
@@ -49,12 +54,16 @@ def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES) -> BoostedTrees:
     runs : list of Run
     seed : int
     n_trees : int
+    sheets : sequence of Run
+        States met on figures made at random; each counts SHEET_WEIGHT times what another run does.
 
     Returns
     -------
     trees : BoostedTrees
     """
-    weight = [r.weight**POWER / (r.weight**POWER).sum() for r in runs]
+    counts = [1.0] * len(runs) + [SHEET_WEIGHT] * len(sheets)
+    runs = [*runs, *sheets]
+    weight = [count * r.weight**POWER / (r.weight**POWER).sum() for count, r in zip(counts, runs, strict=True)]
     rows, share = (np.concatenate([getattr(r, name) for r in runs]) for name in ("rows", "share"))
     weight = np.concatenate(weight)
     weight *= len(weight) / weight.sum()
@@ -64,9 +73,9 @@ def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES) -> BoostedTrees:
     return trees_of(lightgbm.train(SETTINGS | {"seed": seed}, data, n_trees))
 
 
-def fit_many(runs: list[Run], count: int) -> BoostedTrees:
+def fit_many(runs: list[Run], count: int, sheets: Sequence[Run] = ()) -> BoostedTrees:
     """The mean of several models that differ by their random choices."""
-    models = [fit(runs, seed=100 + i) for i in range(count)]
+    models = [fit(runs, seed=100 + i, sheets=sheets) for i in range(count)]
     joined = (np.concatenate([getattr(m, name) for m in models])
               for name in ("feature", "threshold", "mask", "leaf"))
     feature, threshold, mask, leaf = joined
@@ -144,6 +153,30 @@ def add_variants(runs: dict[int, list[Run]], variants: dict[int, Subject], fold:
         runs[n] += [merge_and_record(variant), merge_and_record(variant, models[fold[n]].predict)]
 
 
+def learn_sheets(people: list[Run], rounds: int, tell=print) -> list[Run]:
+    """States that inflated sheets go through: with the answers' help, then met by models that did not know the sheet.
+
+    Parameters
+    ----------
+    people : list of Run
+        Of the benchmark's meshes, which all models learn from as well.
+    rounds : int
+    tell : callable
+    """
+    sheets = {name: prepare(*mesh) for name, mesh in known_sheets().items()}
+    sheets = {name: s for name, s in sheets.items() if s.label.any()}  # one patch leaves nothing to judge
+    half = {name: place % 2 for place, name in enumerate(sheets)}
+    runs = {name: [merge_and_record(s)] for name, s in sheets.items()}
+    for number in range(rounds):
+        models = [fit(people, seed=60 + number, sheets=[r for n in runs if half[n] != left_out for r in runs[n]])
+                  for left_out in (0, 1)]
+        for name, sheet in sheets.items():
+            runs[name].append(merge_and_record(sheet, models[half[name]].predict))
+        error = np.mean([r[-1].error_at(SHEET_DECISION) for r in runs.values()])
+        tell(f"round {number} of {len(sheets)} sheets: error {error:.4f}")
+    return [r for of_sheet in runs.values() for r in of_sheet]
+
+
 DECISIONS = (0.4, 0.45, 0.5, 0.55, 0.6)
 
 
@@ -197,8 +230,7 @@ def read_subjects(folder: Path, changed: bool = False, tell=print) -> dict[int, 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", type=Path)
-    parser.add_argument("--out", type=Path,
-                        default=packages.ROOT / "core" / "cuts" / "perceptual" / "cut_model.npz")
+    parser.add_argument("--out", type=Path, default=packages.ROOT / "core" / "cuts" / "perceptual")
     parser.add_argument("--rounds", type=int, default=2)
     options = parser.parse_args()
     subjects = read_subjects(options.meshes)
@@ -206,10 +238,11 @@ def main():
     fold = folds_of(list(subjects), "groups")
     runs = learn(subjects, fold, options.rounds)
     add_variants(runs, variants, fold)
-    model = fit_many([r for of_mesh in runs.values() for r in of_mesh], N_MODELS)
-    model.write(options.out)
-    print(f"{options.out}: {len(model.leaf)} trees on {len(FEATURES)} features of "
-          f"{', '.join(map(str, subjects))}")
+    people = [r for of_mesh in runs.values() for r in of_mesh]
+    for name, sheets in (("cut_model", []), ("sheet_model", learn_sheets(people, options.rounds))):
+        model = fit_many(people, N_MODELS, sheets)
+        model.write(options.out / f"{name}.npz")
+        print(f"{name}.npz: {len(model.leaf)} trees on {len(FEATURES)} features")
 
 
 if __name__ == "__main__":

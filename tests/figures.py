@@ -31,12 +31,14 @@ class Figure(NamedTuple):
     def n_parts(self) -> int:
         return int(self.part.max()) + 1
 
+    def polygons_at(self, points: np.ndarray) -> np.ndarray:
+        """(k, polygons) bool, whether each of (k, 2) points lies in each polygon."""
+        return np.stack([_inside(points, self.corners[polygon]) for polygon in self.polygons], axis=1)
+
     def part_at(self, points: np.ndarray) -> np.ndarray:
         """(k,) int64, part in which each of (k, 2) points lies; -1 outside."""
-        found = np.full(len(points), -1)
-        for polygon, part in zip(self.polygons, self.part.tolist(), strict=True):
-            found[_inside(points, self.corners[polygon])] = part
-        return found
+        inside = self.polygons_at(points)
+        return np.where(inside.any(axis=1), self.part[inside.argmax(axis=1)], -1)
 
 
 def _inside(points: np.ndarray, polygon: np.ndarray) -> np.ndarray:
@@ -47,7 +49,7 @@ def _inside(points: np.ndarray, polygon: np.ndarray) -> np.ndarray:
     return (across & (x < ax + (y - ay) * (bx - ax) / np.where(by == ay, 1, by - ay))).sum(axis=1) % 2 == 1
 
 
-def _figure(parts: list[list]) -> Figure:
+def figure_of(parts: list[list]) -> Figure:
     """A figure of parts, each a list of polygons of (x, y) corners; equal corners are one."""
     names = sorted({tuple(c) for part in parts for polygon in part for c in polygon})
     index = {name: i for i, name in enumerate(names)}
@@ -67,7 +69,7 @@ def person() -> Figure:
     head = [(0.08, 1.5), (0.17, 1.62), (0.2, 1.8), (0.12, 1.98)]
     arm = [(0.28, 1.22), (0.9, 0.92), (0.97, 1.08), (0.34, 1.45)]
     leg = [(0.0, 0.74), (0.17, 0.0), (0.37, 0.0), (0.3, 0.8)]
-    return _figure([[torso], [head + _mirrored(head)], [arm], [_mirrored(arm)], [leg], [_mirrored(leg)]])
+    return figure_of([[torso], [head + _mirrored(head)], [arm], [_mirrored(arm)], [leg], [_mirrored(leg)]])
 
 
 def hand() -> Figure:
@@ -78,30 +80,30 @@ def hand() -> Figure:
     fingers = [[right, (round(x + w, 4), y), (round(x - w, 4), y), left]
                for right, left, (x, y, w) in zip(base, base[1:], tips, strict=False)]
     thumb = [(0.4, 0.28), (0.92, 0.62), (0.82, 0.76), (0.46, 0.52)]
-    return _figure([[palm], [thumb], *([finger] for finger in fingers)])
+    return figure_of([[palm], [thumb], *([finger] for finger in fingers)])
 
 
-def _circle(radius: float, count: int, turn: float = 0.0) -> list:
+def circle(radius: float, count: int, turn: float = 0.0) -> list:
     angle = turn + 2 * np.pi * np.arange(count) / count
     return [(round(radius * np.cos(a), 9), round(radius * np.sin(a), 9)) for a in angle]
 
 
 def star(n_rays: int = 5) -> Figure:
     """Rays that meet in the middle."""
-    inner = _circle(0.42, n_rays, np.pi / n_rays)
-    return _figure([[[(0.0, 0.0), inner[k - 1], tip, inner[k]]] for k, tip in enumerate(_circle(1.0, n_rays))])
+    inner = circle(0.42, n_rays, np.pi / n_rays)
+    return figure_of([[[(0.0, 0.0), inner[k - 1], tip, inner[k]]] for k, tip in enumerate(circle(1.0, n_rays))])
 
 
 def key() -> Figure:
     """Bow, which is a ring, shaft and two teeth."""
     n, turn = 12, np.pi / 12
-    outer, inner = _circle(0.5, n, turn), _circle(0.26, n, turn)
+    outer, inner = circle(0.5, n, turn), circle(0.26, n, turn)
     ring = [[inner[k - 1], outer[k - 1], outer[k], inner[k]] for k in range(n)]
     (x, top), low = outer[0], outer[-1][1]
     ends = [1.45, 1.6, 1.75, 1.9]
     shaft = [(x, low), *((e, low) for e in ends), (ends[-1], top), (x, top)]
     teeth = [[(a, low - 0.3), (b, low - 0.3), (b, low), (a, low)] for a, b in (ends[:2], ends[2:])]
-    return _figure([ring, [shaft], *([tooth] for tooth in teeth)])
+    return figure_of([ring, [shaft], *([tooth] for tooth in teeth)])
 
 
 def leaf() -> Figure:
@@ -118,7 +120,7 @@ def leaf() -> Figure:
         sides = [length * (0.62 * along + s * 0.2 * across) for s in (-1, 1)]
         tip = length * along
         lobes.append([right, *(tuple(np.round(c, 6)) for c in (sides[0], tip, sides[1])), left])
-    return _figure([[core], *([lobe] for lobe in lobes), [stalk]])
+    return figure_of([[core], *([lobe] for lobe in lobes), [stalk]])
 
 
 def letter_e() -> Figure:
@@ -127,7 +129,7 @@ def letter_e() -> Figure:
     bars = [[(0.3, a), (length, a), (length, b), (0.3, b)]
             for (a, b), length in zip(heights, (1.1, 0.95, 1.1), strict=True)]
     stem = [(0.0, 0.0), *((0.3, y) for pair in heights for y in pair), (0.0, 1.65)]
-    return _figure([[stem], *([bar] for bar in bars)])
+    return figure_of([[stem], *([bar] for bar in bars)])
 
 
 FIGURES = {"person": person, "hand": hand, "star": star, "key": key, "leaf": leaf, "letter_e": letter_e}

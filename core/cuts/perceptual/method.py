@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,7 +27,9 @@ from .measures import BORDER, surface_measures
 from .merging import Judge, RegionAdjacencyGraph, merge_all_
 from .patches import concave_patches, level_set_patches
 
-DECISION = 0.55  # share of people who separate two regions, 0..1, from which on their cut stays at detail 0.5
+# Share of people who separate two regions, 0..1, from which on their cut stays at detail 0.5: of solids, and of sheets,
+# where what was learned from says it is certain.
+DECISION, SHEET_DECISION = 0.55, 0.6
 # Largest number of faces of a mesh that is cut itself. A denser mesh is cut on a coarse copy of at most so many faces,
 # which are still much smaller than parts.
 MAX_FACES = 60_000
@@ -53,7 +56,7 @@ def perceptual_candidates(
         Coarser copies of the component's mesh.
     parameters : Parameters
     model : BoostedTrees, optional
-        Model that judges cuts. Without it, the model that ships with the package.
+        Model that judges cuts. Without it, those that ship with the package: one of closed surfaces, one of sheets.
     progress : callable, optional
         Called with the share done, 0..1.
 
@@ -65,57 +68,66 @@ def perceptual_candidates(
     Raises
     ------
     ReebError
-        The model that ships with the package was trained on other features.
+        A model that ships with the package was trained on other features.
     """
     progress = progress or (lambda share: None)
-    judge = judge_by(model or cut_model())
+    judges = Judges(judge_by(model or cut_model()), judge_by(model or sheet_model()))
     if parameters.follow_level_sets:
-        label, hierarchy = _cut_at_levels(sets, field, judge)
+        label, hierarchy = _cut_at_levels(sets, field, judges)
     elif sets.mesh.n_faces > MAX_FACES:
-        label, hierarchy = _on_coarse_copy(sets, field, pyramid, parameters.band_ratio, judge, progress)
+        label, hierarchy = _on_coarse_copy(sets, field, pyramid, parameters.band_ratio, judges, progress)
     else:
-        label, hierarchy = _cut_in_creases(sets, field, parameters.band_ratio, judge, progress)
+        label, hierarchy = _cut_in_creases(sets, field, parameters.band_ratio, judges, progress)
     return Candidates(label[sets.element_face], hierarchy)
 
 
-def _merge(sets: LevelSets, field: ScalarField, label: np.ndarray, judge: Judge) -> tuple[Hierarchy, np.ndarray]:
+class Judges(NamedTuple):
+    """Who judges cuts: of solids, which are closed surfaces, and of sheets that were inflated."""
+
+    solid: Judge
+    sheet: Judge
+
+
+def _merge(
+    sets: LevelSets, field: ScalarField, label: np.ndarray, judge: Judge, decision: float
+) -> tuple[Hierarchy, np.ndarray]:
     """Hierarchy over patches, and curvature across each pair of faces, (p,), times the square root of the area.
 
-    label : (m,) int64, patch of each face.
+    label : (m,) int64, patch of each face. decision : share of people that has salience 0.5.
     """
     measures = surface_measures(sets, field)
     graph = RegionAdjacencyGraph(sets.mesh, measures, label)
     merges, share = merge_all_(graph, judge)
     length, curvature = measures.pair[:, [BORDER.length, BORDER.curvature.start]].T
     curvature = np.divide(curvature, length, out=np.zeros_like(length), where=length > 0)
-    return Hierarchy.of(label.max() + 1, merges, salience_of(share)), curvature
+    return Hierarchy.of(label.max() + 1, merges, salience_of(share, decision)), curvature
 
 
-def _cut_at_levels(sets: LevelSets, field: ScalarField, judge: Judge) -> tuple[np.ndarray, Hierarchy]:
+def _cut_at_levels(sets: LevelSets, field: ScalarField, judges: Judges) -> tuple[np.ndarray, Hierarchy]:
     """Candidate of each face, (m,) int64, with cuts on level sets, and the hierarchy over the candidates."""
     label = level_set_patches(sets)
-    solid = _inflate(sets, field)
+    solid = inflate(sets, field)
     if solid is None:
-        return label, _merge(sets, field, label, judge)[0]
-    return label, _merge(solid.sets, solid.field, label[solid.shape.face_source], judge)[0]
+        return label, _merge(sets, field, label, judges.solid, DECISION)[0]
+    return label, _merge(solid.sets, solid.field, label[solid.shape.face_source], judges.sheet, SHEET_DECISION)[0]
 
 
 def _cut_in_creases(
-    sets: LevelSets, field: ScalarField, band_ratio: float, judge: Judge, progress: Callable[[float], None]
+    sets: LevelSets, field: ScalarField, band_ratio: float, judges: Judges, progress: Callable[[float], None]
 ) -> tuple[np.ndarray, Hierarchy]:
     """Candidate of each face, (m,) int64, with cuts moved into creases, and the hierarchy over the candidates.
 
     Sheets, which have no creases, are cut as if they were inflated.
     """
-    solid = _inflate(sets, field)
+    solid = inflate(sets, field)
     if solid is None:
-        return _cut_solid(sets, field, band_ratio, judge, progress)
-    label, hierarchy = _cut_solid(solid.sets, solid.field, band_ratio, judge, progress)
+        return _cut_solid(sets, field, band_ratio, judges.solid, DECISION, progress)
+    label, hierarchy = _cut_solid(solid.sets, solid.field, band_ratio, judges.sheet, SHEET_DECISION, progress)
     return solid.shape.on_front(label, sets.mesh.n_faces), hierarchy
 
 
 @dataclass(frozen=True, eq=False)
-class _Solid:
+class Solid:
     """A component whose sheets are inflated, with its field and level sets."""
 
     shape: Inflated
@@ -123,7 +135,7 @@ class _Solid:
     field: ScalarField
 
 
-def _inflate(sets: LevelSets, field: ScalarField) -> _Solid | None:
+def inflate(sets: LevelSets, field: ScalarField) -> Solid | None:
     """Inflate the sheets of a component; None if it has none."""
     sheet = sheet_faces(sets.mesh, field.agd[sets.mesh.faces].mean(axis=1))
     if not sheet.any():
@@ -131,22 +143,23 @@ def _inflate(sets: LevelSets, field: ScalarField) -> _Solid | None:
     shape = inflated(sets.mesh, sheet)
     values, normalized, agd = (of_vertex[shape.vertex_source].mean(axis=1)
                                for of_vertex in (field.values, field.normalized, field.agd))
-    return _Solid(shape, cut_at_levels(shape.mesh, values, sets.levels), ScalarField(values, normalized, agd))
+    return Solid(shape, cut_at_levels(shape.mesh, values, sets.levels), ScalarField(values, normalized, agd))
 
 
 def _cut_solid(
-    sets: LevelSets, field: ScalarField, band_ratio: float, judge: Judge, progress: Callable[[float], None]
+    sets: LevelSets, field: ScalarField, band_ratio: float, judge: Judge, decision: float,
+    progress: Callable[[float], None],
 ) -> tuple[np.ndarray, Hierarchy]:
     """What ``_cut_in_creases`` returns, of a component without sheets."""
     label = concave_patches(sets.mesh)
     progress(0.2)
-    hierarchy, curvature = _merge(sets, field, label, judge)
+    hierarchy, curvature = _merge(sets, field, label, judge, decision)
     progress(0.7)
     return move_cuts(sets.mesh, label, hierarchy, curvature, band_ratio), hierarchy
 
 
 def _on_coarse_copy(
-    sets: LevelSets, field: ScalarField, pyramid: Pyramid, band_ratio: float, judge: Judge,
+    sets: LevelSets, field: ScalarField, pyramid: Pyramid, band_ratio: float, judges: Judges,
     progress: Callable[[float], None],
 ) -> tuple[np.ndarray, Hierarchy]:
     """Candidate of each face of a dense mesh, (m,) int64, and the hierarchy over the candidates.
@@ -161,7 +174,7 @@ def _on_coarse_copy(
         owner, copy = step.owner[owner], step.mesh
     coarse_field = _restrict(field, owner, sets.mesh.vertex_area, copy.n_vertices)
     label, hierarchy = _cut_in_creases(
-        cut_at_levels(copy, coarse_field.values, sets.levels), coarse_field, band_ratio, judge,
+        cut_at_levels(copy, coarse_field.values, sets.levels), coarse_field, band_ratio, judges,
         lambda share: progress(0.1 + 0.4 * share))
     progress(0.5)
     finer = [pyramid.mesh, *(step.mesh for step in steps[:-1])]
@@ -260,18 +273,24 @@ def judge_by(model: BoostedTrees) -> Judge:
     return lambda graph, borders: model.predict(graph.features(borders))
 
 
-def salience_of(share: np.ndarray) -> np.ndarray:
-    """Turn shares of people into saliences: 0, DECISION and 1 become 0, 0.5 and 1, linearly between.
+def salience_of(share: np.ndarray, decision: float = DECISION) -> np.ndarray:
+    """Turn shares of people into saliences: 0, the decision and 1 become 0, 0.5 and 1, linearly between.
 
     share : (k,) float64, 0..1. Returns (k,) float64, 0..1.
     """
-    return np.interp(share, [0.0, DECISION, 1.0], [0.0, 0.5, 1.0])
+    return np.interp(share, [0.0, decision, 1.0], [0.0, 0.5, 1.0])
 
 
 @cache
 def cut_model() -> BoostedTrees:
-    """Read the model that judges cuts, which benchmarks/train.py trained; it is read once and kept.
+    """Read the model that judges cuts of closed surfaces, which benchmarks/train.py trained; it is read once and kept.
 
     Returns a BoostedTrees over the columns FEATURES. Raises ReebError if the file was trained on other features.
     """
     return BoostedTrees.read(Path(__file__).parent / "cut_model.npz", FEATURES)
+
+
+@cache
+def sheet_model() -> BoostedTrees:
+    """Read the model that judges cuts of inflated sheets: as ``cut_model``, and learned from flat figures, too."""
+    return BoostedTrees.read(Path(__file__).parent / "sheet_model.npz", FEATURES)
