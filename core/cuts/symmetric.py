@@ -17,6 +17,7 @@ from functools import cache, cached_property
 from itertools import product
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from ..surface.arrays import components, renumbered, rounded
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
@@ -43,7 +44,9 @@ class Cells:
     label : (p,) int64
         Cell of each face, 0..c-1.
     found : (c, g) int64
-        The candidate in which each image of each cell lies; -1 for none.
+        The candidate in which most of each image of each cell lies; -1 for none.
+    shares : tuple of g (c, c') sparse float64
+        Of each image of each cell, the share of its area in each of the c' candidates found.
     leads : (c, g) bool
         Which images of a cell lie on the leading side; only the cell itself where it has no image.
     image : (c, g) int64
@@ -53,6 +56,7 @@ class Cells:
 
     label: np.ndarray
     found: np.ndarray
+    shares: tuple[csr_array, ...]
     leads: np.ndarray
     image: np.ndarray
     area: np.ndarray
@@ -98,7 +102,7 @@ def symmetric_candidates(
     """
     if hierarchy.n_candidates > MOST_CANDIDATES:
         return label, hierarchy
-    salience = hierarchy.salience_table(np.arange(hierarchy.n_candidates))
+    salience = hierarchy.salience_table(np.arange(int(label.max()) + 1))
     found = [hierarchy.parts(hierarchy.n_parts(detail))[label] for detail in DETAILS]
     twin, height, first = np.atleast_2d(twin), np.atleast_2d(height), np.atleast_1d(first)
     image = _images(twin)
@@ -160,16 +164,27 @@ def _cells(graph: FaceGraph, label: np.ndarray, image: np.ndarray, leads: np.nda
     every = np.arange(n_ways)
     partner = _places(names, n_ways * lead[:, None] + kind[lead[:, None], way[:, None] ^ every])
     weight = graph.area + 1e-12 * graph.area.sum()
-    found = np.stack([majority(full, np.where(there, label[shown], label), weight, len(names))
-                      for there, shown in zip(has, image, strict=True)], axis=1)
-    found = np.where(partner >= 0, found, -1)
     # What follows says of itself what the image that leads says of it, to the letter.
     leading = np.where(way > 0, partner[np.arange(len(names)), way], -1)
-    follows = np.flatnonzero(leading >= 0)
-    found[follows] = found[leading[follows, None], way[follows, None] ^ every]
+    leader, way_there = np.where(leading < 0, (np.arange(len(names)), 0 * way), (leading, way))
+    asked = leader[:, None], way_there[:, None] ^ every
+    shown = np.where(has, label[image], label)
+    found = np.stack([majority(full, of_way, weight, len(names)) for of_way in shown], axis=1)
+    found = np.where(partner >= 0, found, -1)[asked]
+    shares = _shares(full, shown, weight)
+    shares = tuple(shares[leader + len(names) * (way_there ^ w)] for w in every)
     speaks = (partner >= 0) & (way[partner] == 0)
     speaks[~speaks.any(axis=1), 0] = True
-    return Cells(full, found, speaks, partner, np.bincount(full, graph.area))
+    return Cells(full, found, shares, speaks, partner, np.bincount(full, graph.area))
+
+
+def _shares(cell: np.ndarray, shown: np.ndarray, weight: np.ndarray) -> csr_array:
+    """Share of each cell's area that is in each candidate, (g * c, c') sparse; shown : (g, p), candidate by way."""
+    n_ways, n_cells = len(shown), int(cell.max()) + 1
+    area = np.bincount(cell, weight, n_cells)
+    row = cell + n_cells * np.arange(n_ways)[:, None]
+    size = n_ways * n_cells, int(shown.max()) + 1
+    return csr_array((np.tile(weight / area[cell], n_ways), (row.ravel(), shown.ravel())), size)
 
 
 def _kinds(crosses: np.ndarray) -> np.ndarray:
@@ -306,6 +321,9 @@ def _means(cells: Cells, salience: np.ndarray) -> np.ndarray:
     """Salience of what parts two cells, (c, c): as the leading side says, across the planes the mean of all sides.
 
     salience : of what parts two candidates that were found, (c', c').
+
+    A cell may lie in several candidates of a side that follows: the mean is one over its area, for with the largest
+    candidate alone a wedge whose image is half a leg is apart from the body across the plane.
     """
     count, n_ways = cells.found.shape
     told, total = np.full((count, count), np.nan), np.zeros((count, count))
@@ -313,10 +331,10 @@ def _means(cells: Cells, salience: np.ndarray) -> np.ndarray:
     for way in range(n_ways):
         found, leads = cells.found[:, way], cells.leads[:, way]
         seen = (found[:, None] >= 0) & (found >= 0)
-        said = salience[found[:, None], found]
         first = np.isnan(told) & seen & leads[:, None] & leads
-        told[first] = said[first]
-        total += np.where(seen, said, 0.0)
+        told[first] = salience[found[:, None], found][first]
+        said = cells.shares[way] @ (cells.shares[way] @ salience).T
+        total += np.where(seen, said + said.T, 0.0) / 2
         n_seen += seen
     here = salience[cells.found[:, :1], cells.found[:, 0]]
     # What nothing brought near each other stays apart to the last.

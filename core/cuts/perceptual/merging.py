@@ -10,7 +10,7 @@ import numpy as np
 from ...surface.arrays import distinct_pairs, sums_by
 from ...surface.mesh import TriMesh
 from .features import RegionMeasures, cut_features, region_shape
-from .measures import BORDER, SurfaceMeasures
+from .measures import BORDER, REGION, SurfaceMeasures
 
 # While there are more than MANY_REGIONS regions, several pairs merge in one round: those whose cut is the weakest of
 # both regions and among the weakest WEAKEST_SHARE of all cuts. With fewer regions, pairs whose cut is below WEAK_CUT
@@ -143,7 +143,8 @@ def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, n
     merges : (c - 1, 2) int64
         The region that stays and the region that merges into it, in order.
     strength : (c - 1,) float64
-        What the judge returned for the border of each merge, at the time of the merge; not monotone.
+        What the judge returned for the border of each merge, at the time of the merge, or less: see
+        ``_share_of_its_own``; not monotone.
     """
     n = len(graph.regions.alive)
     strength = judge(graph, np.arange(len(graph.ends)))
@@ -152,7 +153,7 @@ def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, n
         again, grown = set(), []
         for border in _next(graph, strength, n - len(merges)):
             merges.append(graph.ends[border].copy())
-            strengths.append(strength[border])
+            strengths.append(_share_of_its_own(graph, strength, border))
             gone = graph.merge_(border)
             strength[gone] = np.inf
             region = int(merges[-1][0])
@@ -164,6 +165,27 @@ def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, n
             changed = np.array(sorted(again))
             strength[changed] = judge(graph, changed)
     return np.reshape(merges, (-1, 2)).astype(np.int64), np.array(strengths, float)
+
+
+def _share_of_its_own(graph: RegionAdjacencyGraph, strength: np.ndarray, border: int) -> float:
+    """How much the smaller region of a border deserves to stay, 0..1, by all larger regions that it may belong to.
+
+    strength : (b,), what the judge returned for each border.
+
+    The judge looks at one border at a time: to a wedge between finger and palm it gives 0.6 against either, though the
+    wedge belongs to one of them. It can belong to one only, so that it is a part of its own with 1 - 0.4 - 0.4 = 0.2.
+    Neighbors count if they touch each other: the handle of a dumbbell belongs to neither ball. They count by how much
+    they are larger, from nothing if as large to all if twice as large, or it would be chance which of two equal regions
+    is the one in question.
+    """
+    area = graph.regions.sums[:, REGION.area]
+    small, large = sorted(graph.ends[border].tolist(), key=area.__getitem__)
+    neighbors = graph.neighbors[small]
+    rivals = [other for other in neighbors if other == large or other in graph.neighbors[large]]
+    weight = np.clip(area[rivals] / max(area[small], 1e-30) - 1, 0.0, 1.0)
+    own = max(0.0, 1 - weight @ (1 - strength[[neighbors[other] for other in rivals]]))
+    share = float(strength[border])
+    return share - float(weight[rivals.index(large)]) * max(0.0, share - own)
 
 
 def _next(graph: RegionAdjacencyGraph, strength: np.ndarray, n_regions: int) -> list[int]:

@@ -171,6 +171,16 @@ def test_one_corner_leads_all_four():
     assert same(parts(result, 0.6), corners)
 
 
+def test_what_one_side_lacks_is_no_sliver():
+    # A wedge of 15 faces on one hip, whose image is half a leg and half the body, was a part on both sides.
+    horse = shapes.horse()
+    vertices = horse.vertices.astype(np.float32)
+    both, alone = (decompose(vertices, horse.faces, Parameters(symmetry=symmetry)).parts()
+                   for symmetry in (True, False))
+    assert both.labels.max() == alone.labels.max() == 9
+    assert np.bincount(both.labels).min() > 50
+
+
 def test_limbs_of_the_figure_are_pairs():
     shape = shapes.mirrored_figure()
     found = decompose(*shape).parts()

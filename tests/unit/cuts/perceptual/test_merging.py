@@ -112,6 +112,22 @@ def test_merging_leaves_one_region_and_every_step_is_a_partition(tree):
         assert is_connected(mesh, merged)
 
 
+@pytest.mark.parametrize(("middle", "own"), [
+    (lambda x, y: (x > 3) & (x < 4) & (y < 1), 0.2),  # a wedge beside the cut between two larger regions
+    (lambda x, y: (x > 3) & (x < 4), 0.6),            # between two that do not touch
+    (lambda x, y: (x > 2) & (x < 4) & (y < np.where(x > 3, 3, 2)), 0.28),  # 5 cells beside 10 and 9
+    (lambda x, y: (x > 1) & (x < 5) & (y < 2), 0.6)],  # 8 beside 8 and 8
+    ids=["wedge", "handle", "nearly half as large", "equal"])
+def test_a_region_that_belongs_to_one_of_two_neighbors_is_hardly_a_part_of_its_own(middle, own):
+    mesh = TriMesh(*shapes.flat_grid(6, 4))
+    x, y = mesh.face_centroids[:, 0], mesh.face_centroids[:, 1]
+    label = np.where(middle(x, y), 2, x > 3)
+    graph = RegionAdjacencyGraph(mesh, measured(mesh), label)
+    merges, share = merge_all_(graph, lambda graph, borders: np.where(graph.ends[borders].max(axis=1) == 2, 0.6, 0.9))
+    assert merges[0].tolist() == [0, 2]
+    assert share[0] == pytest.approx(own)
+
+
 def test_whole_surface_has_the_sums_of_the_whole(tree):
     mesh, measures, label = tree
     graph = RegionAdjacencyGraph(mesh, measures, label)
