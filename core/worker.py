@@ -21,6 +21,7 @@ from typing import Any
 
 from .errors import ReebError
 from .handover import arguments, plain_error, read_request, read_shape, write_result
+from .memory import keep_freed_memory
 from .pipeline import decompose
 
 # Seconds between two messages about progress; nobody looks more often.
@@ -46,6 +47,7 @@ def run(folder: Path) -> None:
     """
     if sys.platform != "win32":  # there, who starts the process says so
         os.nice(NICE)
+    keep_freed_memory()
     _end_with_parent(folder)
     say(ready=True)
     try:

@@ -14,6 +14,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from ..core.memory import keep_freed_memory
 from ..core.uses.options import add_parameters, chosen_parameters
 from ..meshes import decompose
 from ..model_files import read_model
@@ -57,6 +58,7 @@ def run(options: argparse.Namespace) -> int:
     parameters, notes = chosen_parameters(options)
     for note in notes:
         _say(note)
+    keep_freed_memory()
     model = read_model(options.model, options.blender)
     result = decompose(model, parameters=parameters, progress=_Progress())
     parts = result.parts()
