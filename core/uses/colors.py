@@ -88,8 +88,8 @@ def part_colors(count: int, neighbors: np.ndarray, palette: np.ndarray = PALETTE
     Returns
     -------
     colors : (count, 3) float64
-        sRGB, 0..1. The first c parts have c different colors. Later parts repeat them, but parts that touch have
-        different colors unless a part touches parts of all c colors.
+        sRGB, 0..1. The first c parts have c different colors unless a later part touches all of them. Later parts
+        repeat them, but parts that touch have different colors unless more than c of them touch each other, or nearly.
     """
     return palette[chosen_colors(count, neighbors, palette)]
 
@@ -101,7 +101,7 @@ def chosen_colors(
 
     A part gets the color that is wanted for it, or, of the colors that no neighbor has, the one used least so far; of
     several such colors, one that differs clearly from those of the neighbors, or else most; then the first of the
-    palette.
+    palette. If its neighbors have all colors, one or a few of them get another, where they can.
 
     Parameters
     ----------
@@ -135,8 +135,26 @@ def chosen_colors(
             # Differences above 0.25 are clear to the eye and count as equal.
             rank = np.lexsort((np.arange(len(palette)), -np.minimum(room, 0.25), used + 99 * (room == 0)))
             chosen[part] = rank[0]
+            if not room.any():
+                _make_room(part, around, chosen, len(palette))
+                used = np.bincount(chosen[:part], minlength=len(palette))
         used[chosen[part]] += 1
     return chosen
+
+
+def _make_room(part: int, around: list[list[int]], chosen: np.ndarray, n_colors: int) -> None:
+    """Give a part whose neighbors have all colors that of a few of them, which get others; nothing if none can move.
+
+    around : (count,) lists of the neighbors of each part. chosen : (count,) int64, written to; -1 for none so far.
+    """
+    holders = {color: [other for other in around[part] if chosen[other] == color] for color in range(n_colors)}
+    for color in sorted(holders, key=lambda color: len(holders[color])):
+        taken = [{color, *chosen[around[other]].tolist()} for other in holders[color]]
+        free = [next((other for other in range(n_colors) if other not in colors), -1) for colors in taken]
+        if -1 not in free:
+            chosen[holders[color]] = free
+            chosen[part] = color
+            return
 
 
 def number_colors(

@@ -28,6 +28,18 @@ def test_neighbors_differ(count, seed, name):
         assert len(np.unique(colors, axis=0)) == count
 
 
+@pytest.mark.parametrize("n_rings", [1, 4])
+def test_a_part_among_neighbors_of_all_colors_gets_one_of_its_own(n_rings):
+    # The last part touches all others, of which each of a ring touches the next ones, but few of another ring.
+    count = 16 * n_rings
+    ring = np.array([(a, a + step) for a in range(count) for step in range(1, 4) if a // 16 == (a + step) // 16])
+    pairs = np.concatenate([ring, np.stack([np.arange(count), np.full(count, count)], axis=1)])
+    colors = part_colors(count + 1, pairs)
+    assert (colors[pairs[:, 0]] != colors[pairs[:, 1]]).any(axis=1).all()
+    # All but a few of those around keep theirs.
+    assert (colors[:count] != part_colors(count, ring)).any(axis=1).sum() == n_rings
+
+
 @pytest.mark.parametrize("name", PALETTES)
 def test_any_two_colors_of_a_palette_differ_visibly(name):
     """Colors of touching parts are never equal, see above: so they are this far apart."""
