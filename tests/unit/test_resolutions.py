@@ -56,9 +56,10 @@ def test_the_bundled_model_decimated(times, n_faces, limit):
 
 
 def test_a_dumbbell_of_four_thousand_faces_and_of_four_hundred():
-    error, ours, theirs = difference(shapes.dumbbell(), shapes.dumbbell(20, 10), Parameters())
+    # The coarser has a row of edges in the middle, where people cut; faces across it could be in one half only.
+    error, ours, theirs = difference(shapes.dumbbell(), shapes.dumbbell(21, 10), Parameters())
     assert error < 0.05
-    assert ours == theirs == 3
+    assert ours == theirs == 2
 
 
 def test_a_tree_of_ten_thousand_faces_and_of_nine_hundred():

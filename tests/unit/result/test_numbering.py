@@ -9,7 +9,7 @@ from core import Parameters, decompose
 from core.result.numbering import Numbering, follow, inherited
 from core.surface.arrays import components
 from core.surface.labels import majority
-from core.uses.colors import number_colors
+from core.uses.colors import number_colors, number_places
 
 
 def test_follow_takes_the_largest_overlap_first():
@@ -149,6 +149,16 @@ def tied(given, numbers, changed):
     return given, np.where(np.isin(numbers, changed), numbers, 0)
 
 
+def colors_stay(before, after):
+    """Parts keep their colors, but for one of each two of a color that touch now, at some level, and did not before."""
+    former, later = dict(number_places(before)), dict(number_places(after))
+    pairs = [pair for pair in after.graph.numbers[after.graph.pairs].tolist() if set(pair) <= set(before.numbers)]
+    alike = [pair for pair in pairs if former[pair[0]] == former[pair[1]]]
+    changed = [number for number in np.intersect1d(before.numbers, after.numbers) if former[number] != later[number]]
+    assert set(changed) <= {number for pair in alike for number in pair}
+    assert len(changed) <= len(alike)
+
+
 def test_merging_by_hand_moves_no_other_number(result):
     detail, shown, given = finer_level(result)
     assert len(shown.parts.cuts) >= 4
@@ -156,7 +166,7 @@ def test_merging_by_hand_moves_no_other_number(result):
         merged = np.where(shown.candidate_numbers == b, a, shown.candidate_numbers)
         after = Numbering.of(result, *tied(given, merged, [a])).parts(detail)
         assert (after.candidate_numbers == merged).all()
-        assert (number_colors(after) == number_colors(shown)[np.isin(shown.numbers, merged)]).all()
+        colors_stay(shown, after)
 
 
 def test_splitting_by_hand_moves_no_other_number(result):
@@ -170,7 +180,7 @@ def test_splitting_by_hand_moves_no_other_number(result):
         others = shown.candidate_numbers != number
         assert (after.parts(detail).candidate_numbers[others] == split[others]).all()
         parts = after.parts(detail)
-        assert (number_colors(parts)[np.isin(parts.numbers, shown.numbers)] == number_colors(shown)).all()
+        colors_stay(shown, parts)
         # Finer parts that come later make room for the new number.
         finest = after.parts(1.0)
         assert (finest.candidate_numbers[split == new] == new).all()
@@ -182,7 +192,7 @@ def test_fixing_a_part_moves_no_number(result):
     for number in shown.numbers.tolist():
         after = Numbering.of(result, *tied(given, shown.candidate_numbers, [number]))
         assert (after.parts(detail).candidate_numbers == shown.candidate_numbers).all()
-        assert (number_colors(after.parts(detail)) == number_colors(shown)).all()
+        colors_stay(shown, after.parts(detail))
 
 
 def test_whatever_is_fixed_no_two_alike_touch(result):

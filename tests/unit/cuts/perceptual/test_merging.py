@@ -128,6 +128,20 @@ def test_a_region_that_belongs_to_one_of_two_neighbors_is_hardly_a_part_of_its_o
     assert share[0] == pytest.approx(own)
 
 
+@pytest.mark.parametrize(("length", "own"), [(0.7, 0.0), (0.9, 0.0857), (1.1, 0.2571), (1.3, 0.4286), (1.6, 0.6)])
+@pytest.mark.parametrize("scale", [0.01, 30.0])
+def test_the_two_rims_of_a_ring_shorter_than_its_radius_are_one_cut(length, own, scale):
+    """Between two larger parts, as an arm and a trunk: the same cut, found twice."""
+    vertices, faces = shapes.cylinder(160, 60, length=8.0, capped=False)
+    z = np.floor(20 * vertices[faces].mean(axis=1)[:, 2]) / 20 + 0.025 - 4  # of rows of faces
+    label = np.where(abs(z) < length / 2, 1, np.where(z > 0, 2, 0))
+    mesh = TriMesh(scale * vertices, faces)
+    graph = RegionAdjacencyGraph(mesh, measured(mesh), label)
+    merges, share = merge_all_(graph, lambda graph, borders: np.where((graph.ends[borders] == 1).any(axis=1), 0.6, 0.9))
+    assert 1 in merges[0]
+    assert share[0] == pytest.approx(own, abs=0.002)
+
+
 def test_whole_surface_has_the_sums_of_the_whole(tree):
     mesh, measures, label = tree
     graph = RegionAdjacencyGraph(mesh, measures, label)
