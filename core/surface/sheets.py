@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import splu, spsolve
-from scipy.spatial import cKDTree
 
 from .arrays import inner_products, spread_evenly, sums_by, symmetric_matrix
 from .balls import ball_radius
 from .labels import majority
 from .mesh import TriMesh
+from .nearest import search_tree
 from .preparation import split_edges
 
 # A sheet has at least this square of the length of its border, as a share of its area; a disc has 4 pi, a hemisphere
@@ -262,7 +262,7 @@ def _ball_height(mesh: TriMesh, thin: np.ndarray, within: np.ndarray) -> np.ndar
     unit = np.sqrt(mesh.area)
     place = (mesh.vertices - mesh.vertices.mean(axis=0)) / unit
     point, inwards, ends = _outline(mesh, thin, place)
-    radius = ball_radius(cKDTree(np.concatenate([point, ends])), point, inwards, LARGEST)
+    radius = ball_radius(search_tree(np.concatenate([point, ends])), point, inwards, LARGEST)
     center = point + radius[:, None] * inwards
     # r^2 - |x - c|^2 = r^2 - |c|^2 + 2 x c - |x|^2, of which the largest needs inner products only.
     rest, height = radius**2 - (center**2).sum(axis=1), np.zeros(mesh.n_vertices)

@@ -13,6 +13,7 @@ from .arrays import even_steps, lengths, rounded_order, row_products, weighted_s
 from .contact import diameter
 from .mesh import TriMesh
 from .mirror_plane import MirrorPlane
+from .nearest import search_tree
 
 # How much a turned normal counts where the nearest face is searched, in units of the size, so that the two sides of a
 # wall are told apart.
@@ -59,7 +60,7 @@ class Elements:
     @cached_property
     def tree(self) -> cKDTree:
         """Of the places."""
-        return cKDTree(self.place, balanced_tree=False, compact_nodes=False)
+        return search_tree(self.place, balanced=False)
 
     def nearest(self, image: Elements) -> tuple[np.ndarray, np.ndarray]:
         """Distance of the nearest element of each of some others, (k,) float64, and this element, (k,) int64.

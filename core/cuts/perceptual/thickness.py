@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 from ...surface.arrays import rounded, spread_evenly
 from ...surface.balls import ball_radius
 from ...surface.mesh import TriMesh
+from ...surface.nearest import search_tree
 
 LARGEST = 0.2  # radius at which balls begin to shrink, in units of the square root of the area
 N_SURFACE = 12_000  # upper bound of the number of points that represent the surface
@@ -39,10 +40,10 @@ def thickness(mesh: TriMesh, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     center, normal = mesh.face_centroids / unit, mesh.face_normals
     surface = center[spread_evenly(mesh.face_area, order, N_SURFACE)]
     probe = spread_evenly(mesh.face_area, order, N_PROBES)
-    tree = cKDTree(surface)
+    tree = search_tree(surface)
     # The nearest probe is searched by position and normal, so that it is on the same side of a thin wall.
     place = np.hstack([center, 0.05 * normal])
-    near, counts = _nearest(cKDTree(place[probe]), place)
+    near, counts = _nearest(search_tree(place[probe]), place)
     share = counts / counts.sum(axis=1, keepdims=True)
     return tuple(
         np.exp((share * np.log(_radius(tree, center[probe], side * normal[probe]))[near]).sum(axis=1))
