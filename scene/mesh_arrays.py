@@ -14,7 +14,7 @@ import numpy as np
 from bmesh.types import BMesh
 from numpy.typing import DTypeLike
 
-from ..core.surface.arrays import cross
+from ..core.surface.arrays import cross, lengths
 from ..core.surface.corners import CornerTable, edge_labels
 
 _VALUES = {  # of an attribute: the name of its values, their type, how many
@@ -170,6 +170,17 @@ def face_sizes(mesh: bpy.types.Mesh) -> np.ndarray:
         return np.full(n, 3, np.int32)
     # Where faces begin can be read faster than how many corners they have.
     return np.diff(read(mesh.polygons, "loop_start", np.int32), append=np.int32(len(mesh.loops)))
+
+
+def face_middles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Mean of the corners of each face, (p, 3) float64, and its area, (p,) float64; Object Mode."""
+    if len(mesh.loops) != 3 * len(mesh.polygons):
+        return (read(mesh.polygons, "center", np.float32, 3).astype(np.float64),
+                read(mesh.polygons, "area", np.float32).astype(np.float64))
+    # Of triangles in no order, which are a dense mesh, Blender works both out in six times the time.
+    points, corners = basis_points(mesh), corner_vertices(mesh).reshape(-1, 3).T
+    a, b, c = (np.take(points, corner, axis=0).astype(np.float64) for corner in corners)
+    return (a + b + c) / 3.0, 0.5 * lengths(cross(b - a, c - a))
 
 
 def cut_edges(mesh: bpy.types.Mesh, numbers: np.ndarray) -> np.ndarray:

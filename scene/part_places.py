@@ -29,8 +29,8 @@ def _candidate_middles(mesh: bpy.types.Mesh, candidates: np.ndarray) -> np.ndarr
     """The middle of the surface of each candidate, (c, 3) float64; kept for the next step of a drag."""
     key = mesh.session_uid, mesh.reeb_parts.fingerprint, id(candidates)
     if not _middles or _middles[0][0] != key:
-        center = mesh_arrays.read(mesh.polygons, "center", np.float32, 3).astype(np.float64)
-        area = mesh_arrays.read(mesh.polygons, "area", np.float32).astype(np.float64) + 1e-300
+        center, area = mesh_arrays.face_middles(mesh)
+        area += 1e-300
         total = np.bincount(candidates, area)
         found = np.stack([np.bincount(candidates, area * axis) for axis in center.T], axis=1) / total[:, None]
         _middles[:] = [(key, found)]

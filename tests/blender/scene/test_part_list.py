@@ -76,6 +76,16 @@ def test_the_order_by_place_is_from_the_top_of_the_world(obj, result, listed, tu
     assert order(listed, obj, "PLACE") == sorted(height, key=lambda name: -height[name])
 
 
+@pytest.mark.parametrize("kind", ["triangles", "polygons"])
+def test_middles_and_areas_of_faces_are_those_of_blender(kind, obj, package):
+    if kind == "polygons":
+        bpy.ops.mesh.primitive_cylinder_add(vertices=7, end_fill_type="NGON")
+    mesh = bpy.context.object.data
+    center, area = importlib.import_module(f"{package}.scene.mesh_arrays").face_middles(mesh)
+    assert center == pytest.approx(np.array([face.center[:] for face in mesh.polygons]), abs=1e-6)
+    assert area == pytest.approx(np.array([face.area for face in mesh.polygons]), rel=1e-4)
+
+
 def test_small_parts_of_a_long_list_are_folded(obj, result, listed):
     settings = bpy.context.scene.reeb_parts
     settings.small = 5.0
