@@ -166,6 +166,7 @@ class _Batch:
 
     def finish(self) -> dict[str, Any]:
         """Write the tables and the page; returns what the command answers."""
+        remove_leftovers(self.out)  # of processes that were ended while they wrote
         from ..batch.page import write_page
         from ..batch.tables import write_tables
 

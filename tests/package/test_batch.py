@@ -323,6 +323,17 @@ def test_a_killed_worker_a_killed_run_and_ctrl_c_lose_nothing(request, reeb_part
     assert {path.name for path in (out / "models").iterdir()} == finished(out)
 
 
+def test_what_an_ended_process_was_writing_is_gone_after_the_run(request, tmp_path):
+    """Its own folder would be removed by the next run, of which there may be none."""
+    many(tmp_path / "in", 6)
+    run = start(request, tmp_path / "in", "--out", tmp_path / "out", *LOCAL)
+    wait_for(lambda: finished(tmp_path / "out"), run)
+    (tmp_path / "out" / "models" / ".reeb_parts_half").mkdir()
+    stderr = run.communicate(timeout=120)[1]
+    assert run.returncode == 0, stderr
+    assert {path.name for path in (tmp_path / "out" / "models").iterdir()} == finished(tmp_path / "out")
+
+
 # A cluster that is there -----------------------------------------------------------------------
 
 
