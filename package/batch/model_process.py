@@ -25,6 +25,7 @@ from .records import CRASH, MEMORY, TIME, Settings, digest_of, failure
 
 LOOK = 0.5  # seconds between two looks at the memory of the process
 START = 120.0  # seconds that the process may take to import everything, on a busy machine
+STARTS = 2  # how often it is started for a model, if it ends before it is ready
 ENDED: dict[str, Any] = {}  # in place of a message: there will be none any more
 
 
@@ -70,8 +71,8 @@ class ModelProcess:
 
     def _attempt(self, job: dict[str, Any], seconds: float) -> tuple[str, str]:
         """Wait for the answer; what went wrong otherwise and why, two empty words if nothing did."""
-        if self._process is None and not self._start():
-            return CRASH, f"The process could not start: {self._last_words()}"
+        if self._process is None and (why := self._start_surely()):
+            return CRASH, f"The process could not start: {why}"
         assert self._process is not None
         assert self._process.stdin is not None
         with suppress(BrokenPipeError):  # it has ended meanwhile, as the next message says
@@ -93,6 +94,21 @@ class ModelProcess:
         if self._answer.get("memory"):
             return MEMORY, self._too_much()
         return "", ""
+
+    def _start_surely(self) -> str:
+        """Start the process, once more if it ends before it is ready; "" if it is ready, else why it is not."""
+        why = ""
+        for _ in range(STARTS):
+            if self._start():
+                return ""
+            assert self._process is not None
+            try:
+                status = self._process.wait(LOOK)
+            except subprocess.TimeoutExpired:  # it still runs, and has had all its time
+                return f"it was not ready after {START:g} s"
+            why = "it was killed" if status == -9 else self._last_words()
+            self.close()
+        return why
 
     def _start(self) -> bool:
         """Start the process; whether it is ready."""

@@ -239,6 +239,23 @@ def test_a_crash_is_recorded_with_its_reason(number, words, process, large, tmp_
     assert not is_done(large, tmp_path / "large", Settings(Parameters()))  # it will be tried again
 
 
+def test_a_process_that_is_killed_while_it_starts_costs_no_model(models, tmp_path):
+    process = ModelProcess()
+
+    def crash():
+        while process._process is None:
+            time.sleep(0.01)
+        process._process.kill()
+
+    thread = threading.Thread(target=crash)
+    thread.start()
+    try:
+        assert process.run(job(models / "tree.ply", tmp_path / "tree"), 60.0)["status"] == "done"
+    finally:
+        thread.join()
+        process.close()
+
+
 def test_nothing_is_left_of_a_process_when_the_one_that_asked_is_killed(large, tmp_path):
     code = ("import sys, json; from reeb_parts.batch.model_process import ModelProcess; p = ModelProcess(); p._start();"
             "print(p._process.pid, flush=True); p.run(json.loads(sys.argv[1]), 0)")
