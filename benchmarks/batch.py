@@ -24,6 +24,7 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from contextlib import suppress
 from pathlib import Path
 
 import packages
@@ -185,13 +186,13 @@ def kill(command: list[str], variables: dict[str, str], folder: Path) -> bool:
     for share, what in KILLS:
         _wait(out, int(share * count), run)
         children = psutil.Process(run.pid).children(recursive=True)
-        computing = [child for child in children if "reeb_parts.batch.model_process" in child.cmdline()]
         if what == "the whole run":
             os.killpg(run.pid, signal.SIGKILL)
             run.wait()
             psutil.wait_procs(children, timeout=60)  # what computes ends when it sees that it is alone
         else:
-            (computing[0] if "process" in what else computing[0].parent()).kill()
+            computing = _computing(run)
+            (computing if what == "a process that computes a model" else computing.parent()).kill()
         print(f"killed {what} when {len(_records(out))} of {count} models had a record", flush=True)
     before = _records(out)
     final = {name for name, record in before.items() if record["status"] in ("done", "refused", "unreadable")}
@@ -217,6 +218,20 @@ def kill(command: list[str], variables: dict[str, str], folder: Path) -> bool:
     sound = not any(wrong.values())
     print("nothing was lost" if sound else "NOT ALL OF IT HOLDS", flush=True)
     return sound
+
+
+def _computing(run: subprocess.Popen):
+    """A process that computes models, as psutil has it; the one that started it is a worker."""
+    import psutil
+
+    while True:
+        if run.poll() is not None:
+            environments.fail("the run ended before its time")
+        for child in psutil.Process(run.pid).children(recursive=True):
+            with suppress(psutil.Error):  # it has just ended
+                if "reeb_parts.batch.model_process" in child.cmdline():
+                    return child
+        time.sleep(0.05)
 
 
 def _wait(out: Path, count: int, run: subprocess.Popen) -> None:
