@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Learn which parts of several pieces belong together; writes core/cuts/joining/join_model.npz.
+"""Learn which parts of several pieces belong together; writes join_model.npz and distant_model.npz.
 
-    python3 benchmarks/train_joining.py FOLDER... [--hints FOLDER...] [--apart FOLDER...] [--out FILE] [--folds N]
+    python3 benchmarks/train_joining.py FOLDER... [--hints FOLDER...] [--apart FOLDER...] [--out FOLDER] [--folds N]
 
 Folders hold NAME.npz with ``vertices`` (n, 3), ``faces`` (m, 3) and labels of the faces: ``human`` (k, m), or in
-``--hints`` an artist's ``material`` (m,), which counts a fifth, and only for parts of different pieces. The meshes
-of ``--apart`` are closed surfaces: each is taken apart along one person's cuts, and the pieces are moved a little, so
-that they run into each other as the pieces of an artist do. --folds leaves packs out in turn (a pack is what a name
-begins with, up to the first dot) and prints the Rand index error on the packs left out, instead of writing a model.
+``--hints`` an artist's ``material`` (m,), which counts a tenth to a quarter, and only for parts of different pieces.
+The meshes of ``--apart`` are closed surfaces: each is taken apart along one person's cuts, and the pieces are moved a
+little, so that they run into each other as the pieces of an artist do.
+
+The first model judges parts that come near each other. What it says of meshes that it has not learned from is what the
+second sees, beside all pairs of the largest parts: packs are left out in turn for that (a pack is what a name begins
+with, up to the first dot; a category of the benchmark is one, too).
+
+--folds leaves packs out in turn and prints the Rand index error on the packs left out, instead of writing models.
 """
 
 from __future__ import annotations
@@ -18,16 +23,20 @@ from pathlib import Path
 
 import packages
 
-packages.need("numpy", "scipy", "lightgbm", "tqdm")
+packages.need("numpy", "scipy", "lightgbm", "tqdm", "joblib")
 
+import joblib
 import lightgbm
 import numpy as np
+from people import category_of
 from tqdm import tqdm
 from train import trees_of
 
 from core.cuts.boosted_trees import BoostedTrees
 from core.cuts.hierarchy import Hierarchy
-from core.cuts.joining.method import FineParts, fine_parts, join_parts
+from core.cuts.joining.distant import FEATURES as DISTANT_FEATURES
+from core.cuts.joining.distant import DistantPairs
+from core.cuts.joining.method import FineParts, JoinModel, compare_distant, fine_parts, join_parts, near_odds
 from core.cuts.joining.pairs import FEATURES
 from core.metrics import rand_index_error
 from core.parameters import Parameters
@@ -44,10 +53,15 @@ SETTINGS = {
     "feature_fraction": 0.4, "bagging_fraction": 0.7, "bagging_freq": 1, "max_bin": 63, "lambda_l2": 5.0,
     "verbose": -1, "num_threads": 1, "deterministic": True, "force_row_wise": True,
 }
-N_TREES, N_MODELS = 200, 3
-HINT_WEIGHT = 0.2
+DISTANT_SETTINGS = SETTINGS | {
+    "learning_rate": 0.08, "min_data_in_leaf": 60, "feature_fraction": 0.5}
+N_TREES, N_MODELS, N_FOLDS = 200, 3, 5
+#: What a mesh counts, by what its labels are: for pairs near each other, and for all pairs.
+KINDS = {"human": 1.0, "hints": 0.1, "apart": 1.0}
+DISTANT_KINDS = KINDS | {"hints": 0.25}
 SHIFT = 0.003  # of the diagonal: how far the pieces of a mesh that is taken apart are moved
-MAX_PAIRS = 60  # of a mesh count in full; more count as the square root of their number
+MAX_PAIRS = 60  # pairs of a mesh, or parts, count as the square root of their number up to this
+SAMPLE = 600  # of all pairs of a body so many are learned from
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +77,8 @@ class Body:
         Candidate of each face of the body's mesh, and the face of the mesh given that it lies in.
     face_area : (m,) float64
     n_pieces : int
-    together : (e,) float64
-        Share of people who put two points of the two parts of each pair into one part.
+    shares : list of (c, people's parts) float64
+        Of each part, the share of its area with each label of each person.
     """
 
     parts: FineParts
@@ -73,22 +87,32 @@ class Body:
     polygon: np.ndarray
     face_area: np.ndarray
     n_pieces: int
-    together: np.ndarray
+    shares: list[np.ndarray]
+
+    def together(self, pairs: np.ndarray) -> np.ndarray:
+        """Share of people who put two points of the two parts of each pair, (e, 2), into one part."""
+        first, second = pairs.T
+        return np.clip(np.mean([(share[first] * share[second]).sum(axis=1) for share in self.shares], axis=0), 0, 1)
 
 
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """One mesh with labels."""
+    """One mesh with labels. kind : "human", "hints" or "apart"."""
 
     name: str
     bodies: list[Body]
     human: np.ndarray
-    is_hint: bool
+    kind: str
 
     @property
     def pack(self) -> str:
-        """What the name begins with: models of one pack share pieces."""
-        return self.name.split(".")[0]
+        """What the name begins with: models of one pack share pieces. Of a mesh of the benchmark, its category."""
+        return category_of(int(self.name)) if self.name.isdigit() else self.name.split(".")[0]
+
+    @property
+    def of_several(self) -> list[Body]:
+        """Bodies in which there is something to join."""
+        return [body for body in self.bodies if body.n_pieces > 1 and len(body.parts.candidate) > 1]
 
 
 def taken_apart(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray, seed: int):
@@ -103,8 +127,8 @@ def taken_apart(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray, seed
     return vertices[corners[:, 1]] + move[corners[:, 0]], place.reshape(-1, 3)
 
 
-def prepare(name: str, vertices: np.ndarray, faces: np.ndarray, human: np.ndarray, is_hint: bool) -> Subject:
-    """Everything that does not depend on the model."""
+def prepare(name: str, vertices: np.ndarray, faces: np.ndarray, human: np.ndarray, kind: str) -> Subject:
+    """Everything that does not depend on the models of joining."""
     parameters, found = Parameters(), []
     for component in bodies(repair(PolygonMesh.of(vertices, faces)), True, parameters.loose_part):
         result = decompose_component(component, parameters, Stopwatch(None))
@@ -114,49 +138,101 @@ def prepare(name: str, vertices: np.ndarray, faces: np.ndarray, human: np.ndarra
             table = np.zeros((len(parts.candidate), person.max() + 1))
             np.add.at(table, (parts.part, person[component.polygon]), component.mesh.face_area + 1e-300)
             shares.append(table / table.sum(axis=1, keepdims=True))
-        first, second = parts.pairs.parts.T
-        together = np.mean([(share[first] * share[second]).sum(axis=1) for share in shares], axis=0)
         found.append(Body(parts, result.candidates.hierarchy, result.face_candidate, component.polygon,
-                          component.mesh.face_area, component.mesh.face_components[0], together))
-    return Subject(name, found, human, is_hint)
+                          component.mesh.face_area, component.mesh.face_components[0], shares))
+    return Subject(name, found, human, kind)
 
 
-def read(folder: Path, kind: str) -> list[Subject]:
-    """The meshes of a folder. kind : "human", "hints" or "apart"."""
-    subjects = []
-    for seed, path in enumerate(tqdm(sorted(folder.glob("*.npz")), desc=folder.name)):
-        with np.load(path) as stored:
-            vertices, faces = stored["vertices"].astype(float), stored["faces"].astype(np.int64)
-            human = stored["material"][None] if kind == "hints" else stored["human"]
-        human = np.stack([renumbered(person)[1] for person in human])
-        if kind == "apart":
-            vertices, faces = taken_apart(vertices, faces, human, seed)
-        subjects.append(prepare(path.stem, vertices, faces, human, kind == "hints"))
-    return subjects
+def read(path: Path, kind: str, seed: int) -> Subject:
+    """One mesh of a folder. seed : of how it is taken apart, if it is."""
+    with np.load(path) as stored:
+        vertices, faces = stored["vertices"].astype(float), stored["faces"].astype(np.int64)
+        human = stored["material"][None] if kind == "hints" else stored["human"]
+    human = np.stack([renumbered(person)[1] for person in human])
+    if kind == "apart":
+        vertices, faces = taken_apart(vertices, faces, human, seed)
+    return prepare(path.stem, vertices, faces, human, kind)
 
 
-def fit(subjects: list[Subject]) -> BoostedTrees:
-    """The mean of several models that differ by their random choices."""
-    rows, share, weight = [], [], []
-    for subject in subjects:
-        for body in subject.bodies:
-            pairs = body.parts.pairs
-            chosen = ~pairs.same_piece if subject.is_hint else np.ones(len(body.together), bool)
-            if chosen.any():
-                own = np.sqrt(pairs.area[pairs.parts].min(axis=1))[chosen]
-                rows.append(pairs.features[chosen])
-                share.append(np.clip(body.together, 0, 1)[chosen])
-                counts = HINT_WEIGHT if subject.is_hint else 1.0
-                weight.append(counts * own / own.sum() * np.sqrt(min(len(own), MAX_PAIRS)))
-    data = [np.concatenate(column) for column in (rows, share, weight)]
-    models = [trees_of(lightgbm.train(SETTINGS | {"seed": seed}, lightgbm.Dataset(
-        data[0], data[1], weight=data[2], feature_name=list(FEATURES)), N_TREES)) for seed in range(N_MODELS)]
+# Learning -----------------------------------------------------------------------------------------
+
+
+def fit(rows: list[tuple[np.ndarray, np.ndarray, np.ndarray]], settings: dict, names: tuple[str, ...], n_trees: int,
+        n_models: int) -> BoostedTrees:
+    """The mean of several models that differ by their random choices.
+
+    rows : features (e, f), what is to be foretold (e,), and weight (e,), of each body.
+    """
+    data = [np.concatenate(column) for column in zip(*rows, strict=True)]
+    models = [trees_of(lightgbm.train(settings | {"seed": seed}, lightgbm.Dataset(
+        data[0], data[1], weight=data[2], feature_name=list(names)), n_trees)) for seed in range(n_models)]
     feature, threshold, mask, leaf = (np.concatenate([getattr(m, name) for m in models])
                                       for name in ("feature", "threshold", "mask", "leaf"))
-    return BoostedTrees(feature, threshold, mask, leaf / N_MODELS, FEATURES)
+    return BoostedTrees(feature, threshold, mask, leaf / n_models, names)
 
 
-def error(subject: Subject, model: BoostedTrees) -> tuple[float, int]:
+def fit_near(subjects: list[Subject]) -> BoostedTrees:
+    """What judges pairs of parts that come near each other."""
+    rows = []
+    for subject in subjects:
+        for body in subject.of_several:
+            pairs = body.parts.pairs
+            chosen = _asked(subject, pairs.same_piece)
+            if chosen.any():
+                weight = np.sqrt(pairs.shapes.area[pairs.parts].min(axis=1))[chosen]
+                weight *= KINDS[subject.kind] * np.sqrt(min(len(weight), MAX_PAIRS)) / weight.sum()
+                rows.append((pairs.features[chosen], body.together(pairs.parts)[chosen], weight))
+    return fit(rows, SETTINGS, FEATURES, N_TREES, N_MODELS)
+
+
+def fit_distant(subjects: list[Subject], distant: dict[int, list[DistantPairs]]) -> BoostedTrees:
+    """What judges all pairs of the largest parts.
+
+    distant : of each subject, by id(), the pairs of its bodies, measured with what a model says of near pairs that did
+    not learn from the subject.
+    """
+    rows, rng = [], np.random.default_rng(0)
+    for subject in subjects:
+        for body, pairs in zip(subject.of_several, distant[id(subject)], strict=True):
+            area, piece = body.parts.pairs.shapes.area, body.parts.pairs.shapes.piece
+            chosen = np.flatnonzero(_asked(subject, piece[pairs.parts[:, 0]] == piece[pairs.parts[:, 1]]))
+            if len(chosen):
+                chosen = rng.permutation(chosen)[:SAMPLE]
+                weight = np.sqrt(area[pairs.parts[chosen]].min(axis=1))
+                weight *= 1000 * DISTANT_KINDS[subject.kind] * np.sqrt(min(len(area), MAX_PAIRS)) / weight.sum()
+                rows.append((pairs.features[chosen], body.together(pairs.parts[chosen]), weight))
+    return fit(rows, DISTANT_SETTINGS, DISTANT_FEATURES, N_TREES, 1)
+
+
+def _asked(subject: Subject, same_piece: np.ndarray) -> np.ndarray:
+    """Which pairs of a subject are learned from, (e,) bool."""
+    return ~same_piece if subject.kind == "hints" else np.ones(len(same_piece), bool)
+
+
+def learn(
+    subjects: list[Subject], n_folds: int = N_FOLDS
+) -> tuple[dict[int, BoostedTrees], dict[int, list[DistantPairs]]]:
+    """Models of near pairs that have not learned from a fold of the packs, by fold, and all pairs seen with them."""
+    near, distant = {}, {}
+    fold = folds_of(subjects, n_folds)
+    for left_out in tqdm(range(n_folds), desc="near pairs"):
+        near[left_out] = fit_near([s for s in subjects if fold[s.pack] != left_out])
+    for subject in tqdm(subjects, desc="all pairs"):
+        model = near[fold[subject.pack]]
+        distant[id(subject)] = [compare_distant(body.parts, near_odds(body.parts, model))
+                                for body in subject.of_several]
+    return near, distant
+
+
+def folds_of(subjects: list[Subject], n_folds: int) -> dict[str, int]:
+    """Fold of each pack."""
+    return {pack: number % n_folds for number, pack in enumerate(sorted({subject.pack for subject in subjects}))}
+
+
+# Judging ------------------------------------------------------------------------------------------
+
+
+def error(subject: Subject, model: JoinModel) -> tuple[float, int]:
     """Rand index error of the parts of detail 0.5, mean over people, and how many parts there are."""
     labels, first = np.full(subject.human.shape[1], -1), 0
     for body in subject.bodies:
@@ -171,19 +247,24 @@ def error(subject: Subject, model: BoostedTrees) -> tuple[float, int]:
     return float(np.mean([rand_index_error(labels, person) for person in subject.human])), len(names)
 
 
-def validate(subjects: list[Subject], more: list[Subject], n_folds: int) -> None:
-    """Print the error on packs that the model has not seen."""
-    packs = sorted({subject.pack for subject in subjects})
-    scores = []
-    for fold in range(n_folds):
-        left_out = set(packs[fold::n_folds])
-        model = fit([s for s in [*subjects, *more] if s.pack not in left_out])
-        scores += [(s, *error(s, model)) for s in subjects if s.pack in left_out]
-    for subject, wrong, count in scores:
-        median = np.median([person.max() + 1 for person in subject.human])
-        print(f"{subject.name:40} {wrong:.3f} {count:4d} parts, people {median:.0f}")
-    print(f"mean of {len(scores)}: {np.mean([wrong for _, wrong, _ in scores]):.4f}, "
-          f"{np.mean([count for *_, count in scores]):.1f} parts")
+def validate(subjects: list[Subject], n_folds: int) -> None:
+    """Print the errors on packs, and categories, that the models have not seen; of near pairs alone, and of all."""
+    near, distant = learn(subjects, n_folds)
+    fold = folds_of(subjects, n_folds)
+    models = {left_out: JoinModel(model, fit_distant([s for s in subjects if fold[s.pack] != left_out], distant))
+              for left_out, model in near.items()}
+    for kind in KINDS:
+        some = [s for s in subjects if s.kind == kind]
+        rows = [(s, error(s, JoinModel(models[fold[s.pack]].near, None)), error(s, models[fold[s.pack]])) for s in some]
+        for subject, before, now in rows:
+            median = np.median([person.max() + 1 for person in subject.human])
+            print(f"{subject.name:40} {before[0]:.3f} -> {now[0]:.3f}, {before[1]:4d} -> {now[1]:4d} parts, "
+                  f"people {median:.0f}")
+        for name, of in (("all", rows), ("of several pieces", [r for r in rows if r[0].of_several])):
+            if of:
+                figures = np.array([[*before, *now] for _, before, now in of]).mean(axis=0)
+                print(f"{kind}, {name} {len(of)}: {figures[0]:.4f} -> {figures[2]:.4f}, "
+                      f"{figures[1]:.1f} -> {figures[3]:.1f} parts")
 
 
 def main() -> None:
@@ -192,18 +273,22 @@ def main() -> None:
     parser.add_argument("--hints", nargs="*", type=Path, default=[], metavar="FOLDER")
     parser.add_argument("--apart", nargs="*", type=Path, default=[], metavar="FOLDER")
     parser.add_argument("--folds", type=int, default=0, metavar="N")
-    parser.add_argument("--out", type=Path, metavar="FILE",
-                        default=Path(__file__).resolve().parents[1] / "core" / "cuts" / "joining" / "join_model.npz")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="meshes measured at a time")
+    parser.add_argument("--out", type=Path, metavar="FOLDER",
+                        default=Path(__file__).resolve().parents[1] / "core" / "cuts" / "joining")
     options = parser.parse_args()
-    subjects = [s for folder in options.folders for s in read(folder, "human")]
-    more = [s for folder in options.hints for s in read(folder, "hints")]
-    more += [s for folder in options.apart for s in read(folder, "apart")]
+    given = {"human": options.folders, "hints": options.hints, "apart": options.apart}
+    tasks = [(path, kind, seed) for kind, folders in given.items() for folder in folders
+             for seed, path in enumerate(sorted(folder.glob("*.npz")))]
+    subjects = list(tqdm(joblib.Parallel(options.jobs, return_as="generator")(
+        joblib.delayed(read)(*task) for task in tasks), total=len(tasks), desc="meshes"))
     if options.folds:
-        validate(subjects, more, options.folds)
+        validate(subjects, options.folds)
         return
-    model = fit([*subjects, *more])
-    model.write(options.out)
-    print(f"{options.out}: {len(model.leaf)} trees on {len(FEATURES)} features of {len(subjects) + len(more)} meshes")
+    _, distant = learn(subjects)
+    for name, model in (("join_model", fit_near(subjects)), ("distant_model", fit_distant(subjects, distant))):
+        model.write(options.out / f"{name}.npz")
+        print(f"{name}.npz: {len(model.leaf)} trees on {len(model.names)} features of {len(subjects)} meshes")
 
 
 if __name__ == "__main__":

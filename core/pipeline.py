@@ -11,7 +11,7 @@ import numpy as np
 
 from .cuts.boosted_trees import BoostedTrees
 from .cuts.hierarchy import Candidates
-from .cuts.joining.method import fine_parts, join_parts
+from .cuts.joining.method import JoinModel, fine_parts, join_parts
 from .cuts.methods import find_candidates
 from .field.agd import protrusion_field
 from .graph.level_sets import cut_at_levels, uniform_levels
@@ -44,7 +44,7 @@ def decompose(
     polygon: ArrayLike | None = None,
     progress: Progress | None = None,
     model: BoostedTrees | None = None,
-    join_model: BoostedTrees | None = None,
+    join_model: JoinModel | None = None,
     mirror: ArrayLike | None = None,
     hints: ArrayLike | None = None,
 ) -> Decomposition:
@@ -66,8 +66,8 @@ def decompose(
         raises ends the run; it raises ``Cancelled`` to cancel.
     model : BoostedTrees, optional
         Model that judges cuts in the method "perceptual". Without it, the model that ships with the package.
-    join_model : BoostedTrees, optional
-        Model that judges which parts of different pieces belong together. Without it, the one that ships.
+    join_model : JoinModel, optional
+        Models that judge which parts of different pieces belong together. Without it, those that ship.
     mirror : (4,) array_like of float, optional
         For a half model: a plane, as its normal and its distance from the origin along it. What is decomposed is the
         mesh together with its image behind that plane; the parts are those of the mesh given.
@@ -168,7 +168,7 @@ def decompose_component(
 
 
 def join_pieces(
-    found: ComponentResult, parameters: Parameters, model: BoostedTrees | None = None
+    found: ComponentResult, parameters: Parameters, model: JoinModel | None = None
 ) -> ComponentResult:
     """Extend the hierarchies of the pieces of a body to one over all its candidates.
 
@@ -177,8 +177,8 @@ def join_pieces(
     found : ComponentResult
         As ``decompose_component`` made it.
     parameters : Parameters
-    model : BoostedTrees, optional
-        What judges pairs of parts; the one that ships with the package without.
+    model : JoinModel, optional
+        What judges pairs of parts; those that ship with the package without.
 
     Returns
     -------

@@ -2,8 +2,9 @@
 """One order of merging over the candidates of all pieces of a body.
 
 Within a piece the finest candidates merge as the method of cutting says. Above a fine level, parts of one piece and
-of several are treated alike: a model of people's parts judges each pair of parts that are near each other, for parts of
-one piece together with the method of cutting, and average linkage on the log-odds makes one order of all.
+of several are treated alike. A model of people's parts judges each pair of parts that are near each other, for parts of
+one piece together with the method of cutting; a second model, which knows what the first said, judges all pairs of the
+largest parts, those far from each other included. Average linkage on the log-odds makes one order of all.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ from ...surface.contact import TOUCH
 from ...surface.mesh import TriMesh
 from ..boosted_trees import BoostedTrees
 from ..hierarchy import Hierarchy
+from .distant import FEATURES as DISTANT_FEATURES
+from .distant import DistantPairs, distant_pairs
 from .linkage import average_linkage
 from .pairs import FEATURES, PartPairs, part_pairs
 
@@ -34,6 +37,8 @@ LAST = 0.999
 # Small groups are more often one part than their pairs are judged to be. Below LARGE, a share of the area, the odds of
 # two groups are raised by so many times the smaller is below it, to the power of EASE.
 LARGE, EASE = 0.1, 0.1
+# What the judgement of two parts that come near each other counts beside that of all pairs, each of which counts 1.
+NEARNESS = 20.0
 SURE = 1e-4, 1 - 1e-4  # bounds of a judgement, whose log-odds are to be finite
 CUT = 0.02, 0.98  # of a salience, the same
 
@@ -49,6 +54,8 @@ class FineParts:
     candidate : (c,) int64
         A candidate in each part.
     pairs : PartPairs
+    salience : (c, c) float64
+        Of the cut between two parts of one piece.
     fine : float
         Salience below which candidates are together in them.
     within : float
@@ -58,8 +65,25 @@ class FineParts:
     part: np.ndarray
     candidate: np.ndarray
     pairs: PartPairs
+    salience: np.ndarray
     fine: float
     within: float
+
+
+@dataclass(frozen=True, eq=False)
+class JoinModel:
+    """What judges whether two parts are one.
+
+    Attributes
+    ----------
+    near : BoostedTrees
+        Over the features of pairs that come near each other.
+    distant : BoostedTrees, optional
+        Over those of all pairs of the largest parts. Without it, they are not compared.
+    """
+
+    near: BoostedTrees
+    distant: BoostedTrees | None
 
 
 def fine_parts(
@@ -88,12 +112,12 @@ def fine_parts(
     present, part = renumbered(hierarchy.parts(hierarchy.n_parts(1.0 - fine))[label])
     candidate = np.zeros(len(present), np.int64)
     candidate[part] = label
-    pairs = part_pairs(mesh, part, hierarchy.salience_table(candidate), agd)
-    return FineParts(part, candidate, pairs, fine, within)
+    salience = hierarchy.salience_table(candidate)
+    return FineParts(part, candidate, part_pairs(mesh, part, salience, agd), salience, fine, within)
 
 
 def join_parts(
-    parts: FineParts, hierarchy: Hierarchy, model: BoostedTrees | None = None
+    parts: FineParts, hierarchy: Hierarchy, model: JoinModel | None = None
 ) -> tuple[Hierarchy, np.ndarray]:
     """Extend the hierarchies of several pieces to one over all of them.
 
@@ -102,7 +126,7 @@ def join_parts(
     parts : FineParts
     hierarchy : Hierarchy
         Over the candidates; merges within pieces only.
-    model : BoostedTrees, optional
+    model : JoinModel, optional
         What judges pairs; the one that ships with the package without.
 
     Returns
@@ -112,14 +136,13 @@ def join_parts(
     contacts : (k, 2) int64
         Faces of different parts that touch, or nearly so: wherever pieces touch, and where parts merge.
     """
+    model = model or join_model()
     pairs = parts.pairs
-    odds = _log_odds(np.clip((model or join_model()).predict(pairs.features), *SURE))
-    cut = _log_odds(1 - np.clip(pairs.salience, *CUT))
-    odds = np.where(pairs.same_piece, (1 - parts.within) * odds + parts.within * cut, odds)
-    weight = np.sqrt(pairs.area[pairs.parts].min(axis=1)) + 1e-9
-    merges, score, rows = average_linkage(
-        len(parts.candidate), pairs.parts, on_grid(odds), weight,
-        np.maximum(on_grid(pairs.area / LARGE), 1e-9), EASE)
+    odds = near_odds(parts, model.near)
+    merges, score, rows = _linked(parts, pairs.parts, odds, _pair_weight(parts, pairs.parts))
+    distant = compare_distant(parts, odds, merges, score) if model.distant else None
+    if model.distant and distant and len(distant.parts):
+        merges, score, rows = _linked(parts, *_with_distant(parts, odds, distant, model.distant))
     strength = np.interp(1 / (1 + np.exp(-score)), [0.0, DECISION, 1.0], [1.0, 0.5, parts.fine])
     touching = (pairs.gap <= TOUCH) & ~pairs.same_piece
     contacts = pairs.faces[np.union1d(rows, np.flatnonzero(touching))]
@@ -130,14 +153,94 @@ def join_parts(
     return extended, contacts
 
 
+def near_odds(parts: FineParts, model: BoostedTrees) -> np.ndarray:
+    """Judge the pairs of parts that come near each other.
+
+    Parameters
+    ----------
+    parts : FineParts
+    model : BoostedTrees
+        Over the columns ``pairs.FEATURES``.
+
+    Returns
+    -------
+    odds : (e,) float64
+        Log-odds that the two are one part; of parts of one piece the method of cutting has its say in them.
+    """
+    pairs = parts.pairs
+    odds = _judged(model, pairs.features)
+    cut = _log_odds(1 - np.clip(pairs.salience, *CUT))
+    return on_grid(np.where(pairs.same_piece, (1 - parts.within) * odds + parts.within * cut, odds))
+
+
+def compare_distant(
+    parts: FineParts, odds: np.ndarray, merges: np.ndarray | None = None, score: np.ndarray | None = None
+) -> DistantPairs:
+    """Compare the largest parts in all pairs.
+
+    Parameters
+    ----------
+    parts : FineParts
+    odds : (e,) float64
+        Of the pairs that come near each other, see ``near_odds``.
+    merges, score : optional
+        The order in which parts join by these alone, if it is known.
+
+    Returns
+    -------
+    pairs : DistantPairs
+    """
+    if merges is None or score is None:
+        merges, score, _ = _linked(parts, parts.pairs.parts, odds, _pair_weight(parts, parts.pairs.parts))
+    return distant_pairs(parts.pairs, parts.salience, odds, merges, score)
+
+
+def _with_distant(
+    parts: FineParts, odds: np.ndarray, distant: DistantPairs, model: BoostedTrees
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Pairs, log-odds, weights, and which pairs are near: those that are, first, and all others of the largest parts.
+
+    A pair that is both has one row, with the weighted mean of what both models say.
+    """
+    near, count = parts.pairs.parts, len(parts.candidate)
+    pairs = np.concatenate([near, distant.parts])
+    judged = np.concatenate([odds, on_grid(_judged(model, distant.features))])
+    weight = _pair_weight(parts, pairs)
+    weight[:len(near)] *= NEARNESS
+    _, first, row = np.unique(pairs @ (count, 1), return_index=True, return_inverse=True)
+    total = np.bincount(row, weight)
+    mean = np.bincount(row, weight * judged) / total
+    order = np.argsort(first)  # the near pairs keep their places
+    return pairs[first[order]], on_grid(mean[order]), total[order], first[order] < len(near)
+
+
+def _linked(
+    parts: FineParts, pairs: np.ndarray, odds: np.ndarray, weight: np.ndarray, near: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Average linkage in which small parts join more easily; see ``average_linkage``."""
+    size = np.maximum(on_grid(parts.pairs.shapes.area / LARGE), 1e-9)
+    return average_linkage(len(parts.candidate), pairs, odds, weight, size, EASE, near)
+
+
+def _pair_weight(parts: FineParts, pairs: np.ndarray) -> np.ndarray:
+    """What each pair of parts, (e, 2), counts: the square root of the smaller area."""
+    return np.sqrt(parts.pairs.shapes.area[pairs].min(axis=1)) + 1e-9
+
+
+def _judged(model: BoostedTrees, features: np.ndarray) -> np.ndarray:
+    return _log_odds(np.clip(model.predict(features), *SURE))
+
+
 def _log_odds(share: np.ndarray) -> np.ndarray:
     return np.log(share / (1 - share))
 
 
 @cache
-def join_model() -> BoostedTrees:
-    """Read the model that judges pairs of parts, which benchmarks/train_joining.py trained; it is read once and kept.
+def join_model() -> JoinModel:
+    """Read the models that judge pairs of parts, which benchmarks/train_joining.py trained; once, and they are kept.
 
-    Returns a BoostedTrees over the columns FEATURES. Raises ReebError if the file was trained on other features.
+    Returns a JoinModel. Raises ReebError if a file was trained on other features.
     """
-    return BoostedTrees.read(Path(__file__).parent / "join_model.npz", FEATURES)
+    folder = Path(__file__).parent
+    return JoinModel(BoostedTrees.read(folder / "join_model.npz", FEATURES),
+                     BoostedTrees.read(folder / "distant_model.npz", DISTANT_FEATURES))

@@ -29,6 +29,31 @@ FEATURES = (*PAIR, *(f"small_{n}" for n in PART), *(f"large_{n}" for n in PART))
 
 
 @dataclass(frozen=True, eq=False)
+class PartShapes:
+    """What parts are like, each by itself; lengths in units of the diameter.
+
+    Attributes
+    ----------
+    piece : (c,) int64
+        Piece that each part lies in.
+    area, piece_area : (c,) float64
+        Of each part and of its piece, share of the whole.
+    center : (c, 3) float64
+    extents : (c, 3) float64
+        Standard deviations along the principal axes, the largest first.
+    agd : (c,) float64
+        Mean of the normalized AGD.
+    """
+
+    piece: np.ndarray
+    area: np.ndarray
+    piece_area: np.ndarray
+    center: np.ndarray
+    extents: np.ndarray
+    agd: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class PartPairs:
     """Pairs of parts that come near each other.
 
@@ -45,8 +70,8 @@ class PartPairs:
         Least distance of two points, in units of the diameter.
     faces : (e, 2) int64
         Faces of the mesh at these two points.
-    area : (c,) float64
-        Of each part, share of the whole.
+    shapes : PartShapes
+        Of the c parts.
     """
 
     parts: np.ndarray
@@ -55,7 +80,7 @@ class PartPairs:
     salience: np.ndarray
     gap: np.ndarray
     faces: np.ndarray
-    area: np.ndarray
+    shapes: PartShapes
 
 
 def part_pairs(mesh: TriMesh, label: np.ndarray, salience: np.ndarray, agd: np.ndarray) -> PartPairs:
@@ -84,7 +109,7 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: np.ndarray, agd: np.n
     small, large = np.where(swap[:, None], near.parts[:, ::-1], near.parts).T
     same = shape["piece"][small] == shape["piece"][large]
     nearest, gap = near.nearest()
-    extent, cut = shape["extents"], np.where(same, salience[small, large], 1.0)
+    cut = np.where(same, salience[small, large], 1.0)
     columns = {
         "same_piece": same, "salience": cut,
         "distance": np.linalg.norm(shape["center"][small] - shape["center"][large], axis=1),
@@ -93,12 +118,19 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: np.ndarray, agd: np.n
         "inside_small": _inside(shape, small, large), "inside_large": _inside(shape, large, small),
         "agd_change": np.abs(shape["agd"][small] - shape["agd"][large]),
         "log_ratio": np.log(area[large] / area[small]),
-        "alike": np.abs(np.log(extent[small] + 0.003) - np.log(extent[large] + 0.003)).max(axis=1),
+        "alike": unlikeness(shape["extents"][small], shape["extents"][large]),
         **_contact_columns(near, mesh.face_normals[points.face], level, gap, area[small]),
         **{f"small_{n}": shape[n][small] for n in PART}, **{f"large_{n}": shape[n][large] for n in PART},
     }
     features = np.stack([columns[n] for n in FEATURES], axis=1).astype(float)
-    return PartPairs(near.parts, features, same, cut, gap, points.face[nearest], area)
+    shapes = PartShapes(shape["piece"], area, np.exp(shape["log_piece_area"]), shape["center"], shape["extents"],
+                        shape["agd"])
+    return PartPairs(near.parts, features, same, cut, gap, points.face[nearest], shapes)
+
+
+def unlikeness(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """How much the extents of parts, (e, 3) each, differ: (e,) float64, the largest difference of their logarithms."""
+    return np.abs(np.log(first + 0.003) - np.log(second + 0.003)).max(axis=1)
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,28 +34,39 @@ def test_what_was_not_compared_stays_apart():
     assert [x.shape for x in nothing] == [(0, 2), (0,), (0,)]
 
 
+def test_far_pairs_count_and_join_nothing():
+    # Both arms, 0 and 2, are as much of the shoulder, 1, as could be; that they are not one part is said of them alone.
+    pairs, score = np.array([(0, 1), (1, 2), (0, 2), (2, 3)]), np.array([2.0, 2.0, -9.0, 5.0])
+    merges, scores, rows = average_linkage(4, pairs, score, np.ones(4), near=np.array([True, True, False, False]))
+    assert [set(m) for m in merges.tolist()] == [{0, 1}, {0, 2}]
+    assert scores.tolist() == [2.0, -3.5]
+    assert rows.tolist() == [0, 1]
+
+
+@pytest.mark.parametrize("share_near", [0.4, 1.0])
 @pytest.mark.parametrize("ease", [0.0, 0.3])
 @pytest.mark.parametrize("seed", range(5))
-def test_every_merge_joins_two_groups_with_the_mean_of_their_pairs(seed, ease):
+def test_every_merge_joins_two_groups_with_the_mean_of_their_pairs(seed, ease, share_near):
     rng = np.random.default_rng(seed)
     pairs = np.stack(np.triu_indices(25, 1), axis=1)
     pairs = pairs[rng.random(len(pairs)) < 0.2]
     score, weight = rng.normal(size=len(pairs)), 0.1 + rng.random(len(pairs))
     size = 0.1 + rng.random(25)
-    merges, scores, rows = average_linkage(25, pairs, score, weight, size, ease)
+    near = rng.random(len(pairs)) < share_near
+    merges, scores, rows = average_linkage(25, pairs, score, weight, size, ease, near)
     group = np.arange(25)
     for (a, b), found, row in zip(merges.tolist(), scores, rows, strict=True):
         a, b = group[[a, b]]
         assert a != b
         means = {}
-        for x, y in {tuple(sorted(p)) for p in group[pairs].tolist() if p[0] != p[1]}:
+        for x, y in {tuple(sorted(p)) for p in group[pairs[near]].tolist() if p[0] != p[1]}:
             between = (np.sort(group[pairs], axis=1) == (x, y)).all(axis=1)
             smaller = min(size[group == x].sum(), size[group == y].sum())
             means[x, y] = np.average(score[between], weights=weight[between]) - ease * np.log(min(smaller, 1))
             if {x, y} == {a, b}:
-                assert score[row] == score[between].max()
-                assert between[row]
+                assert score[row] == score[between & near].max()
+                assert (between & near)[row]
         assert found == pytest.approx(means[min(a, b), max(a, b)])
         assert found == pytest.approx(max(means.values()))
         group[group == b] = a
-    assert len(np.unique(group)) == components(25, *pairs.T)[0]
+    assert len(np.unique(group)) == components(25, *pairs[near].T)[0]

@@ -37,7 +37,7 @@ def test_finite_on_awkward_meshes(make):
     assert found.features.shape == (len(found.parts), len(FEATURES))
     assert np.isfinite(found.features).all()
     assert (found.parts[:, 0] < found.parts[:, 1]).all()
-    assert found.area.sum() == pytest.approx(1)
+    assert found.shapes.area.sum() == pytest.approx(1)
 
 
 def test_who_is_near_whom():
