@@ -184,7 +184,7 @@ def _share_of_its_own(graph: RegionAdjacencyGraph, strength: np.ndarray, border:
     area = graph.regions.sums[:, REGION.area]
     small, large = sorted(graph.ends[border].tolist(), key=area.__getitem__)
     neighbors = list(graph.neighbors[small])
-    larger = np.clip(area[neighbors] / max(area[small], 1e-30) - 1, 0.0, 1.0)
+    larger = np.minimum(np.maximum(area[neighbors] / max(area[small], 1e-30) - 1, 0.0), 1.0)
     rival = np.array([other == large or other in graph.neighbors[large] for other in neighbors])
     left = 1 - strength[[graph.neighbors[small][other] for other in neighbors]]
     own = max(0.0, 1 - (larger * left)[rival].sum())
