@@ -101,25 +101,29 @@ class BoostedTrees:
         rules out the leaves on its left, and the row's leaf is the first that no node has ruled out.
         """
         # Values that are 0 but for rounding are 0. The thresholds were trained on values of 32 bits.
-        rows = (np.rint(rows * 2.0**26) / 2.0**26).astype(np.float32)
+        columns = np.zeros((len(self.names), -(-len(rows) // ROWS) * ROWS), np.float32)
+        columns[:, :len(rows)] = (np.rint(rows * 2.0**26) / 2.0**26).T
         feature, threshold, mask = self._by_node
         n_trees, n_leaves = self.leaf.shape
-        first, lowest = np.arange(n_trees) * n_leaves, _lowest_bit()
-        total = np.empty(len(rows))
-        for start in range(0, len(rows), ROWS):
-            some = rows[start:start + ROWS]
-            goes_left = some.take(feature, axis=1, mode="clip") <= threshold
+        first, lowest, leaf = np.arange(n_trees) * n_leaves, _lowest_bit(), self.leaf.ravel()
+        total = np.empty(columns.shape[1])
+        for start in range(0, len(total), ROWS):
+            some = np.ascontiguousarray(columns[:, start:start + ROWS])
+            # The values of all rows at a node lie together: that is five times as fast as to pick them row by row.
+            goes_left = some.take(feature, axis=0, mode="clip") <= threshold
             # -1, all bits set, where a row goes left: several times as fast as np.where.
-            reached = np.negative(goes_left.view(np.int8)).astype(np.int16).view(np.uint16) | mask
-            reached = np.bitwise_and.reduce(reached.reshape(len(some), n_leaves - 1, n_trees), axis=1)
+            reached = np.negative(goes_left.view(np.int8)).astype(np.int16).view(np.uint16)
+            reached |= mask
+            reached = np.bitwise_and.reduce(reached.reshape(n_leaves - 1, -1), axis=0).reshape(n_trees, ROWS).T
             # One row at a time, in the order of the trees: the sum does not depend on the other rows.
-            total[start:start + ROWS] = self.leaf.ravel()[first + lowest[reached]].sum(axis=1)
-        return on_grid(1.0 / (1.0 + np.exp(-total)))
+            total[start:start + ROWS] = leaf.take(first + lowest.take(reached)).sum(axis=1)
+        return on_grid(1.0 / (1.0 + np.exp(-total[:len(rows)])))
 
     @cached_property
     def _by_node(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Feature, threshold and mask of all inner nodes, (t * i,) each: the first of every tree first."""
-        return self.feature.T.ravel(), self.threshold.T.ravel(), self.mask.T.ravel()
+        """Feature, (t * i,), threshold and mask, (t * i, ROWS), of all inner nodes: the first of every tree first."""
+        threshold, mask = (np.repeat(each.T.ravel(), ROWS).reshape(-1, ROWS) for each in (self.threshold, self.mask))
+        return self.feature.T.ravel(), threshold, mask
 
 
 @cache

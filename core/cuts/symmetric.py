@@ -12,8 +12,10 @@ of them is a number, whose bits say in which; one after the other is the exclusi
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cache, cached_property
+import heapq
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
 from itertools import product
 
 import numpy as np
@@ -347,108 +349,105 @@ class _Groups:
 
     Attributes
     ----------
-    holds : (s, g) bool
-        Which ways each set holds.
-    size : (s,) int64
-        How many.
-    joined : (s, s) int64
+    number : list of int
+        The smallest set that holds some ways, by these as bits.
+    joined : list of list of int
         The smallest set that holds all ways of two sets.
-    copies, pairs : (s, s) int64
+    copies, pairs : list of list of int
         How many images the joined set makes of what the first of two sets leaves as it is, and pairs of them.
+    beyond : list of list of tuple of int
+        The ways that the second of two sets holds and the first does not.
     """
 
-    holds: np.ndarray
-    size: np.ndarray
-    joined: np.ndarray
-    copies: np.ndarray
-    pairs: np.ndarray
+    number: list[int]
+    joined: list[list[int]]
+    copies: list[list[int]]
+    pairs: list[list[int]]
+    beyond: list[list[tuple[int, ...]]]
 
     @classmethod
     @cache
     def of(cls, n_ways: int) -> _Groups:
         """The sets of n_ways ways, from the one that holds only the first."""
-        single = np.eye(n_ways, dtype=bool) | (np.arange(n_ways) == 0)
-        sets = {tuple(row.tolist()): None for row in _closed(single)}
-        while True:
-            known = np.array(list(sets))
-            either = _closed((known[:, None] | known).reshape(-1, n_ways))
-            sets |= {tuple(row.tolist()): None for row in either}
-            if len(sets) == len(known):
-                break
-        nothing = np.empty(0, np.int64)
-        groups = cls(known, known.sum(axis=1), nothing, nothing, nothing)
-        joined = groups.number(either).reshape(len(known), -1)
-        copies = groups.size[joined] // groups.size[:, None]
-        return replace(groups, joined=joined, copies=copies, pairs=copies * (copies - 1) // 2)
-
-    def number(self, holds: np.ndarray) -> np.ndarray:
-        """Number of each of some sets, (k, g) bool -> (k,) int64."""
-        bits, order, known = self._known
-        return order[np.searchsorted(known, holds @ bits).clip(max=len(order) - 1)]
-
-    @cached_property
-    def _known(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """What each way counts, (g,); the order of the sets by their sums of it, (s,); and these sums, which rise."""
-        bits = 1 << np.arange(self.holds.shape[1])
-        order = np.argsort(self.holds @ bits)
-        return bits, order, (self.holds @ bits)[order]
+        some = (np.arange(1 << n_ways)[:, None] >> np.arange(n_ways)) & 1 == 1
+        some[:, 0] = True
+        closed = _closed(some)
+        while (closed != (further := _closed(closed))).any():
+            closed = further
+        holds, number = np.unique(closed, axis=0, return_inverse=True)
+        number = number.reshape(-1)
+        size, bits = holds.sum(axis=1), 1 << np.arange(n_ways)
+        joined = number[(holds[:, None] | holds) @ bits]
+        copies = size[joined] // size[:, None]
+        beyond = [[tuple(np.flatnonzero(further & ~one).tolist()) for further in holds] for one in holds]
+        return cls(number.tolist(), joined.tolist(), copies.tolist(), (copies * (copies - 1) // 2).tolist(), beyond)
 
 
 class _Clusters:
-    """Clusters of cells, the salience of what parts each two of them, and their images; ``merge_`` changes them."""
+    """Clusters of cells, the salience of what parts each two of them, and their images; ``merge_`` changes them.
+
+    What touches what is in sets and dictionaries: there are some ten neighbors, for which whole arrays take longer.
+    """
 
     def __init__(self, cells: Cells, touching: np.ndarray, mean: np.ndarray) -> None:
-        self.area, self.image = cells.area + 1e-12 * cells.area.sum(), cells.image.copy()
-        self.mean, self.touching = mean.copy(), touching.copy()
-        self.groups = _Groups.of(self.image.shape[1])
-        self.own = np.zeros(len(self.area), np.int64)
-        self.spread = np.zeros((len(self.area), len(self.groups.size)))
-        self.know_(np.arange(len(self.area)))
-        np.fill_diagonal(self.touching, False)
-        self.of = np.arange(len(self.area))
+        every = range(len(cells.area))
+        self.area, self.image = (cells.area + 1e-12 * cells.area.sum()).tolist(), cells.image.tolist()
+        self.mean, self.of = mean.copy(), np.arange(len(cells.area))
+        self.touching = [set(np.flatnonzero(row).tolist()) - {k} for k, row in enumerate(touching)]
+        self.groups = _Groups.of(cells.image.shape[1])
+        self.own, self.spread = [0 for _ in every], [[] for _ in every]
+        #: Of each cluster, by neighbor: what it costs to merge, rounded, the neighbor, and the cost.
+        self.costs: list[dict[int, tuple[float, int, float]]] = [{} for _ in every]
+        self.know_(every)
+        self.nearest: list[tuple[float, int, float] | None] = [None for _ in every]
+        self.queue: list[tuple[float, int, tuple[float, int, float]]] = []
+        self.search_(every)
         self.merges: list[tuple[int, int]] = []
         self.strength: list[float] = []
-        self.least = np.full(len(self.area), np.inf)
-        self.nearest = np.zeros(len(self.area), np.int64)
-        self.search_(np.arange(len(self.area)))
 
-    def search_(self, clusters: np.ndarray) -> None:
+    def search_(self, clusters: Iterable[int]) -> None:
         """Find the nearest neighbor of some clusters anew."""
-        touching = self.touching[clusters]
-        others = np.flatnonzero(touching.any(axis=0))
-        self.least[clusters] = np.inf
-        if not len(others):
-            return
-        reach = np.where(touching[:, others], self.cost(clusters, others), np.inf)
-        nearest = rounded(reach).argmin(axis=1)
-        self.nearest[clusters] = others[nearest]
-        self.least[clusters] = reach[np.arange(len(clusters)), nearest]
+        for k in clusters:
+            self.nearest[k] = nearest = min(self.costs[k].values(), default=None)
+            if nearest is not None:
+                heapq.heappush(self.queue, (nearest[0], k, nearest))
 
-    def cost(self, clusters: np.ndarray, others: np.ndarray) -> np.ndarray:
-        """What some clusters, (k,), cost to merge with others, (l,): the mean over all pairs of cells, (k, l).
+    def pop_(self) -> tuple[int, int, float] | None:
+        """The cluster that costs least to merge with its nearest neighbor, which that is, and the cost."""
+        while self.queue:
+            _, k, nearest = heapq.heappop(self.queue)
+            if nearest is self.nearest[k]:
+                return k, nearest[1], nearest[2]
+        return None
+
+    def cost(self, a: int, b: int) -> float:
+        """What a cluster costs to merge with another: the mean over all pairs of cells.
 
         A cluster that is its own image takes in another together with that one's image, which may be far from it.
         """
-        mean, groups = self.mean[clusters[:, None], others], self.groups
-        mine, its = self.own[clusters][:, None], self.own[others]
-        both = groups.joined[mine, its]
-        copies, its_copies = groups.copies[mine, its], groups.copies[its, mine]
-        area, its_area = self.area[clusters][:, None], self.area[others]
+        mean, groups, mine, its = self.mean.item(a, b), self.groups, self.own[a], self.own[b]
+        copies, its_copies = groups.copies[mine][its], groups.copies[its][mine]
+        if copies == its_copies == 1:
+            return mean
+        both, area, its_area = groups.joined[mine][its], self.area[a], self.area[b]
         between = copies * its_copies * area * its_area
-        inside = groups.pairs[its, mine] * its_area**2
-        weight, total = between + inside, between * mean + inside * self.spread[others, both]
-        inside = groups.pairs[mine, its] * area**2
-        weight, total = weight + inside, total + inside * self.spread[clusters[:, None], both]
-        return np.where((copies > 1) | (its_copies > 1), np.fmax(total / weight, mean), mean)
+        inside = groups.pairs[its][mine] * (its_area * its_area)
+        weight, total = between + inside, between * mean + inside * self.spread[b][both]
+        inside = groups.pairs[mine][its] * (area * area)
+        value = (total + inside * self.spread[a][both]) / (weight + inside)
+        return value if value > mean else mean  # nothing is known of some images: the value is nan
 
-    def know_(self, clusters: np.ndarray) -> None:
-        """Find anew in which ways some clusters are their own images, and what parts them from their other images."""
-        image = self.image[clusters]
-        self.own[clusters] = own = self.groups.number(_closed(image == clusters[:, None]))
-        apart = np.where(image >= 0, self.mean[clusters[:, None], image], np.nan)
-        chosen = self.groups.holds & ~self.groups.holds[own][:, None]
-        self.spread[clusters] = (np.where(chosen, apart[:, None], 0.0).sum(axis=2)
-                                 / np.maximum(chosen.sum(axis=2), 1))
+    def know_(self, clusters: Iterable[int]) -> None:
+        """Find anew in which ways some clusters are their own images, what parts them from others, and the costs."""
+        for k in clusters:
+            image = self.image[k]
+            self.own[k] = own = self.groups.number[sum(1 << way for way, other in enumerate(image) if other == k)]
+            apart = [self.mean.item(k, other) if other >= 0 else np.nan for other in image]
+            self.spread[k] = [_mean(apart, ways) for ways in self.groups.beyond[own]]
+        pairs = [pair for k in clusters for other in self.touching[k] for pair in ((k, other), (other, k))]
+        costs = [self.cost(a, b) for a, b in pairs]
+        for (a, b), cost, about in zip(pairs, costs, rounded(np.array(costs)).tolist(), strict=True):
+            self.costs[a][b] = about, b, cost
 
     def merge_(self, a: int, b: int, strength: float) -> None:
         """Let cluster b become part of cluster a; the means are weighted by area."""
@@ -457,16 +456,24 @@ class _Clusters:
         share = self.area[a] / (self.area[a] + self.area[b])
         mean = self.mean[b] + share * (self.mean[a] - self.mean[b])
         self.mean[a] = self.mean[:, a] = mean
-        near = self.touching[a] | self.touching[b]
-        near[[a, b]] = False
-        self.touching[a] = self.touching[:, a] = near
-        self.touching[b] = self.touching[:, b] = False
+        for other in self.touching[b]:
+            self.touching[other].discard(b)
+            del self.costs[other][b]
+            self.touching[other].add(a)
+        self.touching[a] |= self.touching[b]
+        self.touching[a] -= {a, b}
+        self.touching[b], self.costs[b], self.nearest[b] = set(), {}, None
         self.area[a] += self.area[b]
         self.of[self.of == b] = a
-        self.know_(np.append(a, self.image[a][self.image[a] >= 0]))
-        self.least[b] = np.inf
-        stale = np.flatnonzero(near | (((self.nearest == a) | (self.nearest == b)) & np.isfinite(self.least)))
-        self.search_(np.append(stale, a))
+        self.know_([a, *(other for other in self.image[a][1:] if other >= 0)])
+        self.search_([a, *self.touching[a]])
+
+
+def _mean(values: list[float], chosen: tuple[int, ...]) -> float:
+    """The mean of some values; 0 of none."""
+    if len(chosen) < 2:
+        return values[chosen[0]] if chosen else 0.0
+    return float(np.sum([value if k in chosen else 0.0 for k, value in enumerate(values)])) / len(chosen)
 
 
 def _linkage(cells: Cells, touching: np.ndarray, mean: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -475,17 +482,16 @@ def _linkage(cells: Cells, touching: np.ndarray, mean: np.ndarray) -> tuple[np.n
     Returns two cells of each merge, (s, 2) int64, and the salience, (s,) float64.
     """
     clusters = _Clusters(cells, touching, mean)
-    while np.isfinite(clusters.least).any():
-        a = int(rounded(clusters.least).argmin())
-        b = int(clusters.nearest[a])
-        _merge_with_images_(clusters, min(a, b), max(a, b), float(clusters.least[a]))
+    while (found := clusters.pop_()) is not None:
+        a, b, strength = found
+        _merge_with_images_(clusters, min(a, b), max(a, b), strength)
     return np.reshape(clusters.merges, (-1, 2)).astype(np.int64), np.array(clusters.strength, float)
 
 
 def _merge_with_images_(clusters: _Clusters, a: int, b: int, strength: float) -> None:
     """Merge two clusters, and their images if these are others; the union's images are the unions of the images."""
     image = clusters.image
-    images_a, images_b = image[a].tolist(), image[b].tolist()
+    images_a, images_b = image[a], image[b]
     clusters.merge_(a, b, strength)
     union = [a]
     for of_a, of_b in zip(images_a[1:], images_b[1:], strict=True):
@@ -493,14 +499,15 @@ def _merge_with_images_(clusters: _Clusters, a: int, b: int, strength: float) ->
             union.append(max(of_a, of_b))
             continue
         low, high = sorted((int(clusters.of[of_a]), int(clusters.of[of_b])))
-        if low != high and clusters.touching[low, high]:
+        if low != high and high in clusters.touching[low]:
             clusters.merge_(low, high, strength)
             high = low
         if low != high:
-            image[[low, high], 1:] = -1
+            for k in (low, high):
+                image[k] = [image[k][0]] + [-1] * (len(image[k]) - 1)
         union.append(low if low == high else -1)
     union = [int(clusters.of[k]) if k >= 0 else -1 for k in union]
     for way, mirrored in enumerate(union):
         if mirrored >= 0:
             image[mirrored] = [union[way ^ other] for other in range(len(union))]
-    clusters.know_(np.unique([*(int(clusters.of[k]) for k in (*images_a, *images_b) if k >= 0), a]))
+    clusters.know_({a, *(int(clusters.of[k]) for k in (*images_a, *images_b) if k >= 0)})

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
 MANY = 5_000  # number of elements from which on it is faster to divide the search for components into rounds
+FEW = 600  # number of elements and pairs up to which it takes longer to call SciPy than to search for them in Python
 
 
 def frozen(array: ArrayLike, dtype: DTypeLike) -> np.ndarray:
@@ -102,6 +103,8 @@ def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
         Component of each element, 0..count-1. Components are numbered in the order of their lowest elements,
         so that the numbering does not depend on the library.
     """
+    if n + len(a) <= FEW:
+        return _joined_in_turn(n, a, b)
     if n < MANY:
         return _few_components(n, a, b)
     # Each element goes to a lower one that it is joined with, and on to where that one goes, as far down as it comes.
@@ -119,6 +122,25 @@ def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     further = components if len(lowest) < n // 2 else _few_components
     count, label = further(len(lowest), a[apart], b[apart])
     return count, label[place]
+
+
+def _joined_in_turn(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
+    """What ``components`` returns, pair by pair: each element knows a lower one of its component, the lowest itself."""
+    lower = list(range(n))
+    for first, second in zip(a.tolist(), b.tolist(), strict=True):
+        while lower[first] != first:
+            lower[first] = first = lower[lower[first]]
+        while lower[second] != second:
+            lower[second] = second = lower[lower[second]]
+        lower[max(first, second)] = min(first, second)
+    count, label = 0, []
+    for element, goal in enumerate(lower):
+        if goal == element:
+            label.append(count)
+            count += 1
+        else:
+            label.append(label[goal])
+    return count, np.array(label, np.int64)
 
 
 def _few_components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
@@ -304,7 +326,8 @@ def symmetric_matrix(pairs: np.ndarray, values: np.ndarray, n: int) -> csr_array
     """
     from scipy.sparse import coo_array  # imported here for the reason that ``components`` gives
 
-    a, b = both_ways(pairs).T
+    # SciPy's searches take indices of 32 bits and would convert others each time.
+    a, b = both_ways(pairs.astype(np.int32)).T
     return coo_array((np.concatenate([values, values]), (a, b)), shape=(n, n)).tocsr()
 
 

@@ -142,22 +142,26 @@ def _diffuse(mesh: TriMesh, exchange: csr_array, time: float, guess: np.ndarray)
     mass = mesh.face_area + 1e-9 * mesh.area / mesh.n_faces
     diagonal = mass + time * exchange.sum(axis=1)
     system = diags_array(diagonal).tocsr() - time * exchange
-    start, x = mass[:, None] * mesh.face_normals, guess
+    start, x = mass[:, None] * mesh.face_normals, guess.copy()
+    each = np.repeat(diagonal, 3).reshape(-1, 3)
     residual = start - system @ x
     goal = 2e-3 * np.sqrt((start**2).sum())
-    step = gradient = residual / diagonal[:, None]
+    gradient = residual / each
+    step = gradient.copy()
     power = (residual * gradient).sum()  # in a fixed order, see ``weighted_sum``
+    product = np.empty_like(x)
     # Conjugate gradients take the three coordinates as one unknown, so that the result turns with the mesh.
     for _ in range(SOLVER_STEPS):
-        if np.sqrt((residual**2).sum()) <= goal:
+        if np.sqrt(np.multiply(residual, residual, out=product).sum()) <= goal:
             break
         image = system @ step
-        length = power / max((step * image).sum(), 1e-300)
-        x = x + length * step
-        residual = residual - length * image
-        gradient = residual / diagonal[:, None]
-        last, power = power, (residual * gradient).sum()
-        step = gradient + step * (power / max(last, 1e-300))
+        length = power / max(np.multiply(step, image, out=product).sum(), 1e-300)
+        x += np.multiply(step, length, out=product)
+        residual -= np.multiply(image, length, out=image)
+        np.divide(residual, each, out=gradient)
+        last, power = power, np.multiply(residual, gradient, out=product).sum()
+        step *= power / max(last, 1e-300)
+        step += gradient
     return x / np.maximum(np.linalg.norm(x, axis=1, keepdims=True), 1e-300)
 
 

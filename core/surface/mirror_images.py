@@ -12,7 +12,7 @@ from .arrays import inner_products, row_products
 from .labels import majority
 from .mirror_plane import MirrorPlane
 from .small_faces import DENSE, Elements, SmallFaces
-from .symmetry import COARSE, EXACT, judged, oriented
+from .symmetry import EXACT, judged, oriented
 
 # How far a mirrored face may lie beside the surface where twins are found, on a model bent to one side a little; in
 # units of the size.
@@ -23,6 +23,8 @@ MANY_FACES, MOSTLY = 3_000, 0.5
 # A face is the exact twin of another if their centers, mirrored, are nearer than this, in units of its area's root, and
 # their areas differ by less, in units of its area.
 NEAR = 0.02
+# Upper bounds of the points that stand for the surface, and that are mirrored, where a plane across another is judged.
+ACROSS = 2_000, 200
 # Planes across another are looked for by moments of z^m, m to MOST_RAYS; one is 0 if below UNEVEN of what it can be.
 MOST_RAYS, UNEVEN = 6, 0.01
 
@@ -118,7 +120,7 @@ class Images:
 def _likely_across(faces: SmallFaces, plane: MirrorPlane) -> list[MirrorPlane]:
     """Planes through the middle, across a plane, that match nearly all of the surface."""
     elements = faces.elements
-    few, probes = elements.some(COARSE[0]), elements.some(COARSE[1])
+    few, probes = elements.some(ACROSS[0]), elements.some(ACROSS[1])
     tried = [judged(oriented(normal, 0.0), few, probes) for normal in _across(faces.polygons, plane.normal)]
     return [faces.outwards(other) for other in tried if other.share >= 1 - EXACT]
 

@@ -19,7 +19,7 @@ MATCH = 0.012  # how far a mirrored point may lie beside the surface where a pla
 LEAST = 0.85  # share of the area that must be matched for a plane to be one of symmetry
 # Upper bounds of the points that stand for the surface, and that are mirrored: to choose among planes, and to find the
 # place of one.
-COARSE, FINE = (2_000, 200), (12_000, 1_000)
+COARSE, FINE = (1_000, 100), (12_000, 500)
 EQUAL = 0.05  # planes whose shares differ by less are equal: the first of them is taken, in all poses the same
 LIKELY = 0.5  # share of the area that the best plane must match already when few points are looked at
 # By how little a plane moves in a step, in its normal and its offset, when it is found, and when it is only to be told

@@ -6,11 +6,12 @@ All features are computed from sums of the measures (measures.py), which add up 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import rounded, square_roots
+from ...surface.arrays import lengths, rounded, row_products, square_roots
 from .measures import BORDER, REGION, matrices, products
 
 #: Features of one region. perimeter_ratio and extent_1 are in units of the square root of the region's area, extent_2
@@ -34,6 +35,9 @@ CUT = (
     "protrusion", "second_moment", "largest", "siblings_small", "siblings_union")
 FEATURES = (*CUT, *(f"small_{s}" for s in SHAPE), *(f"large_{s}" for s in SHAPE),
             *(f"union_{s}" for s in SHAPE))
+# Columns of REGION whose standard deviation is a feature: those of the squares, and of what they are squares of.
+SQUARE = [REGION.log_thickness_square, REGION.log_clearance_square, REGION.log_contour_square, REGION.level_square]
+SQUARE_OF = [REGION.log_thickness, REGION.log_clearance, REGION.log_contour, REGION.level]
 # Largest difference, in the unit of each feature, at which two regions count as siblings.
 SIBLING = {"log_area": 0.4, "log_thickness": 0.3, "level": 0.15}
 
@@ -62,19 +66,16 @@ def region_shape(
     mean = sums / area[:, None]
     size = np.sqrt(area)
     center = mean[:, c.centroid]
-    moment = np.linalg.eigvalsh(matrices(mean[:, c.second_moment] - products(center)))
-    extent = square_roots(moment, (np.abs(moment).max(axis=1) + (center**2).sum(axis=1))[:, None])
+    moments = np.concatenate([mean[:, c.second_moment] - products(center), mean[:, c.normal_moment]])
+    moment, normal_moment = np.linalg.eigvalsh(matrices(moments)).reshape(2, -1, 3)
+    extent = square_roots(moment, (np.abs(moment).max(axis=1) + row_products(center, center))[:, None])
     long = np.maximum(extent[:, 2], 1e-9)
-    normal_moment = np.linalg.eigvalsh(matrices(mean[:, c.normal_moment]))
     thickness = mean[:, c.log_thickness]
-    volume = (sums[:, c.support] - (center * sums[:, c.normal]).sum(axis=1)) / 3
+    volume = (sums[:, c.support] - row_products(center, sums[:, c.normal])) / 3
     log_size = 0.5 * np.log(area)
-
-    def deviation(square: int, of: int) -> np.ndarray:
-        """Standard deviation of column ``of``, whose squares are in column ``square``."""
-        return square_roots(mean[:, square] - mean[:, of] ** 2, mean[:, square])
-
-    columns = {
+    square = mean[:, SQUARE]
+    deviation = square_roots(square - mean[:, SQUARE_OF] ** 2, square)
+    return _table({
         "log_area": 2 * log_size,
         "perimeter_ratio": perimeter / size,
         "extent_1": extent[:, 2] / size,
@@ -82,24 +83,31 @@ def region_shape(
         "extent_3": extent[:, 0] / long,
         "normal_moment_3": normal_moment[:, 0],
         "normal_moment_1": normal_moment[:, 2],
-        "mean_normal": np.linalg.norm(mean[:, c.normal], axis=1),
+        "mean_normal": lengths(mean[:, c.normal]),
         "log_thickness": thickness,
-        "log_thickness_deviation": deviation(c.log_thickness_square, c.log_thickness),
+        "log_thickness_deviation": deviation[:, 0],
         "slenderness": thickness - log_size,
         "log_clearance": mean[:, c.log_clearance],
-        "log_clearance_deviation": deviation(c.log_clearance_square, c.log_clearance),
+        "log_clearance_deviation": deviation[:, 1],
         "log_contour": mean[:, c.log_contour],
-        "log_contour_deviation": deviation(c.log_contour_square, c.log_contour),
+        "log_contour_deviation": deviation[:, 2],
         "level": mean[:, c.level],
-        "level_deviation": deviation(c.level_square, c.level),
+        "level_deviation": deviation[:, 3],
         "level_min": level_min,
         "level_max": level_max,
         "agd": mean[:, c.agd],
         "volume": volume / (area * size),
         "angle_defect": sums[:, c.angle_defect] / (2 * np.pi),
         "hollowness": np.exp(thickness) * area / np.maximum(volume, 0.003 * area),
-    }
-    return np.stack([columns[name] for name in SHAPE], axis=1)
+    }, SHAPE)
+
+
+def _table(columns: dict[str, np.ndarray], names: tuple[str, ...]) -> np.ndarray:
+    """Columns, (k,) each, side by side in the order of some names, (k, len(names))."""
+    table = np.empty((len(columns[names[0]]), len(names)))
+    for place, name in enumerate(names):  # a few short columns: np.stack takes three times as long
+        table[:, place] = columns[name]
+    return table
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,7 +146,9 @@ class RegionMeasures:
     alive: np.ndarray
 
 
-def cut_features(regions: RegionMeasures, ends: np.ndarray, border: np.ndarray) -> np.ndarray:
+def cut_features(
+    regions: RegionMeasures, ends: np.ndarray, border: np.ndarray, changed: Sequence[int] = ()
+) -> np.ndarray:
     """Describe cuts between two regions by the features that the model judges.
 
     Parameters
@@ -149,64 +159,76 @@ def cut_features(regions: RegionMeasures, ends: np.ndarray, border: np.ndarray) 
         The two regions of each cut.
     border : (k, BORDER.width) float64
         Sum over each cut of ``SurfaceMeasures.pair``.
+    changed : sequence of int
+        Regions whose ``shape`` is out of date: it is brought up to date here.
 
     Returns
     -------
     features : (k, len(FEATURES)) float64
         The features FEATURES, in this order: of the cut, of the smaller region, of the larger region, of their union.
     """
-    r, b = REGION, BORDER
-    area = rounded(regions.sums[:, r.area])
-    swap = area[ends[:, 0]] > area[ends[:, 1]]
-    small, large = np.where(swap[:, None], ends[:, ::-1], ends).T
-    length = np.maximum(border[:, b.length], 1e-9)
-    union = region_shape(
-        regions.sums[small] + regions.sums[large],
-        np.maximum(regions.perimeter[small] + regions.perimeter[large] - 2 * length, 0.0),
-        np.minimum(regions.level_min[small], regions.level_min[large]),
-        np.maximum(regions.level_max[small], regions.level_max[large]))
-    cut = _cut_columns(regions, _Side.of(regions, small, border), _Side.of(regions, large, border),
-                       border / length[:, None], length, union)
-    return np.column_stack([*(cut[name] for name in CUT), regions.shape[small], regions.shape[large], union])
+    area = rounded(regions.sums[ends, REGION.area])
+    index = np.where(area[:, 0] > area[:, 1], ends[:, ::-1].T, ends.T)
+    length = np.maximum(border[:, BORDER.length], 1e-9)
+    union = _shapes(regions, index, length, changed)
+    cut = _cut_columns(regions, _Sides.of(regions, index, border), border / length[:, None], length, union)
+    return np.hstack([_table(cut, CUT), *regions.shape[index], union])
+
+
+def _shapes(regions: RegionMeasures, index: np.ndarray, length: np.ndarray, changed: Sequence[int]) -> np.ndarray:
+    """Shape of the union of each two regions, (k, len(SHAPE)); brings up to date that of the changed ones.
+
+    index : (2, k), the regions. length : (k,), of the cut between them. Few regions take as long as one: all in one go.
+    """
+    r, changed = regions, list(changed)
+    perimeter, lowest, highest = r.perimeter[index], r.level_min[index], r.level_max[index]
+    shape = region_shape(
+        np.concatenate([r.sums[changed], r.sums[index].sum(axis=0)]),
+        np.concatenate([r.perimeter[changed], np.maximum(perimeter[0] + perimeter[1] - 2 * length, 0.0)]),
+        np.concatenate([r.level_min[changed], lowest.min(axis=0)]),
+        np.concatenate([r.level_max[changed], highest.max(axis=0)]))
+    r.shape[changed] = shape[:len(changed)]
+    return shape[len(changed):]
 
 
 @dataclass(frozen=True, eq=False)
-class _Side:
-    """The regions on one side of k cuts, one row per cut.
+class _Sides:
+    """The smaller and the larger region beside each of k cuts, in this order.
 
     Attributes
     ----------
-    index : (k,) int64
+    index : (2, k) int64
         Region.
-    mean : (k, REGION.width) float64
+    mean : (2, k, REGION.width) float64
         Mean of ``SurfaceMeasures.face`` over the region, weighted by area.
-    size : (k,) float64
+    size : (2, k) float64
         Square root of the region's area.
-    shape : dict of str -> (k,) float64
+    shape : dict of str -> (2, k) float64
         Shape of the region, by feature of SHAPE.
-    other : (k, BORDER.width) float64
+    other : (2, k, BORDER.width) float64
         Mean of ``SurfaceMeasures.pair`` over the region's other borders, weighted by length.
     """
 
     index: np.ndarray
     mean: np.ndarray
     size: np.ndarray
-    shape: dict
+    shape: dict[str, np.ndarray]
     other: np.ndarray
 
     @classmethod
-    def of(cls, regions: RegionMeasures, index: np.ndarray, border: np.ndarray) -> _Side:
-        """Look up the regions ``index``, (k,), beside cuts whose sums are ``border``, (k, BORDER.width)."""
-        area = np.maximum(regions.sums[index, REGION.area], 1e-9)
+    def of(cls, regions: RegionMeasures, index: np.ndarray, border: np.ndarray) -> _Sides:
+        """Look up the regions ``index``, (2, k), beside cuts whose sums are ``border``, (k, BORDER.width)."""
+        sums = regions.sums[index]
+        area = np.maximum(sums[..., REGION.area], 1e-9)
         rest = regions.around[index] - border
         least = 1e-3 * border[:, BORDER.length] + 1e-12
-        other = rest / np.maximum(rest[:, BORDER.length], least)[:, None]
-        shape = dict(zip(SHAPE, regions.shape[index].T, strict=True))
-        return cls(index, regions.sums[index] / area[:, None], np.sqrt(area), shape, other)
+        other = rest / np.maximum(rest[..., BORDER.length], least)[..., None]
+        shape = dict(zip(SHAPE, regions.shape[index].transpose(2, 0, 1), strict=True))
+        return cls(index, sums / area[..., None], np.sqrt(area), shape, other)
 
 
 def _cut_columns(
-    regions: RegionMeasures, small: _Side, large: _Side, mean: np.ndarray, length: np.ndarray, union: np.ndarray
+    regions: RegionMeasures, sides: _Sides, mean: np.ndarray, length: np.ndarray, union: np.ndarray
 ) -> dict[str, np.ndarray]:
     """The features CUT by name, (k,) each.
 
@@ -214,60 +236,61 @@ def _cut_columns(
     union : (k, len(SHAPE)), shape of the two regions of each cut together.
     """
     r, b = REGION, BORDER
-    u = dict(zip(SHAPE, union.T, strict=True))
     middle, level = mean[:, b.center], mean[:, b.level]
     thickness, clearance, contour = (mean[:, k] for k in (b.log_thickness, b.log_clearance, b.log_contour))
-    curvature = mean[:, b.curvature]
-    apart = np.linalg.norm(small.mean[:, r.centroid] - large.mean[:, r.centroid], axis=1)
-    normals = [side.mean[:, r.normal] for side in (small, large)]
-    norm = np.linalg.norm(normals[0], axis=1) * np.linalg.norm(normals[1], axis=1)
-    spread = mean[:, b.second_moment] - (middle**2).sum(axis=1)
+    curvature, centroid, normal = mean[:, b.curvature], sides.mean[..., r.centroid], sides.mean[..., r.normal]
+    norm = np.linalg.norm(normal, axis=2)
+    spread = mean[:, b.second_moment] - row_products(middle, middle)
+    siblings = _siblings(regions, np.stack([regions.shape[sides.index[0]], union]), sides.index)
     columns = {
         "log_length": np.log(length),
-        "distance": apart / small.size,
+        "distance": lengths(centroid[0] - centroid[1]) / sides.size[0],
         "dihedral": mean[:, b.dihedral],
         "level": level,
         "log_thickness": thickness,
         "log_clearance": clearance,
-        "log_clearance_drop": clearance - np.minimum(small.shape["log_clearance"], large.shape["log_clearance"]),
-        "facing": (normals[0] * normals[1]).sum(axis=1) / np.maximum(norm, 1e-9),
-        "log_thickness_change": np.abs(small.shape["log_thickness"] - large.shape["log_thickness"]),
-        "level_change": small.shape["level"] - large.shape["level"],
-        "thickness_overlap": np.minimum(small.mean[:, r.thickness_bins], large.mean[:, r.thickness_bins]).sum(axis=1),
-        "climb": small.shape["level_max"] - level,
-        "descent": level - small.shape["level_min"],
+        "log_clearance_drop": clearance - sides.shape["log_clearance"].min(axis=0),
+        "facing": row_products(*normal) / np.maximum(norm[0] * norm[1], 1e-9),
+        "log_thickness_change": np.abs(np.subtract(*sides.shape["log_thickness"])),
+        "level_change": np.subtract(*sides.shape["level"]),
+        "thickness_overlap": sides.mean[..., r.thickness_bins].min(axis=0).sum(axis=1),
+        "climb": sides.shape["level_max"][0] - level,
+        "descent": level - sides.shape["level_min"][0],
         "curvature_by_thickness": curvature[:, 1] * np.exp(thickness),
         "bend": curvature[:, 2] * length,
-        "protrusion": (regions.agd_max[small.index] - mean[:, b.agd]) / length,
+        "protrusion": (regions.agd_max[sides.index[0]] - mean[:, b.agd]) / length,
         "second_moment": square_roots(spread, mean[:, b.second_moment]) / length,
         "largest": np.full(len(length), regions.sums[regions.alive, r.area].max()),
-        "siblings_small": _siblings(regions, small.shape, small.index, large.index),
-        "siblings_union": _siblings(regions, u, small.index, large.index),
+        "siblings_small": siblings[0],
+        "siblings_union": siblings[1],
     }
-    for name, side in (("small", small), ("large", large)):
-        columns[f"length_{name}"] = length / side.size
-        columns[f"share_{name}"] = length / np.maximum(regions.perimeter[side.index], length)
-        columns[f"log_thickness_{name}"] = thickness - side.shape["log_thickness"]
-        columns[f"narrow_{name}"] = contour - side.shape["log_contour"]
-        columns[f"other_concavity_{name}"] = side.other[:, b.concavity.start + 1]
-        columns[f"other_dihedral_{name}"] = side.other[:, b.dihedral]
-        columns[f"distance_{name}"] = np.linalg.norm(side.mean[:, r.centroid] - middle, axis=1) / side.size
-        columns[f"neighbors_{name}"] = regions.degree[side.index]
+    of_both = {
+        "length": length / sides.size,
+        "share": length / np.maximum(regions.perimeter[sides.index], length),
+        "log_thickness": thickness - sides.shape["log_thickness"],
+        "narrow": contour - sides.shape["log_contour"],
+        "other_concavity": sides.other[..., b.concavity.start + 1],
+        "other_dihedral": sides.other[..., b.dihedral],
+        "distance": np.linalg.norm(centroid - middle, axis=2) / sides.size,
+        "neighbors": regions.degree[sides.index],
+    }
+    columns |= {f"{name}_{side}": of_side for name, both in of_both.items()
+                for side, of_side in zip(("small", "large"), both, strict=True)}
     for name, runs in (("curvature", b.curvature), ("concavity", b.concavity), ("creased", b.creased)):
         columns |= {f"{name}_{scale + 1}": column for scale, column in enumerate(mean[:, runs].T)}
     return columns
 
 
-def _siblings(
-    regions: RegionMeasures, shape: dict[str, np.ndarray], small: np.ndarray, large: np.ndarray
-) -> np.ndarray:
-    """Number of siblings, (k,): other regions of nearly that area, thickness and level, such as a table's other legs.
+def _siblings(regions: RegionMeasures, shape: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """Number of siblings, (s, k): other regions of nearly that area, thickness and level, such as a table's other legs.
 
-    shape : dict of str -> (k,), what regions are compared with. small, large : (k,), regions that do not count.
+    shape : (s, k, len(SHAPE)), what regions are compared with. ends : (2, k), regions that do not count.
     """
     live = np.flatnonzero(regions.alive)
-    like = (live != small[:, None]) & (live != large[:, None])
+    like = np.empty((*shape.shape[:2], len(live)), bool)
+    like[:] = (live != ends[0][:, None]) & (live != ends[1][:, None])
     for name, limit in SIBLING.items():
-        of_live = regions.shape[live, SHAPE.index(name)]
-        like &= np.abs(of_live - shape[name][:, None]) < limit
-    return like.sum(axis=1).astype(float)
+        column = SHAPE.index(name)
+        apart = regions.shape[live, column] - shape[..., column, None]
+        like &= np.abs(apart, out=apart) < limit
+    return like.sum(axis=2).astype(float)

@@ -69,6 +69,7 @@ class RegionAdjacencyGraph:
         shape = region_shape(sums, perimeter, level_min, level_max)
         self.regions = RegionMeasures(sums, level_min, level_max, agd_max, perimeter, degree, around,
                                shape, np.ones(n, bool))
+        self._changed: list[int] = []
         self.neighbors: list[dict[int, int]] = [{} for _ in range(n)]
         for index, (a, b) in enumerate(self.ends.tolist()):
             self.neighbors[a][b] = self.neighbors[b][a] = index
@@ -83,12 +84,13 @@ class RegionAdjacencyGraph:
 
         borders : (k,) int64. Returns (k, len(FEATURES)) float64, see ``cut_features``.
         """
-        return cut_features(self.regions, self.ends[borders], self.border[borders])
+        changed, self._changed = self._changed, []
+        return cut_features(self.regions, self.ends[borders], self.border[borders], changed)
 
     def merge_(self, border: int) -> list[int]:
         """Merge the second region of a border into the first.
 
-        The shape of the first region is not computed anew: call ``measure_`` when all merges of a round are done.
+        The shape of the first region is computed anew with the next features, or by ``measure_``.
 
         Parameters
         ----------
@@ -109,6 +111,7 @@ class RegionAdjacencyGraph:
         r.level_max[a] = max(r.level_max[a], r.level_max[b])
         r.agd_max[a] = max(r.agd_max[a], r.agd_max[b])
         r.alive[b] = False
+        self._changed.append(a)
         del self.neighbors[a][b], self.neighbors[b][a]
         gone = [border]
         for other, index in self.neighbors[b].items():
@@ -125,11 +128,9 @@ class RegionAdjacencyGraph:
         r.degree[a] = len(self.neighbors[a])
         return gone
 
-    def measure_(self, changed: list[int]) -> None:
-        """Compute the shape of regions anew; ``changed`` are those into which other regions have merged."""
-        r = self.regions
-        r.shape[changed] = region_shape(r.sums[changed], r.perimeter[changed],
-                                        r.level_min[changed], r.level_max[changed])
+    def measure_(self) -> None:
+        """Compute the shape of regions anew into which others have merged since it was asked for features."""
+        self.features(np.empty(0, np.int64))
 
 
 def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, np.ndarray]:
@@ -154,20 +155,18 @@ def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, n
     strength = judge(graph, np.arange(len(graph.ends)))
     merges, strengths = [], []
     while len(merges) < n - 1 and np.isfinite(strength).any():
-        again, grown = set(), []
+        again = set()
         for border in _next(graph, strength, n - len(merges)):
             merges.append(graph.ends[border].copy())
             strengths.append(_share_of_its_own(graph, strength, border))
             gone = graph.merge_(border)
             strength[gone] = np.inf
-            region = int(merges[-1][0])
-            grown.append(region)
-            again.update(graph.neighbors[region].values())
+            again.update(graph.neighbors[int(merges[-1][0])].values())
             again.difference_update(gone)
-        graph.measure_(grown)
         if again:
             changed = np.array(sorted(again))
             strength[changed] = judge(graph, changed)
+    graph.measure_()
     return np.reshape(merges, (-1, 2)).astype(np.int64), np.array(strengths, float)
 
 
@@ -185,7 +184,7 @@ def _share_of_its_own(graph: RegionAdjacencyGraph, strength: np.ndarray, border:
     area = graph.regions.sums[:, REGION.area]
     small, large = sorted(graph.ends[border].tolist(), key=area.__getitem__)
     neighbors = list(graph.neighbors[small])
-    larger = np.clip(area[neighbors] / max(area[small], 1e-30) - 1, 0.0, 1.0)
+    larger = np.minimum(np.maximum(area[neighbors] / max(area[small], 1e-30) - 1, 0.0), 1.0)
     rival = np.array([other == large or other in graph.neighbors[large] for other in neighbors])
     left = 1 - strength[[graph.neighbors[small][other] for other in neighbors]]
     own = max(0.0, 1 - (larger * left)[rival].sum())
