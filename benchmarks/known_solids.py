@@ -461,7 +461,7 @@ def turned(rng: np.random.Generator) -> tuple[Shape, np.ndarray]:
             distance = tin(center - (0, 0, 0.05 * half), radius, 1.05 * half + 0.02, 0.05 * min(radius, half))
         sure = 1.0
         if i:
-            sure = certainty(_waist(parts[-1].distance, distance, z_last, radii[i - 1], radius, rng), 0.9, 0.6)
+            sure = certainty(_waist(parts[-1].distance, distance, z_last, radii[i - 1], radius), 0.9, 0.6)
         parts.append(Part(distance, i - 1, sure))
         z_last = z + half * (rng.uniform(0.75, 0.95) if is_ball else 1.0)
     middle = z_last / 2 - lengths[0] / 2
@@ -473,7 +473,7 @@ def _moved(distance: Distance, z: float) -> Distance:
     return lambda points: distance(points + (0, 0, z))
 
 
-def _waist(first: Distance, second: Distance, z: float, radius: float, other: float, rng) -> float:
+def _waist(first: Distance, second: Distance, z: float, radius: float, other: float) -> float:
     """How thick the union is where both meet, at its thinnest between, over the thinner or, of a step, the thicker."""
     heights = np.linspace(z - 0.5 * radius, z + 0.5 * other, 25)
     outer = []
