@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Learn from people which cuts to keep; writes cut_model.npz and sheet_model.npz.
 
-    python3 benchmarks/train.py MESHES [--out core/cuts/perceptual] [--rounds 2]
+    python3 benchmarks/train.py MESHES [--solids] [--labelled FOLDER...] [--bodies FOLDER...]
+                                [--out core/cuts/perceptual] [--rounds 2]
 
 MESHES holds N.npz with ``vertices`` (n, 3), ``faces`` (m, 3) and ``human`` (people, m): the layout
 of the Princeton Segmentation Benchmark as converted for this project. Cuts are learned without
 their category or any other knowledge of what the mesh shows. The model of sheets is learned from
 the same meshes, which are closed, and from figures made at random, see known_sheets.py.
+
+On demand the model of closed surfaces learns from more: from bodies made at random (--solids, see
+known_solids.py), and from the large pieces of models whose parts are known otherwise, such as by the
+bones that move them: PACK.NAME.npz of the same layout, with a coarse labelling first. The labels
+of --labelled say nothing of ears and other small things without a bone, those of --bodies do.
 
 The model first sees the states that merging with people's help goes through, then, round by round,
 those that its own merging reaches on meshes it was not trained on: a model that never met its own
@@ -18,20 +24,24 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import packages
 
-packages.need("numpy", "scipy", "lightgbm")
+packages.need("numpy", "scipy", "lightgbm", "fast_simplification")
 
 import lightgbm
 import numpy as np
 from known_sheets import known_sheets
+from known_solids import known_solids
 from people import Run, Subject, category_of, merge_and_record, mesh_numbers, prepare, varied
 
 from core.cuts.boosted_trees import BoostedTrees
 from core.cuts.perceptual.features import FEATURES
-from core.cuts.perceptual.method import SHEET_DECISION
+from core.cuts.perceptual.method import DECISION, SHEET_DECISION
+from core.surface.arrays import renumbered
+from core.surface.mesh import TriMesh
 
 N_TREES = 250
 SETTINGS = {
@@ -42,11 +52,21 @@ SETTINGS = {
 }
 POWER = 0.75  # a row counts by the pairs of faces it concerns, to this power; every run counts alike
 N_FOLDS = 5
-SHEET_WEIGHT = 0.25
+# How much sheets and solids made at random, and pieces of labelled models, count beside a mesh of the benchmark.
+KNOWN_WEIGHT, PIECE_WEIGHT = 0.25, 0.5
+LEAST_PIECE = 0.1  # share of the area of its model from which on a piece is learned from
+MAX_OF_PACK = 16  # so many pieces of one pack's models, which are alike: the largest
+COARSE = 1  # so many labellings of a model, the first, are coarser than what people make of the benchmark's meshes
+DETAIL = 0.03  # share of the area of a piece below which labels of models say nothing of what they leave together
+ROUNDS_FURTHER = 1  # of its own merging on solids and pieces
 N_MODELS = 3  # in what ships; their mean is steadier than each
 
 
-def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES, sheets: Sequence[Run] = ()) -> BoostedTrees:
+#: A run, and how much it counts beside one on a mesh of the benchmark.
+Counted = tuple[Run, float]
+
+
+def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES, more: Sequence[Counted] = ()) -> BoostedTrees:
     """Boosted trees from the states met on some meshes.
 
     Parameters
@@ -54,15 +74,15 @@ def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES, sheets: Sequence
     runs : list of Run
     seed : int
     n_trees : int
-    sheets : sequence of Run
-        States met on figures made at random; each counts SHEET_WEIGHT times what another run does.
+    more : sequence of Counted
+        States met on other surfaces.
 
     Returns
     -------
     trees : BoostedTrees
     """
-    counts = [1.0] * len(runs) + [SHEET_WEIGHT] * len(sheets)
-    runs = [*runs, *sheets]
+    counts = [1.0] * len(runs) + [count for _, count in more]
+    runs = [*runs, *(run for run, _ in more)]
     weight = [count * r.weight**POWER / (r.weight**POWER).sum() for count, r in zip(counts, runs, strict=True)]
     rows, share = (np.concatenate([getattr(r, name) for r in runs]) for name in ("rows", "share"))
     weight = np.concatenate(weight)
@@ -73,9 +93,9 @@ def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES, sheets: Sequence
     return trees_of(lightgbm.train(SETTINGS | {"seed": seed}, data, n_trees))
 
 
-def fit_many(runs: list[Run], count: int, sheets: Sequence[Run] = ()) -> BoostedTrees:
+def fit_many(runs: list[Run], count: int, more: Sequence[Counted] = ()) -> BoostedTrees:
     """The mean of several models that differ by their random choices."""
-    models = [fit(runs, seed=100 + i, sheets=sheets) for i in range(count)]
+    models = [fit(runs, seed=100 + i, more=more) for i in range(count)]
     joined = (np.concatenate([getattr(m, name) for m in models])
               for name in ("feature", "threshold", "mask", "leaf"))
     feature, threshold, mask, leaf = joined
@@ -153,28 +173,94 @@ def add_variants(runs: dict[int, list[Run]], variants: dict[int, Subject], fold:
         runs[n] += [merge_and_record(variant), merge_and_record(variant, models[fold[n]].predict)]
 
 
-def learn_sheets(people: list[Run], rounds: int, tell=print) -> list[Run]:
-    """States that inflated sheets go through: with the answers' help, then met by models that did not know the sheet.
+@dataclass(frozen=True, eq=False)
+class Further:
+    """A surface to learn from beside the meshes of the benchmark.
+
+    Attributes
+    ----------
+    subject : Subject
+    count : float
+        How much it counts beside a mesh of the benchmark.
+    half : int
+        0 or 1; surfaces of one half are never judged by a model that has learned from that half.
+    detail : float
+        Share of the area below which its labels say nothing of what they leave together: an ear has no bone.
+    """
+
+    subject: Subject
+    count: float
+    half: int
+    detail: float = 0.0
+
+    def met(self, model=None) -> Run:
+        """The states that merging it goes through, without those that its labels say nothing of."""
+        run = merge_and_record(self.subject, model)
+        is_detail = run.rows[:, FEATURES.index("small_log_area")] < np.log(max(self.detail, 1e-9))
+        known = (run.share >= 0.5) | ~is_detail
+        return replace(run, rows=run.rows[known], share=run.share[known], weight=run.weight[known])
+
+
+def sheets() -> list[Further]:
+    """Sheets made at random."""
+    made = [prepare(*mesh) for mesh in known_sheets().values()]
+    return [Further(subject, KNOWN_WEIGHT, place % 2)
+            for place, subject in enumerate(s for s in made if s.label.any())]  # one patch leaves nothing to judge
+
+
+def solids() -> list[Further]:
+    """Bodies made at random."""
+    return [Further(prepare(*mesh), KNOWN_WEIGHT, place % 2) for place, mesh in enumerate(known_solids().values())]
+
+
+def pieces(folders: list[Path], detail: float = 0.0) -> list[Further]:
+    """The large pieces of labelled models, at most MAX_OF_PACK of a pack: the largest. detail : see ``Further``."""
+    packs: dict[str, list] = {}
+    for path in sorted((path for folder in folders for path in folder.glob("*.npz")), key=lambda path: path.name):
+        with np.load(path) as stored:
+            vertices, faces, human = (stored[k] for k in ("vertices", "faces", "human"))
+        human = human[COARSE:]
+        mesh = TriMesh(vertices.astype(float), faces.astype(np.int64))
+        found = packs.setdefault(path.stem.split(".")[0], [])
+        for piece in range(mesh.face_components[0]):
+            inside = mesh.face_components[1] == piece
+            share, labels = mesh.face_area[inside].sum() / mesh.area, human[:, inside]
+            if share >= LEAST_PIECE and (labels != labels[:, :1]).any():
+                used, own = np.unique(mesh.faces[inside], return_inverse=True)
+                labels = np.stack([renumbered(person)[1] for person in labels])
+                found.append((share, mesh.vertices[used], own.reshape(-1, 3), labels))
+    return [Further(prepare(*piece), PIECE_WEIGHT, place % 2, detail) for place, found in enumerate(packs.values())
+            for _, *piece in sorted(found, key=lambda piece: -piece[0])[:MAX_OF_PACK]]
+
+
+def learn_further(people: list[Run], further: list[Further], rounds: int, decision: float, tell=print) -> list[Counted]:
+    """States that further surfaces go through: with their labels' help, then met by models that did not know them.
 
     Parameters
     ----------
     people : list of Run
         Of the benchmark's meshes, which all models learn from as well.
+    further : list of Further
     rounds : int
+    decision : float
+        Share of people at which the error is told.
     tell : callable
+
+    Returns
+    -------
+    runs : list of Counted
+        Of each surface by people's help, then one of each round.
     """
-    sheets = {name: prepare(*mesh) for name, mesh in known_sheets().items()}
-    sheets = {name: s for name, s in sheets.items() if s.label.any()}  # one patch leaves nothing to judge
-    half = {name: place % 2 for place, name in enumerate(sheets)}
-    runs = {name: [merge_and_record(s)] for name, s in sheets.items()}
+    runs = [[one.met()] for one in further]
     for number in range(rounds):
-        models = [fit(people, seed=60 + number, sheets=[r for n in runs if half[n] != left_out for r in runs[n]])
-                  for left_out in (0, 1)]
-        for name, sheet in sheets.items():
-            runs[name].append(merge_and_record(sheet, models[half[name]].predict))
-        error = np.mean([r[-1].error_at(SHEET_DECISION) for r in runs.values()])
-        tell(f"round {number} of {len(sheets)} sheets: error {error:.4f}")
-    return [r for of_sheet in runs.values() for r in of_sheet]
+        models = [fit(people, seed=60 + number, more=[
+            (run, one.count) for one, of_one in zip(further, runs, strict=True) if one.half != left_out
+            for run in of_one]) for left_out in (0, 1)]
+        for one, of_one in zip(further, runs, strict=True):
+            of_one.append(one.met(models[one.half].predict))
+        error = np.mean([of_one[-1].error_at(decision) for of_one in runs])
+        tell(f"round {number} of {len(further)} further surfaces: error {error:.4f}")
+    return [(run, one.count) for one, of_one in zip(further, runs, strict=True) for run in of_one]
 
 
 DECISIONS = (0.4, 0.45, 0.5, 0.55, 0.6)
@@ -230,6 +316,9 @@ def read_subjects(folder: Path, changed: bool = False, tell=print) -> dict[int, 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("meshes", type=Path)
+    parser.add_argument("--solids", action="store_true")
+    parser.add_argument("--labelled", nargs="*", type=Path, default=[], metavar="FOLDER")
+    parser.add_argument("--bodies", nargs="*", type=Path, default=[], metavar="FOLDER")
     parser.add_argument("--out", type=Path, default=packages.ROOT / "core" / "cuts" / "perceptual")
     parser.add_argument("--rounds", type=int, default=2)
     options = parser.parse_args()
@@ -239,8 +328,10 @@ def main():
     runs = learn(subjects, fold, options.rounds)
     add_variants(runs, variants, fold)
     people = [r for of_mesh in runs.values() for r in of_mesh]
-    for name, sheets in (("cut_model", []), ("sheet_model", learn_sheets(people, options.rounds))):
-        model = fit_many(people, N_MODELS, sheets)
+    further = [*(solids() if options.solids else []), *pieces(options.labelled, DETAIL), *pieces(options.bodies)]
+    for name, beside, rounds, decision in (("cut_model", further, ROUNDS_FURTHER if further else 0, DECISION),
+                                           ("sheet_model", sheets(), options.rounds, SHEET_DECISION)):
+        model = fit_many(people, N_MODELS, learn_further(people, beside, rounds, decision))
         model.write(options.out / f"{name}.npz")
         print(f"{name}.npz: {len(model.leaf)} trees on {len(FEATURES)} features")
 
