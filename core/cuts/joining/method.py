@@ -140,8 +140,7 @@ def join_parts(
     pairs = parts.pairs
     odds = near_odds(parts, model.near)
     merges, score, rows = _linked(parts, pairs.parts, odds, _pair_weight(parts, pairs.parts))
-    distant = compare_distant(parts, odds, merges, score) if model.distant else None
-    if model.distant and distant and len(distant.parts):
+    if model.distant and len((distant := compare_distant(parts, odds, merges, score)).parts):
         merges, score, rows = _linked(parts, *_with_distant(parts, odds, distant, model.distant))
     strength = np.interp(1 / (1 + np.exp(-score)), [0.0, DECISION, 1.0], [1.0, 0.5, parts.fine])
     touching = (pairs.gap <= TOUCH) & ~pairs.same_piece

@@ -63,3 +63,34 @@ def test_two_far_spheres():
     assert result.parts(0.002).count == result.parts().count == 2
     assert result.contacts.shape == (1, 2)
     assert (result.contacts[0] < 1280).sum() == 1  # a face of each
+
+
+def jointed_figure():
+    """Eleven balls drawn out, that run into each other: trunk, head, shoulders, and four limbs of two each."""
+    def drawn(center, radii):
+        ball = shapes.icosphere(3)
+        return shapes.Shape(ball.vertices * radii + center, ball.faces)
+
+    pieces = [drawn((0, 0, 0), (0.5, 0.35, 0.7)), drawn((0, 0, 1), (0.28, 0.28, 0.3)),
+              drawn((0, 0, 0.62), (0.85, 0.14, 0.14))]
+    for side in (1, -1):
+        pieces += [drawn((0.95 * side, 0, 0.25), (0.14, 0.14, 0.42)), drawn((side, 0, -0.45), (0.11, 0.11, 0.36)),
+                   drawn((0.25 * side, 0, -1), (0.17, 0.17, 0.45)), drawn((0.27 * side, 0, -1.75), (0.13, 0.13, 0.42))]
+    return shapes.together(*pieces), np.repeat(np.arange(len(pieces)), 1280)
+
+
+@pytest.mark.parametrize("seed", [None, 1])
+def test_limbs_of_a_jointed_figure_stay_apart_though_they_touch_the_same_shoulders(seed):
+    shape, piece = jointed_figure()
+    if seed is not None:
+        rng = np.random.default_rng(seed)
+        shape, _, face = shapes.shuffled(shapes.Shape(shape.vertices @ shapes.rotation(rng), shape.faces), rng)
+        piece = piece[face]
+    result = decompose(*shape)
+    bodies = [(0,), (3, 4), (5, 6), (7, 8), (9, 10)]  # the trunk, and the limbs
+    for detail in (0.4, 0.5, 0.6):
+        labels = result.parts(detail).labels
+        of_piece = [np.unique(labels[piece == k]).tolist() for k in range(11)]
+        assert all(len(parts) == 1 for parts in of_piece)
+        of_body = [{of_piece[k][0] for k in body} for body in bodies]
+        assert sum(map(len, of_body)) == len(set.union(*of_body))  # no two have a part in common
