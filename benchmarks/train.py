@@ -95,11 +95,14 @@ def fit(runs: list[Run], seed: int = 1, n_trees: int = N_TREES, more: Sequence[C
 
 def fit_many(runs: list[Run], count: int, more: Sequence[Counted] = ()) -> BoostedTrees:
     """The mean of several models that differ by their random choices."""
-    models = [fit(runs, seed=100 + i, more=more) for i in range(count)]
-    joined = (np.concatenate([getattr(m, name) for m in models])
-              for name in ("feature", "threshold", "mask", "leaf"))
-    feature, threshold, mask, leaf = joined
-    return BoostedTrees(feature, threshold, mask, leaf / count, models[0].names)
+    return mean_of([fit(runs, seed=100 + i, more=more) for i in range(count)])
+
+
+def mean_of(models: list[BoostedTrees]) -> BoostedTrees:
+    """The trees of several models over the same features, whose sum is the mean of theirs."""
+    feature, threshold, mask, leaf = (np.concatenate([getattr(m, name) for m in models])
+                                      for name in ("feature", "threshold", "mask", "leaf"))
+    return BoostedTrees(feature, threshold, mask, leaf / len(models), models[0].names)
 
 
 def trees_of(booster) -> BoostedTrees:

@@ -30,7 +30,7 @@ import lightgbm
 import numpy as np
 from people import category_of
 from tqdm import tqdm
-from train import trees_of
+from train import mean_of, trees_of
 
 from core.cuts.boosted_trees import BoostedTrees
 from core.cuts.hierarchy import Hierarchy
@@ -164,11 +164,8 @@ def fit(rows: list[tuple[np.ndarray, np.ndarray, np.ndarray]], settings: dict, n
     rows : features (e, f), what is to be foretold (e,), and weight (e,), of each body.
     """
     data = [np.concatenate(column) for column in zip(*rows, strict=True)]
-    models = [trees_of(lightgbm.train(settings | {"seed": seed}, lightgbm.Dataset(
-        data[0], data[1], weight=data[2], feature_name=list(names)), n_trees)) for seed in range(n_models)]
-    feature, threshold, mask, leaf = (np.concatenate([getattr(m, name) for m in models])
-                                      for name in ("feature", "threshold", "mask", "leaf"))
-    return BoostedTrees(feature, threshold, mask, leaf / n_models, names)
+    return mean_of([trees_of(lightgbm.train(settings | {"seed": seed}, lightgbm.Dataset(
+        data[0], data[1], weight=data[2], feature_name=list(names)), n_trees)) for seed in range(n_models)])
 
 
 def fit_near(subjects: list[Subject]) -> BoostedTrees:

@@ -63,7 +63,7 @@ def distant_pairs(
     Returns
     -------
     pairs : DistantPairs
-        None where fewer than two parts are larger than all others.
+        No pairs, if fewer than two parts are compared: of more than MOST, those larger than all that do not fit in.
     """
     shapes, count = near.shapes, len(near.shapes.area)
     chosen = _largest(shapes.area)
