@@ -49,7 +49,7 @@ class Coarsening:
 
 
 def coarsen(
-    mesh: TriMesh, vertex_area: np.ndarray, links: np.ndarray | None = None
+    mesh: TriMesh, vertex_area: np.ndarray, links: np.ndarray | None = None, kept: np.ndarray | None = None
 ) -> Coarsening:
     """Coarsen a mesh to a maximal independent set of its vertices, about one in four [Luby1986].
 
@@ -61,6 +61,8 @@ def coarsen(
         Area that each vertex stands for, in squared units of the vertices.
     links : (l, 2) int64, optional
         Pairs of vertices that touch. Without it, the edges of the mesh.
+    kept : (n,) bool, optional
+        Vertices that are all chosen, whatever touches them.
 
     Returns
     -------
@@ -75,7 +77,7 @@ def coarsen(
     a, b = both_ways(links).T
     order = stable_order(a)
     a, b = a[order], b[order]
-    seed = _independent_set(a, b, _priority(mesh.vertices, vertex_area))
+    seed = _independent_set(a, b, _priority(mesh.vertices, vertex_area), kept)
     name = np.where(seed, np.cumsum(seed) - 1, -1)
     owner = name.copy()
     near = np.flatnonzero(seed[b] & ~seed[a])
@@ -202,15 +204,15 @@ def _priority(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
     return inverse(np.argsort(mixed, kind="stable"))
 
 
-def _independent_set(a: np.ndarray, b: np.ndarray, priority: np.ndarray) -> np.ndarray:
-    """Mask, (n,) bool, of a maximal independent set of vertices after [Luby1986].
+def _independent_set(a: np.ndarray, b: np.ndarray, priority: np.ndarray, kept: np.ndarray | None) -> np.ndarray:
+    """Mask, (n,) bool, of a maximal independent set of vertices after [Luby1986], and those that are kept anyway.
 
     In each round every undecided vertex joins the set whose priority is higher than that of all undecided
     neighbors. a, b : edges in both directions, sorted by ``a``.
     """
     n = len(priority)
-    chosen = np.zeros(n, bool)
-    open_ = np.ones(n, bool)
+    chosen = np.zeros(n, bool) if kept is None else kept.copy()
+    open_ = ~chosen
     start = np.searchsorted(a, np.arange(n))
     while open_.any():
         rivals = np.maximum.reduceat(np.where(open_[b], priority[b], -1), start)

@@ -14,7 +14,7 @@ import numpy as np
 from ...field.agd import ScalarField
 from ...graph.level_sets import LevelSets, cut_at_levels
 from ...parameters import Parameters
-from ...surface.coarsening import Coarsening, Pyramid
+from ...surface.coarsening import Coarsening, Pyramid, coarsen
 from ...surface.curvature import MAX_CURVATURE
 from ...surface.labels import FaceGraph, connect, fill_unlabeled, majority
 from ...surface.mesh import TriMesh
@@ -33,6 +33,7 @@ DECISION, SHEET_DECISION = 0.55, 0.6
 # Largest number of faces of a mesh that is cut itself. A denser mesh is cut on a coarse copy of at most so many faces,
 # which are still much smaller than parts.
 MAX_FACES = 60_000
+WHOLE = 0.9  # share of its area from which on the coarse copy of a surface is not torn
 BAND = 3  # by how many edges of a copy cuts that were found on it move on a finer one, at most
 
 
@@ -169,6 +170,8 @@ def _on_coarse_copy(
     """
     steps = _coarse_copies(pyramid)
     progress(0.1)
+    if not steps:
+        return _cut_in_creases(sets, field, band_ratio, judges, progress)
     owner, copy = np.arange(pyramid.mesh.n_vertices), pyramid.mesh
     for step in steps:
         owner, copy = step.owner[owner], step.mesh
@@ -185,24 +188,48 @@ def _on_coarse_copy(
 
 
 def _coarse_copies(pyramid: Pyramid) -> list[Coarsening]:
-    """The steps to a coarse copy of at most MAX_FACES faces.
+    """The steps to a coarse copy of at most MAX_FACES faces, in which the surface is whole.
 
-    To the last finer one if a copy is torn: where the surface is thin, copies may lack triangles.
+    Where the surface is thin, or has small pieces, copies may lack triangles. Pieces that would are taken as they are;
+    to the last finer copy if then hardly anything is left to coarsen.
     """
     steps: list[Coarsening] = []
-    copy = pyramid.mesh
+    copy, area = pyramid.mesh, pyramid.mesh.vertex_area
     for step in pyramid.until(lambda mesh: mesh.n_faces <= MAX_FACES):
-        if not _is_whole(step.mesh, copy.area, pyramid.mesh.face_components[0]):
+        if not _is_whole(step.mesh, copy.area, copy.face_components[0]):
             break
         steps.append(step)
-        copy = step.mesh
+        copy, area = step.mesh, step.area
+    while copy.n_faces > MAX_FACES:
+        step = _coarsened_whole(copy, area)
+        if step.mesh.n_faces > 0.8 * copy.n_faces:
+            break
+        steps.append(step)
+        copy, area = step.mesh, step.area
     return steps
 
 
 def _is_whole(copy: TriMesh, area: float, n_pieces: int) -> bool:
     """Whether a coarse copy has the pieces of the mesh from which it was made, and nearly its area."""
     whole = copy.n_faces > 0 and copy.used.all()
-    return whole and copy.face_components[0] == n_pieces and copy.area > 0.9 * area
+    return whole and copy.face_components[0] == n_pieces and copy.area > WHOLE * area
+
+
+def _coarsened_whole(mesh: TriMesh, vertex_area: np.ndarray) -> Coarsening:
+    """Coarsen a mesh along its edges, but for the pieces that would not be whole then. vertex_area : (n,) float64."""
+    step = coarsen(mesh, vertex_area)
+    count, piece = mesh.face_components
+    of_vertex = np.zeros(mesh.n_vertices, np.int64)
+    of_vertex[mesh.faces] = piece[:, None]
+    in_copy = np.zeros(step.mesh.n_vertices, np.int64)
+    in_copy[step.owner] = of_vertex
+    n_found, found = step.mesh.face_components
+    of_found = np.zeros(n_found, np.int64)
+    of_found[found] = in_copy[step.mesh.faces[:, 0]]
+    area = np.bincount(in_copy[step.mesh.faces[:, 0]], step.mesh.face_area, count)
+    whole = (np.bincount(of_found, minlength=count) == 1) & (area > WHOLE * np.bincount(piece, mesh.face_area, count))
+    whole[in_copy[~step.mesh.used]] = False
+    return step if whole.all() else coarsen(mesh, vertex_area, kept=~whole[of_vertex])
 
 
 def _refined(

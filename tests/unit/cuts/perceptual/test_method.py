@@ -11,6 +11,7 @@ from core.cuts.perceptual.method import DECISION, MAX_FACES, perceptual_candidat
 from core.cuts.perceptual.patches import concave_patches
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.metrics import rand_index_error
 from core.surface.arrays import components
 from core.surface.coarsening import Pyramid
 
@@ -33,6 +34,18 @@ def test_two_balls_are_two_parts_however_dense(size):
     same = parts.labels[mesh.edges.pairs[:, 0]] == parts.labels[mesh.edges.pairs[:, 1]]
     assert components(mesh.n_faces, *mesh.edges.pairs[same].T)[0] == 2
     assert halves(shape, parts.labels) > 0.95
+
+
+def test_small_pieces_of_a_dense_mesh_stay_whole():
+    """They are smaller than the edges of its coarse copies."""
+    dumbbell, speck = shapes.dumbbell(300, 200), shapes.tetrahedron()
+    places = dumbbell.vertices[::5000]
+    specks = [shapes.moved(shapes.Shape(1e-3 * speck.vertices, speck.faces), place) for place in places]
+    result = decompose(*shapes.together(dumbbell, *specks))
+    alone = decompose(*dumbbell)
+    assert result.parts(n_parts=result.n_candidates).count >= len(places) + 2
+    own = result.parts(0.5).labels[: len(dumbbell.faces)]
+    assert rand_index_error(own, alone.parts(0.5).labels) < 0.01
 
 
 def test_scale_and_pose_change_nothing():
