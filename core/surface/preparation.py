@@ -17,6 +17,7 @@ from .arrays import components, distinct_pairs, first_at_place, frozen, inverse,
 from .contact import Bridges, bridges
 from .mesh import TriMesh
 from .ordering import Ordering
+from .orientation import turn_outwards
 from .polygons import MIN_FACES, PolygonMesh
 
 # Longest edge of the copy, in units of the square root of the component's area: half the radius of the disc that a base
@@ -198,7 +199,7 @@ def repair(given: PolygonMesh) -> WorkingMesh:
     # A mesh that needs no repair keeps the tables that were already computed for it.
     copy = mesh if whole.all() and not note_joined else TriMesh(mesh.vertices, faces[whole])
     copy, vertex_source = _separate_fans(copy)
-    copy, note_turned = _turn_outwards(copy)
+    copy, note_turned = turn_outwards(copy)
     return WorkingMesh(copy, frozen(given.polygon[whole], np.int64),
                        frozen(vertex_source, np.int64),
                        _notes(given) + note_joined + note_turned,
@@ -379,40 +380,6 @@ def _has_one_fan(mesh: TriMesh) -> np.ndarray:
         walking, at = walking[goes_on], at[goes_on]
         passed[walking] += 1
     return known & (passed == np.bincount(corner_vertex, minlength=n))
-
-
-def _turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[str, ...]]:
-    """Turn faces so that neighbors agree and closed components enclose a positive volume.
-
-    Returns the mesh and a note of how many faces were turned.
-    """
-    same_way = mesh.same_way
-    flip = np.zeros(mesh.n_faces, bool)
-    if same_way.any():
-        # The double cover has each face twice: face f as given and face f + m flipped. A component of the surface
-        # is orientable if its two copies in the double cover are not connected.
-        m = mesh.n_faces
-        a, b = mesh.edges.pairs.T
-        other = np.where(same_way, m, 0)
-        _, sheet = components(2 * m, np.concatenate([a, a + m]),
-                              np.concatenate([b + other, (b + m + other) % (2 * m)]))
-        orientable = sheet[:m] != sheet[m:]
-        flip = orientable & (sheet[:m] > sheet[m:])
-    count, component = mesh.face_components
-    sign = np.where(flip, -1.0, 1.0)
-    center = mesh.vertices.mean(axis=0)  # volumes are measured from here: far from the origin they would cancel
-    volume = sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - center)
-    as_given = np.bincount(component, sign * mesh.face_area, count)
-    borders = mesh.edges.n_faces[mesh.edges.face_edges] == 1
-    closed = np.bincount(component, borders.any(axis=1), count) == 0
-    inside_out = np.where(closed, np.bincount(component, volume, count) < 0, as_given < 0)
-    flip ^= inside_out[component]
-    if not flip.any():
-        return mesh, ()
-    faces = np.where(flip[:, None], mesh.faces[:, ::-1], mesh.faces)
-    note = Sentence("{n} {n:triangle faces inwards or against its|triangles face inwards or against their} "
-                    "neighbors.", n=int(flip.sum()))
-    return TriMesh(mesh.vertices, faces), (note,)
 
 
 def _notes(given: PolygonMesh) -> tuple[str, ...]:

@@ -21,13 +21,11 @@ from .labels import majority
 from .mesh import TriMesh
 from .nearest import search_tree
 from .preparation import split_edges
+from .winding import MOST_OF_SHEETS, winding_numbers
 
 # A sheet has at least this square of the length of its border, as a share of its area; a disc has 4 pi, a hemisphere
 # 2 pi. What has less is a solid with a hole.
 LEAST_BORDER = np.pi
-# How far the mean winding number on a sheet may be from a whole number: half a tube has 0.20, a hemisphere 0.32, and a
-# closed surface 0.5.
-MOST_WINDING = 0.15
 N_PROBES, N_SURFACE = 100, 2_000  # upper bounds of the numbers of faces at which, and of which, windings are measured
 MOST_AGAINST = 1e-3  # share of neighbors that may disagree on it; coarse copies are not perfect
 LEAST_AREA = 0.05  # share of the area of a surface of several pieces below which a piece stays as it is
@@ -106,9 +104,9 @@ def sheet_faces(mesh: TriMesh, order: np.ndarray) -> np.ndarray:
     among = np.flatnonzero(open_[piece])
     probe = among[spread_evenly(mesh.face_area[among], order[among], N_PROBES)]
     surface = spread_evenly(mesh.face_area, order, N_SURFACE)
-    total = np.bincount(piece[probe], _winding(mesh, probe, surface), count)
+    total = np.bincount(piece[probe], winding_numbers(mesh, probe, surface, mesh.area), count)
     mean = total / np.maximum(np.bincount(piece[probe], minlength=count), 1)
-    return (open_ & (np.abs(mean - np.rint(mean)) <= MOST_WINDING))[piece]
+    return (open_ & (np.abs(mean - np.rint(mean)) <= MOST_OF_SHEETS))[piece]
 
 
 def _turned_one_way(mesh: TriMesh) -> np.ndarray:
@@ -117,29 +115,6 @@ def _turned_one_way(mesh: TriMesh) -> np.ndarray:
     a, b = mesh.edges.pairs.T
     weight = np.minimum(mesh.face_area[a], mesh.face_area[b])
     return np.bincount(piece[a], weight * mesh.same_way, count) <= MOST_AGAINST * np.bincount(piece[a], weight, count)
-
-
-def _winding(mesh: TriMesh, probe: np.ndarray, surface: np.ndarray) -> np.ndarray:
-    """Winding number of the surface at the middles of some faces, (k,), the mean of its two sides there.
-
-    surface : (s,) int64, faces that stand for all. After [Oosterom1983], the solid angle of each over 4 pi.
-    """
-    place = (mesh.vertices - mesh.vertices.mean(axis=0)) / np.sqrt(mesh.area)
-    p, corners = place[mesh.faces[probe]].mean(axis=1), place[mesh.faces[surface]].transpose(1, 0, 2)
-    square = (p**2).sum(axis=1)[:, None]
-
-    def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Products (a - p) (b - p), (k, s), of corners a and b of the surface as seen from the probes."""
-        return square - inner_products(p, a + b) + (a * b).sum(axis=1)
-
-    a, b, c = corners
-    normal = np.cross(b - a, c - a)
-    volume = (normal * a).sum(axis=1) - inner_products(p, normal)
-    la, lb, lc = (np.sqrt(np.maximum(dot(x, x), 0.0)) for x in (a, b, c))
-    angle = 2 * np.arctan2(volume, la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
-    angle[probe[:, None] == surface] = 0.0
-    share = mesh.area / mesh.face_area[surface].sum()
-    return np.clip(share * angle, -2 * np.pi, 2 * np.pi).sum(axis=1) / (4 * np.pi)
 
 
 def inflated(mesh: TriMesh, sheet: np.ndarray) -> Inflated:

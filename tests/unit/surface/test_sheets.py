@@ -8,7 +8,8 @@ import shapes
 from shapes import Shape
 
 from core import TriMesh
-from core.surface.sheets import HEIGHT, _winding, inflated, sheet_faces
+from core.surface.sheets import HEIGHT, inflated, sheet_faces
+from core.surface.winding import winding_numbers
 
 
 def is_sheet(shape):
@@ -112,7 +113,8 @@ def test_winding_is_half_on_a_closed_surface_and_none_in_a_plane():
                             (shapes.flat_grid(5, 5), 0.0)):
         mesh = TriMesh(*shape)
         every = np.arange(mesh.n_faces)
-        assert _winding(mesh, every, every) == pytest.approx(np.full(mesh.n_faces, expected), abs=1e-9)
+        winding = winding_numbers(mesh, every, every, mesh.area)
+        assert winding == pytest.approx(np.full(mesh.n_faces, expected), abs=1e-9)
 
 
 @pytest.mark.parametrize(("name", "euler"), [("person", 2), ("frame", 0), ("saddle", 2)])

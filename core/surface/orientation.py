@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which side of a face is outside: neighbors agree, and what encloses a volume faces away from it.
+
+Creases are told from ridges, and thickness from distance, by the way faces are turned: a body whose faces look inwards
+would be cut along its ridges. Where it is closed, the sign of its volume tells. Where it has holes, the winding number
+does: half of all directions, seen from a face, end on the back of another. Sheets, which enclose nothing, keep the side
+that their artist gave them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..sentence import Sentence
+from .arrays import components, even_steps, row_products
+from .mesh import TriMesh
+from .winding import MOST_OF_SHEETS, winding_numbers
+
+N_PROBES, N_SURFACE = 40, 400  # upper bounds of the numbers of faces at which, and of which, windings are measured
+LEAST_AREA = 0.002  # share of the area below which an open piece stays as it is
+
+
+def turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[Sentence, ...]]:
+    """Turn faces so that neighbors agree and pieces that enclose a volume, if with holes, face away from it.
+
+    Parameters
+    ----------
+    mesh : TriMesh
+        m faces.
+
+    Returns
+    -------
+    mesh : TriMesh
+        The mesh that was given, if nothing was turned.
+    notes : tuple of Sentence
+        How many faces were turned.
+    """
+    flip = _agreeing(mesh)
+    count, piece = mesh.face_components
+    sign = np.where(flip, -1.0, 1.0)
+    as_given = np.bincount(piece, sign * mesh.face_area, count)
+    center = mesh.vertices.mean(axis=0)  # volumes are measured from here: far from the origin they would cancel
+    volume = sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - center)
+    borders = mesh.edges.n_faces[mesh.edges.face_edges] == 1
+    closed = np.bincount(piece, borders.any(axis=1), count) == 0
+    flip ^= np.where(closed, np.bincount(piece, volume, count) < 0, as_given < 0)[piece]
+    flip ^= _inside_out(_turned(mesh, flip), ~closed)[piece]
+    note = Sentence("{n} {n:triangle faces inwards or against its|triangles face inwards or against their} "
+                    "neighbors.", n=int(flip.sum()))
+    return _turned(mesh, flip), (note,) if flip.any() else ()
+
+
+def _turned(mesh: TriMesh, flip: np.ndarray) -> TriMesh:
+    """The mesh with some faces, (m,) bool, turned over; itself, if none is."""
+    return TriMesh(mesh.vertices, np.where(flip[:, None], mesh.faces[:, ::-1], mesh.faces)) if flip.any() else mesh
+
+
+def _agreeing(mesh: TriMesh) -> np.ndarray:
+    """Faces to turn, (m,) bool, so that all faces of each orientable piece agree."""
+    same_way = mesh.same_way
+    if not same_way.any():
+        return np.zeros(mesh.n_faces, bool)
+    # The double cover has each face twice: face f as given and face f + m flipped. A piece of the surface is orientable
+    # if its two copies in the double cover are not connected.
+    m = mesh.n_faces
+    a, b = mesh.edges.pairs.T
+    other = np.where(same_way, m, 0)
+    _, sheet = components(2 * m, np.concatenate([a, a + m]), np.concatenate([b + other, (b + m + other) % (2 * m)]))
+    return (sheet[:m] != sheet[m:]) & (sheet[:m] > sheet[m:])
+
+
+def _inside_out(mesh: TriMesh, chosen: np.ndarray) -> np.ndarray:
+    """Which of some pieces, (c,) bool each, enclose a volume that their faces look into.
+
+    The volume as seen from the middle of a piece, which lacks what is below its holes, rules most of them out at once.
+    """
+    count, piece = mesh.face_components
+    area = np.bincount(piece, mesh.face_area, count)
+    middle = np.stack([np.bincount(piece, mesh.face_area * x, count) for x in mesh.face_centroids.T], axis=1)
+    away = mesh.face_centroids - (middle / np.where(area > 0, area, 1.0)[:, None])[piece]
+    volume = np.bincount(piece, row_products(mesh.area_normals, away), count)
+    inside_out = chosen & (volume < 0) & (area >= LEAST_AREA * mesh.area)
+    for one in np.flatnonzero(inside_out):
+        faces = np.flatnonzero(piece == one)
+        probe, surface = (faces[even_steps(mesh.face_area[faces], most)] for most in (N_PROBES, N_SURFACE))
+        inside_out[one] = winding_numbers(mesh, probe, surface, area[one]).mean() < -MOST_OF_SHEETS
+    return inside_out
