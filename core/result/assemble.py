@@ -109,6 +109,8 @@ def assemble(
     mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
     for mirror in mirrors:
         label, hierarchy = _symmetric(face_graph, contacts, label, hierarchy, mirror)
+    if mirrors and len(contacts):  # what is joined on one side by an edge may be joined by contact on the other
+        label, hierarchy = _apart(working, face_graph, label, hierarchy)
     if parameters.method == PERCEPTUAL:  # the others are as they were published
         label = without_slivers(face_graph, label, hierarchy)
     if len(hint):  # after symmetry: of what was marked on one side only, the other knows nothing

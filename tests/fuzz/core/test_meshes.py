@@ -3,6 +3,7 @@
 
 import json
 import warnings
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -12,9 +13,11 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
 from core import Parameters, ReebError, decompose
-from core.field.agd import FIELD_VERTICES
+from core.cuts.perceptual import method as perceptual
+from core.field import agd
 from core.result.decomposition import Decomposition
 from core.result.numbering import Numbering
+from core.surface import mirror_images, small_faces
 from core.surface.arrays import components
 from core.surface.polygons import PolygonMesh
 from core.surface.preparation import bodies, repair
@@ -26,6 +29,7 @@ cases = st.fixed_dictionaries({
     "seed": st.integers(0, 999),
     "damages": st.lists(damages, max_size=4),
     "polygons": st.booleans(),
+    "dense": st.booleans(),
     "parameters": st.fixed_dictionaries({}, optional={
         "method": st.sampled_from(["perceptual", "berretti"]),
         "pieces": st.sampled_from(["together", "separate"]),
@@ -38,8 +42,26 @@ cases = st.fixed_dictionaries({
 })
 
 
+@contextmanager
+def few_are_many(wanted):
+    """If wanted, meshes of hundreds of faces go the ways of dense ones, over coarse copies."""
+    with pytest.MonkeyPatch.context() as patch:
+        if wanted:
+            patch.setattr(agd, "FIELD_VERTICES", 200)
+            patch.setattr(perceptual, "MAX_FACES", 800)
+            patch.setattr(small_faces, "DENSE", 500)
+            patch.setattr(mirror_images, "DENSE", 500)
+        yield
+
+
 def check(case):
     """Decompose the mesh of a case and look at what comes out; whether it was decomposed."""
+    with few_are_many(case.get("dense", False)):
+        return check_as_it_is(case)
+
+
+def check_as_it_is(case):
+    """The same, whatever counts as dense."""
     vertices, faces, polygon = build(case)
     given_arrays = vertices.copy(), faces.copy()
     with warnings.catch_warnings():
@@ -149,7 +171,7 @@ def assert_same_again(case, result, vertices, faces, polygon):
     if case["seed"] % 4:  # it takes as long again
         return
     fine = bodies(repair(PolygonMesh.of(vertices, faces, polygon)), True, 0.0)
-    larger = 2 if max((body.mesh.n_vertices for body in fine), default=0) <= FIELD_VERTICES else 1
+    larger = 2 if max((body.mesh.n_vertices for body in fine), default=0) <= agd.FIELD_VERTICES else 1
     again = decompose(larger * vertices, faces, Parameters(**case["parameters"]), polygon)
     np.testing.assert_array_equal(again.candidates, result.candidates)
     np.testing.assert_array_equal(again.hierarchy.merges, result.hierarchy.merges)
