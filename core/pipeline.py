@@ -108,7 +108,8 @@ def decompose(
     with watch.stage("mesh", MESH_SHARE) as done_of_mesh:
         given = PolygonMesh.of(vertices, faces, polygon)
         done_of_mesh(0.1)
-        given, ordering = sorted_by_place(given)  # from here on the unsorted mesh and its tables are free
+        # From here on the unsorted mesh and its tables are free.
+        given, ordering = sorted_by_place(given, parameters.pieces == TOGETHER)
         hint = np.zeros(0, np.int64) if hints is None else hints_of(hints, given.n_polygons)[ordering.polygon]
         done_of_mesh(0.4)
         working = repair(given)

@@ -36,6 +36,7 @@ _SPREAD = ((32, 0x1F00000000FFFF), (16, 0x1F0000FF0000FF), (8, 0x100F00F00F00F00
            (2, 0x1249249249249249))
 EQUAL = 1e-6  # relative difference below which two moments are equal
 LEAST_PIECE = 0.05  # share of the faces from which a piece is sorted in a frame of its own
+NEAR = 0.02  # share of the diagonal; pieces farther from each other are hardly one body
 EVEN = 1e-9  # relative size of a third moment below which both sides are alike
 
 
@@ -113,27 +114,48 @@ class Ordering:
         return TriMesh(mesh.vertices[self.vertex], np.take_along_axis(faces, turn, axis=1)), triangle
 
 
-def sorted_by_place(given: PolygonMesh) -> tuple[PolygonMesh, Ordering]:
+def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonMesh, Ordering]:
     """Sort faces and vertices by where they are.
 
-    Large pieces are sorted in frames of their own, so that they are what they would be without the others.
+    Large pieces are sorted in frames of their own, so that they are what they would be without the others. Where a
+    symmetry leaves several frames, that of the whole decides if pieces that touch are one body, and this one may touch
+    another; else the order of the given vertices, as it would without the others.
 
-    given : PolygonMesh. Returns the same surface, and where its elements are in the one given.
+    given : PolygonMesh. together : bool. Returns the same surface, and where its elements are in the one given.
     """
     mesh = given.triangles
     ordering = Ordering.of(mesh, given.polygon, given.n_polygons)
     a, b, c = mesh.faces.T
-    _, piece = components(mesh.n_vertices, np.concatenate([a, b]), np.concatenate([b, c]))
+    count, piece = components(mesh.n_vertices, np.concatenate([a, b]), np.concatenate([b, c]))
     size = np.bincount(piece[a])
-    for chosen in np.flatnonzero((size >= LEAST_PIECE * mesh.n_faces) & (size < mesh.n_faces)).tolist():
+    in_whole, in_given = inverse(ordering.vertex), np.arange(mesh.n_vertices)
+    large = np.flatnonzero((size >= LEAST_PIECE * mesh.n_faces) & (size < mesh.n_faces))
+    beside = _beside_another(mesh.vertices, piece, count, large) & together
+    for chosen, by_whole in zip(large.tolist(), beside.tolist(), strict=True):
         faces = np.flatnonzero(piece[a] == chosen)
         part, index = mesh.submesh(faces)
         names, polygon = renumbered(given.polygon[faces])
-        ordering = ordering.with_piece(Ordering.of(part, polygon, len(names)), index, names)
+        rank = (in_whole if by_whole else in_given)[index]
+        ordering = ordering.with_piece(Ordering.of(part, polygon, len(names), rank), index, names)
     triangles, triangle = ordering.sorted(mesh, given.polygon)
     number = inverse(ordering.polygon)[given.polygon[triangle]]
     return replace(given, triangles=triangles, polygon=frozen(number, np.int64),
                    vertex_rank=frozen(ordering.vertex, np.int64)), ordering
+
+
+def _beside_another(points: np.ndarray, piece: np.ndarray, count: int, chosen: np.ndarray) -> np.ndarray:
+    """Whether the bounding box of each of some pieces, (k,) bool, is no farther than NEAR from that of another.
+
+    piece : (n,) int64, of each point. chosen : (k,) int64.
+    """
+    if not len(chosen):
+        return np.zeros(0, bool)
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, piece, points)
+    np.maximum.at(high, piece, points)
+    near = NEAR * np.linalg.norm(np.ptp(points, axis=0))
+    return np.array([((low <= high[one] + near) & (high >= low[one] - near)).all(axis=1).sum() > 1 for one in chosen],
+                    bool)
 
 
 def principal_axes(moments: np.ndarray, toward: np.ndarray) -> np.ndarray:

@@ -27,7 +27,7 @@ MAX_EDGE = 0.5 * np.sqrt(0.005)
 # too many, and a coarser copy is better.
 MAX_GROWTH = 4
 MIN_BUDGET = 50_000  # number of faces up to which refinement of a single body never stops early
-ALL_BUDGETS = 50_000  # number of faces that several bodies share for that
+ALL_BUDGETS = 25_000  # number of faces that several bodies share for that
 # A body of few faces takes as long as hundreds of faces of a large one. So of very many bodies only those of more faces
 # are decomposed: this number of bodies, and one more for so many faces of the whole.
 MANY_BODIES, FACES_PER_BODY = 20, 300
@@ -273,20 +273,23 @@ def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]
     vertices = np.concatenate([mesh.vertices, mesh.vertices[ends].mean(axis=1)])
     mids = middle[mesh.edges.face_edges]
     n_split = (mids >= 0).sum(axis=1)
-    # Each face is turned so that its only split edge, or its only whole edge, is the first.
+    # Each face is turned so that its only split edge, or its only whole edge, is the first, or its first vertex.
     odd_one = np.where((n_split == 1)[:, None], mids >= 0, mids < 0)
-    turn = (odd_one.argmax(axis=1)[:, None] + np.arange(3)) % 3
+    first = np.where(n_split == 3, mesh.faces.argmin(axis=1), odd_one.argmax(axis=1))
+    turn = (first[:, None] + np.arange(3)) % 3
     a, b, c = np.take_along_axis(mesh.faces, turn, axis=1).T
     ab, bc, ca = np.take_along_axis(mids, turn, axis=1).T
-    # Where two edges are split, a quadrangle is left, which is cut along its shorter diagonal.
-    shorter = np.linalg.norm(vertices[a] - vertices[bc], axis=1) <= (1 + ROUNDING) * np.linalg.norm(
-        vertices[b] - vertices[ca], axis=1)
+    # Where two edges are split, a quadrangle is left, which is cut along its shorter diagonal. If both are equal, and
+    # for the order of what a face becomes, numbers of vertices decide, not the way round the face: the mirror image of a
+    # mesh is to become its mirror image.
+    from_a, from_b = (np.linalg.norm(vertices[p] - vertices[q], axis=1) for p, q in ((a, bc), (b, ca)))
+    at_a = (from_a < (1 - ROUNDING) * from_b) | ((from_a <= (1 + ROUNDING) * from_b) & (a < b))
     patterns = (
         (n_split == 0, ((a, b, c),)),
-        (n_split == 1, ((a, ab, c), (ab, b, c))),
-        ((n_split == 2) & shorter, ((a, b, bc), (a, bc, ca), (ca, bc, c))),
-        ((n_split == 2) & ~shorter, ((a, b, ca), (b, bc, ca), (ca, bc, c))),
-        (n_split == 3, ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))),
+        (n_split == 1, (_either(a < b, (a, ab, c), (ab, b, c)), _either(a > b, (a, ab, c), (ab, b, c)))),
+        (n_split == 2, (_either(at_a, (a, b, bc), (a, b, ca)), _either(at_a, (a, bc, ca), (b, bc, ca)), (ca, bc, c))),
+        (n_split == 3, ((a, ab, ca), _either(b < c, (ab, b, bc), (ca, bc, c)),
+                        _either(b > c, (ab, b, bc), (ca, bc, c)), (ab, bc, ca))),
     )
     faces, parent = [], []
     for chosen, triangles in patterns:
@@ -294,6 +297,11 @@ def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]
             faces.append(np.stack(corners, axis=1)[chosen])
             parent.append(np.flatnonzero(chosen))
     return TriMesh(vertices, np.concatenate(faces)), np.concatenate(parent)
+
+
+def _either(which: np.ndarray, one: tuple[np.ndarray, ...], other: tuple[np.ndarray, ...]) -> tuple[np.ndarray, ...]:
+    """Corners of triangles, (k,) each: of the one where ``which``, (k,) bool, is true, else of the other."""
+    return tuple(np.where(which, *pair) for pair in zip(one, other, strict=True))
 
 
 def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]]:

@@ -101,6 +101,37 @@ def test_a_model_exported_again_has_the_same_parts(parameters):
             np.testing.assert_array_equal(np.append(back, -1)[one.face_twin[face]], two.face_twin)
 
 
+MIRRORED = {
+    "half a ball": lambda: shapes.half_of(shapes.icosphere(2)), "grid": lambda: shapes.flat_grid(6, 4),
+    "half a vase": lambda: shapes.half_of(shapes.lathe([0, 1, 0.6, 1, 0], [0, 1, 2, 3, 4], 12)),
+    "ring": lambda: bent(shapes.torus(8, 5)), "figure": lambda: shapes.mirrored_figure(0.4),
+    "pieces": lambda: shapes.together(bent(shapes.box()), shapes.moved(bent(shapes.icosphere(1)), (0.9, 0.2, 0.3)),
+                                      shapes.moved(bent(shapes.torus(8, 5)), (0, 1, 0))),
+}
+
+
+@pytest.mark.parametrize("name", MIRRORED)
+def test_the_mirror_image_has_the_mirror_image_of_the_parts(name):
+    """So a symmetric model has the same parts whichever of its sides is taken for the first."""
+    shape = MIRRORED[name]()
+    image = Shape(shape.vertices * (-1, 1, 1), shape.faces[:, ::-1])
+    one, two = decompose(*shape), decompose(*image)
+    np.testing.assert_array_equal(one.candidates, two.candidates)
+    np.testing.assert_array_equal(one.hierarchy.merges, two.hierarchy.merges)
+    np.testing.assert_allclose(one.hierarchy.salience, two.hierarchy.salience, rtol=1e-12)
+
+
+def test_pieces_of_many_symmetries_are_sorted_by_the_whole():
+    """Blocks, each with many frames, that lie without symmetry."""
+    blocks = shapes.together(*(shapes.moved(shapes.Shape(size * shapes.box().vertices, shapes.box().faces), place)
+                               for size, place in ((1.0, (0, 0, 0)), (0.7, (0.8, 0.1, 0.3)), (1.0, (0.2, 0.9, 0.4)))))
+    one, _ = sorted_mesh(blocks)
+    for seed in range(4):
+        two, _ = sorted_mesh(shapes.shuffled(blocks, np.random.default_rng(seed))[0])
+        np.testing.assert_array_equal(one.triangles.vertices, two.triangles.vertices)
+        np.testing.assert_array_equal(one.triangles.faces, two.triangles.faces)
+
+
 def test_box_frames_with_their_faces_in_another_order():
     frame = shapes.torus(4, 4)
     face = np.random.default_rng(2).permutation(len(frame.faces))

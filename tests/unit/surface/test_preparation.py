@@ -225,3 +225,17 @@ def test_refinement_scales(scale):
     one, _ = split_long_edges(TriMesh(vertices, faces), 0.3)
     two, _ = split_long_edges(TriMesh(scale * vertices, faces), 0.3 * scale)
     np.testing.assert_array_equal(one.faces, two.faces)
+
+
+@pytest.mark.parametrize("make", [
+    lambda: shapes.box((1, 2, 3)), lambda: shapes.flat_grid(3, 2), lambda: shapes.octahedron(),
+    lambda: shapes.half_of(shapes.lathe([0, 1, 0.6, 0], [0, 1, 2, 3], 8))])
+def test_the_mirror_image_is_split_like_the_mesh(make):
+    """Also where both diagonals of what is left of a face are equal; faces and vertices come in the same order."""
+    vertices, faces = make()[:2]
+    image = TriMesh(vertices * (-1, 1, 1), faces[:, ::-1])
+    one, source = split_long_edges(TriMesh(vertices, faces), 0.21)
+    two, image_source = split_long_edges(image, 0.21)
+    np.testing.assert_array_equal(one.vertices * (-1, 1, 1), two.vertices)
+    np.testing.assert_array_equal(np.sort(one.faces, axis=1), np.sort(two.faces, axis=1))
+    np.testing.assert_array_equal(source, image_source)
