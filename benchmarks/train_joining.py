@@ -198,7 +198,7 @@ def fit_distant(subjects: list[Subject], distant: dict[int, list[DistantPairs]])
                 weight = np.sqrt(area[pairs.parts[chosen]].min(axis=1))
                 weight *= 1000 * DISTANT_KINDS[subject.kind] * np.sqrt(min(len(area), MAX_PAIRS)) / weight.sum()
                 rows.append((pairs.features[chosen], body.together(pairs.parts[chosen]), weight))
-    return fit(rows, DISTANT_SETTINGS, DISTANT_FEATURES, N_TREES, 1)
+    return fit(rows, DISTANT_SETTINGS, DISTANT_FEATURES, N_TREES, N_MODELS)
 
 
 def _asked(subject: Subject, same_piece: np.ndarray) -> np.ndarray:

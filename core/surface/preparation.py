@@ -280,8 +280,8 @@ def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]
     a, b, c = np.take_along_axis(mesh.faces, turn, axis=1).T
     ab, bc, ca = np.take_along_axis(mids, turn, axis=1).T
     # Where two edges are split, a quadrangle is left, which is cut along its shorter diagonal. If both are equal, and
-    # for the order of what a face becomes, numbers of vertices decide, not the way round the face: the mirror image of a
-    # mesh is to become its mirror image.
+    # for the order of what a face becomes, numbers of vertices decide, not the way round the face: the mirror image of
+    # a mesh is to become its mirror image.
     from_a, from_b = (np.linalg.norm(vertices[p] - vertices[q], axis=1) for p, q in ((a, bc), (b, ca)))
     at_a = (from_a < (1 - ROUNDING) * from_b) | ((from_a <= (1 + ROUNDING) * from_b) & (a < b))
     patterns = (
