@@ -286,6 +286,8 @@ def _prolong_labels(mesh: TriMesh, step: Coarsening, label: np.ndarray) -> np.nd
 
 def _restrict(field: ScalarField, owner: np.ndarray, weight: np.ndarray, n: int) -> ScalarField:
     """Field on a coarse copy of n vertices: the mean over each cell, weighted by ``weight``."""
+    # All faces at a vertex, and in a cell, may be without area.
+    weight = np.where(weight > 0, weight, 1e-12 * weight.mean())
     total = np.bincount(owner, weight, n)
     return ScalarField(*(np.bincount(owner, weight * f, n) / total
                          for f in (field.values, field.normalized, field.agd)))
