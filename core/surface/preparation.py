@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from ..sentence import Sentence
 from .arrays import components, distinct_pairs, first_at_place, frozen, inverse, renumbered, stable_order
@@ -31,6 +32,8 @@ ALL_BUDGETS = 25_000  # number of faces that several bodies share for that
 # A body of few faces takes as long as hundreds of faces of a large one. So of very many bodies only those of more faces
 # are decomposed: this number of bodies, and one more for so many faces of the whole.
 MANY_BODIES, FACES_PER_BODY = 20, 300
+GAP = 5e-5  # share of the diagonal within which border vertices are one: seams that were moved, and rounded, apart
+NEAREST = 8  # of the border vertices around each, itself included, so many are looked at
 MOST_AROUND = 32  # number of faces around a vertex that are walked along; of more, all are looked at together
 # Relative difference below which two lengths are equal: rounding errors must not decide how a box is divided.
 ROUNDING = 1e-9
@@ -307,15 +310,45 @@ def _either(which: np.ndarray, one: tuple[np.ndarray, ...], other: tuple[np.ndar
 def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]]:
     """Vertex that each vertex is joined to, (n,) int64, and a note of how many were joined.
 
-    A border vertex is joined to the first border vertex at its place, any other vertex to itself: two closed surfaces
-    that touch stay two components.
+    A border vertex is joined to the first border vertex at its place, or within GAP of it, any other vertex to itself:
+    two closed surfaces that touch stay two components.
     """
-    joined = first_at_place(mesh.vertices, np.unique(mesh.edges.vertices[mesh.edges.n_faces == 1]))
+    border = np.unique(mesh.edges.vertices[mesh.edges.n_faces == 1])
+    joined = _joined_nearby(mesh, first_at_place(mesh.vertices, border), border)
     n_joined = int((joined != np.arange(len(joined))).sum())
     if not n_joined:
         return joined, ()
     return joined, (
         Sentence("{n} coincident border {n:vertex is|vertices are} treated as joined.", n=n_joined),)
+
+
+def _joined_nearby(mesh: TriMesh, joined: np.ndarray, border: np.ndarray) -> np.ndarray:
+    """As ``joined``, (n,) int64, but border vertices within GAP of each other are joined, too.
+
+    Not where a face would have a corner twice: what is as small as that stays as it is.
+    """
+    place = border[joined[border] == border]
+    if len(place) < 2:
+        return joined
+    gap = GAP * np.linalg.norm(np.ptp(mesh.vertices[mesh.used], axis=0))
+    distance, near = cKDTree(mesh.vertices[place]).query(
+        mesh.vertices[place], k=range(2, min(NEAREST, len(place)) + 1), distance_upper_bound=gap)
+    row, column = np.nonzero(np.isfinite(distance))
+    if not len(row):
+        return joined
+    count, group = components(len(place), row, near[row, column])
+    of_vertex = np.full(mesh.n_vertices, -1)
+    of_vertex[place] = group
+    corners = np.sort(of_vertex[joined][mesh.faces], axis=1)
+    # Corners that were one before are no matter of this.
+    doubled = (corners[:, 1:] == corners[:, :-1]) & (corners[:, 1:] >= 0)
+    kept = np.ones(count, bool)
+    kept[corners[:, 1:][doubled]] = False
+    first = np.full(count, mesh.n_vertices)
+    np.minimum.at(first, group, place)
+    goal = np.arange(mesh.n_vertices)
+    goal[place] = np.where(kept[group], first[group], place)
+    return goal[joined]
 
 
 def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:

@@ -239,3 +239,36 @@ def test_the_mirror_image_is_split_like_the_mesh(make):
     np.testing.assert_array_equal(one.vertices * (-1, 1, 1), two.vertices)
     np.testing.assert_array_equal(np.sort(one.faces, axis=1), np.sort(two.faces, axis=1))
     np.testing.assert_array_equal(source, image_source)
+
+
+def exploded(shape, gap, rng):
+    """Every face with vertices of its own, each moved by up to a gap, as a share of the diagonal."""
+    apart = shapes.unjoined(shape)
+    way = rng.normal(size=apart.vertices.shape)
+    way /= np.linalg.norm(way, axis=1, keepdims=True)
+    diagonal = np.linalg.norm(np.ptp(shape.vertices, axis=0))
+    return shapes.Shape(apart.vertices + gap * diagonal * rng.random((len(way), 1)) * way, apart.faces)
+
+
+@pytest.mark.parametrize("make", [lambda: shapes.icosphere(3), lambda: shapes.torus(24, 12), lambda: shapes.box(),
+                                  lambda: shapes.moved(shapes.tube_tree(3, 0.2), 1e3), lambda: shapes.flat_grid(8, 5)])
+def test_seams_that_gape_within_rounding_are_joined(make):
+    shape = make()
+    for seed in range(3):
+        working = repaired(exploded(shape, 2e-5, np.random.default_rng(seed)))
+        assert working.mesh.n_vertices == len(shape.vertices)
+        assert working.mesh.euler_characteristic == TriMesh(*shape).euler_characteristic
+        assert has_note(working, "are treated as joined")
+
+
+def test_gaps_that_one_can_see_stay_open():
+    shape = shapes.icosphere(2)
+    working = repaired(exploded(shape, 1e-3, np.random.default_rng(0)))
+    assert working.mesh.n_vertices == 3 * len(shape.faces)
+
+
+def test_a_piece_as_small_as_the_gap_keeps_its_faces():
+    speck = shapes.flat_grid(3, 3)
+    speck = shapes.Shape(5e-6 * speck.vertices, speck.faces)
+    working = repaired(shapes.together(shapes.icosphere(2), shapes.moved(speck, (0, 0, 2))))
+    assert working.mesh.n_faces == len(shapes.icosphere(2).faces) + len(speck.faces)
