@@ -74,6 +74,8 @@ def _inside_out(mesh: TriMesh, chosen: np.ndarray) -> np.ndarray:
 
     The volume as seen from the middle of a piece, which lacks what is below its holes, rules most of them out at once.
     """
+    if not chosen.any():
+        return chosen
     count, piece = mesh.face_components
     area = np.bincount(piece, mesh.face_area, count)
     middle = np.stack([np.bincount(piece, mesh.face_area * x, count) for x in mesh.face_centroids.T], axis=1)

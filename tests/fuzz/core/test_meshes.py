@@ -11,6 +11,7 @@ from fuzz import budget
 from fuzz.core.meshes import DAMAGES, REFUSED, SHAPES, build
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
+from scipy.spatial import cKDTree
 
 from core import Parameters, ReebError, decompose
 from core.cuts.perceptual import method as perceptual
@@ -20,7 +21,7 @@ from core.result.numbering import Numbering
 from core.surface import mirror_images, small_faces
 from core.surface.arrays import components
 from core.surface.polygons import PolygonMesh
-from core.surface.preparation import bodies, repair
+from core.surface.preparation import GAP, bodies, repair
 from core.uses.report import document, report
 
 damages = st.tuples(st.sampled_from(sorted(DAMAGES)), st.floats(0, 1, width=16), st.integers(0, 99)).map(list)
@@ -136,14 +137,21 @@ def assert_sound(result, vertices, faces, polygon):
 def connected(label, vertices, faces):
     """Whether the faces of each label hang together along edges; those of no area may lie apart.
 
-    Three corners on a line, or a speck within the rounding of coordinates, have an area that is rarely exactly 0.
+    Vertices within GAP of each other count as one. Three corners on a line, or a speck within the rounding of
+    coordinates, have an area that is rarely exactly 0.
     """
     corners = vertices[faces] - vertices[faces[0, 0]]
     corners /= np.abs(corners).max() or 1.0
     area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     solid = area > 1e-12
-    _, place = np.unique(vertices + 0.0, axis=0, return_inverse=True)
-    faces = place.reshape(-1)[faces]
+    used = np.unique(faces)
+    _, at, place = np.unique(vertices[used] + 0.0, axis=0, return_index=True, return_inverse=True)
+    spots = vertices[used[at]] - vertices[used[0]]
+    spots /= np.abs(spots).max() or 1.0
+    near = cKDTree(spots).query_pairs(1.01 * GAP * np.linalg.norm(np.ptp(spots, axis=0)), output_type="ndarray")
+    name = np.zeros(len(vertices), np.int64)
+    name[used] = components(len(spots), *near.T)[1][place.reshape(-1)]
+    faces = name[faces]
     edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     _, edge = np.unique(edges, axis=0, return_inverse=True)
     n = len(faces)
