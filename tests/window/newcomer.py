@@ -77,6 +77,7 @@ def facts():
     """What the test compares between the steps."""
     mesh = suzanne().data
     pieces = [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data != mesh]
+    mesh.calc_loop_triangles()
     return {
         "hidden": suzanne().hide_get(),
         "selected": sorted(obj.name for obj in bpy.context.selected_objects),
@@ -86,6 +87,7 @@ def facts():
         "parts": [part.name for part in mesh.reeb_parts.parts],
         "pieces": {obj.name: sum(polygon.area for polygon in obj.data.polygons) for obj in pieces},
         "area": sum(polygon.area for polygon in mesh.polygons),
+        "area of triangles": sum(triangle.area for triangle in mesh.loop_triangles),
         "shown": sorted(obj.name for obj in pieces if obj.visible_get()),
     }
 
