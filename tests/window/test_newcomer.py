@@ -35,8 +35,8 @@ def test_every_part_is_an_object_that_is_seen(seen):
     separated = seen["separated"]
     assert sorted(separated["pieces"]) == separated["shown"]
     assert separated["shown"] == sorted(f"Suzanne {name}" for name in seen["decomposed"]["parts"])
-    # Faces are divided where a smooth cut runs. Those of Suzanne are bent a little, and Blender's area of a bent face is
-    # that of its shadow: what it is divided into has no less, and no more than its triangles.
+    # Faces are divided where a smooth cut runs. Those of Suzanne are bent a little, and Blender's area of a bent face
+    # is that of its shadow: what it is divided into has no less, and no more than its triangles.
     least, most = seen["added"]["area"], seen["added"]["area of triangles"]
     assert least * (1 - 1e-6) <= sum(separated["pieces"].values()) <= most * (1 + 1e-6)
 
