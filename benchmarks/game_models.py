@@ -24,6 +24,7 @@ import packages
 packages.need("numpy", "scipy", "tqdm")
 
 import numpy as np
+from meshes import joined
 from tqdm import tqdm
 
 #: By skeleton, the models that it moves: in art/meshes/skeletal, without their endings.
@@ -203,11 +204,9 @@ def labelled(pieces: list[Skinned], bones: Skeleton) -> dict[str, np.ndarray]:
     same = SAME * np.linalg.norm(np.ptp(pieces[0].vertices, axis=0))
     vertices, faces, human, count = [], [], [], 0
     for piece in pieces:
-        _, first, place = np.unique(np.round(piece.vertices / same), axis=0, return_index=True, return_inverse=True)
-        joined = place.reshape(-1)[piece.faces]
-        whole = (joined != np.roll(joined, 1, axis=1)).all(axis=1)
+        first, joined_faces, whole = joined(piece.vertices, piece.faces, same)
         vertices.append(piece.vertices[first])
-        faces.append(joined[whole] + count)
+        faces.append(joined_faces + count)
         human.append(np.stack([_most_moved(piece, piece.faces[whole], [names[k] for names in named])
                                for k in range(3)]))
         count += len(first)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes for the benchmarks: read from files, and refined to a size."""
+"""Meshes for the benchmarks: read from files, joined at their seams, and refined to a size."""
 
 from __future__ import annotations
 
@@ -21,6 +21,17 @@ def load_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
     first = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
     vertices = np.concatenate([mesh.vertices for mesh in meshes])
     return vertices, np.concatenate([mesh.faces + start for mesh, start in zip(meshes, first, strict=False)])
+
+
+def joined(vertices: np.ndarray, faces: np.ndarray, same: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """One of the vertices in each cell of a grid of the step ``same``.
+
+    Returns these vertices, (n',), the faces on them that keep three corners, (m', 3), and which faces do, (m,) bool.
+    """
+    _, first, place = np.unique(np.round(vertices / same), axis=0, return_index=True, return_inverse=True)
+    faces = place.reshape(-1)[faces]
+    whole = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+    return first, faces[whole], whole
 
 
 def refined(vertices: np.ndarray, faces: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:

@@ -24,6 +24,7 @@ import fast_simplification
 import numpy as np
 import trimesh
 import yourdfpy
+from meshes import joined
 from tqdm import tqdm
 
 from core.surface.arrays import components
@@ -126,9 +127,8 @@ def reduced(robot: Robot) -> Robot:
 def _joined(vertices: np.ndarray, faces: np.ndarray, same: float) -> tuple[np.ndarray, np.ndarray]:
     """Some faces with their vertices only, those at one place joined."""
     used, faces = np.unique(faces, return_inverse=True)
-    _, first, place = np.unique(np.round(vertices[used] / same), axis=0, return_index=True, return_inverse=True)
-    faces = place.reshape(-1)[faces.reshape(-1, 3)]
-    return vertices[used][first], faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+    first, faces, _ = joined(vertices[used], faces.reshape(-1, 3), same)
+    return vertices[used][first], faces
 
 
 def _without_specks(vertices: np.ndarray, faces: np.ndarray, least: float) -> tuple[np.ndarray, np.ndarray]:

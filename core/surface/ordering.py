@@ -130,7 +130,7 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
     size = np.bincount(piece[a])
     in_whole, in_given = inverse(ordering.vertex), np.arange(mesh.n_vertices)
     large = np.flatnonzero((size >= LEAST_PIECE * mesh.n_faces) & (size < mesh.n_faces))
-    beside = _beside_another(mesh.vertices, piece, count, large) & together
+    beside = _beside_another(mesh.vertices, piece, count, large) if together else np.zeros(len(large), bool)
     for chosen, by_whole in zip(large.tolist(), beside.tolist(), strict=True):
         faces = np.flatnonzero(piece[a] == chosen)
         part, index = mesh.submesh(faces)
