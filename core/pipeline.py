@@ -19,8 +19,9 @@ from .graph.reeb import reeb_graph, reeb_topology
 from .graph.simplify import without_ripples
 from .parameters import TOGETHER, Parameters
 from .progress import Progress, Stopwatch
-from .result.assemble import ComponentResult, assemble
+from .result.assemble import assemble
 from .result.decomposition import Decomposition
+from .result.found import ComponentResult
 from .result.half import of_half
 from .surface.arguments import hints_of
 from .surface.coarsening import Pyramid

@@ -5,73 +5,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from dataclasses import field as dataclass_field
-from functools import cached_property
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..cuts.hierarchy import Candidates, Dendrogram, Hierarchy
+from ..cuts.hierarchy import Hierarchy
 from ..cuts.hinted import hinted_candidates
-from ..cuts.joining.method import LAST
+from ..cuts.settling import settle
 from ..cuts.symmetric import symmetric_candidates
 from ..cuts.symmetric_regions import MANY, symmetric_on_regions
 from ..field.agd import ScalarField
-from ..graph.level_sets import LevelSets
-from ..graph.reeb import ReebGraph, ReebTopology
+from ..graph.reeb import ReebGraph
 from ..parameters import PERCEPTUAL, TOGETHER, Parameters
 from ..sentence import Sentence
-from ..surface.arrays import components, last_of_each, renumbered, sums_by
+from ..surface.arrays import components, last_of_each, sums_by
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.polygons import PolygonMesh
-from ..surface.preparation import Component, WorkingMesh
+from ..surface.preparation import WorkingMesh
 from .decomposition import Decomposition
 from .fans import boundaries
+from .found import LEAST_WEIGHT, ComponentResult, face_votes
 from .mirrors import Mirror, find_mirrors
 from .slivers import without_slivers
-from .votes import WIDTH, FaceVotes
-
-# Added to the areas and lengths by which faces vote for labels: as a share of the area of the mesh, and in units of the
-# vertices. Faces without an area vote with this weight, after all others.
-LEAST_WEIGHT = 1e-12
-
-
-@dataclass(frozen=True, eq=False)
-class ComponentResult:
-    """Everything that the stages found on one component.
-
-    Attributes
-    ----------
-    component : Component
-        The component of the working copy.
-    field : ScalarField
-        AGD at the component's vertices.
-    sets : LevelSets
-        Level sets of the field.
-    topology : ReebTopology
-        Nodes and arcs of the Reeb graph, simplified.
-    graph : ReebGraph
-        The Reeb graph with values, positions and center lines.
-    candidates : Candidates
-        Candidates and the order in which they merge.
-    contacts : (k, 2) int64
-        Faces of the component's mesh that touch, or nearly so, though they share no edge.
-    """
-
-    component: Component
-    field: ScalarField
-    sets: LevelSets
-    topology: ReebTopology
-    graph: ReebGraph
-    candidates: Candidates
-    contacts: np.ndarray = dataclass_field(default_factory=lambda: np.empty((0, 2), np.int64))
-
-    @cached_property
-    def face_candidate(self) -> np.ndarray:
-        """(m,) int64, the candidate that has most of each face of the component's mesh."""
-        mesh = self.component.mesh
-        area = self.sets.element_area + LEAST_WEIGHT * mesh.area
-        return majority(self.sets.element_face, self.candidates.element_candidate, area, mesh.n_faces)
+from .votes import WIDTH
 
 
 def assemble(
@@ -258,7 +214,7 @@ def _face_candidates(
     parameters: Parameters,
 ) -> tuple[np.ndarray, Hierarchy]:
     """Candidate of each of the caller's faces, (p,) int64, all of them connected, and the hierarchy over them."""
-    votes, hierarchy = _votes(given, working, results)
+    votes, hierarchy = face_votes(given, working, results)
     width = _refined_width(given, results)
 
     def loss(face: np.ndarray, own: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -271,31 +227,6 @@ def _face_candidates(
     return connect(face_graph, straighten(face_graph, label, parameters.smoothing, held)), hierarchy
 
 
-def _votes(
-    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]
-) -> tuple[FaceVotes, Hierarchy]:
-    """What candidates have of each of the caller's faces, and the hierarchy over the candidates."""
-    owner, label, weight, hierarchies, first = [], [], [], [], 0
-    rest = np.ones(working.mesh.n_faces, bool)
-    for r in results:
-        sets = r.sets
-        owner.append(r.component.polygon[sets.element_face])
-        label.append(first + r.candidates.element_candidate)
-        weight.append(sets.element_area + LEAST_WEIGHT * sets.mesh.area)
-        hierarchies.append(r.candidates.hierarchy)
-        first += r.candidates.hierarchy.n_candidates
-        rest[r.component.faces] = False
-    if rest.any():  # components that were not decomposed are one candidate each
-        names, numbers = renumbered(working.mesh.face_components[1][rest])
-        owner.append(working.polygon[rest])
-        label.append(first + numbers)
-        weight.append(working.mesh.face_area[rest] + LEAST_WEIGHT * working.mesh.area)
-        hierarchies.append(Hierarchy.of(len(names), [], []))
-    hierarchy = _join_bodies(Hierarchy.join(hierarchies))
-    return FaceVotes(np.concatenate(owner), np.concatenate(label), np.concatenate(weight), given.n_polygons,
-                     hierarchy), hierarchy
-
-
 def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.ndarray:
     """WIDTH in the unit of the vertices at each of the caller's faces, (p,) float64; infinite at faces not refined."""
     width = np.full(given.n_polygons, np.inf)
@@ -304,15 +235,6 @@ def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.nda
         triangles = np.bincount(r.component.polygon, minlength=given.n_polygons)
         width[triangles > before] = WIDTH * np.sqrt(r.component.mesh.area)
     return width
-
-
-def _join_bodies(hierarchy: Hierarchy) -> Hierarchy:
-    """Let what never merges merge last, one after the other: detail 0 is one part."""
-    left = hierarchy.parts(0)
-    first = np.unique(left, return_index=True)[1]
-    merges = np.stack([np.full(len(first) - 1, first[0]), first[1:]], axis=1)
-    salience = np.concatenate([hierarchy.salience, np.full(len(merges), LAST)])
-    return Hierarchy.of(hierarchy.n_candidates, np.concatenate([hierarchy.merges, merges]), salience)
 
 
 def _apart(
@@ -369,35 +291,6 @@ def _contacts(
     offset = np.linalg.norm(mesh.face_centroids - center[face_body], axis=1)
     face = last_of_each(face_body, -offset, count=joined)
     return np.concatenate([pairs, working.polygon[face[np.array(links, np.int64).reshape(-1, 2)]]])
-
-
-def settle(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -> tuple[np.ndarray, Hierarchy]:
-    """Drop candidates that no face of the caller has, and let candidates merge only where they touch.
-
-    Parameters
-    ----------
-    graph : FaceGraph
-        Which of the caller's faces touch.
-    label : (n_faces,) int64
-        Candidate of each face; every candidate is connected.
-    hierarchy : Hierarchy
-        Merges of all candidates, also of those that no face has.
-
-    Returns
-    -------
-    label : (n_faces,) int64
-        Candidate of each face, 0..c-1, all in use.
-    hierarchy : Hierarchy
-        Merges of the c candidates, in the given order. A merge whose two sides do not touch on the caller's faces is
-        put off until they do.
-    """
-    present, label = renumbered(label)
-    touching, _ = graph.boundaries(label)
-    merge = hierarchy.merge_of(*present[touching].T)
-    order = np.argsort(merge, kind="stable")
-    order = order[merge[order] < len(hierarchy.merges)]
-    rows = order[Dendrogram.of(len(present), touching[order]).rows]
-    return label, Hierarchy.of(len(present), touching[rows], hierarchy.salience[merge[rows]])
 
 
 def _vertex_field(

@@ -7,12 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..cuts.settling import settle
 from ..sentence import Sentence
 from ..surface.labels import connect, majority
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import repair
-from .assemble import LEAST_WEIGHT, face_graph_of, settle, tables_of
+from .assemble import face_graph_of, tables_of
 from .decomposition import Decomposition
+from .found import LEAST_WEIGHT
 
 
 def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
