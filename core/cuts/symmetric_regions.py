@@ -15,7 +15,7 @@ MANY = 20_000  # number of faces from which on regions are faster, and slivers a
 
 def symmetric_on_regions(
     graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, twin: np.ndarray,
-    height: np.ndarray, first: float,
+    height: np.ndarray, first: float, exact: bool = False,
 ) -> tuple[np.ndarray, Hierarchy]:
     """What ``symmetric_candidates`` makes of one plane, but for slivers beside the cuts.
 
@@ -31,6 +31,7 @@ def symmetric_on_regions(
     height : (p,) float64
         Signed distance of each face from the plane.
     first : float
+    exact : bool
 
     Returns
     -------
@@ -53,5 +54,5 @@ def symmetric_on_regions(
     found, tree = symmetric_candidates(
         regions, touching[touching[:, 0] != touching[:, 1]], own, hierarchy,
         majority(region[has], region[twin[has]], graph.area[has] + 1e-12 * graph.area.sum(), count),
-        height[of_region], first)
+        height[of_region], first, exact)
     return (label, hierarchy) if found is own else (found[region], tree)

@@ -24,10 +24,11 @@ from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh
 from .decomposition import Decomposition
 from .fans import boundaries
-from .found import LEAST_WEIGHT, ComponentResult, face_votes
+from .found import LEAST_WEIGHT, ComponentResult, FoundCandidates
 from .mirrors import Mirror, find_mirrors
 from .slivers import without_slivers
-from .votes import WIDTH
+from .votes import WIDTH, FaceVotes
+from .within_faces import symmetric_within_faces
 
 
 def assemble(
@@ -60,10 +61,12 @@ def assemble(
     """
     face_graph = face_graph_of(given, working)
     contacts = _contacts(given, working, results, face_graph)
-    label, hierarchy = _face_candidates(given, working, results, face_graph, parameters)
-    label, hierarchy = _apart(working, face_graph, label, hierarchy)
     mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
-    for mirror in mirrors:
+    coarse = [mirror for mirror in mirrors if mirror.within]
+    found = symmetric_within_faces(results, coarse) if coarse and results else FoundCandidates.of(results)
+    label, hierarchy = _face_candidates(given, found.with_rest(working, results), results, face_graph, parameters)
+    label, hierarchy = _apart(working, face_graph, label, hierarchy)
+    for mirror in (mirror for mirror in mirrors if not mirror.within):
         label, hierarchy = _symmetric(face_graph, contacts, label, hierarchy, mirror)
     if mirrors and len(contacts):  # what is joined on one side by an edge may be joined by contact on the other
         label, hierarchy = _apart(working, face_graph, label, hierarchy)
@@ -210,11 +213,11 @@ def _nearest_kept(given: PolygonMesh, kept: np.ndarray, lost: np.ndarray) -> np.
 
 
 def _face_candidates(
-    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], face_graph: FaceGraph,
+    given: PolygonMesh, found: FoundCandidates, results: list[ComponentResult], face_graph: FaceGraph,
     parameters: Parameters,
 ) -> tuple[np.ndarray, Hierarchy]:
     """Candidate of each of the caller's faces, (p,) int64, all of them connected, and the hierarchy over them."""
-    votes, hierarchy = face_votes(given, working, results)
+    votes = FaceVotes(found.face, found.label, found.area, given.n_polygons, found.hierarchy)
     width = _refined_width(given, results)
 
     def loss(face: np.ndarray, own: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -224,7 +227,7 @@ def _face_candidates(
     label = connect(face_graph, fill_unlabeled(face_graph, votes.winners()))
     # Patches may be smaller than refined faces; the candidates of the other method are not.
     held = loss if parameters.method == PERCEPTUAL else None
-    return connect(face_graph, straighten(face_graph, label, parameters.smoothing, held)), hierarchy
+    return connect(face_graph, straighten(face_graph, label, parameters.smoothing, held)), found.hierarchy
 
 
 def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.ndarray:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from dataclasses import field as dataclass_field
 from functools import cached_property
+from itertools import accumulate
 
 import numpy as np
 
@@ -16,9 +17,7 @@ from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebGraph, ReebTopology
 from ..surface.arrays import renumbered
 from ..surface.labels import majority
-from ..surface.polygons import PolygonMesh
 from ..surface.preparation import Component, WorkingMesh
-from .votes import FaceVotes
 
 # Added to the areas and lengths by which faces vote for labels: as a share of the area of the mesh, and in units of the
 # vertices. Faces without an area vote with this weight, after all others.
@@ -63,35 +62,63 @@ class ComponentResult:
         return majority(self.sets.element_face, self.candidates.element_candidate, area, mesh.n_faces)
 
 
-def face_votes(
-    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult]
-) -> tuple[FaceVotes, Hierarchy]:
-    """What candidates have of each of the caller's faces, and the hierarchy over the candidates."""
-    owner, label, weight, hierarchies, first = [], [], [], [], 0
-    rest = np.ones(working.mesh.n_faces, bool)
-    for r in results:
-        sets = r.sets
-        owner.append(r.component.polygon[sets.element_face])
-        label.append(first + r.candidates.element_candidate)
-        weight.append(sets.element_area + LEAST_WEIGHT * sets.mesh.area)
-        hierarchies.append(r.candidates.hierarchy)
-        first += r.candidates.hierarchy.n_candidates
-        rest[r.component.faces] = False
-    if rest.any():  # components that were not decomposed are one candidate each
+@dataclass(frozen=True, eq=False)
+class FoundCandidates:
+    """The candidates of all components, on the pieces of the caller's faces that they were found on.
+
+    Attributes
+    ----------
+    face : (r,) int64
+        In which of the caller's faces each piece lies.
+    label : (r,) int64
+        Candidate of each piece.
+    area : (r,) float64
+        Above 0.
+    hierarchy : Hierarchy
+        Over the candidates; in the end all are one part.
+    """
+
+    face: np.ndarray
+    label: np.ndarray
+    area: np.ndarray
+    hierarchy: Hierarchy
+
+    @classmethod
+    def of(cls, results: list[ComponentResult]) -> FoundCandidates:
+        """What the stages found, on the elements between level sets."""
+        first = firsts([r.candidates.hierarchy.n_candidates for r in results])
+        face = [r.component.polygon[r.sets.element_face] for r in results]
+        label = [k + r.candidates.element_candidate for k, r in zip(first, results, strict=True)]
+        area = [r.sets.element_area + LEAST_WEIGHT * r.sets.mesh.area for r in results]
+        nothing = np.empty(0, np.int64), np.empty(0)  # of nothing but small pieces none is decomposed
+        return cls(np.concatenate([nothing[0], *face]), np.concatenate([nothing[0], *label]),
+                   np.concatenate([nothing[1], *area]), joined_hierarchies([r.candidates.hierarchy for r in results]))
+
+    def with_rest(self, working: WorkingMesh, results: list[ComponentResult]) -> FoundCandidates:
+        """These, and a candidate for each component that was not decomposed."""
+        rest = np.ones(working.mesh.n_faces, bool)
+        for r in results:
+            rest[r.component.faces] = False
+        if not rest.any():
+            return self
         names, numbers = renumbered(working.mesh.face_components[1][rest])
-        owner.append(working.polygon[rest])
-        label.append(first + numbers)
-        weight.append(working.mesh.face_area[rest] + LEAST_WEIGHT * working.mesh.area)
-        hierarchies.append(Hierarchy.of(len(names), [], []))
-    hierarchy = _join_bodies(Hierarchy.join(hierarchies))
-    return FaceVotes(np.concatenate(owner), np.concatenate(label), np.concatenate(weight), given.n_polygons,
-                     hierarchy), hierarchy
+        area = working.mesh.face_area[rest] + LEAST_WEIGHT * working.mesh.area
+        return FoundCandidates(np.concatenate([self.face, working.polygon[rest]]),
+                               np.concatenate([self.label, self.hierarchy.n_candidates + numbers]),
+                               np.concatenate([self.area, area]),
+                               joined_hierarchies([self.hierarchy, Hierarchy.of(len(names), [], [])]))
 
 
-def _join_bodies(hierarchy: Hierarchy) -> Hierarchy:
-    """Let what never merges merge last, one after the other: detail 0 is one part."""
+def firsts(counts: list[int]) -> list[int]:
+    """The number of the first of each of several lists that are put one after the other, and were counted from 0."""
+    return [0, *accumulate(counts)][:-1]
+
+
+def joined_hierarchies(several: list[Hierarchy]) -> Hierarchy:
+    """Hierarchies side by side. What never merges merges last, one after the other: detail 0 is one part."""
+    hierarchy = Hierarchy.join([Hierarchy.of(0, [], []), *several])
     left = hierarchy.parts(0)
     first = np.unique(left, return_index=True)[1]
-    merges = np.stack([np.full(len(first) - 1, first[0]), first[1:]], axis=1)
+    merges = np.stack([np.repeat(first[:1], len(first[1:])), first[1:]], axis=1)
     salience = np.concatenate([hierarchy.salience, np.full(len(merges), LAST)])
     return Hierarchy.of(hierarchy.n_candidates, np.concatenate([hierarchy.merges, merges]), salience)

@@ -12,7 +12,7 @@ from ..surface.mirror_images import Images
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
 from ..surface.small_faces import SmallFaces
-from ..surface.symmetry import LEAST, mirror_plane
+from ..surface.symmetry import EXACT, LEAST, mirror_plane
 
 LEAST_BODY = 0.1  # share of the area below which a body has no plane of its own
 
@@ -35,6 +35,9 @@ class Mirror:
         Whether all faces are exact mirror images of others, or of themselves.
     across : tuple of Mirror
         Of an exact one: others across it and each other that are exact, too.
+    within : tuple of MirrorPlane
+        If the faces are too large to be mirrored, the planes in which smaller ones are to be, this one first; then a
+        twin is the face that most of an image lies in.
     """
 
     plane: np.ndarray
@@ -43,6 +46,7 @@ class Mirror:
     first: float = 1.0
     exact: bool = False
     across: tuple[Mirror, ...] = ()
+    within: tuple[MirrorPlane, ...] = ()
 
     @classmethod
     def of(cls, mesh: TriMesh, polygon: np.ndarray, n_polygons: int) -> Mirror | None:
@@ -55,7 +59,14 @@ class Mirror:
         if (images.twins < 0).all():
             return None
         across = tuple(cls._in(other.plane, other.exact_twins, mesh, polygon) for other in images.exact[1:])
-        return replace(cls._in(plane, images.twins, mesh, polygon), exact=bool(images.exact), across=across)
+        return replace(cls._in(plane, images.twins, mesh, polygon), exact=bool(images.exact), across=across,
+                       within=tuple(images.within))
+
+    @classmethod
+    def of_faces(cls, plane: MirrorPlane, mesh: TriMesh) -> Mirror:
+        """A plane that is known, and what it does to the faces of a mesh."""
+        faces = SmallFaces.of(mesh)
+        return replace(cls._in(plane, Images(faces, plane).twins, mesh, faces.polygon), exact=plane.share >= 1 - EXACT)
 
     @classmethod
     def _in(cls, plane: MirrorPlane, twin: np.ndarray, mesh: TriMesh, polygon: np.ndarray) -> Mirror:

@@ -18,7 +18,7 @@ from .symmetry import EXACT, judged, oriented
 # units of the size.
 BENT = 0.03
 # Number of faces from which on they are small enough to be mirrored where the tessellation is not; share of the area
-# that must have exact twins on a mesh of fewer.
+# that must have exact twins on a mesh of fewer, if its faces are to be.
 MANY_FACES, MOSTLY = 3_000, 0.5
 # A face is the exact twin of another if their centers, mirrored, are nearer than this, in units of its area's root, and
 # their areas differ by less, in units of its area.
@@ -27,6 +27,7 @@ NEAR = 0.02
 ACROSS = 2_000, 200
 # Planes across another are looked for by moments of z^m, m to MOST_RAYS; one is 0 if below UNEVEN of what it can be.
 MOST_RAYS, UNEVEN = 6, 0.01
+SQUARE = 0.01  # cosine of the angle from which on planes are not across each other
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +47,7 @@ class Images:
     def twins(self) -> np.ndarray:
         """(n_polygons,) int64, the polygon that is the mirror image of each, or on which most of its image lies.
 
-        -1 where there is none, and everywhere if there are few polygons and most of them have no exact image.
+        -1 where there is none.
         """
         faces, elements, n_polygons = self.faces, self.faces.elements, self.faces.n_polygons
         matched = elements.matched(self._image, self._nearest, BENT)
@@ -57,10 +58,24 @@ class Images:
         twin = majority(faces.polygon, np.where(matched, faces.polygon[self._nearest] + 1, 0), weight, n_polygons) - 1
         twin = np.maximum(twin, -1)
         image, same = self._polygons
-        if n_polygons < MANY_FACES and faces.polygons.area[same].sum() < MOSTLY:
-            return np.full(n_polygons, -1)
         twin[faces.present[same]] = faces.present[image[same]]
         return twin
+
+    @cached_property
+    def within(self) -> list[MirrorPlane]:
+        """The planes in which to mirror small faces, as polygons are too large; none where they are not.
+
+        Polygons are if there are few, and most of the area has no exact image. This plane first, and, if nearly all of
+        the shape is its own image in it, those across it and each other of which that can be said, too.
+        """
+        faces = self.faces
+        if faces.n_polygons >= MANY_FACES or faces.polygons.area[self._polygons[1]].sum() >= MOSTLY:
+            return []
+        found = [self.plane]
+        for other in _likely_across(faces, self.plane) if self.plane.share >= 1 - EXACT else []:
+            if all(abs(other.normal @ known.normal) < SQUARE for known in found):
+                found.append(other)
+        return found
 
     @cached_property
     def exact(self) -> list[Images]:

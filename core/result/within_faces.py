@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Symmetry within faces: where the caller's are too large to be mirrored, the small ones they were divided into are.
+
+A coarse mesh is rarely its own mirror image, face by face, where its shape is: quads were divided along one diagonal
+or the other, or faces were taken away. What each of the caller's faces chooses among is then symmetric, and the parts
+are so within a face.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..cuts.settling import settle
+from ..cuts.symmetric_regions import symmetric_on_regions
+from ..surface.labels import FaceGraph, connect
+from ..surface.mesh import TriMesh
+from .found import LEAST_WEIGHT, ComponentResult, FoundCandidates, firsts, joined_hierarchies
+from .mirrors import Mirror
+
+
+def symmetric_within_faces(results: list[ComponentResult], mirrors: list[Mirror]) -> FoundCandidates:
+    """Make the candidates that were found symmetric on the small faces of the components.
+
+    Parameters
+    ----------
+    results : list of ComponentResult
+    mirrors : list of Mirror
+        Planes of symmetry of them all, or of some.
+
+    Returns
+    -------
+    found : FoundCandidates
+        On the small faces.
+    """
+    mesh = _joined([r.component.mesh for r in results])
+    first = firsts([r.component.mesh.n_faces for r in results])
+    contacts = np.concatenate([k + r.contacts for k, r in zip(first, results, strict=True)])
+    first = firsts([r.candidates.hierarchy.n_candidates for r in results])
+    label = np.concatenate([k + r.face_candidate for k, r in zip(first, results, strict=True)])
+    hierarchy = joined_hierarchies([r.candidates.hierarchy for r in results])
+    graph = FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
+    label, hierarchy = settle(graph.with_contacts(contacts), connect(graph, label), hierarchy)
+    hierarchy = joined_hierarchies([hierarchy])
+    # Of planes across each other each keeps the symmetry in those before it.
+    for plane in (plane for mirror in mirrors for plane in mirror.within):
+        mirror = Mirror.of_faces(plane, mesh)
+        label, hierarchy = symmetric_on_regions(
+            graph, contacts, label, hierarchy, mirror.twin, mirror.height, mirror.first, mirror.exact)
+    polygon = np.concatenate([r.component.polygon for r in results])
+    return FoundCandidates(polygon, label, mesh.face_area + LEAST_WEIGHT * mesh.area, joined_hierarchies([hierarchy]))
+
+
+def _joined(meshes: list[TriMesh]) -> TriMesh:
+    """Meshes side by side, as one."""
+    if len(meshes) == 1:
+        return meshes[0]
+    first = firsts([mesh.n_vertices for mesh in meshes])
+    return TriMesh(np.concatenate([mesh.vertices for mesh in meshes]),
+                   np.concatenate([k + mesh.faces for k, mesh in zip(first, meshes, strict=True)]))
