@@ -269,7 +269,8 @@ def _lead_cells(
     own[mine] = label[asked]
     weight = graph.area + 1e-12 * graph.area.sum()
     other = np.stack([majority(mine, of_way[asked] + 1, weight[asked], count) - 1 for of_way in mirrored], axis=1)
-    area = rounded(np.bincount(cell[leader][spoken_for], graph.area[spoken_for], count))
+    share = graph.area[spoken_for] / max(whole, 1e-300)
+    area = rounded(np.bincount(cell[leader][spoken_for], share, count))
     largest = np.zeros(int(own.max()) + 1)
     np.maximum.at(largest, own, area)
     crosses = _closed(own[:, None] == other)
@@ -277,7 +278,7 @@ def _lead_cells(
     little = (np.bincount(mine, graph.area[asked], count)
               < OVERHANG * 2 / len(mirrored) * np.bincount(label, graph.area)[own])
     across = crosses[:, 1:].any(axis=1)
-    small = ((area < SMALL * whole) & (area < largest[own])) | little | (across & (area < CROSSING * whole))
+    small = ((area < SMALL) & (area < largest[own])) | little | (across & (area < CROSSING))
     joins = _joined(FaceGraph(len(label), np.stack([a, b], axis=1), length, graph.area), cell, own, area, small)
     left, cell[asked] = renumbered(joins[mine])
     return cell, crosses[left], other[left] >= 0

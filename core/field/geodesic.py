@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import dijkstra
 from ..errors import DisconnectedMeshError
 from ..sentence import Sentence
 from ..surface.arrays import symmetric_matrix
-from ..surface.mesh import TriMesh
+from ..surface.mesh import ON_A_LINE, TriMesh
 
 
 class GeodesicSolver:
@@ -103,6 +103,7 @@ def _unfolded_lines(mesh: TriMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     height = y[0] + y[1]
     crossing = x[0] + (x[1] - x[0]) * np.divide(y[0], height, out=np.zeros_like(height),
                                                 where=height > 0)
-    inside = (crossing > 0) & (crossing < length) & (height > 0)
+    # Where both triangles lie on the line of their edge, but for rounding, nothing can be said of the crossing.
+    inside = (crossing > 0) & (crossing < length) & (height > ON_A_LINE * length)
     line = np.hypot(x[1] - x[0], height)
     return far[inside, 0], far[inside, 1], line[inside]

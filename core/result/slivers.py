@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..cuts.hierarchy import Hierarchy
-from ..surface.arrays import both_ways, components, renumbered, rounded
+from ..surface.arrays import TIE, both_ways, components, renumbered
 from ..surface.labels import FaceGraph, label_boundaries
 
 # A connected region of a part of detail 0.5 is a sliver if it is smaller than TINY, a share of the area of its piece
@@ -64,10 +64,10 @@ def _goals(touching: np.ndarray, length: np.ndarray, n_candidates: int, n_region
     """
     first, second = both_ways(touching).T
     beside = (first >= n_candidates) & (second < n_candidates)
-    sliver, other, length = first[beside] - n_candidates, second[beside], rounded(np.tile(length, 2)[beside])
+    sliver, other, length = first[beside] - n_candidates, second[beside], np.tile(length, 2)[beside]
     longest = np.zeros(n_regions)
     np.maximum.at(longest, sliver, length)
-    best = length == longest[sliver]
+    best = length >= (1 - TIE) * longest[sliver]
     goal = np.full(n_regions, -1)
     goal[sliver[best]] = other[best]
     return np.where(np.bincount(sliver[best], minlength=n_regions) == 1, goal, -1)

@@ -25,6 +25,12 @@ def frozen(array: ArrayLike, dtype: DTypeLike) -> np.ndarray:
     return copy
 
 
+# Numbers whose difference is less, in units of the larger, are equal but for rounding. They are compared with the
+# largest, or the least, and not rounded one by one: models come with six or eight digits, and two lengths that differ
+# in the eighth would be equal at one scale and not at another.
+TIE = 2.0**-26
+
+
 def first_largest(values: np.ndarray) -> int:
     """Find the largest value; of values that differ from it by rounding only, the first.
 
@@ -41,6 +47,14 @@ def first_largest(values: np.ndarray) -> int:
     index : int
     """
     return int((values >= (1 - 1e-9) * values.max()).argmax())
+
+
+def first_least(rows: np.ndarray) -> np.ndarray:
+    """The column of the least value of each row, (n,) int64; of those that differ by rounding only, the first.
+
+    rows : (n, k) float64, none negative.
+    """
+    return (rows <= (1 + TIE) * rows.min(axis=1)[:, None]).argmax(axis=1)
 
 
 def rounded(values: np.ndarray) -> np.ndarray:
@@ -495,8 +509,8 @@ def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray
     group : (n,) int64
         Group of each element, 0..count-1.
     *keys : (n,) arrays
-        Elements are sorted by the first key, equal ones by the second, and so on. Numbers that differ by rounding
-        only are equal, see ``rounded``.
+        Elements are sorted by the first key, equal ones by the second, and so on. Numbers that differ from the
+        largest by rounding only are equal to it.
     count : int
         Number of groups.
 
@@ -508,12 +522,14 @@ def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray
     # Those that come last by the first key, of them those that do by the second: several times faster than sorting.
     rows = np.arange(len(group))
     for key in keys:
-        values, of = (rounded(key) if key.dtype == np.float64 else key)[rows], group[rows]
+        values, of = key[rows], group[rows]
         if not len(rows):
             break
         largest = np.full(count, values.min(), values.dtype)
         np.maximum.at(largest, of, values)
-        rows = rows[values == largest[of]]
+        if key.dtype == np.float64:
+            largest -= TIE * np.abs(largest)
+        rows = rows[values >= largest[of]]
     last = np.full(count, -1, np.int64)
     last[group[rows]] = rows  # NumPy keeps the last of the values written to one place
     return last

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import both_ways, first_of_rows, inverse, lengths, rounded, row_products, stable_order, sums_by
+from .arrays import TIE, both_ways, first_of_rows, inverse, lengths, row_products, stable_order, sums_by
 from .mesh import TriMesh
 from .ordering import rank_by_place
 
+MOST_RISE = 4.0  # upper bound of what a value rises within a cell, in units of its largest rise to a neighbor
 SMOOTHING_STEPS = 3  # rounds in which ``prolong`` averages neighbors, to close the seams between cells
 _MIX = np.uint64(0x9E3779B97F4A7C15)  # 2**64 over the golden ratio, made odd: the multiplier of the hash splitmix64
 
@@ -82,10 +83,10 @@ def coarsen(
     owner = name.copy()
     near = np.flatnonzero(seed[b] & ~seed[a])
     a, b = a[near], b[near]
-    length = rounded(lengths(mesh.vertices[a] - mesh.vertices[b]))
+    length = lengths(mesh.vertices[a] - mesh.vertices[b])
     start = np.flatnonzero(np.append(True, a[1:] != a[:-1])[: len(a)])
     least = np.minimum.reduceat(length, start) if len(start) else length
-    nearest = np.flatnonzero(length == np.repeat(least, np.diff(np.append(start, len(a)))))[::-1]
+    nearest = np.flatnonzero(length <= np.repeat((1 + TIE) * least, np.diff(np.append(start, len(a)))))[::-1]
     owner[a[nearest]] = name[b[nearest]]  # NumPy keeps what is written last: the first of those equally near
     count = int(seed.sum())
     p, q, r = owner[mesh.faces.T]
@@ -172,13 +173,23 @@ def prolong(mesh: TriMesh, coarsening: Coarsening, values: np.ndarray) -> np.nda
     coarse = coarsening.mesh
     gradient = _gradients(coarse, coarsening.links, values)
     offset = mesh.vertices - coarse.vertices[coarsening.owner]
-    fine = values[coarsening.owner] + row_products(gradient[coarsening.owner], offset)
+    # Neighbors almost on a line, of which the cell's vertices are not, do not tell how it rises across.
+    most = MOST_RISE * _largest_rise(coarsening.links, values)[coarsening.owner]
+    fine = values[coarsening.owner] + np.clip(row_products(gradient[coarsening.owner], offset), -most, most)
     a, b = coarsening.fine_links.T
     degree = np.bincount(a, minlength=len(fine)) + np.bincount(b, minlength=len(fine))
     for _ in range(SMOOTHING_STEPS):
         around = np.bincount(a, fine[b], len(fine)) + np.bincount(b, fine[a], len(fine))
         fine = 0.5 * fine + 0.5 * around / degree
     return fine
+
+
+def _largest_rise(links: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """The largest difference, (c,), of the value at each vertex to those at its linked neighbors."""
+    largest, rise = np.zeros(len(values)), np.abs(values[links[:, 0]] - values[links[:, 1]])
+    for end in links.T:
+        np.maximum.at(largest, end, rise)
+    return largest
 
 
 def _gradients(mesh: TriMesh, links: np.ndarray, values: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import components, distinct_pairs, last_of_each, rounded, weighted_sum
+from .arrays import components, distinct_pairs, first_least, last_of_each, weighted_sum
 from .mesh import TriMesh
 
 # In units of the diameter of a surface: how near two pieces must come to touch, how near to belong to one body, and
@@ -51,7 +51,7 @@ class SurfacePoints:
         face_at = np.empty(mesh.n_vertices, np.int64)
         face_at[mesh.faces[::-1]] = np.arange(mesh.n_faces)[::-1, None]
         offset = np.linalg.norm(mesh.corners - mesh.face_centroids[:, None], axis=2)
-        nearest = mesh.faces[np.arange(mesh.n_faces), rounded(offset).argmin(axis=1)]
+        nearest = mesh.faces[np.arange(mesh.n_faces), first_least(offset)]
         points = cls(
             np.concatenate([mesh.vertices, mesh.face_centroids]),
             np.concatenate([face_at, np.arange(mesh.n_faces)]),

@@ -12,6 +12,9 @@ from ..errors import MeshError
 from ..sentence import Sentence
 from .arrays import components, cross, frozen, lengths, renumbered, row_products, stable_order
 
+ON_A_LINE = 1e-11  # sine of an angle below which the corners of a face lie on a line, but for rounding
+LEVEL = 1e-12  # in units of the root of the area: what rises less between two faces is neither convex nor concave
+
 
 @dataclass(frozen=True, eq=False)
 class TriMesh:
@@ -109,9 +112,13 @@ class TriMesh:
 
     @cached_property
     def face_normals(self) -> np.ndarray:
-        """(m, 3) float64, unit normal of each face; zero where the face has no area."""
-        area = self.face_area[:, None]
-        return np.divide(self.area_normals, area, out=np.zeros((self.n_faces, 3)), where=area > 0)
+        """(m, 3) float64, unit normal of each face; zero where the face has no area but for rounding."""
+        area = self.face_area
+        some = area > 0
+        small = np.flatnonzero(area <= 0.01 * area.mean())  # the others are no lines, and take long
+        p, q, r = self.vertices[self.faces[small].T]
+        some[small] &= area[small] > ON_A_LINE * lengths(q - p) * lengths(r - p)
+        return np.divide(self.area_normals, area[:, None], out=np.zeros((self.n_faces, 3)), where=some[:, None])
 
     @cached_property
     def face_centroids(self) -> np.ndarray:
@@ -158,14 +165,15 @@ class TriMesh:
         """(p,) float64, angle in radians between the normals of the faces of each pair of ``edges.pairs``.
 
         The angle is positive where the surface is convex, negative where it is concave, and 0 where a face has no
-        area.
+        area. It is positive, too, where neither can be said, as of faces that are folded onto each other.
         """
         left, right = self.edges.pairs.T
         sine = cross(self.face_normals[left], self.face_normals[right])
         cosine = row_products(self.face_normals[left], self.face_normals[right])
-        angle = np.arctan2(lengths(sine), cosine)
+        angle = np.arctan2(lengths(sine), cosine + 0.0)  # -0.0 would be half a turn
         across = self.face_centroids[right] - self.face_centroids[left]
-        convex = row_products(self.face_normals[left] - self.face_normals[right], across) <= 0
+        rises = row_products(self.face_normals[left] - self.face_normals[right], across)
+        convex = rises <= LEVEL * np.sqrt(self.area)
         return np.where(convex, angle, -angle)
 
     @cached_property

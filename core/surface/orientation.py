@@ -18,6 +18,7 @@ from .winding import MOST_OF_SHEETS, winding_numbers
 
 N_PROBES, N_SURFACE = 40, 400  # upper bounds of the numbers of faces at which, and of which, windings are measured
 LEAST_AREA = 0.002  # share of the area below which an open piece stays as it is
+NOTHING = 1e-9  # a sum is 0 if below this, in units of the sum of sizes
 
 
 def turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[Sentence, ...]]:
@@ -40,10 +41,14 @@ def turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[Sentence, ...]]:
     sign = np.where(flip, -1.0, 1.0)
     as_given = np.bincount(piece, sign * mesh.face_area, count)
     center = mesh.vertices.mean(axis=0)  # volumes are measured from here: far from the origin they would cancel
-    volume = sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - center)
+    of_face = sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - center)
+    volume = np.bincount(piece, of_face, count)
     borders = mesh.edges.n_faces[mesh.edges.face_edges] == 1
     closed = np.bincount(piece, borders.any(axis=1), count) == 0
-    flip ^= np.where(closed, np.bincount(piece, volume, count) < 0, as_given < 0)[piece]
+    # What is folded flat encloses nothing but rounding.
+    encloses = closed & (np.abs(volume) > NOTHING * np.bincount(piece, np.abs(of_face), count))
+    against = as_given < -NOTHING * np.bincount(piece, mesh.face_area, count)
+    flip ^= np.where(encloses, volume < 0, against)[piece]
     flip ^= _inside_out(_turned(mesh, flip), ~closed)[piece]
     note = Sentence("{n} {n:triangle faces inwards or against its|triangles face inwards or against their} "
                     "neighbors.", n=int(flip.sum()))
@@ -80,8 +85,10 @@ def _inside_out(mesh: TriMesh, chosen: np.ndarray) -> np.ndarray:
     area = np.bincount(piece, mesh.face_area, count)
     middle = np.stack([np.bincount(piece, mesh.face_area * x, count) for x in mesh.face_centroids.T], axis=1)
     away = mesh.face_centroids - (middle / np.where(area > 0, area, 1.0)[:, None])[piece]
-    volume = np.bincount(piece, row_products(mesh.area_normals, away), count)
-    inside_out = chosen & (volume < 0) & (area >= LEAST_AREA * mesh.area)
+    of_face = row_products(mesh.area_normals, away)
+    volume = np.bincount(piece, of_face, count)
+    negative = volume < -NOTHING * np.bincount(piece, np.abs(of_face), count)
+    inside_out = chosen & negative & (area >= LEAST_AREA * mesh.area)
     for one in np.flatnonzero(inside_out):
         faces = np.flatnonzero(piece == one)
         probe, surface = (faces[even_steps(mesh.face_area[faces], most)] for most in (N_PROBES, N_SURFACE))

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...surface.arrays import distinct_pairs, renumbered, rounded, sums_by, weighted_sum
+from ...surface.arrays import distinct_pairs, first_least, renumbered, rounded, sums_by, weighted_sum
 
 MOST_CLUSTERS = 12  # upper bound of the number of clusters that is chosen from the data
 EXPLAINED = 0.9  # share of the variance that enough clusters explain
@@ -77,7 +77,7 @@ def _moved(points: np.ndarray, weight: np.ndarray, label: np.ndarray) -> tuple[n
     """
     for _ in range(ROUNDS):
         square = ((points[:, None] - _centers(points, weight, label)) ** 2).sum(axis=2)
-        before, label = label, rounded(square).argmin(axis=1)
+        before, label = label, first_least(square)
         if np.array_equal(before, label):
             break
     label = renumbered(label)[1]

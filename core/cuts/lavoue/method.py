@@ -41,7 +41,7 @@ def lavoue_candidates(mesh: TriMesh, n_clusters: int = 0) -> tuple[np.ndarray, H
     curvature = curvature_features(mesh)
     weight = mesh.vertex_area + 1e-12 * mesh.area
     region = grow_regions(mesh, cluster(curvature, weight, n_clusters))
-    region = absorb_small(mesh, region, SMALLEST * mesh.area)
+    region = absorb_small(mesh, region, SMALLEST)
     merges, distance = merge_regions(CurvatureGraph(mesh, curvature, region))
     return region, Hierarchy.of(int(region.max()) + 1, merges, distance / (distance + DECISION))
 

@@ -75,7 +75,7 @@ def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
         farthest = last_of_each(cell_number, distance, -np.arange(len(cell)), count=len(numbers))
         widest = farthest[np.argsort(-distance[farthest], kind="stable")][:more]
         seeds = np.concatenate([seeds, np.setdiff1d(widest, seeds)])
-    return absorb_small(mesh, _connected(mesh, cell), SMALLEST * mesh.area)
+    return absorb_small(mesh, _connected(mesh, cell), SMALLEST)
 
 
 def level_set_patches(sets: LevelSets) -> np.ndarray:
@@ -94,10 +94,10 @@ def level_set_patches(sets: LevelSets) -> np.ndarray:
     coarse = cut_at_levels(sets.mesh, sets.values, uniform_levels(SLABS))
     area = coarse.element_area + 1e-12 * sets.mesh.area
     piece = majority(coarse.element_face, coarse.element_piece, area, sets.mesh.n_faces)
-    return absorb_small(sets.mesh, _connected(sets.mesh, piece), SMALLEST * sets.mesh.area)
+    return absorb_small(sets.mesh, _connected(sets.mesh, piece), SMALLEST)
 
 
-def absorb_small(mesh: TriMesh, label: np.ndarray, least_area: float) -> np.ndarray:
+def absorb_small(mesh: TriMesh, label: np.ndarray, least_share: float) -> np.ndarray:
     """Let small patches join the neighbor with which they share their longest border.
 
     Parameters
@@ -106,8 +106,8 @@ def absorb_small(mesh: TriMesh, label: np.ndarray, least_area: float) -> np.ndar
         m faces.
     label : (m,) int64
         Patch of each face, 0..c-1; every patch is connected.
-    least_area : float
-        Area below which a patch joins a neighbor that is larger, in squared units of the vertices.
+    least_share : float
+        Share of the area below which a patch joins a neighbor that is larger.
 
     Returns
     -------
@@ -115,12 +115,12 @@ def absorb_small(mesh: TriMesh, label: np.ndarray, least_area: float) -> np.ndar
         Patch of each face, numbered anew from 0.
     """
     while True:
-        area = rounded(np.bincount(label, mesh.face_area))
+        area = rounded(np.bincount(label, mesh.face_area) / mesh.area)
         goal = longest_neighbor(*label_boundaries(label, mesh.edges.pairs, mesh.pair_length), len(area))
         goal = np.where(goal >= 0, goal, np.arange(len(area)))
         # A patch joins larger patches only, so that two patches never join each other.
         larger = (area[goal] > area) | ((area[goal] == area) & (goal > np.arange(len(area))))
-        goal = np.where((area < least_area) & larger, goal, np.arange(len(area)))
+        goal = np.where((area < least_share) & larger, goal, np.arange(len(area)))
         if (goal == np.arange(len(area))).all():
             return label
         while (goal[goal] != goal).any():

@@ -107,6 +107,16 @@ def test_dihedral_angles_of_a_box_are_right_angles_or_flat():
     assert np.sort(inward.dihedral) == pytest.approx([-np.pi / 2] * 12 + [0] * 6, abs=1e-12)
 
 
+def test_folded_faces_and_faces_that_are_lines_have_the_same_angle_in_all_poses():
+    # Two triangles folded onto each other, and one with a triangle whose corners are on a line.
+    square = np.array([(0, 0, 0), (1, 0, 0), (0.3, 0.8, 0), (0.4, 0.7, 0), (0.6, 0, 0)])
+    faces = [(0, 1, 2), (1, 0, 3), (0, 4, 1)]
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        mesh = TriMesh(square @ shapes.rotation(rng).T + rng.normal(size=3), faces)
+        assert np.sort(mesh.dihedral) == pytest.approx([0, np.pi], abs=1e-12)
+
+
 def test_dihedral_does_not_depend_on_the_order_of_faces():
     shape = shapes.tube_tree()
     mesh = TriMesh(*shape)

@@ -65,3 +65,17 @@ def test_a_sheet_keeps_its_side(make):
 def test_a_body_with_holes_has_the_same_parts_inside_out(name):
     one, other = (decompose(*shape).parts().labels for shape in (OPEN[name](), shapes.inside_out(OPEN[name]())))
     assert rand_index_error(one, other) == 0
+
+
+@pytest.mark.parametrize("scale", [1.0, 1.37, 0.3048, 25.4])
+def test_what_is_folded_flat_keeps_its_side(scale):
+    # A sheet and its back, joined at the rim: the volume is a rounding error of either sign.
+    sheet = shapes.flat_grid(6, 5)
+    vertices = scale * (sheet.vertices @ shapes.rotation(np.random.default_rng(1)).T).round(6)
+    x, y = sheet.vertices[:, 0], sheet.vertices[:, 1]
+    inside = (x > x.min()) & (x < x.max()) & (y > y.min()) & (y < y.max())
+    below = np.where(inside, np.arange(len(x)) + len(x), np.arange(len(x)))
+    faces = np.concatenate([sheet.faces, below[sheet.faces][:, ::-1]])
+    for given in (faces, faces[:, ::-1]):
+        mesh = TriMesh(np.concatenate([vertices, vertices]), given)
+        assert turn_outwards(mesh) == (mesh, ())

@@ -69,8 +69,8 @@ def test_small_regions_join_the_longest_border():
     x, y = mesh.face_centroids[:, 0], mesh.face_centroids[:, 1]
     label = np.where(x < 3, 0, 1)
     label[(x > 3) & (x < 4) & (y < 1)] = 2  # one edge to the left, two to the right
-    assert absorb_small(mesh, label, 2.0).tolist() == np.where(x < 3, 0, 1).tolist()
-    assert absorb_small(mesh, label, 0.5).tolist() == label.tolist()
+    assert absorb_small(mesh, label, 2.0 / mesh.area).tolist() == np.where(x < 3, 0, 1).tolist()
+    assert absorb_small(mesh, label, 0.5 / mesh.area).tolist() == label.tolist()
 
 
 def test_sums_of_merged_regions_are_those_of_a_new_start(tree):
