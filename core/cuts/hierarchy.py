@@ -175,8 +175,9 @@ class Hierarchy:
         merges are sorted by salience. Components never merge.
         """
         offsets = np.cumsum([0] + [h.n_candidates for h in hierarchies])
-        merges = np.concatenate([h.merges + o for h, o in zip(hierarchies, offsets, strict=False)])
-        salience = np.concatenate([h.salience for h in hierarchies])
+        none = cls.of(0, [], [])
+        merges = np.concatenate([none.merges, *(h.merges + o for h, o in zip(hierarchies, offsets, strict=False))])
+        salience = np.concatenate([none.salience, *(h.salience for h in hierarchies)])
         order = np.argsort(salience, kind="stable")
         return cls(int(offsets[-1]), frozen(merges[order], np.int64),
                    frozen(salience[order], np.float64))

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from dataclasses import field as dataclass_field
 from functools import cached_property
 from itertools import accumulate
@@ -75,7 +75,7 @@ class FoundCandidates:
     area : (r,) float64
         Above 0.
     hierarchy : Hierarchy
-        Over the candidates; in the end all are one part.
+        Over the candidates.
     """
 
     face: np.ndarray
@@ -92,21 +92,21 @@ class FoundCandidates:
         area = [r.sets.element_area + LEAST_WEIGHT * r.sets.mesh.area for r in results]
         nothing = np.empty(0, np.int64), np.empty(0)  # of nothing but small pieces none is decomposed
         return cls(np.concatenate([nothing[0], *face]), np.concatenate([nothing[0], *label]),
-                   np.concatenate([nothing[1], *area]), joined_hierarchies([r.candidates.hierarchy for r in results]))
+                   np.concatenate([nothing[1], *area]), Hierarchy.join([r.candidates.hierarchy for r in results]))
 
     def with_rest(self, working: WorkingMesh, results: list[ComponentResult]) -> FoundCandidates:
-        """These, and a candidate for each component that was not decomposed."""
+        """These, and a candidate for each component that was not decomposed; in the end all are one part."""
         rest = np.ones(working.mesh.n_faces, bool)
         for r in results:
             rest[r.component.faces] = False
         if not rest.any():
-            return self
+            return replace(self, hierarchy=merged_at_last(self.hierarchy))
         names, numbers = renumbered(working.mesh.face_components[1][rest])
         area = working.mesh.face_area[rest] + LEAST_WEIGHT * working.mesh.area
         return FoundCandidates(np.concatenate([self.face, working.polygon[rest]]),
                                np.concatenate([self.label, self.hierarchy.n_candidates + numbers]),
                                np.concatenate([self.area, area]),
-                               joined_hierarchies([self.hierarchy, Hierarchy.of(len(names), [], [])]))
+                               merged_at_last(Hierarchy.join([self.hierarchy, Hierarchy.of(len(names), [], [])])))
 
 
 def firsts(counts: list[int]) -> list[int]:
@@ -114,9 +114,8 @@ def firsts(counts: list[int]) -> list[int]:
     return [0, *accumulate(counts)][:-1]
 
 
-def joined_hierarchies(several: list[Hierarchy]) -> Hierarchy:
-    """Hierarchies side by side. What never merges merges last, one after the other: detail 0 is one part."""
-    hierarchy = Hierarchy.join([Hierarchy.of(0, [], []), *several])
+def merged_at_last(hierarchy: Hierarchy) -> Hierarchy:
+    """Let what never merges merge last, one after the other: detail 0 is one part."""
     left = hierarchy.parts(0)
     first = np.unique(left, return_index=True)[1]
     merges = np.stack([np.repeat(first[:1], len(first[1:])), first[1:]], axis=1)

@@ -35,9 +35,9 @@ class Mirror:
         Whether all faces are exact mirror images of others, or of themselves.
     across : tuple of Mirror
         Of an exact one: others across it and each other that are exact, too.
-    within : tuple of MirrorPlane
-        If the faces are too large to be mirrored, the planes in which smaller ones are to be, this one first; then a
-        twin is the face that most of an image lies in.
+    within : tuple of Images
+        If the faces are too large to be mirrored, what the planes in which smaller ones are to be do, this one first;
+        then a twin is the face that most of an image lies in.
     """
 
     plane: np.ndarray
@@ -46,7 +46,7 @@ class Mirror:
     first: float = 1.0
     exact: bool = False
     across: tuple[Mirror, ...] = ()
-    within: tuple[MirrorPlane, ...] = ()
+    within: tuple[Images, ...] = ()
 
     @classmethod
     def of(cls, mesh: TriMesh, polygon: np.ndarray, n_polygons: int) -> Mirror | None:
@@ -63,10 +63,12 @@ class Mirror:
                        within=tuple(images.within))
 
     @classmethod
-    def of_faces(cls, plane: MirrorPlane, mesh: TriMesh) -> Mirror:
-        """A plane that is known, and what it does to the faces of a mesh."""
-        faces = SmallFaces.of(mesh)
-        return replace(cls._in(plane, Images(faces, plane).twins, mesh, faces.polygon), exact=plane.share >= 1 - EXACT)
+    def of_faces(cls, images: Images, mesh: TriMesh) -> Mirror:
+        """A plane that is known, and what it does to the small faces of a mesh."""
+        if images.faces.mesh is not mesh:
+            images = Images(SmallFaces.of(mesh), images.plane)
+        mirror = cls._in(images.plane, images.small, mesh, np.arange(mesh.n_faces))
+        return replace(mirror, exact=images.plane.share >= 1 - EXACT)
 
     @classmethod
     def _in(cls, plane: MirrorPlane, twin: np.ndarray, mesh: TriMesh, polygon: np.ndarray) -> Mirror:

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..cuts.hierarchy import Hierarchy
 from ..cuts.settling import settle
 from ..cuts.symmetric_regions import symmetric_on_regions
 from ..surface.labels import FaceGraph, connect
 from ..surface.mesh import TriMesh
-from .found import LEAST_WEIGHT, ComponentResult, FoundCandidates, firsts, joined_hierarchies
+from .found import LEAST_WEIGHT, ComponentResult, FoundCandidates, firsts, merged_at_last
 from .mirrors import Mirror
 
 
@@ -37,17 +38,16 @@ def symmetric_within_faces(results: list[ComponentResult], mirrors: list[Mirror]
     contacts = np.concatenate([k + r.contacts for k, r in zip(first, results, strict=True)])
     first = firsts([r.candidates.hierarchy.n_candidates for r in results])
     label = np.concatenate([k + r.face_candidate for k, r in zip(first, results, strict=True)])
-    hierarchy = joined_hierarchies([r.candidates.hierarchy for r in results])
+    hierarchy = Hierarchy.join([r.candidates.hierarchy for r in results])
     graph = FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
     label, hierarchy = settle(graph.with_contacts(contacts), connect(graph, label), hierarchy)
-    hierarchy = joined_hierarchies([hierarchy])
     # Of planes across each other each keeps the symmetry in those before it.
-    for plane in (plane for mirror in mirrors for plane in mirror.within):
-        mirror = Mirror.of_faces(plane, mesh)
+    for images in (images for mirror in mirrors for images in mirror.within):
+        mirror = Mirror.of_faces(images, mesh)
         label, hierarchy = symmetric_on_regions(
-            graph, contacts, label, hierarchy, mirror.twin, mirror.height, mirror.first, mirror.exact)
+            graph, contacts, label, merged_at_last(hierarchy), mirror.twin, mirror.height, mirror.first, mirror.exact)
     polygon = np.concatenate([r.component.polygon for r in results])
-    return FoundCandidates(polygon, label, mesh.face_area + LEAST_WEIGHT * mesh.area, joined_hierarchies([hierarchy]))
+    return FoundCandidates(polygon, label, mesh.face_area + LEAST_WEIGHT * mesh.area, hierarchy)
 
 
 def _joined(meshes: list[TriMesh]) -> TriMesh:

@@ -50,19 +50,24 @@ class Images:
         -1 where there is none.
         """
         faces, elements, n_polygons = self.faces, self.faces.elements, self.faces.n_polygons
-        matched = elements.matched(self._image, self._nearest, BENT)
         if n_polygons == len(elements.area) > DENSE:
-            return np.where(matched, self._nearest, -1)
+            return self.small
         # Halves of a face that was split vote alike to the last digit, whatever the pose.
         weight = np.round(elements.area, 9) + 1e-12
-        twin = majority(faces.polygon, np.where(matched, faces.polygon[self._nearest] + 1, 0), weight, n_polygons) - 1
-        twin = np.maximum(twin, -1)
+        image_in = np.where(self.small >= 0, faces.polygon[self.small], -1)
+        twin = np.maximum(majority(faces.polygon, image_in + 1, weight, n_polygons) - 1, -1)
         image, same = self._polygons
         twin[faces.present[same]] = faces.present[image[same]]
         return twin
 
     @cached_property
-    def within(self) -> list[MirrorPlane]:
+    def small(self) -> np.ndarray:
+        """(m,) int64, the small face that is the mirror image of each; -1 where there is none."""
+        matched = self.faces.elements.matched(self._image, self._nearest, BENT)
+        return np.where(matched, self._nearest, -1)
+
+    @cached_property
+    def within(self) -> list[Images]:
         """The planes in which to mirror small faces, as polygons are too large; none where they are not.
 
         Polygons are if there are few, and most of the area has no exact image. This plane first, and, if nearly all of
@@ -71,9 +76,9 @@ class Images:
         faces = self.faces
         if faces.n_polygons >= MANY_FACES or faces.polygons.area[self._polygons[1]].sum() >= MOSTLY:
             return []
-        found = [self.plane]
-        for other in _likely_across(faces, self.plane) if self.plane.share >= 1 - EXACT else []:
-            if all(abs(other.normal @ known.normal) < SQUARE for known in found):
+        found = [self]
+        for other in self._likely_across if self.plane.share >= 1 - EXACT else []:
+            if all(abs(other.plane.normal @ known.plane.normal) < SQUARE for known in found):
                 found.append(other)
         return found
 
@@ -87,7 +92,7 @@ class Images:
         if self.plane.share < 1 - EXACT or self.faces.n_polygons > DENSE:
             return []
         found: list[Images] = []
-        for other in (self, *(Images(self.faces, plane) for plane in _likely_across(self.faces, self.plane))):
+        for other in (self, *self._likely_across):
             image, same = other._polygons
             known = [images._polygons[0] for images in found]
             commutes = all(np.array_equal(image[before], before[image]) for before in known)
@@ -103,6 +108,14 @@ class Images:
         twin = np.full(self.faces.n_polygons, -1)
         twin[self.faces.present] = self.faces.present[self._polygons[0]]
         return twin
+
+    @cached_property
+    def _likely_across(self) -> list[Images]:
+        """Planes through the middle, across this one, that match nearly all of the surface."""
+        faces, elements = self.faces, self.faces.elements
+        few, probes = elements.some(ACROSS[0]), elements.some(ACROSS[1])
+        tried = [judged(oriented(normal, 0.0), few, probes) for normal in _across(faces.polygons, self.plane.normal)]
+        return [Images(faces, faces.outwards(plane)) for plane in tried if plane.share >= 1 - EXACT]
 
     @cached_property
     def _local(self) -> MirrorPlane:
@@ -130,14 +143,6 @@ class Images:
         same &= row_products(image.normal, whole.normal[nearest]) > 0.99 * row_products(whole.normal, whole.normal)
         same &= np.abs(whole.area - whole.area[nearest]) <= NEAR * whole.area
         return nearest, same
-
-
-def _likely_across(faces: SmallFaces, plane: MirrorPlane) -> list[MirrorPlane]:
-    """Planes through the middle, across a plane, that match nearly all of the surface."""
-    elements = faces.elements
-    few, probes = elements.some(ACROSS[0]), elements.some(ACROSS[1])
-    tried = [judged(oriented(normal, 0.0), few, probes) for normal in _across(faces.polygons, plane.normal)]
-    return [faces.outwards(other) for other in tried if other.share >= 1 - EXACT]
 
 
 def _across(elements: Elements, normal: np.ndarray) -> np.ndarray:
