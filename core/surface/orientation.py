@@ -39,16 +39,13 @@ def turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[Sentence, ...]]:
     flip = _agreeing(mesh)
     count, piece = mesh.face_components
     sign = np.where(flip, -1.0, 1.0)
-    as_given = np.bincount(piece, sign * mesh.face_area, count)
+    as_given = _sums(piece, sign * mesh.face_area, count)
     center = mesh.vertices.mean(axis=0)  # volumes are measured from here: far from the origin they would cancel
-    of_face = sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - center)
-    volume = np.bincount(piece, of_face, count)
+    volume = _sums(piece, sign * np.einsum("ij,ij->i", mesh.area_normals, mesh.face_centroids - center), count)
     borders = mesh.edges.n_faces[mesh.edges.face_edges] == 1
     closed = np.bincount(piece, borders.any(axis=1), count) == 0
-    # What is folded flat encloses nothing but rounding.
-    encloses = closed & (np.abs(volume) > NOTHING * np.bincount(piece, np.abs(of_face), count))
-    against = as_given < -NOTHING * np.bincount(piece, mesh.face_area, count)
-    flip ^= np.where(encloses, volume < 0, against)[piece]
+    # What is folded flat encloses nothing.
+    flip ^= np.where(closed & (volume != 0), volume < 0, as_given < 0)[piece]
     flip ^= _inside_out(_turned(mesh, flip), ~closed)[piece]
     note = Sentence("{n} {n:triangle faces inwards or against its|triangles face inwards or against their} "
                     "neighbors.", n=int(flip.sum()))
@@ -58,6 +55,12 @@ def turn_outwards(mesh: TriMesh) -> tuple[TriMesh, tuple[Sentence, ...]]:
 def _turned(mesh: TriMesh, flip: np.ndarray) -> TriMesh:
     """The mesh with some faces, (m,) bool, turned over; itself, if none is."""
     return TriMesh(mesh.vertices, np.where(flip[:, None], mesh.faces[:, ::-1], mesh.faces)) if flip.any() else mesh
+
+
+def _sums(piece: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
+    """Sum of the values of the faces of each piece, (count,) float64; 0 where it is nothing but rounding."""
+    total = np.bincount(piece, values, count)
+    return np.where(np.abs(total) > NOTHING * np.bincount(piece, np.abs(values), count), total, 0.0)
 
 
 def _agreeing(mesh: TriMesh) -> np.ndarray:
@@ -85,10 +88,8 @@ def _inside_out(mesh: TriMesh, chosen: np.ndarray) -> np.ndarray:
     area = np.bincount(piece, mesh.face_area, count)
     middle = np.stack([np.bincount(piece, mesh.face_area * x, count) for x in mesh.face_centroids.T], axis=1)
     away = mesh.face_centroids - (middle / np.where(area > 0, area, 1.0)[:, None])[piece]
-    of_face = row_products(mesh.area_normals, away)
-    volume = np.bincount(piece, of_face, count)
-    negative = volume < -NOTHING * np.bincount(piece, np.abs(of_face), count)
-    inside_out = chosen & negative & (area >= LEAST_AREA * mesh.area)
+    volume = _sums(piece, row_products(mesh.area_normals, away), count)
+    inside_out = chosen & (volume < 0) & (area >= LEAST_AREA * mesh.area)
     for one in np.flatnonzero(inside_out):
         faces = np.flatnonzero(piece == one)
         probe, surface = (faces[even_steps(mesh.face_area[faces], most)] for most in (N_PROBES, N_SURFACE))
