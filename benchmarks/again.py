@@ -11,20 +11,21 @@ from __future__ import annotations
 
 import argparse
 import sys
-from concurrent.futures import ProcessPoolExecutor
-from functools import partial
 from pathlib import Path
 
 import packages
 
-packages.need("numpy", "scipy", "trimesh", "tqdm")
+packages.need("numpy", "scipy", "trimesh", "tqdm", "joblib")
 
 import numpy as np
+from joblib import Parallel, delayed
 from meshes import load_mesh
 from scipy.optimize import linear_sum_assignment
+from scipy.sparse import csr_array
 from tqdm import tqdm
 
 from core import ReebError, TriMesh, decompose
+from core.metrics import Overlap
 
 MUCH = 0.01
 
@@ -66,8 +67,8 @@ CHANGES = {change.__name__: change for change in (moved, scaled, upright, turned
 
 def apart(one: np.ndarray, other: np.ndarray, area: np.ndarray) -> float:
     """Share of the area whose part is another, parts being paired so that it is least."""
-    common = np.zeros((one.max() + 1, other.max() + 1))
-    np.add.at(common, (one, other), area)
+    overlap = Overlap.of(one, other, area)
+    common = csr_array((overlap.weight, tuple(overlap.pair.T))).toarray()
     return 1.0 - common[linear_sum_assignment(-common)].sum() / area.sum()
 
 
@@ -96,9 +97,10 @@ def main() -> int:
     parser.add_argument("--most", type=int, default=10_000, metavar="FACES", help="larger models are left out")
     parser.add_argument("--jobs", type=int, default=1, metavar="N")
     arguments = parser.parse_args()
-    with ProcessPoolExecutor(arguments.jobs) as pool:
-        found = list(tqdm(pool.map(partial(differences, most=arguments.most), arguments.meshes),
-                          total=len(arguments.meshes), unit="mesh", disable=None))
+    found = list(tqdm(
+        Parallel(arguments.jobs, return_as="generator")(
+            delayed(differences)(path, arguments.most) for path in arguments.meshes),
+        total=len(arguments.meshes), unit="mesh", disable=None))
     known = {path: row for path, row in zip(arguments.meshes, found, strict=True) if row is not None}
     table = np.reshape(list(known.values()), (-1, len(CHANGES)))
     print(f"| {len(known)} models | above {MUCH:.0%} of the area | mean |\n| --- | --- | --- |")
