@@ -11,7 +11,6 @@ them.
 
 from __future__ import annotations
 
-import argparse
 import re
 import struct
 import xml.etree.ElementTree as ElementTree
@@ -24,7 +23,7 @@ import packages
 packages.need("numpy", "scipy", "tqdm")
 
 import numpy as np
-from meshes import joined
+from meshes import joined, source_and_target, stacked, write_labelled
 from tqdm import tqdm
 
 #: By skeleton, the models that it moves: in art/meshes/skeletal, without their endings.
@@ -202,17 +201,16 @@ def labelled(pieces: list[Skinned], bones: Skeleton) -> dict[str, np.ndarray]:
     moves[np.unique(pieces[0].bone[pieces[0].weight > MOVES])] = True
     named = parts_of_bones(bones, moves)
     same = SAME * np.linalg.norm(np.ptp(pieces[0].vertices, axis=0))
-    vertices, faces, human, count = [], [], [], 0
+    vertices, faces, human = [], [], []
     for piece in pieces:
         first, joined_faces, whole = joined(piece.vertices, piece.faces, same)
         vertices.append(piece.vertices[first])
-        faces.append(joined_faces + count)
+        faces.append(joined_faces)
         human.append(np.stack([_most_moved(piece, piece.faces[whole], [names[k] for names in named])
                                for k in range(3)]))
-        count += len(first)
     human = np.stack([np.unique(row, return_inverse=True)[1] for row in np.concatenate(human, axis=1)])
-    return {"vertices": np.concatenate(vertices).astype(np.float32), "faces": np.concatenate(faces).astype(np.int32),
-            "human": human.astype(np.int16)}
+    vertices, faces, _ = stacked(vertices, faces)
+    return {"vertices": vertices, "faces": faces, "human": human}
 
 
 def _most_moved(piece: Skinned, faces: np.ndarray, named: list[str]) -> np.ndarray:
@@ -225,21 +223,17 @@ def _most_moved(piece: Skinned, faces: np.ndarray, named: list[str]) -> np.ndarr
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("archive", type=Path, metavar="public.zip")
-    parser.add_argument("out", type=Path, metavar="OUT")
-    options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
+    source, out = source_and_target(__doc__, "public.zip")
     tasks = [(pack, name, [name]) for pack, names in MODELS.items() for name in names.split()]
     for pack, sets in DRESSED.items():
         for number, line in enumerate(sets.splitlines()):
             name, *worn = line.split()
             tasks.append((pack, f"{name}_dressed_{number}", [name, *(WORN[pack] + other for other in worn)]))
-    with ZipFile(options.archive) as archive:
+    with ZipFile(source) as archive:
         for pack, name, (body, *worn) in tqdm(tasks):
             pieces = [read(archive, file) for file in (f"skeletal/{body}", *worn)]
             model = labelled(pieces, skeleton(archive, pack, pieces[0].n_bones))
-            np.savez_compressed(options.out / f"game_{pack}.{Path(name).name}.npz", **model)
+            write_labelled(out / f"game_{pack}.{Path(name).name}.npz", **model)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes for the benchmarks: read from files, joined at their seams, and refined to a size."""
+"""Meshes for the benchmarks: read from files, joined at their seams, refined to a size, and written with labels."""
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +20,14 @@ def load_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
     # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
     scene = trimesh.load_scene(path, process=False, maintain_order=True, skip_materials=True)
     meshes = list(scene.geometry.values())
-    first = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
-    vertices = np.concatenate([mesh.vertices for mesh in meshes])
-    return vertices, np.concatenate([mesh.faces + start for mesh, start in zip(meshes, first, strict=False)])
+    return stacked([mesh.vertices for mesh in meshes], [mesh.faces for mesh in meshes])[:2]
+
+
+def stacked(vertices: Sequence[np.ndarray], faces: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Several meshes, (n_i, 3) and (m_i, 3) each, as one: vertices, faces, and the number of the mesh of each face."""
+    first = np.cumsum([0, *map(len, vertices)])
+    return (np.concatenate(vertices), np.concatenate([f + start for f, start in zip(faces, first, strict=False)]),
+            np.repeat(np.arange(len(faces)), list(map(len, faces))))
 
 
 def joined(vertices: np.ndarray, faces: np.ndarray, same: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -32,6 +39,15 @@ def joined(vertices: np.ndarray, faces: np.ndarray, same: float) -> tuple[np.nda
     faces = place.reshape(-1)[faces]
     whole = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
     return first, faces[whole], whole
+
+
+def joined_alone(
+    vertices: np.ndarray, faces: np.ndarray, same: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Some faces with their vertices only, those at one place ``joined``; and which of the faces are kept."""
+    used, faces = np.unique(faces, return_inverse=True)
+    first, faces, whole = joined(vertices[used], faces.reshape(-1, 3), same)
+    return vertices[used][first], faces, whole
 
 
 def refined(vertices: np.ndarray, faces: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
@@ -57,3 +73,19 @@ def refined(vertices: np.ndarray, faces: np.ndarray, size: int) -> tuple[np.ndar
         m = middle[longest[cut]]
         faces = np.concatenate([faces[~cut], np.stack([a, m, c], 1), np.stack([m, b, c], 1)])
     return vertices, faces
+
+
+def source_and_target(description: str | None, source: str = "FOLDER") -> tuple[Path, Path]:
+    """The two paths that a program which makes labelled meshes is called with; the folder OUT is made."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("source", type=Path, metavar=source)
+    parser.add_argument("out", type=Path, metavar="OUT")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    return options.source, options.out
+
+
+def write_labelled(path: Path, vertices: np.ndarray, faces: np.ndarray, **labels: np.ndarray) -> None:
+    """Write a mesh and labels of its faces, such as ``human`` (k, m) or ``material`` (m,), as benchmarks read them."""
+    np.savez_compressed(path, vertices=vertices.astype(np.float32), faces=faces.astype(np.int32),
+                        **{name: label.astype(np.int16) for name, label in labels.items()})

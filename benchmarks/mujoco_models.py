@@ -10,7 +10,6 @@ simple solids, a dog and a rat under one skin, a fly, hands and robots.
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 import packages
@@ -20,6 +19,7 @@ packages.need("numpy", "scipy", "trimesh", "mujoco", "yourdfpy", "collada", "fas
 import mujoco
 import numpy as np
 import trimesh
+from meshes import source_and_target, stacked, write_labelled
 from robots import Robot, labels, reduced
 from tqdm import tqdm
 
@@ -68,15 +68,15 @@ def _solids(model: mujoco.MjModel, group: int) -> tuple[np.ndarray, np.ndarray, 
     """Vertices, faces and the body of each face, of the solids of a group that bodies carry."""
     state = mujoco.MjData(model)
     mujoco.mj_forward(model, state)
-    vertices, faces, body, count = [], [], [], 0
+    vertices, faces, body = [], [], []
     for k in np.flatnonzero((model.geom_group == group) & (model.geom_bodyid > 0)):
         solid = _solid(model, k)
         if solid is not None:
             vertices.append(solid.vertices @ state.geom_xmat[k].reshape(3, 3).T + state.geom_xpos[k])
-            faces.append(solid.faces + count)
-            body += [int(model.geom_bodyid[k])] * len(solid.faces)
-            count += len(solid.vertices)
-    return np.concatenate(vertices), np.concatenate(faces), np.array(body)
+            faces.append(solid.faces)
+            body.append(model.geom_bodyid[k])
+    vertices, faces, number = stacked(vertices, faces)
+    return vertices, faces, np.array(body)[number]
 
 
 def _solid(model: mujoco.MjModel, k: int) -> trimesh.Trimesh | None:
@@ -108,16 +108,11 @@ def _skin(model: mujoco.MjModel) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, metavar="FOLDER")
-    parser.add_argument("out", type=Path, metavar="OUT")
-    options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
+    folder, out = source_and_target(__doc__)
     mujoco.set_mju_user_warning(lambda _: None)  # or it leaves a log in the folder it is called from
-    for name, (file, group) in tqdm([item for item in MODELS.items() if (options.folder / item[1][0]).is_file()]):
-        robot = reduced(read(options.folder / file, group))
-        np.savez_compressed(options.out / f"{name}.npz", vertices=robot.mesh.vertices.astype(np.float32),
-                            faces=robot.mesh.faces.astype(np.int32), human=labels(robot).astype(np.int16))
+    for name, (file, group) in tqdm([item for item in MODELS.items() if (folder / item[1][0]).is_file()]):
+        robot = reduced(read(folder / file, group))
+        write_labelled(out / f"{name}.npz", robot.mesh.vertices, robot.mesh.faces, human=labels(robot))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,6 @@ move; a fine one with links down to LEAST[-1] of the area. Meshes of links are r
 
 from __future__ import annotations
 
-import argparse
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,7 +23,7 @@ import fast_simplification
 import numpy as np
 import trimesh
 import yourdfpy
-from meshes import joined
+from meshes import joined_alone, source_and_target, stacked, write_labelled
 from tqdm import tqdm
 
 from core.surface.arrays import components
@@ -70,7 +69,7 @@ def read(path: Path) -> Robot:
             link = joint_of[link].parent
         return link
 
-    graph, vertices, faces, link, count = description.scene.graph, [], [], [], 0
+    graph, vertices, faces, link = description.scene.graph, [], [], []
     for node in graph.nodes_geometry:
         transform, name = graph[node]
         geometry = description.scene.geometry[name]
@@ -78,11 +77,11 @@ def read(path: Path) -> Robot:
             while node not in description.link_map:
                 node = graph.transforms.parents[node]
             vertices.append(trimesh.transform_points(geometry.vertices, transform))
-            faces.append(geometry.faces + count)
-            link += [body_of(node)] * len(geometry.faces)
-            count += len(vertices[-1])
+            faces.append(geometry.faces)
+            link.append(body_of(node))
     carrier = {name: body_of(joint_of[name].parent) for name in map(body_of, description.link_map) if name in joint_of}
-    return Robot(TriMesh(np.concatenate(vertices), np.concatenate(faces).astype(np.int64)), np.array(link), carrier)
+    vertices, faces, number = stacked(vertices, faces)
+    return Robot(TriMesh(vertices, faces.astype(np.int64)), np.array(link)[number], carrier)
 
 
 def find(description: Path, name: str) -> str:
@@ -108,27 +107,19 @@ def reduced(robot: Robot) -> Robot:
     names, of_face = np.unique(robot.link, return_inverse=True)
     width = np.sqrt(np.bincount(of_face, robot.mesh.face_area))
     same, speck = SAME * np.linalg.norm(np.ptp(robot.mesh.vertices, axis=0)), SPECK * robot.mesh.area
-    vertices, faces, link, count = [], [], [], 0
-    for number, name in enumerate(names):
+    vertices, faces = [], []
+    for number in range(len(names)):
         goal = max(150, int(FACES * width[number] / width.sum()))
-        v, f = _without_specks(*_joined(robot.mesh.vertices, robot.mesh.faces[of_face == number], same), speck)
+        v, f = _without_specks(*joined_alone(robot.mesh.vertices, robot.mesh.faces[of_face == number], same)[:2], speck)
         if len(f) > goal:
             fewer = fast_simplification.simplify(v.astype(np.float32), f.astype(np.int32), target_count=goal)
             v, f = fewer if len(fewer[1]) > 20 else (v, f)
         vertices.append(v)
-        faces.append(f + count)
-        link += [name] * len(f)
-        count += len(v)
-    mesh = TriMesh(np.concatenate(vertices).astype(float), np.concatenate(faces).astype(np.int64))
+        faces.append(f)
+    vertices, faces, number = stacked(vertices, faces)
+    mesh = TriMesh(vertices.astype(float), faces.astype(np.int64))
     solid = mesh.face_area > 0
-    return Robot(TriMesh(mesh.vertices, mesh.faces[solid]), np.array(link)[solid], robot.carrier)
-
-
-def _joined(vertices: np.ndarray, faces: np.ndarray, same: float) -> tuple[np.ndarray, np.ndarray]:
-    """Some faces with their vertices only, those at one place joined."""
-    used, faces = np.unique(faces, return_inverse=True)
-    first, faces, _ = joined(vertices[used], faces.reshape(-1, 3), same)
-    return vertices[used][first], faces
+    return Robot(TriMesh(mesh.vertices, mesh.faces[solid]), names[number[solid]], robot.carrier)
 
 
 def _without_specks(vertices: np.ndarray, faces: np.ndarray, least: float) -> tuple[np.ndarray, np.ndarray]:
@@ -193,17 +184,12 @@ def _chains(above: dict[str, str | None]) -> dict[str, str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, metavar="FOLDER")
-    parser.add_argument("out", type=Path, metavar="OUT")
-    options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
-    for name in tqdm([name for name in ROBOTS if (options.folder / f"{name}.urdf").is_file()]):
-        robot = reduced(read(options.folder / f"{name}.urdf"))
+    folder, out = source_and_target(__doc__)
+    for name in tqdm([name for name in ROBOTS if (folder / f"{name}.urdf").is_file()]):
+        robot = reduced(read(folder / f"{name}.urdf"))
         pack = "robot_" + name.split("/")[0].removesuffix("_description")
-        np.savez_compressed(
-            options.out / f"{pack}.{Path(name).name}.npz", vertices=robot.mesh.vertices.astype(np.float32),
-            faces=robot.mesh.faces.astype(np.int32), human=labels(robot).astype(np.int16))
+        path = out / f"{pack}.{Path(name).name}.npz"
+        write_labelled(path, robot.mesh.vertices, robot.mesh.faces, human=labels(robot))
 
 
 if __name__ == "__main__":
