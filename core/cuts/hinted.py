@@ -38,7 +38,7 @@ def hinted_candidates(
     contacts : (k, 2) int64
         Faces that touch though they share no edge.
     label : (p,) int64
-        Candidate of each face, all in use; every candidate is connected.
+        Candidate of each face; every candidate is connected, and some may have no face.
     hierarchy : Hierarchy
         Of the candidates; all of them merge in the end.
     hint : (p,) int64
@@ -84,7 +84,8 @@ def _cells(graph: FaceGraph, label: np.ndarray, hint: np.ndarray) -> np.ndarray:
     area, own = np.bincount(cell, graph.area), np.empty(int(cell.max()) + 1, np.int64)
     own[cell] = label
     kept = area >= least
-    kept[last_of_each(own, area, -np.arange(len(area)), count=int(label.max()) + 1)] = True
+    largest = last_of_each(own, area, -np.arange(len(area)), count=int(label.max()) + 1)
+    kept[largest[largest >= 0]] = True  # a candidate may have no faces
     cell = np.where(kept[cell], cell, -1)
     for chosen in (alike, within):
         cell = spread(cell, *both_ways(graph.pairs[chosen]).T)

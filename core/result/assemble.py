@@ -256,7 +256,7 @@ def _apart(
     name[piece] = label
     main = last_of_each(name, solid, np.bincount(piece, graph.area, count), -np.arange(count),
                         count=hierarchy.n_candidates)
-    solid[main] = False
+    solid[main[main >= 0]] = False  # a candidate may have no faces
     apart = np.flatnonzero(solid)
     if not len(apart):
         return label, hierarchy

@@ -51,26 +51,29 @@ class Elements:
         return rounded_order(row_products(self.position, self.position))
 
     @property
-    def place(self) -> np.ndarray:
-        """(k, 6) or (k, 3), what is compared when the nearest element is searched."""
-        if len(self.position) > DENSE:
-            return self.position
+    def _centers_alone(self) -> bool:
+        """Whether normals do not matter where the nearest of these elements is searched."""
+        return len(self.position) > DENSE
+
+    @property
+    def _place(self) -> np.ndarray:
+        """(k, 6), what is compared where normals matter."""
         return np.hstack([self.position, TURNED * self.normal])
 
     @cached_property
     def tree(self) -> cKDTree:
-        """Of the places."""
-        return search_tree(self.place, balanced=False)
+        """Of what is compared when the nearest of these elements is searched."""
+        return search_tree(self.position if self._centers_alone else self._place, balanced=False)
 
     def nearest(self, image: Elements) -> tuple[np.ndarray, np.ndarray]:
         """Distance of the nearest element of each of some others, (k,) float64, and this element, (k,) int64.
 
         Of elements equally far, as on a regular grid, the first: rounding must not choose.
         """
-        if len(self.position) > DENSE:
+        if self._centers_alone:
             return self.tree.query(image.position, workers=-1)
         workers = -1 if len(image.position) > WORTH_THREADS else 1
-        place = image.place
+        place = image._place
         distance, nearest = self.tree.query(place, k=[1, 2], workers=workers)
         several = np.flatnonzero(distance[:, 1] <= distance[:, 0] + SAME)
         distance, nearest = distance[:, 0], nearest[:, 0]

@@ -7,6 +7,9 @@ import shapes
 from results import same_partition
 
 from core import MeshError, decompose
+from core.cuts.hierarchy import Hierarchy
+from core.cuts.hinted import hinted_candidates
+from core.surface.labels import FaceGraph
 
 
 @pytest.fixture(scope="module")
@@ -61,6 +64,17 @@ def test_the_order_of_faces_does_not_matter(tree):
     found = decompose(*shuffled, hints=hints[face])
     for detail in (0.3, 0.5, 0.9):
         assert same_partition(found.parts(detail).labels, expected.parts(detail).labels[face])
+
+
+@pytest.mark.parametrize("last", [1, 2], ids=["all in use", "one without faces"])
+def test_what_little_a_hint_cuts_off_joins_what_has_the_hint(last):
+    graph = FaceGraph(3, np.array([[0, 2], [1, 2]]), np.ones(2), np.array([1.0, 1.0, 1e-9]))
+    merges = [(0, candidate) for candidate in range(1, last + 1)]
+    label, hierarchy = hinted_candidates(
+        graph, np.empty((0, 2), np.int64), np.array([0, last, last]), Hierarchy.of(last + 1, merges, [0.5] * last),
+        np.array([1, 0, 1]))
+    assert label.tolist() == [0, 1, 0]
+    assert hierarchy.n_candidates == 2
 
 
 def test_half_models_take_them_along():

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
+from core.surface import small_faces as small
 from core.surface.mesh import TriMesh
 from core.surface.mirror_images import Images
 from core.surface.polygons import PolygonMesh
@@ -122,3 +123,14 @@ def test_the_two_sides_of_a_thin_plate_are_not_confused():
     plane = plane_of(mesh)
     twin = twins_of(mesh, plane)
     assert np.allclose(plane.turned(mesh.face_normals), mesh.face_normals[twin], atol=1e-4)
+
+
+def test_the_surface_that_is_searched_says_what_is_compared(monkeypatch):
+    elements = SmallFaces.of(TriMesh(*shapes.icosphere(2))).elements
+    several = small.Elements.joined([elements] * 2)
+    every = np.arange(len(elements.area))
+    for dense in (0, 1.5 * len(every), np.inf):  # both are dense; only what is searched for is; none is
+        monkeypatch.setattr(small, "DENSE", dense)
+        distance, nearest = small.Elements.joined([elements]).nearest(several)
+        assert (nearest == np.concatenate([every, every])).all()
+        assert (distance == 0).all()
