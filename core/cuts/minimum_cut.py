@@ -73,8 +73,8 @@ def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, band_ra
     fixed = np.zeros(mesh.n_faces, bool) if fixed is None else fixed
     for first, second in _cuts_by_length(part, a[free], b[free], length[free]):
         on_cut = ((part[a] == first) & (part[b] == second)) | ((part[a] == second) & (part[b] == first))
-        if on_cut.any():
-            half = min(band_ratio * mesh.pair_length[on_cut].sum() / (2 * np.pi), widest)
+        half = min(band_ratio * length[on_cut].sum() / (2 * np.pi), widest)
+        if half > 0:  # parts may touch no longer, or along edges without a length
             part = _cut_anew(mesh, part, first, second, on_cut, cost, ways, half, fixed)
     return part
 

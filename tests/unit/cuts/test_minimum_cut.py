@@ -33,6 +33,15 @@ def test_nothing_moves_without_reach():
     assert (minimum_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.0) == part).all()
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_cut_without_a_length_stays():
+    """Four triangles in a strip; the middle edge has both ends at one place."""
+    vertices = np.array([(0.0, 0, 0), (0, 0, 0), (1, 0, 0), (-1, 0, 0), (1, 1, 0), (-1, 1, 0)])
+    mesh = TriMesh(vertices, np.array([(0, 1, 2), (1, 0, 3), (2, 1, 4), (3, 0, 5)]))
+    part = np.array([0, 1, 0, 1])
+    assert (minimum_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.5) == part).all()
+
+
 def test_a_cut_falls_into_the_crease_beside_it():
     """A line one cell away costs a twentieth: the border goes there."""
     n = 48
