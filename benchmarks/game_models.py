@@ -14,7 +14,6 @@ from __future__ import annotations
 import re
 import struct
 import xml.etree.ElementTree as ElementTree
-from dataclasses import dataclass
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -23,7 +22,8 @@ import packages
 packages.need("numpy", "scipy", "tqdm")
 
 import numpy as np
-from meshes import joined, source_and_target, stacked, write_labelled
+from meshes import source_and_target, write_labelled
+from skinned import N_BONES, Names, Skeleton, Skinned, labelled
 from tqdm import tqdm
 
 #: By skeleton, the models that it moves: in art/meshes/skeletal, without their endings.
@@ -61,24 +61,12 @@ DRESSED = {
                 new/m_armor_tunic_long_sleeves cape_hd_ragged""",
 }
 WORN = {"horse": "props/horse/", "biped": "props/new/capes/"}
-NO_BONE, N_BONES = 255, 4  # in place of a bone; bones that move a vertex
-SAME = 1e-5  # share of the diagonal within which vertices are one
+NO_BONE = 255  # in place of a bone
 MOVES = 0.2  # weight from which on a bone is said to move anything
 
 
-@dataclass(frozen=True, eq=False)
-class Skinned:
-    """A mesh and what moves it. bone, weight : (n, N_BONES), of each vertex. faces : (m, 3), turned outwards."""
-
-    vertices: np.ndarray
-    faces: np.ndarray
-    bone: np.ndarray
-    weight: np.ndarray
-    n_bones: int
-
-
-def read(archive: ZipFile, name: str) -> Skinned:
-    """One mesh in the game's own format, PMD 4: its faces are stored inwards."""
+def read(archive: ZipFile, name: str) -> tuple[Skinned, int]:
+    """One mesh in the game's own format, PMD 4, whose faces are stored inwards, and the number of its bones."""
     data = archive.read(f"art/meshes/{name}.dae.cached.pmd")
     if data[:4] != b"PSMD" or struct.unpack_from("<I", data, 4) != (4,):
         raise SystemExit(f"{name} is no PMD of version 4.")
@@ -92,15 +80,7 @@ def read(archive: ZipFile, name: str) -> Skinned:
     (n_faces,) = struct.unpack_from("<I", data, at)
     faces = np.frombuffer(data, "<u2", 3 * n_faces, at + 4).reshape(n_faces, 3)[:, ::-1].astype(np.int64)
     (n_bones,) = struct.unpack_from("<I", data, at + 4 + 6 * n_faces)
-    return Skinned(vertices, faces, np.where(bone == NO_BONE, 0, bone), weight, n_bones)
-
-
-@dataclass(frozen=True, eq=False)
-class Skeleton:
-    """Names of bones, and the number of the bone that carries each, -1 for none."""
-
-    names: list[str]
-    carrier: list[int]
+    return Skinned(vertices, faces, np.where(bone == NO_BONE, 0, bone), weight), n_bones
 
 
 def skeleton(archive: ZipFile, name: str, n_bones: int) -> Skeleton:
@@ -146,10 +126,10 @@ def side(name: str) -> str:
     return ""
 
 
-def parts_of_bones(bones: Skeleton, moves: np.ndarray) -> list[tuple[str, str, str]]:
+def parts_of_bones(bones: Skeleton, moves: np.ndarray) -> list[Names]:
     """Coarse, medium and fine name of what each bone moves. moves : (b,) bool, bones that move anything."""
     low = [FAMILY.sub("", name).lower() for name in bones.names]
-    named: list[tuple[str, str, str]] = [("torso",) * 3] * len(low)
+    named: list[Names] = [("torso",) * 3] * len(low)
     limbs: dict[tuple[str, str], list[int]] = {}
     for number, name in enumerate(low):
         above = bones.carrier[number]
@@ -180,7 +160,7 @@ def _end_of_body(number: int, low: list[str], bones: Skeleton) -> str:
     return "front" if any(map(IS_FRONT.search, chain)) and not back else "back"
 
 
-def _along_limb(numbers: list[int], low: list[str], limb: str, of: str) -> dict[int, tuple[str, str, str]]:
+def _along_limb(numbers: list[int], low: list[str], limb: str, of: str) -> dict[int, Names]:
     """Names of what the bones of one limb move, from the body on: first halves are upper, second halves lower ones."""
     inner = [n for n in numbers if not IS_ROOT.search(low[n])] or numbers
     ends = [n for n in inner if IS_END.search(low[n])]
@@ -192,36 +172,6 @@ def _along_limb(numbers: list[int], low: list[str], limb: str, of: str) -> dict[
     return named
 
 
-# Labels -----------------------------------------------------------------------------------------------
-
-
-def labelled(pieces: list[Skinned], bones: Skeleton) -> dict[str, np.ndarray]:
-    """Vertices, faces and labels of some meshes that one skeleton moves; parts are found on the first of them."""
-    moves = np.zeros(len(bones.names), bool)
-    moves[np.unique(pieces[0].bone[pieces[0].weight > MOVES])] = True
-    named = parts_of_bones(bones, moves)
-    same = SAME * np.linalg.norm(np.ptp(pieces[0].vertices, axis=0))
-    vertices, faces, human = [], [], []
-    for piece in pieces:
-        first, joined_faces, whole = joined(piece.vertices, piece.faces, same)
-        vertices.append(piece.vertices[first])
-        faces.append(joined_faces)
-        human.append(np.stack([_most_moved(piece, piece.faces[whole], [names[k] for names in named])
-                               for k in range(3)]))
-    human = np.stack([np.unique(row, return_inverse=True)[1] for row in np.concatenate(human, axis=1)])
-    vertices, faces, _ = stacked(vertices, faces)
-    return {"vertices": vertices, "faces": faces, "human": human}
-
-
-def _most_moved(piece: Skinned, faces: np.ndarray, named: list[str]) -> np.ndarray:
-    """Name of the part whose bones move each face most, (m,) of str. named : of each bone."""
-    parts, of_bone = np.unique(named, return_inverse=True)
-    weight = np.zeros((len(piece.vertices), len(parts)))
-    for k in range(N_BONES):
-        np.add.at(weight, (np.arange(len(weight)), of_bone[piece.bone[:, k]]), piece.weight[:, k])
-    return parts[weight[faces].sum(axis=1).argmax(axis=1)]
-
-
 def main() -> None:
     source, out = source_and_target(__doc__, "public.zip")
     tasks = [(pack, name, [name]) for pack, names in MODELS.items() for name in names.split()]
@@ -231,8 +181,12 @@ def main() -> None:
             tasks.append((pack, f"{name}_dressed_{number}", [name, *(WORN[pack] + other for other in worn)]))
     with ZipFile(source) as archive:
         for pack, name, (body, *worn) in tqdm(tasks):
-            pieces = [read(archive, file) for file in (f"skeletal/{body}", *worn)]
-            model = labelled(pieces, skeleton(archive, pack, pieces[0].n_bones))
+            naked, n_bones = read(archive, f"skeletal/{body}")
+            bones = skeleton(archive, pack, n_bones)
+            moves = np.zeros(n_bones, bool)
+            moves[np.unique(naked.bone[naked.weight > MOVES])] = True
+            pieces = [naked, *(read(archive, file)[0] for file in worn)]
+            model = labelled(pieces, parts_of_bones(bones, moves))
             write_labelled(out / f"game_{pack}.{Path(name).name}.npz", **model)
 
 
