@@ -15,6 +15,7 @@ from ..cuts.settling import settle
 from ..cuts.symmetric_regions import symmetric_on_regions
 from ..surface.labels import FaceGraph, connect
 from ..surface.mesh import TriMesh
+from ..surface.mirror_images import Images
 from .found import LEAST_WEIGHT, ComponentResult, FoundCandidates, firsts, merged_at_last
 from .mirrors import Mirror
 
@@ -26,13 +27,29 @@ def symmetric_within_faces(results: list[ComponentResult], mirrors: list[Mirror]
     ----------
     results : list of ComponentResult
     mirrors : list of Mirror
-        Planes of symmetry of them all, or of some.
+        One of all components, or several, each of one.
 
     Returns
     -------
     found : FoundCandidates
         On the small faces.
     """
+    planes = [images for mirror in mirrors for images in mirror.within]
+    of_each = [[images for images in planes if images.faces.mesh is r.component.mesh] for r in results]
+    if sum(map(len, of_each)) < len(planes):
+        label, hierarchy = _symmetric(results, planes)
+    else:  # what a plane of one body does to the others is nothing, and would take long to find
+        parts = [_symmetric([r], images) for r, images in zip(results, of_each, strict=True)]
+        first = firsts([hierarchy.n_candidates for _, hierarchy in parts])
+        label = np.concatenate([k + of_body for k, (of_body, _) in zip(first, parts, strict=True)])
+        hierarchy = Hierarchy.join([hierarchy for _, hierarchy in parts])
+    polygon = np.concatenate([r.component.polygon for r in results])
+    area = np.concatenate([r.component.mesh.face_area for r in results])
+    return FoundCandidates(polygon, label, area + LEAST_WEIGHT * sum(r.component.mesh.area for r in results), hierarchy)
+
+
+def _symmetric(results: list[ComponentResult], planes: list[Images]) -> tuple[np.ndarray, Hierarchy]:
+    """Candidate of each small face of some components, (m,) int64, and the hierarchy, symmetric in all the planes."""
     mesh = _joined([r.component.mesh for r in results])
     first = firsts([r.component.mesh.n_faces for r in results])
     contacts = np.concatenate([k + r.contacts for k, r in zip(first, results, strict=True)])
@@ -41,13 +58,11 @@ def symmetric_within_faces(results: list[ComponentResult], mirrors: list[Mirror]
     hierarchy = Hierarchy.join([r.candidates.hierarchy for r in results])
     graph = FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
     label, hierarchy = settle(graph.with_contacts(contacts), connect(graph, label), hierarchy)
-    # Of planes across each other each keeps the symmetry in those before it.
-    for images in (images for mirror in mirrors for images in mirror.within):
+    for images in planes:  # of planes across each other each keeps the symmetry in those before it
         mirror = Mirror.of_faces(images, mesh)
         label, hierarchy = symmetric_on_regions(
             graph, contacts, label, merged_at_last(hierarchy), mirror.twin, mirror.height, mirror.first, mirror.exact)
-    polygon = np.concatenate([r.component.polygon for r in results])
-    return FoundCandidates(polygon, label, mesh.face_area + LEAST_WEIGHT * mesh.area, hierarchy)
+    return label, hierarchy
 
 
 def _joined(meshes: list[TriMesh]) -> TriMesh:

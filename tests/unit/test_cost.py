@@ -52,12 +52,20 @@ def needles(count):
                              for i in range(count)))
 
 
+def planks(count):
+    """Tapering boards that lack an end, this way and that: their shape is its own image, their faces are not."""
+    board, rng = shapes.box((7.0, 1.0, 0.26)), np.random.default_rng(0)
+    taper = board.vertices + board.vertices[:, :1] * board.vertices[:, 1:2] * (0.04, 0, 0)
+    return shapes.together(*(shapes.Shape(taper @ shapes.rotation(rng).T + (0, 0, 10 * k),
+                                          np.delete(board.faces, [8, 9], axis=0)) for k in range(count)))
+
+
 ODD = {
     "ribbon": lambda: ribbon(120, 1e-6), "long ribbon": lambda: ribbon(5000, 1e-3), "fan": lambda: fan(10_000, 1.0),
     "tall fan": lambda: fan(120, 100.0), "tetrahedra": lambda: tetrahedra(99),
     "thousands of tetrahedra": lambda: tetrahedra(2500, 1e-2), "needles": lambda: needles(3),
     "needle": lambda: shapes.cylinder(4, 12, 1e-4, 1.0), "crumbs": lambda: shapes.crumbs(3000),
-    "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
+    "planks": lambda: planks(7), "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
 }
 
 
