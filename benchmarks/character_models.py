@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 import struct
+from collections.abc import Iterator
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -70,6 +71,7 @@ class Bytes:
         return self.take(f"{length}s")[0].decode()
 
     def array(self, kind: str, count: int) -> np.ndarray:
+        """So many numbers of a type of NumPy's, little end first."""
         values = np.frombuffer(self.data, np.dtype(kind).newbyteorder("<"), count, self.at)
         self.at += values.nbytes
         return values
@@ -190,7 +192,7 @@ def parts_of_bones(bones: Skeleton) -> list[Names]:
     return [names(number) for number in range(len(bones.names))]
 
 
-def models(source: Path):
+def models(source: Path) -> Iterator[tuple[str, Skinned, Skeleton]]:
     """Name, mesh and skeleton of each character."""
     if source.is_dir():
         for pack, paths in KARTS.items():

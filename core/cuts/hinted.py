@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import both_ways, components, last_of_each, on_grid, renumbered
+from ..surface.arrays import both_ways, components, is_last_of_each, on_grid, renumbered
 from ..surface.labels import FaceGraph, majority, spread
 from .hierarchy import Hierarchy
 from .joining.linkage import average_linkage
@@ -83,9 +83,7 @@ def _cells(graph: FaceGraph, label: np.ndarray, hint: np.ndarray) -> np.ndarray:
     cell = components(len(label), *graph.pairs[alike & within].T)[1]
     area, own = np.bincount(cell, graph.area), np.empty(int(cell.max()) + 1, np.int64)
     own[cell] = label
-    kept = area >= least
-    largest = last_of_each(own, area, -np.arange(len(area)), count=int(label.max()) + 1)
-    kept[largest[largest >= 0]] = True  # a candidate may have no faces
+    kept = (area >= least) | is_last_of_each(own, area, -np.arange(len(area)), count=int(label.max()) + 1)
     cell = np.where(kept[cell], cell, -1)
     for chosen in (alike, within):
         cell = spread(cell, *both_ways(graph.pairs[chosen]).T)

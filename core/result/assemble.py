@@ -18,7 +18,7 @@ from ..field.agd import ScalarField
 from ..graph.reeb import ReebGraph
 from ..parameters import PERCEPTUAL, TOGETHER, Parameters
 from ..sentence import Sentence
-from ..surface.arrays import components, last_of_each, sums_by
+from ..surface.arrays import components, is_last_of_each, last_of_each, sums_by
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh
@@ -254,10 +254,9 @@ def _apart(
     solid[piece[working.polygon]] = True
     name = np.empty(count, np.int64)
     name[piece] = label
-    main = last_of_each(name, solid, np.bincount(piece, graph.area, count), -np.arange(count),
-                        count=hierarchy.n_candidates)
-    solid[main[main >= 0]] = False  # a candidate may have no faces
-    apart = np.flatnonzero(solid)
+    main = is_last_of_each(name, solid, np.bincount(piece, graph.area, count), -np.arange(count),
+                           count=hierarchy.n_candidates)
+    apart = np.flatnonzero(solid & ~main)
     if not len(apart):
         return label, hierarchy
     merges = np.stack([name[apart], hierarchy.n_candidates + np.arange(len(apart))], axis=1)

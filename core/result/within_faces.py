@@ -36,13 +36,13 @@ def symmetric_within_faces(results: list[ComponentResult], mirrors: list[Mirror]
     """
     planes = [images for mirror in mirrors for images in mirror.within]
     of_each = [[images for images in planes if images.faces.mesh is r.component.mesh] for r in results]
-    if sum(map(len, of_each)) < len(planes):
-        label, hierarchy = _symmetric(results, planes)
-    else:  # what a plane of one body does to the others is nothing, and would take long to find
-        parts = [_symmetric([r], images) for r, images in zip(results, of_each, strict=True)]
-        first = firsts([hierarchy.n_candidates for _, hierarchy in parts])
-        label = np.concatenate([k + of_body for k, (of_body, _) in zip(first, parts, strict=True)])
-        hierarchy = Hierarchy.join([hierarchy for _, hierarchy in parts])
+    # What a plane of one body does to the others is nothing, and would take long to find.
+    alone = sum(map(len, of_each)) == len(planes)
+    groups = [([r], images) for r, images in zip(results, of_each, strict=True)] if alone else [(results, planes)]
+    parts = [_symmetric(some, images) for some, images in groups]
+    first = firsts([hierarchy.n_candidates for _, hierarchy in parts])
+    label = np.concatenate([k + of_group for k, (of_group, _) in zip(first, parts, strict=True)])
+    hierarchy = Hierarchy.join([of_group for _, of_group in parts])
     polygon = np.concatenate([r.component.polygon for r in results])
     area = np.concatenate([r.component.mesh.face_area for r in results])
     return FoundCandidates(polygon, label, area + LEAST_WEIGHT * sum(r.component.mesh.area for r in results), hierarchy)

@@ -533,3 +533,11 @@ def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray
     last = np.full(count, -1, np.int64)
     last[group[rows]] = rows  # NumPy keeps the last of the values written to one place
     return last
+
+
+def is_last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray:
+    """Which elements ``last_of_each`` finds, (n,) bool; nothing for a group without elements."""
+    last = last_of_each(group, *keys, count=count)
+    chosen = np.zeros(len(group), bool)
+    chosen[last[last >= 0]] = True
+    return chosen

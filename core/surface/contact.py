@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import components, distinct_pairs, first_least, last_of_each, weighted_sum
+from .arrays import components, distinct_pairs, first_least, is_last_of_each, last_of_each, weighted_sum
 from .mesh import TriMesh
 
 # In units of the diameter of a surface: how near two pieces must come to touch, how near to belong to one body, and
@@ -57,9 +57,9 @@ class SurfacePoints:
             np.concatenate([face_at, np.arange(mesh.n_faces)]),
             np.concatenate([np.arange(mesh.n_vertices), nearest]),
             np.concatenate([mesh.vertex_area, mesh.face_area]) / 2)
-        largest = mesh.n_vertices + last_of_each(
-            group, mesh.face_area, -np.arange(mesh.n_faces), count=int(group.max()) + 1)
-        return points.some(count, largest[largest >= mesh.n_vertices])
+        largest = np.flatnonzero(is_last_of_each(
+            group, mesh.face_area, -np.arange(mesh.n_faces), count=int(group.max()) + 1))
+        return points.some(count, mesh.n_vertices + largest)
 
     def some(self, count: int, always: np.ndarray) -> SurfacePoints:
         """About so many of the points, evenly spread over their order, and some that are always taken."""

@@ -12,6 +12,8 @@ from core.surface.arrays import (
     cross,
     expanded,
     first_of_rows,
+    is_last_of_each,
+    last_of_each,
     lengths,
     ranges,
     renumbered,
@@ -107,3 +109,9 @@ def test_components_of_what_cannot_be_halved():
     middle, rest = np.full(n - 1, n - 1), np.arange(n - 1)
     for a, b in ((middle, rest), (rest, middle), (rest, rest + 1), (rest[::-1], rest[::-1] + 1)):
         assert components(n, a, b)[0] == 1
+
+
+def test_the_last_of_a_group_without_elements_is_none():
+    group, key = np.array([0, 2, 2, 0]), np.array([1.0, 1.0, 3.0, 1.0])
+    assert last_of_each(group, key, count=4).tolist() == [3, -1, 2, -1]
+    assert is_last_of_each(group, key, count=4).tolist() == [False, False, True, True]
