@@ -20,7 +20,7 @@ packages.need("numpy", "trimesh", "tqdm")
 
 import numpy as np
 import trimesh
-from meshes import joined_alone, source_and_target, stacked, write_labelled
+from meshes import joined_alone, some, source_and_target, stacked, write_labelled
 from tqdm import tqdm
 
 LEAST_MATERIALS, MOST_FACES = 2, 20_000
@@ -36,7 +36,7 @@ def read(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def main() -> None:
     catalogs, out = source_and_target(__doc__)
-    for catalog in tqdm(sorted(catalogs.glob("*.sh3f"))):
+    for catalog in tqdm(some(sorted(catalogs.glob("*.sh3f")), catalogs)):
         with tempfile.TemporaryDirectory() as folder, ZipFile(catalog) as archive:
             archive.extractall(folder, [name for name in archive.namelist() if name.lower().endswith(".obj")])
             for path in sorted(Path(folder).rglob("*.obj")):

@@ -85,6 +85,13 @@ def source_and_target(description: str | None, source: str = "FOLDER") -> tuple[
     return options.source, options.out
 
 
+def some(models: list, source: Path) -> list:
+    """What of ``source`` a program takes; without any the program ends with a sentence that says so."""
+    if not models:
+        raise SystemExit(f"{source} holds none of the models that are taken; see --help")
+    return models
+
+
 def write_labelled(path: Path, vertices: np.ndarray, faces: np.ndarray, **labels: np.ndarray) -> None:
     """Write a mesh and labels of its faces, such as ``human`` (k, m) or ``material`` (m,), as benchmarks read them."""
     np.savez_compressed(path, vertices=vertices.astype(np.float32), faces=faces.astype(np.int32),

@@ -19,7 +19,7 @@ packages.need("numpy", "scipy", "trimesh", "mujoco", "yourdfpy", "collada", "fas
 import mujoco
 import numpy as np
 import trimesh
-from meshes import source_and_target, stacked, write_labelled
+from meshes import some, source_and_target, stacked, write_labelled
 from robots import Robot, labels, reduced
 from tqdm import tqdm
 
@@ -110,7 +110,8 @@ def _skin(model: mujoco.MjModel) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def main() -> None:
     folder, out = source_and_target(__doc__)
     mujoco.set_mju_user_warning(lambda _: None)  # or it leaves a log in the folder it is called from
-    for name, (file, group) in tqdm([item for item in MODELS.items() if (folder / item[1][0]).is_file()]):
+    there = [item for item in MODELS.items() if (folder / item[1][0]).is_file()]
+    for name, (file, group) in tqdm(some(there, folder)):
         robot = reduced(read(folder / file, group))
         write_labelled(out / f"{name}.npz", robot.mesh.vertices, robot.mesh.faces, human=labels(robot))
 

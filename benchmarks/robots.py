@@ -3,10 +3,10 @@
 
     python3 benchmarks/robots.py FOLDER OUT
 
-FOLDER holds robot descriptions (URDF) and their meshes, such as those of example-robot-data 6.0.0 or of pybullet
-3.2.7; of these, what ROBOTS names is taken, each at rest. OUT gets PACK.NAME.npz with ``vertices``, ``faces`` and
-``human``: a coarse labelling, a chain of links from a fork to the next in one part; a medium one by links that joints
-move; a fine one with links down to LEAST[-1] of the area. Meshes of links are reduced to FACES in all.
+FOLDER holds robot descriptions (URDF) and their meshes, such as robots/ of example-robot-data 6.0.0 or pybullet_data/
+of pybullet 3.2.7; of these, what ROBOTS names is taken, each at rest. OUT gets PACK.NAME.npz with ``vertices``,
+``faces`` and ``human``: a coarse labelling, a chain of links from a fork to the next in one part; a medium one by links
+that joints move; a fine one with links down to LEAST[-1] of the area. Meshes of links are reduced to FACES in all.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ import fast_simplification
 import numpy as np
 import trimesh
 import yourdfpy
-from meshes import joined_alone, source_and_target, stacked, write_labelled
+from meshes import joined_alone, some, source_and_target, stacked, write_labelled
 from tqdm import tqdm
 
 from core.surface.arrays import components
@@ -185,7 +185,7 @@ def _chains(above: dict[str, str | None]) -> dict[str, str]:
 
 def main() -> None:
     folder, out = source_and_target(__doc__)
-    for name in tqdm([name for name in ROBOTS if (folder / f"{name}.urdf").is_file()]):
+    for name in tqdm(some([name for name in ROBOTS if (folder / f"{name}.urdf").is_file()], folder)):
         robot = reduced(read(folder / f"{name}.urdf"))
         pack = "robot_" + name.split("/")[0].removesuffix("_description")
         path = out / f"{pack}.{Path(name).name}.npz"
