@@ -36,7 +36,6 @@ from tqdm import tqdm
 from train import mean_of, trees_of
 
 from core.cuts.boosted_trees import BoostedTrees
-from core.cuts.hierarchy import Hierarchy
 from core.cuts.joining.distant import FEATURES as DISTANT_FEATURES
 from core.cuts.joining.distant import DistantPairs
 from core.cuts.joining.method import FineParts, JoinModel, compare_distant, fine_parts, join_parts, near_odds
@@ -74,8 +73,6 @@ class Body:
     Attributes
     ----------
     parts : FineParts
-    hierarchy : Hierarchy
-        Of each piece on its own.
     face_candidate, polygon : (m,) int64
         Candidate of each face of the body's mesh, and the face of the mesh given that it lies in.
     face_area : (m,) float64
@@ -85,7 +82,6 @@ class Body:
     """
 
     parts: FineParts
-    hierarchy: Hierarchy
     face_candidate: np.ndarray
     polygon: np.ndarray
     face_area: np.ndarray
@@ -141,8 +137,8 @@ def prepare(name: str, vertices: np.ndarray, faces: np.ndarray, human: np.ndarra
             table = np.zeros((len(parts.candidate), person.max() + 1))
             np.add.at(table, (parts.part, person[component.polygon]), component.mesh.face_area + 1e-300)
             shares.append(table / table.sum(axis=1, keepdims=True))
-        found.append(Body(parts, result.candidates.hierarchy, result.face_candidate, component.polygon,
-                          component.mesh.face_area, component.mesh.face_components[0], shares))
+        found.append(Body(parts, result.face_candidate, component.polygon, component.mesh.face_area,
+                          component.mesh.face_components[0], shares))
     return Subject(name, found, human, kind)
 
 
@@ -236,9 +232,9 @@ def error(subject: Subject, model: JoinModel) -> tuple[float, int]:
     """Rand index error of the parts of detail 0.5, mean over people, and how many parts there are."""
     labels, first = np.full(subject.human.shape[1], -1), 0
     for body in subject.bodies:
-        hierarchy = body.hierarchy
+        hierarchy = body.parts.hierarchy
         if body.n_pieces > 1:
-            hierarchy, _ = join_parts(body.parts, hierarchy, model)
+            hierarchy, _ = join_parts(body.parts, model)
         part = hierarchy.parts(hierarchy.n_parts(0.5))[body.face_candidate]
         of_face = majority(body.polygon, part, body.face_area + 1e-300, len(labels))
         labels = np.where(of_face >= 0, first + of_face, labels)

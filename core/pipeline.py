@@ -192,5 +192,5 @@ def join_pieces(
     hierarchy = found.candidates.hierarchy
     parts = fine_parts(found.component.mesh, found.face_candidate, hierarchy, found.field.normalized,
                        learned=parameters.method == "perceptual")
-    hierarchy, contacts = join_parts(parts, hierarchy, model)
+    hierarchy, contacts = join_parts(parts, model)
     return replace(found, candidates=Candidates(found.candidates.element_candidate, hierarchy), contacts=contacts)

@@ -225,6 +225,13 @@ class Hierarchy:
         """
         return np.minimum(self.dendrogram.row_of(a, b), len(self.merges))
 
+    def salience_between(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        """Salience of what parts each two candidates.
+
+        a, b : (e,) int64, candidates. Returns (e,) float64: 1 where no merge joins the two, 0 of one and itself.
+        """
+        return np.where(a == b, 0.0, np.append(self.salience, 1.0)[self.merge_of(a, b)])
+
     def salience_table(self, candidates: np.ndarray) -> np.ndarray:
         """Salience of what parts each two of some candidates.
 

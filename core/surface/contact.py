@@ -121,9 +121,16 @@ def _nearest_of_each_label(position: np.ndarray, label: np.ndarray, radius: floa
     """
     found = [np.empty((0, 2), np.int64)]
     order = np.argsort(label, kind="stable")
+    # Of thousands of labels most lie in a small part of what is longest.
+    longest = np.ptp(position, axis=0).argmax()
+    along = np.argsort(position[:, longest], kind="stable")
+    sorted_along = position[along, longest]
     for mine in np.split(order, np.flatnonzero(np.diff(label[order])) + 1):
         low, high = position[mine].min(axis=0) - radius, position[mine].max(axis=0) + radius
-        others = np.flatnonzero(((position >= low) & (position <= high)).all(axis=1) & (label != label[mine[0]]))
+        begin, end = np.searchsorted(sorted_along, low[longest]), np.searchsorted(sorted_along, high[longest], "right")
+        others = along[begin:end]
+        there = position[others]
+        others = others[((there >= low) & (there <= high)).all(axis=1) & (label[others] != label[mine[0]])]
         # Up to and with the radius.
         distance, nearest = cKDTree(position[mine]).query(
             position[others], k=[1, 2], distance_upper_bound=np.nextafter(radius, np.inf))

@@ -60,12 +60,25 @@ def planks(count):
                                           np.delete(board.faces, [8, 9], axis=0)) for k in range(count)))
 
 
+def lawn(count):
+    """Blades of two faces, each near hundreds of others."""
+    rng = np.random.default_rng(0)
+    out, angle, turn = np.sqrt(rng.random(count)), *rng.uniform(0, 2 * np.pi, (2, count))
+    foot = np.stack([out * np.cos(angle), out * np.sin(angle), 0 * out], axis=1)
+    across = 0.01 * np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
+    tip = foot + rng.normal(size=(count, 3)) * (0.03, 0.03, 0.02) + (0, 0, 0.2)
+    corners = np.stack([foot - across, foot + across, tip + 0.3 * across, tip - 0.3 * across], axis=1)
+    first = 4 * np.arange(count)[:, None]
+    return shapes.Shape(corners.reshape(-1, 3), np.concatenate([first + (0, 1, 2), first + (0, 2, 3)]))
+
+
 ODD = {
     "ribbon": lambda: ribbon(120, 1e-6), "long ribbon": lambda: ribbon(5000, 1e-3), "fan": lambda: fan(10_000, 1.0),
     "tall fan": lambda: fan(120, 100.0), "tetrahedra": lambda: tetrahedra(99),
     "thousands of tetrahedra": lambda: tetrahedra(2500, 1e-2), "needles": lambda: needles(3),
     "needle": lambda: shapes.cylinder(4, 12, 1e-4, 1.0), "crumbs": lambda: shapes.crumbs(3000),
-    "planks": lambda: planks(7), "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
+    "lawn": lambda: lawn(3_500), "planks": lambda: planks(7),
+    "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
 }
 
 

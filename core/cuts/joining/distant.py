@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.cluster.hierarchy import DisjointSet
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
 from ...surface.arrays import on_grid, rounded
-from .pairs import PartPairs, unlikeness
+from .pairs import PartPairs, Salience, unlikeness
 
 MOST = 80  # parts that are compared with all others; pairs grow as the square of it
 #: Of one part; of a pair first the smaller.
@@ -45,7 +45,7 @@ class DistantPairs:
 
 
 def distant_pairs(
-    near: PartPairs, salience: np.ndarray, odds: np.ndarray, merges: np.ndarray, score: np.ndarray
+    near: PartPairs, salience: Salience, odds: np.ndarray, merges: np.ndarray, score: np.ndarray
 ) -> DistantPairs:
     """Compare the largest parts of a body in all pairs.
 
@@ -53,8 +53,8 @@ def distant_pairs(
     ----------
     near : PartPairs
         The e pairs that come near each other, and the shapes of all c parts.
-    salience : (c, c) float64
-        Of the cut between two parts of one piece; not looked at for others.
+    salience : callable
+        Of the cut between two parts of one piece; not asked of others.
     odds : (e,) float64
         Log-odds that the two parts of a near pair are one.
     merges, score : (s, 2) int64 and (s,) float64
@@ -74,6 +74,8 @@ def distant_pairs(
     level = _joined_at(*_strongest_first(near.parts, shapes.agd[near.parts].min(axis=1)), chosen, LOWEST)[first, second]
     steps, way = _ways(near.parts, shapes.center, chosen)
     same = shapes.piece[small] == shapes.piece[large]
+    cut = np.ones(len(same))
+    cut[same] = salience(small[same], large[same])
     of_part = {
         "log_area": np.log(shapes.area), "log_piece_area": np.log(shapes.piece_area), "agd": shapes.agd,
         **{f"extent_{k + 1}": shapes.extents[:, k] for k in range(3)}}
@@ -83,7 +85,7 @@ def distant_pairs(
         "joined": _joined_at(merges, np.minimum.accumulate(score), chosen, NEVER)[first, second],
         "steps": steps[first, second], "way": way[first, second],
         "distance": np.linalg.norm(shapes.center[small] - shapes.center[large], axis=1),
-        "pass": level, "same_piece": same, "salience": np.where(same, salience[small, large], 1.0),
+        "pass": level, "same_piece": same, "salience": cut,
         "alike": unlikeness(shapes.extents[small], shapes.extents[large]),
         **{f"small_{n}": value[small] for n, value in of_part.items()},
         **{f"large_{n}": value[large] for n, value in of_part.items()},
@@ -122,6 +124,7 @@ def _joined_at(merges: np.ndarray, level: np.ndarray, chosen: np.ndarray, never:
     merges, level : (s, 2) and (s,), a member of each of two groups, in order. chosen : (k,) the parts.
     """
     found = np.full((len(chosen), len(chosen)), never)
+    merges, level = _joining(merges, level)
     groups = DisjointSet(range(int(max(merges.max(initial=0), chosen.max(initial=0))) + 1))
     members: dict[int, list[int]] = {part: [place] for place, part in enumerate(chosen.tolist())}
     for (a, b), value in zip(merges.tolist(), level.tolist(), strict=True):
@@ -134,6 +137,19 @@ def _joined_at(merges: np.ndarray, level: np.ndarray, chosen: np.ndarray, never:
         groups.merge(a, b)
         members[groups[a]] = of_a + of_b
     return found
+
+
+def _joining(pairs: np.ndarray, level: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Those of the pairs, (e, 2) and (e,), in order, whose two members no earlier ones brought into one group."""
+    if not len(pairs):
+        return pairs, level
+    count = int(pairs.max()) + 1
+    # Of two pairs with the same members the first counts; SciPy would add the numbers of both.
+    _, first = np.unique(np.sort(pairs, axis=1) @ (count, 1), return_index=True)
+    ends = pairs[first].T.astype(np.int32)  # SciPy's trees take no others
+    tree = minimum_spanning_tree(csr_array((first + 1.0, ends), shape=(count, count)))
+    kept = np.sort(tree.data.astype(np.int64)) - 1
+    return pairs[kept], level[kept]
 
 
 def _ways(near: np.ndarray, center: np.ndarray, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -5,10 +5,15 @@ from __future__ import annotations
 
 import heapq
 import math
+from collections.abc import Iterable
 
 import numpy as np
 
 NONE = math.inf, -1  # in place of a near pair
+
+#: What two groups cost to join, both groups, the lower first, the sum of their weighted scores, that of the weights, and
+#: the best near pair as (-score, row). Without a near pair it costs infinitely much.
+Edge = tuple[float, int, int, float, float, tuple[float, int]]
 
 
 def average_linkage(
@@ -47,42 +52,79 @@ def average_linkage(
 
     Notes
     -----
-    O(e log e) in Python: of parts there are hundreds, not thousands.
+    After [Muellner2011], his generic algorithm: each group knows a bound of what its cheapest neighbor costs, which is
+    found anew only when no other is less. About O(e log c) in Python, c members: of parts there are hundreds, of
+    which each is near some ten.
     """
-    # Of each group, by neighbor: the sum of weighted scores, the weight, and the best near pair as (-score, row).
-    sizes = [1.0] * count if size is None else size.tolist()
-
-    def cost_of(a: int, b: int, edge: tuple[float, float, tuple[float, int]]) -> float:
-        return ease * math.log(min(sizes[a], sizes[b], 1.0)) - edge[0] / edge[1]
-
-    around: list[dict[int, tuple[float, float, tuple[float, int]]]] = [{} for _ in range(count)]
+    groups = _Groups([1.0] * count if size is None else size.tolist(), ease)
     joins = [True] * len(pairs) if near is None else near.tolist()
     for row, ((a, b), s, w) in enumerate(zip(pairs.tolist(), score.tolist(), weight.tolist(), strict=True)):
-        around[a][b] = around[b][a] = (s * w, w, (-s, row) if joins[row] else NONE)
-    heap = [(cost_of(a, b, edge), a, b)
-            for a in range(count) for b, edge in around[a].items() if a < b and edge[2] is not NONE]
-    heapq.heapify(heap)
+        groups.link_(a, b, s * w, w, (-s, row) if joins[row] else NONE)
+    groups.search_(range(count))
     merges, scores, rows = [], [], []
-    while heap:
-        cost, a, b = heapq.heappop(heap)
-        edge = around[a].get(b)
-        if edge is None or cost_of(a, b, edge) != cost:
-            continue  # gone, or changed since
-        merges.append((a, b))
-        scores.append(-cost)
-        rows.append(edge[2][1])
-        del around[a][b], around[b][a]
-        sizes[a] += sizes[b]
-        changed = set(around[a]) if ease else set()
-        for other, (s, w, best) in around[b].items():
-            del around[other][b]
-            known = around[a].get(other)
-            joined = (s, w, best) if known is None else (s + known[0], w + known[1], min(best, known[2]))
-            around[a][other] = around[other][a] = joined
-            changed.add(other)
-        for other in changed:
-            if around[a][other][2] is NONE:
-                continue
-            heapq.heappush(heap, (cost_of(a, other, around[a][other]), min(a, other), max(a, other)))
-        around[b] = {}
+    while (edge := groups.pop_()) is not None:
+        merges.append(edge[1:3])
+        scores.append(-edge[0])
+        rows.append(edge[5][1])
+        groups.merge_(*edge[1:3])
     return np.reshape(merges, (-1, 2)).astype(np.int64), np.array(scores, float), np.array(rows, np.int64)
+
+
+class _Groups:
+    """Groups, and between which of them there are pairs; ``merge_`` joins two, ``search_`` and ``pop_`` find which."""
+
+    def __init__(self, sizes: list[float], ease: float) -> None:
+        self.sizes, self.ease = sizes, ease
+        self.around: list[dict[int, Edge]] = [{} for _ in sizes]
+        #: Of each group an edge that costs no more than any it has; it may be gone since.
+        self.nearest: list[Edge | None] = [None for _ in sizes]
+        self.queue: list[tuple[Edge, int]] = []
+
+    def link_(self, a: int, b: int, score: float, weight: float, best: tuple[float, int]) -> Edge:
+        """Put an edge between two groups, in place of the one that is there."""
+        cost = math.inf
+        if best is not NONE:
+            cost = self.ease * math.log(min(self.sizes[a], self.sizes[b], 1.0)) - score / weight
+        edge = (cost, a, b, score, weight, best) if a < b else (cost, b, a, score, weight, best)
+        self.around[a][b] = self.around[b][a] = edge
+        return edge
+
+    def search_(self, groups: Iterable[int]) -> None:
+        """Find the cheapest edge of some groups anew."""
+        for group in groups:
+            edge = min(self.around[group].values(), default=None)
+            self.nearest[group] = edge
+            if edge is not None and edge[5] is not NONE:
+                heapq.heappush(self.queue, (edge, group))
+
+    def pop_(self) -> Edge | None:
+        """The cheapest edge of all."""
+        while self.queue:
+            edge, group = heapq.heappop(self.queue)
+            if self.nearest[group] is not edge:
+                continue  # a cheaper one has come
+            if self.around[edge[1]].get(edge[2]) is edge:
+                return edge
+            self.search_([group])
+        return None
+
+    def merge_(self, a: int, b: int) -> None:
+        """Let group b become part of group a."""
+        around, sizes, before = self.around, self.sizes, self.sizes[a]
+        of_a, of_b = around[a], around[b]
+        del of_a[b], of_b[a]
+        sizes[a] += sizes[b]
+        changed = [(other, edge[3:]) for other, edge in of_a.items()
+                   if self.ease and before < min(sizes[other], 1.0) and other not in of_b]
+        for other, (_, _, _, score, weight, best) in of_b.items():
+            del around[other][b]
+            if (known := of_a.get(other)) is not None:
+                score, weight, best = score + known[3], weight + known[4], min(best, known[5])
+            changed.append((other, (score, weight, best)))
+        for other, (score, weight, best) in changed:
+            edge, nearest = self.link_(a, other, score, weight, best), self.nearest[other]
+            if best is not NONE and (nearest is None or edge < nearest):
+                self.nearest[other] = edge
+                heapq.heappush(self.queue, (edge, other))
+        self.around[b], self.nearest[b] = {}, None
+        self.search_([a])

@@ -53,9 +53,9 @@ class FineParts:
         Part of each face of the body's mesh, 0..c-1.
     candidate : (c,) int64
         A candidate in each part.
+    hierarchy : Hierarchy
+        Over the candidates; merges within pieces only.
     pairs : PartPairs
-    salience : (c, c) float64
-        Of the cut between two parts of one piece.
     fine : float
         Salience below which candidates are together in them.
     within : float
@@ -64,10 +64,14 @@ class FineParts:
 
     part: np.ndarray
     candidate: np.ndarray
+    hierarchy: Hierarchy
     pairs: PartPairs
-    salience: np.ndarray
     fine: float
     within: float
+
+    def salience(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        """Salience of the cut between two parts of one piece, (e,) float64. a, b : (e,) int64."""
+        return self.hierarchy.salience_between(self.candidate[a], self.candidate[b])
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,20 +116,16 @@ def fine_parts(
     present, part = renumbered(hierarchy.parts(hierarchy.n_parts(1.0 - fine))[label])
     candidate = np.zeros(len(present), np.int64)
     candidate[part] = label
-    salience = hierarchy.salience_table(candidate)
-    return FineParts(part, candidate, part_pairs(mesh, part, salience, agd), salience, fine, within)
+    pairs = part_pairs(mesh, part, lambda a, b: hierarchy.salience_between(candidate[a], candidate[b]), agd)
+    return FineParts(part, candidate, hierarchy, pairs, fine, within)
 
 
-def join_parts(
-    parts: FineParts, hierarchy: Hierarchy, model: JoinModel | None = None
-) -> tuple[Hierarchy, np.ndarray]:
+def join_parts(parts: FineParts, model: JoinModel | None = None) -> tuple[Hierarchy, np.ndarray]:
     """Extend the hierarchies of several pieces to one over all of them.
 
     Parameters
     ----------
     parts : FineParts
-    hierarchy : Hierarchy
-        Over the candidates; merges within pieces only.
     model : JoinModel, optional
         What judges pairs; the one that ships with the package without.
 
@@ -145,6 +145,7 @@ def join_parts(
     strength = np.interp(1 / (1 + np.exp(-score)), [0.0, DECISION, 1.0], [1.0, 0.5, parts.fine])
     touching = (pairs.gap <= TOUCH) & ~pairs.same_piece
     contacts = pairs.faces[np.union1d(rows, np.flatnonzero(touching))]
+    hierarchy = parts.hierarchy
     kept = hierarchy.salience < parts.fine
     extended = Hierarchy.of(
         hierarchy.n_candidates, np.concatenate([hierarchy.merges[kept], parts.candidate[merges]]),

@@ -104,6 +104,18 @@ def test_join_keeps_parts_apart_and_merges_the_weakest_first():
         assert len(np.unique(got * 1000 + expected)) == len(np.unique(got)) == len(np.unique(expected))
 
 
+def test_salience_between_two_candidates_is_that_at_which_they_come_together():
+    rng = np.random.default_rng(0)
+    joined = Hierarchy.join([random_hierarchy(rng, n) for n in (5, 1, 7)])
+    a, b = np.indices((13, 13)).reshape(2, -1)
+    between = joined.salience_between(a, b)
+    np.testing.assert_array_equal(between.reshape(13, 13), joined.salience_table(np.arange(13)))
+    for one, other, salience in zip(a, b, between, strict=True):
+        together = [joined.parts(13 - done)[one] == joined.parts(13 - done)[other] for done in range(11)]
+        expected = np.append(0.0, joined.salience)[together.index(True)] if any(together) else 1.0
+        assert salience == expected
+
+
 def test_one_candidate():
     hierarchy = Hierarchy.of(1, [], [])
     assert hierarchy.n_loose == 1

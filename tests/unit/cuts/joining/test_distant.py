@@ -18,11 +18,16 @@ def parts_of(near, area, center, agd, piece=None):
     return PartPairs(near, np.empty((len(near), 0)), nothing > 0, nothing, nothing, faces, shapes)
 
 
+def parted_by(salience):
+    """Every two parts of a piece by the same."""
+    return lambda a, b: np.full(len(a), salience)
+
+
 def chain():
     """Four parts in a row, of the pieces 0, 1, 2, 2, and a fifth that is near none."""
     near = parts_of([(0, 1), (1, 2), (2, 3)], [0.1, 0.4, 0.2, 0.25, 0.05],
                     [(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 2, 0), (9, 0, 0)], [0.8, 0.1, 0.3, 0.9, 0.5], [0, 1, 2, 2, 3])
-    salience = np.full((5, 5), 0.25)
+    salience = parted_by(0.25)
     odds = np.array([3.0, -1.0, 2.0])
     merges, score = np.array([(0, 1), (2, 3), (0, 2)]), np.array([3.0, 2.0, -0.5])
     return near, salience, odds, merges, score
@@ -49,7 +54,7 @@ def test_a_chain_by_hand():
 
 def test_of_one_shape():
     near = parts_of([(0, 1)], [0.3, 0.3, 0.4], np.zeros((3, 3)), np.zeros(3))
-    pairs = distant_pairs(near, np.ones((3, 3)), np.zeros(1), np.empty((0, 2), int), np.empty(0))
+    pairs = distant_pairs(near, parted_by(1.0), np.zeros(1), np.empty((0, 2), int), np.empty(0))
     alike = pairs.features[:, FEATURES.index("alike")]
     assert alike[0] == 0
     assert (alike[1:] > 0).all()
@@ -75,7 +80,7 @@ def test_of_many_parts_the_largest_are_compared():
     count = MOST + 5
     area = np.linspace(1, 2, count)[::-1]
     near = np.stack([np.arange(count - 1), np.arange(1, count)], axis=1)
-    arguments = np.ones((count, count)), np.zeros(count - 1), np.empty((0, 2), int), np.empty(0)
+    arguments = parted_by(1.0), np.zeros(count - 1), np.empty((0, 2), int), np.empty(0)
 
     def compared(area):
         return np.unique(distant_pairs(parts_of(near, area, np.zeros((count, 3)), np.zeros(count)), *arguments).parts)
@@ -89,5 +94,5 @@ def test_of_many_parts_the_largest_are_compared():
 
 def test_nothing_near():
     near = parts_of(np.empty((0, 2), int), [0.5, 0.5], np.eye(3)[:2], [0.1, 0.2])
-    pairs = distant_pairs(near, np.ones((2, 2)), np.empty(0), np.empty((0, 2), int), np.empty(0))
+    pairs = distant_pairs(near, parted_by(1.0), np.empty(0), np.empty((0, 2), int), np.empty(0))
     assert columns(pairs, ("odds", "weakest", "steps"), 0, 1) == [NOT_NEAR, NEVER, STEPS]

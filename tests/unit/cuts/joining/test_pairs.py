@@ -6,15 +6,14 @@ import pytest
 import shapes
 
 from core import TriMesh
-from core.cuts.joining.pairs import FEATURES, part_pairs
+from core.cuts.joining.pairs import FEATURES, MOST_NEAR, part_pairs
 
 
 def measured(shape, label=None):
     mesh = TriMesh(*shape)
     label = mesh.face_components[1] if label is None else label
-    count = label.max() + 1
     agd = np.linalg.norm(mesh.vertices - mesh.vertices.mean(axis=0), axis=1)
-    return part_pairs(mesh, label, np.ones((count, count)), agd / max(agd.max(), 1e-300))
+    return part_pairs(mesh, label, lambda a, b: np.ones(len(a)), agd / max(agd.max(), 1e-300))
 
 
 def furniture():
@@ -66,3 +65,28 @@ def test_pose_and_order_of_faces_change_little():
     for other in (turned, shuffled):
         np.testing.assert_array_equal(one.parts, other.parts)
         np.testing.assert_allclose(one.features, other.features, rtol=0.05, atol=0.1)
+
+
+def grains(place):
+    """Small tetrahedra at some places, (k, 3)."""
+    one = shapes.tetrahedron()
+    return shapes.together(*(shapes.Shape(1e-5 * one.vertices + at, one.faces) for at in place))
+
+
+def test_of_a_crowd_each_is_compared_with_those_that_are_nearest():
+    """A pair is left out where both have so many others that are nearer."""
+    rng = np.random.default_rng(0)
+    # Far off is one that makes the whole so large that all others are near each other.
+    place = np.concatenate([rng.normal(size=(150, 3)) * 0.001, [(1, 0, 0)]])
+    crowd = measured(grains(place))
+    assert np.bincount(crowd.parts.ravel(), minlength=151)[:150].min() >= MOST_NEAR
+    assert len(crowd.parts) <= MOST_NEAR * len(place) < 150 * 149 / 2
+    kept = set(map(tuple, crowd.parts.tolist()))
+    for part in range(150):
+        apart = np.linalg.norm(place[:150] - place[part], axis=1)
+        nearest = np.argsort(apart)[1:MOST_NEAR // 2]  # by their middles
+        assert all((min(part, other), max(part, other)) in kept for other in nearest.tolist())
+
+
+def test_all_that_are_equally_near_are_compared():
+    assert len(measured(grains(np.zeros((100, 3)))).parts) == 100 * 99 / 2
