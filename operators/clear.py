@@ -24,7 +24,7 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
             raise SceneError(rpt_("The active object has no parts"))
 
     def run(self, context: bpy.types.Context) -> None:
-        objects = targets.chosen_objects(context)
+        objects = targets.chosen_objects(context, self.report)
         with object_mode(context):
             for obj in objects:
                 results.clear(obj)

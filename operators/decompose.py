@@ -89,7 +89,7 @@ class REEB_PARTS_OT_decompose(
 
     def _reading(self, context: bpy.types.Context) -> Steps[tuple[Parameters, list[tuple[str, Shape]]]]:
         """The parameters and the shapes; raises SceneError or ReebError."""
-        parameters, objects, shapes = self.parameters(), targets.chosen_objects(context), []
+        parameters, objects, shapes = self.parameters(), targets.chosen_objects(context, self.report), []
         for index, obj in enumerate(objects):
             steps = bridge.reading_shape(obj, self.hints)
             shape = yield from stretched(steps, 0.8 * index / len(objects), 0.8 * (index + 1) / len(objects))
@@ -105,7 +105,7 @@ class REEB_PARTS_OT_decompose(
             raise SceneError(translated(outcomes[0].problem))
         with object_mode(context):
             for index, outcome in enumerate(done):
-                steps = writing_result(context, bpy.data.objects[outcome.object_name], outcome, self)
+                steps = writing_result(context, bpy.data.objects[outcome.object_name, None], outcome, self)
                 yield from stretched(steps, index / len(done), (index + 1) / len(done))
         for outcome in outcomes:
             self._report(outcome, len(outcomes) > 1)
@@ -117,7 +117,7 @@ class REEB_PARTS_OT_decompose(
             return
         for note in outcome.decomposition.notes + outcome.shape.notes:
             self.report({"INFO"}, name + translated(note))
-        result = bpy.data.objects[outcome.object_name].data.reeb_parts
+        result = bpy.data.objects[outcome.object_name, None].data.reeb_parts
         self.report({"INFO"}, name + rpt_("{n} {n:part|parts} in {seconds:.1f} s").format(
             n=Count(len(result.parts)), seconds=outcome.seconds))
 

@@ -65,7 +65,7 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         if not self.directory:
             raise SceneError(rpt_("There is no folder to write to. Choose one and try again."))
         folder = Path(bpy.path.abspath(self.directory))
-        objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
+        objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
         with object_mode(context), together() as files:
             paths = export_parts(files, [(obj, wanted_numbers(obj.data, self.which)) for obj in objects], folder,
                                  self.format, self.caps, self.one_file, self.separated, self.cut)

@@ -48,7 +48,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         check_parts(context.view_layer.objects.active)
-        objects = [obj for obj in targets.chosen_objects(context) if store.has_result(obj.data)]
+        objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
         made = []
         with object_mode(context):
             found = [(obj, store.load(obj.data)) for obj in objects]

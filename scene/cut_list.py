@@ -38,28 +38,31 @@ def _chosen(obj: bpy.types.Object) -> dict[tuple[int, int, int], str]:
     return {(cut.low, cut.high, cut.place): cut.joint for cut in obj.reeb_parts_made.cuts if cut.joint != "ALL"}
 
 
-def write(obj: bpy.types.Object, cuts: list[CutJoints], part: dict[int, int]) -> None:
+def write(obj: bpy.types.Object, cuts: list[CutJoints], part: dict[int, int], numbers: list[int]) -> None:
     """List the cuts; what the user chose stays, also for cuts that are not there now.
 
-    cuts : list of CutJoints, the largest first. part : see ``chosen``.
+    cuts : list of CutJoints, the largest first. part : see ``chosen``. numbers : the parts that were separated; cuts
+    between others stay listed as they are.
     """
     transaction.keep_group(obj, "reeb_parts_made")
     mine = _chosen(obj)
-    found: dict[tuple[int, int, int], CutJoints | None] = {}
+    listed = obj.reeb_parts_made.cuts
+    found: dict[tuple[int, int, int], tuple[int, float, str] | None] = {
+        (cut.low, cut.high, cut.place): (cut.count, cut.width, cut.why) for cut in listed
+        if cut.low not in numbers and cut.high not in numbers}
     count: Counter = Counter()
     for cut in cuts:
         pair = _pair(cut.keys, part)
-        found[*pair, count[pair]] = cut
+        found[*pair, count[pair]] = cut.count, cut.width, cut.why
         count[pair] += 1
     found |= dict.fromkeys(mine.keys() - found.keys())
-    listed = obj.reeb_parts_made.cuts
     listed.clear()
     for name in sorted(found):
         entry = listed.add()
         entry.low, entry.high, entry.place = name
         entry.joint = mine.get(name, "ALL")
         if (now := found[name]) is not None:
-            entry.count, entry.width, entry.why = now.count, now.width, now.why
+            entry.count, entry.width, entry.why = now
 
 
 def _pair(keys: tuple[int, int], part: dict[int, int]) -> tuple[int, int]:

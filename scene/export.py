@@ -94,13 +94,14 @@ def _parts(obj: bpy.types.Object, wanted: Iterable[int] | None, close: bool,
 def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str, bpy.types.Mesh]:
     """Copies of the meshes of an object's pieces, and of their dowels, by their names, in its coordinates."""
     bpy.context.view_layer.update()  # pieces made just now do not know where they are
-    pieces = [piece for piece in piece_objects.piece_objects(obj)
-              if wanted is None or piece[piece_objects.NUMBER] in wanted]
+    numbers = None if wanted is None else set(wanted)
+    pieces, dowels = ([item for item in items if numbers is None or piece_objects.is_of(item, numbers)]
+                      for items in (piece_objects.piece_objects(obj), piece_objects.dowels(obj)))
     if not pieces:
         raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(name=obj.name))
     to_object = obj.matrix_world.inverted_safe()
     meshes = {}
-    for piece in (*pieces, *piece_objects.dowels(obj)):
+    for piece in (*pieces, *dowels):
         meshes[piece.name] = copy = piece.data.copy()
         copy.transform(to_object @ piece.matrix_world)
     return meshes

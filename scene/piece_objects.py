@@ -8,6 +8,7 @@ constraints and parent.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import bpy
@@ -42,9 +43,9 @@ from .store import Stored
 from .temporary import remove_object, removed
 from .units import millimeters
 
-COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: name of the object that the pieces come from
+COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: the object that the pieces come from; once it was its name
 NUMBER = "reeb_parts_number"  # on a piece: of its part
-DOWEL = "reeb_parts_dowel"  # on a loose dowel that joins two pieces
+DOWEL = "reeb_parts_dowel"  # on a loose dowel: the numbers of the two parts that it joins; once it was 1
 
 # Modifiers that do the same to a mesh wherever the origin of its object is. Others, such as Mirror and Array, work
 # about the origin, and a piece with another one would change its shape.
@@ -60,8 +61,8 @@ def collection_of(obj: bpy.types.Object) -> bpy.types.Collection | None:
     if not obj.is_property_set("reeb_parts_made"):  # to read it would set it
         return None
     collection = obj.reeb_parts_made.pieces
-    # A copy of the object has this too, but another name.
-    return collection if collection is not None and collection.get(COLLECTION_OF) == obj.name else None
+    # A copy of the object has this too, but the pieces are not its own.
+    return collection if collection is not None and collection.get(COLLECTION_OF) in (obj, obj.name) else None
 
 
 def piece_objects(obj: bpy.types.Object) -> list:
@@ -77,10 +78,20 @@ def dowels(obj: bpy.types.Object) -> list:
     return [dowel for dowel in collection.objects if DOWEL in dowel] if collection else []
 
 
+def is_of(item: bpy.types.Object, numbers: Collection[int]) -> bool:
+    """Whether a piece is that of one of some parts, or a dowel goes into one of them."""
+    if DOWEL not in item:
+        return item[NUMBER] in numbers
+    joined = item[DOWEL]
+    return isinstance(joined, int) or not set(numbers).isdisjoint(joined)
+
+
 def original(piece: bpy.types.Object) -> bpy.types.Object | None:
     """The object in the scene that a piece was separated from, or None."""
+    objects = bpy.context.view_layer.objects
     for collection in piece.users_collection:
-        obj = bpy.context.view_layer.objects.get(collection.get(COLLECTION_OF, ""))
+        source = collection.get(COLLECTION_OF, "")
+        obj = objects.get(source if isinstance(source, str) else source.name)
         if obj is not None and collection_of(obj) == collection and NUMBER in piece:
             return obj
     return None
@@ -179,9 +190,9 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
         joined = yield from stretched(
             joints.joining(context, fitted.meshes, stretch, joints.wanted_joints(style), cut_list.chosen(obj, part),
                            stored.decomposition.graph), 0.7, 0.8)
-        cut_list.write(obj, joined.cuts, part)
+        cut_list.write(obj, joined.cuts, part, numbers)
     pieces = _objects(context, obj, joined.meshes, names, part, style)
-    loose = [_dowel(context, obj, mesh, style) for mesh in joined.loose]
+    loose = [_dowel(context, obj, dowel, part, style) for dowel in joined.loose]
     for piece in (*pieces, *loose):
         made.mark(piece, looks)
     for index, piece in enumerate(pieces if close else ()):
@@ -221,14 +232,14 @@ def _objects(context: bpy.types.Context, obj: bpy.types.Object, meshes: dict[int
     return pieces
 
 
-def _dowel(context: bpy.types.Context, obj: bpy.types.Object, mesh: bpy.types.Mesh,
+def _dowel(context: bpy.types.Context, obj: bpy.types.Object, dowel: joints.Dowel, part: dict[int, int],
            style: SeparateProperties) -> bpy.types.Object:
     """An object for a loose dowel, beside the pieces."""
-    dowel = _piece(obj, mesh, f"{obj.name} Dowel", style)
-    dowel.modifiers.clear()
-    dowel[DOWEL] = True
-    make_collection(context, obj).objects.link(dowel)
-    return dowel
+    made_of = _piece(obj, dowel.mesh, f"{obj.name} Dowel", style)
+    made_of.modifiers.clear()
+    made_of[DOWEL] = sorted(part.get(key, key) for key in dowel.keys)
+    make_collection(context, obj).objects.link(made_of)
+    return made_of
 
 
 def active_piece(context: bpy.types.Context) -> bpy.types.Object:
@@ -274,7 +285,7 @@ def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.ty
     collection = collection_of(obj)
     if collection is None:
         collection = bpy.data.collections.new(f"Parts of {obj.name}")
-        collection[COLLECTION_OF] = obj.name
+        collection[COLLECTION_OF] = obj
         transaction.keep_group(obj, "reeb_parts_made")
         obj.reeb_parts_made.pieces = collection
     if collection not in context.scene.collection.children_recursive:
@@ -285,11 +296,10 @@ def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.ty
 
 
 def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
-    """Remove pieces of these parts unless the user has worked on them; how many stay."""
+    """Remove pieces of these parts, and dowels in them, unless the user has worked on them; how many stay."""
     kept, earlier = 0, []
     for piece in [*piece_objects(obj), *dowels(obj)]:
-        number = piece.get(NUMBER)
-        if number is not None and number not in numbers and len(numbers) < len(obj.data.reeb_parts.parts):
+        if not is_of(piece, numbers) and len(numbers) < len(obj.data.reeb_parts.parts):
             continue
         if made.is_untouched(piece, looks):
             earlier.append(piece)

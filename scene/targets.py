@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -11,8 +13,16 @@ from .errors import SceneError
 from .modes import check_mode
 
 
-def chosen_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
+def chosen_objects(
+    context: bpy.types.Context, report: Callable[[set[str], str], None] | None = None
+) -> list[bpy.types.Object]:
     """The objects to work on: the active mesh, then other selected meshes; one per mesh.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    report : callable, optional
+        Told of each selected mesh that is left out, such as one that is linked from another file, and why.
 
     Raises
     ------
@@ -21,10 +31,17 @@ def chosen_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
     """
     active = context.view_layer.objects.active
     check_object(active)
-    chosen = [active, *(o for o in context.view_layer.objects.selected if o.type == "MESH" and o != active)]
-    first: dict[bpy.types.Mesh, bpy.types.Object] = {}
-    for obj in chosen:
-        first.setdefault(obj.data, obj)
+    first: dict[bpy.types.Mesh, bpy.types.Object] = {active.data: active}
+    for obj in context.view_layer.objects.selected:
+        if obj.type != "MESH" or obj.data in first:
+            continue
+        try:
+            check_object(obj)
+        except SceneError as error:
+            if report:
+                report({"WARNING"}, str(error))
+        else:
+            first[obj.data] = obj
     return list(first.values())
 
 

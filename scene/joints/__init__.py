@@ -6,6 +6,6 @@ and how large they are), ``solids`` makes pegs and holes, ``fitting`` puts them 
 joint would leave a piece open, crossing itself or pierced stays without one. ``method`` has the whole.
 """
 
-from .method import CutJoints, Joined, join, joining, wanted_joints
+from .method import CutJoints, Dowel, Joined, joining, wanted_joints
 
-__all__ = ["CutJoints", "Joined", "join", "joining", "wanted_joints"]
+__all__ = ["CutJoints", "Dowel", "Joined", "joining", "wanted_joints"]

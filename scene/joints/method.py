@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ...core.steps import Steps, finished, stretched
+from ...core.steps import Steps, stretched
 from .. import bridge, mesh_arrays, piece_checks
 from ..temporary import removed
 from ..units import millimeters
@@ -55,6 +55,14 @@ class CutJoints:
 
 
 @dataclass(frozen=True, eq=False)
+class Dowel:
+    """A dowel in its place. keys : (int, int), of the pieces that it goes into."""
+
+    mesh: bpy.types.Mesh
+    keys: tuple[int, int]
+
+
+@dataclass(frozen=True, eq=False)
 class Joined:
     """Pieces with joints.
 
@@ -62,13 +70,12 @@ class Joined:
     ----------
     meshes : dict of int -> bpy.types.Mesh
         By the keys of the pieces; those without joints are what they were.
-    loose : list of bpy.types.Mesh
-        Dowels, in their places.
+    loose : list of Dowel
     cuts : list of CutJoints
     """
 
     meshes: dict[int, bpy.types.Mesh]
-    loose: list[bpy.types.Mesh]
+    loose: list[Dowel]
     cuts: list[CutJoints]
 
 
@@ -82,10 +89,9 @@ def wanted_joints(style: SeparateProperties) -> Wanted:
         style.joint_clearance, style.joint_size, style.joint_depth, style.joint_wall, _LEAST)))
 
 
-def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray,
-         wanted: Wanted, kind_of: Callable[[int, int], str] = lambda one, other: "",
-         graph: ReebGraph | None = None) -> Joined:
-    """Give pieces joints at the cuts between them; Object Mode.
+def joining(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray, wanted: Wanted,
+            kind_of: Callable[[int, int], str], graph: ReebGraph | None) -> Steps[Joined]:
+    """Give pieces joints at the cuts between them, in steps; Object Mode.
 
     Parameters
     ----------
@@ -97,19 +103,13 @@ def join(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch:
     wanted : Wanted
     kind_of : callable(int, int) -> str
         The kind of joint between two pieces where it is another one, "NONE" for none; "" where it is not.
-    graph : ReebGraph, optional
+    graph : ReebGraph or None
         Gives the axis where a cap is too bent to tell.
 
     Returns
     -------
     joined : Joined
     """
-    return finished(joining(context, meshes, stretch, wanted, kind_of, graph))
-
-
-def joining(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray, wanted: Wanted,
-            kind_of: Callable[[int, int], str], graph: ReebGraph | None) -> Steps[Joined]:
-    """What ``join`` does, in steps."""
     from ...core.uses.joint_places import arc_direction, joint_places
     from ...core.uses.joint_shapes import Kind
 
@@ -140,7 +140,7 @@ def joining(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stret
         _spread_shape_keys(meshes[key], mesh)
         mesh.name = meshes[key].name
     bpy.data.batch_remove([meshes[key] for key in made])
-    loose = [dowel(joint, plan.wanted, bridge.unstretch(stretch)) for plan in planned
+    loose = [Dowel(dowel(joint, plan.wanted, bridge.unstretch(stretch)), plan.cut.keys) for plan in planned
              if not plan.why and plan.places and plan.wanted and plan.wanted.kind is Kind.DOWEL
              for joint in plan.places.joints]
     return Joined({**meshes, **made}, loose, [_said(plan) for plan in planned])

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bad input: one sentence each, and the scene is as it was."""
 
+import re
+
 import bpy
 import numpy as np
 import pytest
@@ -69,6 +71,30 @@ def test_linked_data(obj, tmp_path):
     bpy.context.scene.collection.objects.link(linked)
     bpy.context.view_layer.objects.active = linked
     refused("linked")
+
+
+def test_a_selected_mesh_of_another_file_is_left_out_and_named(obj, tmp_path, capfd):
+    """Even one of the same name; every operator that works on the selected objects."""
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "own.blend"))
+    with bpy.data.libraries.load(path, link=True) as (_, to):
+        to.objects = ["Tree"]
+    (linked,) = to.objects
+    bpy.context.scene.collection.objects.link(linked)
+    linked.select_set(True)
+    assert bpy.context.view_layer.objects.active == obj
+    for run in (bpy.ops.reeb_parts.decompose, lambda: bpy.ops.reeb_parts.separate(hide=False),
+                lambda: bpy.ops.reeb_parts.export(directory=str(tmp_path)), bpy.ops.reeb_parts.clear):
+        bpy.context.view_layer.objects.active = obj
+        obj.select_set(True)
+        linked.select_set(True)
+        capfd.readouterr()
+        assert run() == {"FINISHED"}
+        assert re.search("Warning: Tree is linked from .*library.blend", capfd.readouterr().out)
+        assert not linked.vertex_groups
+        assert not linked.data.attributes.get("reeb_part")
+        assert not linked.data.reeb_parts.parts
 
 
 def test_overridden_data(obj, tmp_path):

@@ -151,7 +151,9 @@ def test_no_joint_through_the_wall_of_a_tube(tube_pieces, joined, package, thick
     meshes = tube_pieces(thickness)
     whole = sum(volume(mesh) for mesh in meshes.values())
     before = {key: volume(mesh) for key, mesh in meshes.items()}
-    found = joined.join(bpy.context, meshes, np.eye(3), joined.wanted_joints(style))
+    steps = importlib.import_module(f"{package}.core.steps")
+    found = steps.finished(joined.joining(
+        bpy.context, meshes, np.eye(3), joined.wanted_joints(style), lambda one, other: "", None))
     assert any(cut.count for cut in found.cuts) == is_joined
     assert all(cut.count or cut.why for cut in found.cuts)
     if not is_joined:
@@ -173,7 +175,9 @@ def test_a_joint_of_two_cuts_near_each_other_leaves_a_wall_between(make, joined,
     meshes = part_meshes.piece_meshes(obj.data, numbers, [1, 2, 3], True, np.eye(3)).meshes
     style = bpy.context.scene.reeb_parts_use
     style.joints, style.joint_wall = "DOWEL", 50.0
-    found = joined.join(bpy.context, meshes, np.eye(3), joined.wanted_joints(style))
+    steps = importlib.import_module(f"{package}.core.steps")
+    found = steps.finished(joined.joining(
+        bpy.context, meshes, np.eye(3), joined.wanted_joints(style), lambda one, other: "", None))
     assert [cut.count for cut in found.cuts] == [1, 1]
     slice_ = found.meshes[2]
     hollow = [p for p in slice_.polygons if slice_.attributes["reeb_cap"].data[p.index].value and p.area < 1.0]
@@ -269,6 +273,23 @@ def test_each_cut_can_have_its_own(make):
     bpy.ops.reeb_parts.separate(joints="NONE", **KEEP)
     assert dowels() == []
     assert [cut.joint for cut in cuts] == ["DOWEL", "NONE"]
+
+
+def test_a_part_separated_again_alone_leaves_the_dowels_of_others(make):
+    obj = make(shapes.dumbbell(), "Tree")
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    bpy.ops.reeb_parts.separate(joints="DOWEL", **KEEP)
+    cuts = obj.reeb_parts_made.cuts
+    pairs = [(cut.low, cut.high) for cut in cuts]
+    assert sorted(tuple(dowel["reeb_parts_dowel"]) for dowel in dowels()) == pairs
+    ends = [number for pair in pairs for number in pair]
+    (alone,) = (number for number in pairs[0] if ends.count(number) == 1)
+    obj.data.reeb_parts.active = next(
+        place for place, part in enumerate(obj.data.reeb_parts.parts) if part.number == alone)
+    activate(obj)
+    bpy.ops.reeb_parts.separate(joints="DOWEL", which="CHOSEN", **KEEP)
+    assert [tuple(dowel["reeb_parts_dowel"]) for dowel in dowels()] == [pairs[1]]
+    assert [(cut.low, cut.high, cut.count) for cut in cuts] == [(*pairs[1], 1)]
 
 
 def test_an_error_leaves_all_as_it_was(make, package, monkeypatch):

@@ -325,6 +325,28 @@ def test_the_original_is_hidden_and_comes_back(obj):
     assert bpy.context.view_layer.objects.active == obj
 
 
+def test_pieces_know_an_original_that_was_renamed(obj):
+    """Nothing hangs on its name: it can be shown again, and what is separated again takes the place of the pieces."""
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    bpy.ops.reeb_parts.separate()
+    obj.name = "Renamed"
+    bpy.context.view_layer.objects.active = pieces()[0]
+    bpy.ops.reeb_parts.show_original()
+    assert bpy.context.view_layer.objects.active == obj
+    counts = len(bpy.data.objects), len(bpy.data.collections)
+    bpy.ops.reeb_parts.separate()
+    assert (len(bpy.data.objects), len(bpy.data.collections)) == counts
+    assert [piece.name for piece in pieces()] == [f"Renamed Part {number:02}" for number in (1, 2, 3)]
+
+
+def test_pieces_of_a_file_that_knew_the_name_alone(obj):
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    bpy.ops.reeb_parts.separate()
+    bpy.data.collections["Parts of Tree"]["reeb_parts_pieces_of"] = "Tree"
+    bpy.ops.reeb_parts.show_original()
+    assert bpy.context.view_layer.objects.active == obj
+
+
 def test_names_colours_and_materials_of_the_parts(obj):
     bpy.ops.reeb_parts.decompose(materials=True)
     obj.data.reeb_parts.parts[1].name = "Head"
