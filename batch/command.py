@@ -115,8 +115,8 @@ def _claim(options: argparse.Namespace, files: WholeFiles) -> None:
     # The standard streams may lead to files, too.
     files.protect([1, 2])
     for model in options.models:
-        # What belongs to a model: the materials of an .obj, the numbers of a .gltf.
-        files.protect([model, model.with_suffix(".mtl"), model.with_suffix(".bin")])
+        # What belongs to a model: the materials of an .obj, the numbers of a .gltf. A folder may have no name, as "." has.
+        files.protect([model, *(model.with_suffix(suffix) for suffix in (".mtl", ".bin") if model.name)])
     if options.json is not None:
         files.claim(options.json)
         # Who reads an old one would take it for the answer of this run.

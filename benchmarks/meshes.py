@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import argparse
+import io
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -17,8 +19,12 @@ def load_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
             return data["vertices"], data["faces"]
     import trimesh
 
+    data = path.read_bytes()
+    if path.suffix.lower() == ".obj":
+        data = re.sub(rb"(?m)^[ \t]*(usemtl|mtllib|g|o|s)\b.*$", b"", data)  # materials and groups would sort the faces
     # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
-    scene = trimesh.load_scene(path, process=False, maintain_order=True, skip_materials=True)
+    scene = trimesh.load_scene(io.BytesIO(data), file_type=path.suffix[1:].lower(), process=False, maintain_order=True,
+                               skip_materials=True)
     meshes = list(scene.geometry.values())
     return stacked([mesh.vertices for mesh in meshes], [mesh.faces for mesh in meshes])[:2]
 

@@ -26,6 +26,10 @@ class ModelFileError(ReebError, OSError):
     """A model cannot be read; the message says why."""
 
 
+class NoReaderError(ModelFileError):
+    """What reads files of this kind is not there, though it may be another time."""
+
+
 @dataclass(frozen=True, eq=False)
 class Model:
     """A model as it was read from a file: all its meshes, in the places that its scene gives them.
@@ -75,7 +79,9 @@ def read_model(path: str | Path, blender: str | Path | None = None) -> Model:
     Raises
     ------
     ModelFileError
-        There is no such file, it is of another kind or damaged, or it has no faces.
+        There is no such file, it is damaged, or it has no faces.
+    NoReaderError
+        It is of a kind that nothing here reads; of those that Blender reads, without one.
     """
     path = Path(path)
     kind = path.suffix.lower()
@@ -85,7 +91,7 @@ def read_model(path: str | Path, blender: str | Path | None = None) -> Model:
         return _read_by_blender(path, blender)
     if kind not in formats():
         known = ", ".join((*formats(), *BY_BLENDER))
-        raise ModelFileError(Sentence("{path} is none of {known}.", path=path, known=known))
+        raise NoReaderError(Sentence("{path} is none of {known}.", path=path, known=known))
     try:
         vertices, faces = _read_arrays(path) if kind == ARRAYS else _read_by_trimesh(path)
     except MemoryError:
@@ -125,19 +131,25 @@ def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
 def _read_by_blender(path: Path, blender: str | Path | None) -> Model:
     """Model of a file that a Blender reads; z is up then."""
     if blender is None:
-        raise ModelFileError(Sentence("{path} can be read by Blender only. Say where it is with --blender.", path=path))
+        raise NoReaderError(Sentence("{path} can be read by Blender only. Say where it is with --blender.", path=path))
     script = Path(__file__).with_name("blender_export.py")
     with tempfile.TemporaryDirectory(prefix="reeb_parts_") as folder:
         out = Path(folder) / "model.npz"
         command = [str(blender), "--background", "--factory-startup", "--python-exit-code", "1", "--python",
                    str(script), "--", str(path.resolve()), str(out)]
         try:
-            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
-                                  check=False)
+            try:
+                done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                      errors="replace", check=False)
+            except OSError as error:
+                raise NoReaderError(Sentence("{path} could not be read, as {blender} could not be started: {reason}",
+                                             path=path, blender=blender, reason=error.strerror or error)) from error
             if done.returncode or not out.is_file():
                 raise RuntimeError((done.stderr.strip() or done.stdout.strip()).splitlines()[-1:])
             with np.load(out, allow_pickle=False) as data:
                 return Model(path.stem, data["vertices"], data["triangles"], data["polygon"], "z")
+        except NoReaderError:
+            raise
         except (OSError, RuntimeError, ValueError, KeyError) as error:
             raise _unreadable(path, error) from error
 

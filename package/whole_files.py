@@ -6,7 +6,8 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from .core.errors import ReebError
@@ -17,6 +18,18 @@ HIDDEN = ".reeb_parts_"  # how names begin under which files and folders are wri
 
 class OutputFileError(ReebError, OSError):
     """A file cannot be written; the message says why."""
+
+
+@contextmanager
+def as_output_error(path: Path) -> Iterator[None]:
+    """Raise OutputFileError, which names a path, in place of any OSError."""
+    try:
+        yield
+    except OutputFileError:
+        raise
+    except OSError as error:
+        raise OutputFileError(Sentence("{path} could not be written: {reason}", path=path,
+                                       reason=error.strerror or error)) from error
 
 
 def write_files(files: dict[Path, bytes], read: Path) -> None:
@@ -32,25 +45,22 @@ def write_files(files: dict[Path, bytes], read: Path) -> None:
     Raises
     ------
     OutputFileError
-        A file is what the run reads, a folder, or cannot be written. Then none is put in place.
+        A file is what the run reads, a folder, or cannot be written. Then none is put in place; only if a file that is
+        written cannot be moved, those before it are.
     """
     moves: dict[Path, Path] = {}
-    path = read
     try:
         for path, data in files.items():
-            if path.exists() and (not path.is_file() or path.samefile(read)):
-                raise OutputFileError(Sentence("{path} is read, or is no file. Choose another name.", path=path))
-            path.parent.mkdir(parents=True, exist_ok=True)
-            place = path.with_name(f"{HIDDEN}{os.getpid()}_{len(moves)}")
-            moves[place] = path
-            _write(place, data)
+            with as_output_error(path):
+                if path.exists() and (not path.is_file() or path.samefile(read)):
+                    raise OutputFileError(Sentence("{path} is read, or is no file. Choose another name.", path=path))
+                path.parent.mkdir(parents=True, exist_ok=True)
+                place = path.with_name(f"{HIDDEN}{os.getpid()}_{len(moves)}")
+                moves[place] = path
+                _write(place, data)
         for place, path in moves.items():
-            place.replace(path)
-    except OutputFileError:
-        raise
-    except OSError as error:
-        raise OutputFileError(Sentence("{path} could not be written: {reason}", path=path,
-                                       reason=error.strerror or error)) from error
+            with as_output_error(path):
+                place.replace(path)
     finally:
         for place in moves:
             with suppress(OSError):

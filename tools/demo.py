@@ -72,7 +72,7 @@ def _run(python: Path, model: Path, arguments: argparse.Namespace) -> bool:
     if run.returncode:
         return True
     for suffix in (".blend", ".json", ".png"):
-        path = stem.with_suffix(suffix)
+        path = Path(f"{stem}{suffix}")  # the stem may have a dot
         say(f"wrote {path} ({path.stat().st_size / 1e3:.0f} kB)")
     return False
 

@@ -16,6 +16,31 @@ ON_A_LINE = 1e-11  # sine of an angle below which the corners of a face lie on a
 LEVEL = 1e-12  # in units of the root of the area: what rises less between two faces is neither convex nor concave
 
 
+def check_corners(triangles: np.ndarray, n_vertices: int, polygon: np.ndarray | None = None) -> None:
+    """Raise MeshError if a face names a vertex that does not exist; ``error.faces`` lists these faces.
+
+    Parameters
+    ----------
+    triangles : (m, 3) of int
+    n_vertices : int
+    polygon : (m,) of int, optional
+        The caller's face that each triangle is cut from, rising from 0. Without it each triangle is a face.
+    """
+    if triangles.min(initial=0) >= 0 and triangles.max(initial=-1) < n_vertices:
+        return
+    bad = np.flatnonzero(((triangles < 0) | (triangles >= n_vertices)).any(axis=1))
+    total = len(triangles)
+    if polygon is not None:
+        bad, total = np.unique(polygon[bad]), int(polygon.max()) + 1
+    raise MeshError(
+        Sentence(
+            "{n} of {total} faces {n:names|name} a vertex that does not exist (first: face {first}; "
+            "there are {n_vertices} vertices).",
+            n=len(bad), total=total, first=int(bad[0]), n_vertices=n_vertices),
+        faces=bad,
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class TriMesh:
     """A triangle mesh, checked when it is made and never changed; tables are computed when first asked for.
@@ -67,15 +92,7 @@ class TriMesh:
                     n=len(bad), total=self.n_vertices, first=int(bad[0])),
                 vertices=bad,
             )
-        if self.faces.min(initial=0) < 0 or self.faces.max(initial=-1) >= self.n_vertices:
-            bad = np.flatnonzero(((self.faces < 0) | (self.faces >= self.n_vertices)).any(axis=1))
-            raise MeshError(
-                Sentence(
-                    "{n} of {total} faces {n:names|name} a vertex that does not exist (first: face {first}; "
-                    "there are {n_vertices} vertices).",
-                    n=len(bad), total=self.n_faces, first=int(bad[0]), n_vertices=self.n_vertices),
-                faces=bad,
-            )
+        check_corners(self.faces, self.n_vertices)
 
     @property
     def n_vertices(self) -> int:

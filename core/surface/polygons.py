@@ -13,7 +13,7 @@ from ..errors import EmptyMeshError, MeshError
 from ..sentence import Sentence
 from .arguments import corners, positions, whole_numbers
 from .arrays import expanded, frozen
-from .mesh import TriMesh
+from .mesh import TriMesh, check_corners
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -87,7 +87,9 @@ class PolygonMesh:
         if n_polygons == 0:
             raise EmptyMeshError(
                 Sentence("The mesh has no faces. Add some, or choose another object."))
-        triangles, exponent = _normalized(TriMesh(positions(vertices), faces))
+        vertices = positions(vertices)
+        check_corners(faces, len(vertices), polygon)
+        triangles, exponent = _normalized(TriMesh(vertices, faces))
         mesh = cls(triangles, frozen(polygon, np.int64), n_polygons, exponent)
         mesh._check_size()
         return mesh

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import os
 import signal
 import threading
 import time
@@ -14,6 +15,7 @@ from typing import Any
 
 import dask
 import dask.utils
+import psutil
 from distributed import Client, LocalCluster, as_completed
 
 from ..core.errors import ReebError
@@ -137,12 +139,13 @@ def _failure(answer: Any) -> BaseException:
 def do_job(job: dict[str, Any]) -> dict[str, Any]:
     """What a worker does with a model: have it done by the process that belongs to this thread.
 
-    job : dict, see ``work.do_model``, with ``memory_limit`` in bytes and ``time_limit`` in seconds. Returns the answer
-    of ``ModelProcess.run``.
+    job : dict, see ``work.do_model``, with ``memory_limit`` in bytes, 0 for the memory of the worker's machine divided by
+    its processors, and ``time_limit`` in seconds. Returns the answer of ``ModelProcess.run``.
     """
+    limit = job["memory_limit"] or psutil.virtual_memory().total // (os.cpu_count() or 1)
     process = getattr(_own, "process", None)
-    if process is None or process.memory_limit != job["memory_limit"]:
+    if process is None or process.memory_limit != limit:
         if process is not None:
             process.close()
-        process = _own.process = ModelProcess(job["memory_limit"])
+        process = _own.process = ModelProcess(limit)
     return process.run(job, job["time_limit"])

@@ -21,7 +21,7 @@ FORMAT = 1  # version of what a record holds
 RECORD = "record.json"
 #: What became of a model. The first three follow from the model: they would come out the same again.
 DONE, REFUSED, UNREADABLE = "done", "refused", "unreadable"
-ERROR, MEMORY, TIME, CRASH, OPEN = "error", "memory", "time", "crash", "open"
+READER, ERROR, MEMORY, TIME, CRASH, OPEN = "reader", "error", "memory", "time", "crash", "open"
 FINAL = (DONE, REFUSED, UNREADABLE)
 
 

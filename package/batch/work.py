@@ -13,10 +13,10 @@ from ..core.errors import ReebError
 from ..core.result.decomposition import Decomposition, Parts
 from ..core.uses.descriptors import part_descriptors
 from ..meshes import decompose
-from ..model_files import Model, ModelFileError, read_model
+from ..model_files import Model, ModelFileError, NoReaderError, read_model
 from ..outputs import colored_bytes, json_bytes, labels_bytes, model_document, part_files, picture_bytes
 from ..whole_files import write_folder
-from .records import DONE, ERROR, FORMAT, RECORD, REFUSED, UNREADABLE, Settings, digest_of, failure
+from .records import DONE, ERROR, FORMAT, READER, RECORD, REFUSED, UNREADABLE, Settings, digest_of, failure
 
 
 def do_model(job: dict[str, Any]) -> dict[str, Any]:
@@ -47,6 +47,8 @@ def do_model(job: dict[str, Any]) -> dict[str, Any]:
         record, files = _results(path, name, settings, job["blender"], start)
     except MemoryError:
         raise
+    except NoReaderError as error:
+        record, files = failure(name, READER, str(error), settings.digest), {}
     except ModelFileError as error:
         record, files = failure(name, UNREADABLE, str(error), settings.digest), {}
     except ReebError as error:

@@ -30,7 +30,7 @@ from ..core.sentence import Sentence
 from ..core.uses.options import add_parameters, chosen_parameters
 from ..model_files import BY_BLENDER, formats
 from ..outputs import COLORED, LABELS, PARTS
-from ..whole_files import remove_leftovers, write_folder
+from ..whole_files import as_output_error, remove_leftovers, write_folder
 
 NEEDED = ("distributed", "pyarrow", "tqdm", "psutil")
 INTERRUPTED = 130
@@ -59,14 +59,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     files.add_argument("--thumbnail", type=int, choices=(64, 96, 128, 192, 256), default=128,
                        help="pixels along a side of the pictures (default: %(default)s)")
     run = parser.add_argument_group("how to run")
-    run.add_argument("--workers", type=int, default=os.cpu_count() or 1, metavar="N",
+    run.add_argument("--workers", type=_count, default=os.cpu_count() or 1, metavar="N",
                      help="processes on this machine (default: one for each processor, %(default)s)")
     run.add_argument("--scheduler", metavar="ADDRESS", help="use the Dask cluster that is there instead, such as "
                      "tcp://host:8786; its workers have this package and see the same folders")
     run.add_argument("--dashboard", default="127.0.0.1:8787", metavar="ADDRESS",
                      help="where Dask's dashboard is shown (default: %(default)s)")
-    run.add_argument("--memory-limit", type=float, metavar="GIB", help="memory of one model (default: this machine's, "
-                     "divided by the number of workers)")
+    run.add_argument("--memory-limit", type=float, metavar="GIB", help="memory of one model (default: that of the "
+                     "machine, divided by the number of its workers)")
     run.add_argument("--time-limit", type=float, default=600.0, metavar="SECONDS",
                      help="time of one model, 0 for any (default: %(default)g)")
     run.add_argument("--retry", action="store_true", help="also try models again that were refused before")
@@ -81,7 +81,8 @@ def run(options: argparse.Namespace) -> int:
                                            names=", ".join(missing)))
     start = time.perf_counter()
     batch = _Batch(options)
-    batch.out.mkdir(parents=True, exist_ok=True)
+    with as_output_error(batch.out):
+        batch.out.mkdir(parents=True, exist_ok=True)
     remove_leftovers(batch.out)
     interrupted = False
     try:
@@ -89,7 +90,8 @@ def run(options: argparse.Namespace) -> int:
     except KeyboardInterrupt:
         interrupted = True
         _say("Interrupted; what is done is kept.")
-    answer = batch.finish()
+    with as_output_error(batch.out):
+        answer = batch.finish()
     answer["seconds"] = round(time.perf_counter() - start, 3)
     sys.stdout.write(json.dumps(answer, indent=2) + "\n")
     sys.stdout.flush()
@@ -152,7 +154,9 @@ class _Batch:
     def _job(self, source: Source) -> dict[str, Any]:
         """What a worker is given."""
         limit = self.options.memory_limit
-        memory = int(limit * 2**30) if limit else _memory() // max(self.options.workers, 1)
+        # The workers of a cluster may be machines of another size, and know it.
+        own = 0 if self.options.scheduler else _memory() // self.options.workers
+        memory = int(limit * 2**30) if limit else own
         return {"path": str(source.path), "name": source.name, "folder": str(self.folder(source)),
                 "settings": self.settings.to_dict(), "blender": self.options.blender, "memory_limit": memory,
                 "time_limit": self.options.time_limit}
@@ -192,6 +196,13 @@ def _memory() -> int:
     import psutil
 
     return psutil.virtual_memory().total
+
+
+def _count(text: str) -> int:
+    """A whole number of one or more; argparse turns the error into a sentence."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is no whole number of one or more")
+    return int(text)
 
 
 def _kinds(suffixes: tuple[str, ...]) -> tuple[str, ...]:

@@ -10,11 +10,13 @@ meshes of a model are decomposed together. Files appear when all of them are com
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
 from ..core.memory import keep_freed_memory
+from ..core.sentence import Sentence
 from ..core.uses.options import add_parameters, chosen_parameters
 from ..meshes import decompose
 from ..model_files import read_model
@@ -64,28 +66,28 @@ def run(options: argparse.Namespace) -> int:
     parts = result.parts()
     files: dict[Path, bytes] = {}
 
-    def add(kind: str, path: Path | None, data: bytes) -> None:
-        if path is not None:
-            if path in files:
-                raise OutputFileError(f"{path} would be written twice. Give each file a name of its own.")
-            files[path] = data
-            written[kind] = str(path)
+    def add(path: Path, data: bytes) -> str:
+        if Path(os.path.abspath(path)) in map(Path, map(os.path.abspath, files)):
+            raise OutputFileError(Sentence("{path} would be written twice. Give each file a name of its own.", path=path))
+        files[path] = data
+        return str(path)
 
     written: dict[str, str | list[str]] = {}
     if options.labels:
-        add("labels", options.labels, labels_bytes(parts, options.labels.suffix.lower()))
+        written["labels"] = add(options.labels, labels_bytes(parts, options.labels.suffix.lower()))
     if options.colored:
-        add("colored", options.colored, colored_bytes(model, parts, options.colored.suffix.lower()))
+        written["colored"] = add(options.colored, colored_bytes(model, parts, options.colored.suffix.lower()))
     if options.picture:
-        add("picture", options.picture, picture_bytes(model, result, parts, min(max(options.picture_size, 16), 8192)))
+        size = min(max(options.picture_size, 16), 8192)
+        written["picture"] = add(options.picture, picture_bytes(model, result, parts, size))
     if options.parts:
-        made = {options.parts / name: data for name, data in part_files(model, parts, options.parts_format).items()}
-        files |= made
-        written["parts"] = list(map(str, made))
+        made = part_files(model, parts, options.parts_format)
+        written["parts"] = [add(options.parts / name, data) for name, data in made.items()]
     if options.json:
         written["json"] = str(options.json)
     answer = json_bytes(model_document(model, result, parts, files=written))
-    add("json", options.json, answer)
+    if options.json:
+        add(options.json, answer)
     write_files(files, options.model)
     sys.stdout.write(answer.decode())
     sys.stdout.flush()

@@ -23,6 +23,7 @@ from reeb_parts.batch import cluster
 from reeb_parts.batch.model_process import ModelProcess
 from reeb_parts.batch.records import RECORD, Settings, is_done, read_record
 from reeb_parts.batch.sources import SourceError, find_sources
+from reeb_parts.batch.work import do_model
 
 from core import Parameters, decompose
 from core.uses.descriptors import distances, part_descriptors
@@ -173,6 +174,32 @@ def test_other_bytes_parameters_or_missing_files_are_not_done(batch, models, tmp
     assert is_done(model, folder, settings)
     model.write_bytes(model.read_bytes() + b"\n")
     assert not is_done(model, folder, settings)
+
+
+@pytest.mark.parametrize(("suffix", "blender", "words"), [
+    ("fbx", None, "Say where it is with --blender"), ("blend", "/none", "could not be started: No such file"),
+    ("xyz_", None, "is none of"),
+])  # fmt: skip
+def test_what_lacked_a_reader_is_tried_again(suffix, blender, words, tmp_path):
+    model = tmp_path / f"model.{suffix}"
+    model.write_bytes(b"Kaydara")
+    answer = do_model(job(model, tmp_path / "out") | {"blender": blender})
+    assert answer["status"] == "reader"
+    assert words in answer["reason"]
+    assert not is_done(model, tmp_path / "out", Settings(Parameters()))
+
+
+@pytest.mark.parametrize(("arguments", "status", "words"), [
+    (["--out", "MODEL"], 1, "could not be written: File exists"), (["--out", "/proc/none"], 1, "could not be written"),
+    (["--out", "OUT", "--workers", "0"], 2, "0 is no whole number of one or more"),
+])  # fmt: skip
+def test_a_batch_that_cannot_be_is_one_sentence(arguments, status, words, models, reeb_parts_command, tmp_path):
+    model = str(models / "tree.ply")
+    places = {"MODEL": model, "OUT": str(tmp_path / "out")}
+    done = reeb_parts_command("batch", model, *(places.get(word, word) for word in arguments))
+    assert (done.returncode, done.stdout) == (status, "")
+    assert words in done.stderr.splitlines()[-1]
+    assert list(tmp_path.iterdir()) == []
 
 
 # One model that goes wrong ---------------------------------------------------------------------

@@ -109,12 +109,14 @@ def test_the_picture_shows_three_colors_on_white(everything):
     (["MODEL", "--n-parts", "-1"], "n_parts must be a whole number"),
     (["MODEL", "--json", "MODEL"], "is read, or is no file"),
     (["MODEL", "--labels", "OUT/x.npy", "--json", "OUT/x.npy"], "would be written twice"),
+    (["MODEL", "--labels", "OUT/x.npy", "--json", "OUT/x/../x.npy"], "would be written twice"),
     (["MODEL", "--json", "/proc/none/x.json"], "could not be written"),
 ])  # fmt: skip
 def test_what_is_wrong_is_one_sentence_and_nothing_is_written(arguments, words, model, reeb_parts_command, tmp_path):
     before = model.read_bytes()
-    places = {"MODEL": str(model), "OUT/x.npy": str(tmp_path / "x.npy")}
-    done = reeb_parts_command("decompose", *(places.get(word, word) for word in arguments))
+    places = {"MODEL": str(model), "OUT": str(tmp_path)}
+    named = [word.replace("OUT", places["OUT"]) for word in arguments]
+    done = reeb_parts_command("decompose", *(places.get(word, word) for word in named))
     assert (done.returncode, done.stdout) == (1, "")
     assert words in done.stderr.splitlines()[-1]
     assert list(tmp_path.iterdir()) == []

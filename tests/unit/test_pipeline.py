@@ -555,6 +555,17 @@ def test_not_finite():
     assert caught.value.vertices.tolist() == [5, 9]
 
 
+@pytest.mark.parametrize(("faces", "wrong"), [
+    ([[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 2, 8]], [4]),
+    ([[0, 1, 2, 3, 4, 5, 6, 7, -1], [0, 1, 2], [9, 1, 2], [0, 2, 3], [1, 2, 3]], [0, 2]),
+    (shapes.box().faces + (shapes.box().faces == 7), np.flatnonzero((shapes.box().faces == 7).any(axis=1)).tolist()),
+])
+def test_wrong_indices_are_said_of_the_faces_of_the_caller(faces, wrong):
+    with pytest.raises(MeshError, match=f"^{len(wrong)} of {len(faces)} faces .*first: face {wrong[0]};") as caught:
+        decompose(shapes.box().vertices, faces)
+    assert caught.value.faces.tolist() == wrong
+
+
 @pytest.mark.parametrize(("vertices", "faces", "kind", "message"), [
     (np.zeros((0, 3)), [], EmptyMeshError, "The mesh has no faces"),
     ([], [], EmptyMeshError, "The mesh has no faces"),

@@ -11,8 +11,8 @@ import numpy as np
 
 NONE = math.inf, -1  # in place of a near pair
 
-#: What two groups cost to join, both groups, the lower first, the sum of their weighted scores, that of the weights, and
-#: the best near pair as (-score, row). Without a near pair it costs infinitely much.
+#: What two groups cost to join, both groups, the lower first, the sum of their weighted scores, that of the weights,
+#: and the best near pair as (-score, row). Without a near pair it costs infinitely much.
 Edge = tuple[float, int, int, float, float, tuple[float, int]]
 
 

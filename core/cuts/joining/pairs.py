@@ -189,7 +189,7 @@ class _Nearness:
         return self.ends[k], self.distance[k]
 
     def of_neighbors(self, most: int) -> _Nearness:
-        """The pairs of which either part is among the ``most`` that come nearest to the other; all equally near ones."""
+        """The pairs of which either part is among the ``most`` nearest to the other; of equally near ones all."""
         gap = rounded(self.nearest()[1])
         part, near = self.parts.T.ravel(), np.tile(gap, 2)
         order = np.lexsort((near, part))

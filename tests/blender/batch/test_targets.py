@@ -83,6 +83,11 @@ def test_what_is_no_file(run, model, tmp_path):
     assert stat.S_ISFIFO(os.stat(tmp_path / "pipe").st_mode)
 
 
+@pytest.mark.parametrize("name", [".", "/", ""])
+def test_a_model_that_is_a_folder(run, tmp_path, name):
+    refused(run, tmp_path, [], name, "--json", tmp_path / "x.json")
+
+
 def test_links_to_files_are_followed_and_stay(run, model, tmp_path):
     (tmp_path / "latest.json").symlink_to(tmp_path / "answer.json")
     (tmp_path / "answer.json").write_text("old")
