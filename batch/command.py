@@ -115,7 +115,7 @@ def _claim(options: argparse.Namespace, files: WholeFiles) -> None:
     # The standard streams may lead to files, too.
     files.protect([1, 2])
     for model in options.models:
-        # What belongs to a model: the materials of an .obj, the numbers of a .gltf. A folder may have no name, as "." has.
+        # What belongs to a model: the materials of an .obj, the numbers of a .gltf. A folder such as "." has no name.
         files.protect([model, *(model.with_suffix(suffix) for suffix in (".mtl", ".bin") if model.name)])
     if options.json is not None:
         files.claim(options.json)

@@ -28,7 +28,18 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     made.add_argument("--object", action="append", default=[], metavar="NAME",
                       help="object to decompose, can be given several times; the active object of a scene "
                       "and every mesh of a model file without")
-    files = made.add_argument_group("files to write")
+    _add_files(made.add_argument_group("files to write"))
+    _add_uses(made.add_argument_group("what is made of the parts"))
+    parameters = made.add_argument_group("parameters")
+    add_parameters(parameters)
+    hints = HintProperties.__annotations__["hints"].keywords
+    parameters.add_argument("--hints", choices=[item[0].lower() for item in hints["items"]], default="none",
+                            help=hints["description"] + " (default: %(default)s)")
+    _add_outputs(made.add_argument_group("what is written to the objects"))
+    return made
+
+
+def _add_files(files: argparse._ArgumentGroup) -> None:
     files.add_argument("--save", type=Path, metavar="OUT.blend", help="the scene with the parts in it")
     files.add_argument("--json", type=Path, metavar="OUT.json", help="the JSON that also goes to standard output")
     files.add_argument("--labels", action="store_true", help="also list the part of every face in the JSON")
@@ -44,7 +55,9 @@ def parser(description: str | None) -> argparse.ArgumentParser:
                        help="turn its camera, which looks at the front, around the objects")
     files.add_argument("--picture-size", type=_size, default=(960, 540), metavar="WxH",
                        help="its width and height in pixels (default: 960x540)")
-    uses = made.add_argument_group("what is made of the parts")
+
+
+def _add_uses(uses: argparse._ArgumentGroup) -> None:
     cut = SeparateProperties.__annotations__["cut"].keywords
     uses.add_argument("--separate", action="store_true", help="an object for each part, in the scene to save")
     uses.add_argument("--cuts", choices=[item[0].lower() for item in cut["items"]],
@@ -53,15 +66,7 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     uses.add_argument("--caps", action="store_true", help="close the holes of these objects")
     uses.add_argument("--cap-material", action="store_true",
                       help="close them, and give the new faces a material of their own, Cap")
-    joint = JointProperties.__annotations__
-    kinds = [item[0].lower() for item in joint["joints"].keywords["items"][1:]]
-    uses.add_argument("--pegs", choices=kinds, nargs="?", const="round", metavar="KIND",
-                      help=f"join them for printing by {', '.join(kinds)} (default: round), closed")
-    for option, name in (("count", "joint_count"), ("size", "joint_size"), ("depth", "joint_depth"),
-                         ("clearance", "joint_clearance"), ("wall", "joint_wall")):
-        words = joint[name].keywords
-        uses.add_argument(f"--peg-{option}", dest=name, default=words["default"], metavar="N",
-                          type=_number(words["min"], words["max"]), help=words["description"])
+    _add_pegs(uses)
     uses.add_argument("--bed", nargs=3, type=_number(1.0, 100000.0), metavar=("X", "Y", "Z"),
                       help="cut them further where they do not fit into a box of so many millimeters")
     uses.add_argument("--unwrap", action="store_true", help="a UV map with an island for each part")
@@ -73,12 +78,21 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     uses.add_argument("--rigid-bodies", choices=("hinge", "point", "fixed"), nargs="?", const="hinge", metavar="KIND",
                       help="make rigid bodies of these objects, held together at the cuts by hinge, point or fixed "
                       "(default: hinge)")
-    parameters = made.add_argument_group("parameters")
-    add_parameters(parameters)
-    hints = HintProperties.__annotations__["hints"].keywords
-    parameters.add_argument("--hints", choices=[item[0].lower() for item in hints["items"]], default="none",
-                            help=hints["description"] + " (default: %(default)s)")
-    outputs = made.add_argument_group("what is written to the objects")
+
+
+def _add_pegs(uses: argparse._ArgumentGroup) -> None:
+    joint = JointProperties.__annotations__
+    kinds = [item[0].lower() for item in joint["joints"].keywords["items"][1:]]
+    uses.add_argument("--pegs", choices=kinds, nargs="?", const="round", metavar="KIND",
+                      help=f"join them for printing by {', '.join(kinds)} (default: round), closed")
+    for option, name in (("count", "joint_count"), ("size", "joint_size"), ("depth", "joint_depth"),
+                         ("clearance", "joint_clearance"), ("wall", "joint_wall")):
+        words = joint[name].keywords
+        uses.add_argument(f"--peg-{option}", dest=name, default=words["default"], metavar="N",
+                          type=_number(words["min"], words["max"]), help=words["description"])
+
+
+def _add_outputs(outputs: argparse._ArgumentGroup) -> None:
     for name, prop in (OutputProperties.__annotations__ | OverlayProperties.__annotations__).items():
         words = {"default": prop.keywords.get("default"), "help": prop.keywords["description"].replace("%", "%%")}
         if isinstance(words["default"], bool):
@@ -89,7 +103,6 @@ def parser(description: str | None) -> argparse.ArgumentParser:
         else:
             words |= {"type": _number(prop.keywords["min"], prop.keywords["max"]), "metavar": "N"}
         outputs.add_argument(f"--{dashed(name)}", **words)
-    return made
 
 
 def separate_style(options: argparse.Namespace) -> Any:

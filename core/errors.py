@@ -2,7 +2,7 @@
 """Exceptions whose message is the sentence that the user reads.
 
 The message says what is wrong, how much of it, and what to do; it is a ``Sentence``, so that an operator can translate
-it. The exception also carries the indices of the vertices and faces concerned, so that an operator can select them.
+it. The exception also carries the indices of the vertices and faces concerned, for callers in Python.
 """
 
 from __future__ import annotations

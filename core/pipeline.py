@@ -180,7 +180,7 @@ def join_pieces(
         As ``decompose_component`` made it.
     parameters : Parameters
     model : JoinModel, optional
-        What judges pairs of parts; those that ship with the package without.
+        What judges pairs of parts. Without it, the models that ship with the package.
 
     Returns
     -------

@@ -144,7 +144,7 @@ def _rows_in(rows: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 
 class PlainMesh:
-    """A mesh without anything of ours, of which pieces are made; whole : its elements, read without."""
+    """A mesh without anything of ours, of which pieces are made. whole : its elements; they are read if not given."""
 
     def __init__(self, mesh: bpy.types.Mesh, whole: Elements | None = None, planar: bool = False) -> None:
         self._mesh, self._planar = mesh, planar

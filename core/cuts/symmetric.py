@@ -149,7 +149,9 @@ def _cells(graph: FaceGraph, label: np.ndarray, image: np.ndarray, leads: np.nda
     n_ways, faces = len(image), np.arange(len(label))
     has = image >= 0
     image = np.where(has, image, faces)
-    # A face that follows is what its image is, if that one leads; a small region without twins is what is around it.
+    # The cell of a face that does not lead itself is the mirror image of the cell of that image of it which leads: a
+    # left arm's face, if the right side leads, gets the mirrored right arm. ``heard``: by which ways of mirroring a
+    # face has such an image. ``lone``: small regions without any, which get the cell around them.
     heard = has & leads[image]
     way = heard.argmax(axis=0)
     unseen = ~has.all(axis=0) & ~heard.any(axis=0)
@@ -166,7 +168,8 @@ def _cells(graph: FaceGraph, label: np.ndarray, image: np.ndarray, leads: np.nda
     every = np.arange(n_ways)
     partner = _places(names, n_ways * lead[:, None] + kind[lead[:, None], way[:, None] ^ every])
     weight = graph.area + 1e-12 * graph.area.sum()
-    # What follows says of itself what the image that leads says of it, to the letter.
+    # A cell that follows takes over all that is known of its leading image, instead of its own, nearly the same
+    # numbers: so that rounding cannot make the two sides differ. ``asked``: of which cell, in which way, it is read.
     leading = np.where(way > 0, partner[np.arange(len(names)), way], -1)
     leader, way_there = np.where(leading < 0, (np.arange(len(names)), 0 * way), (leading, way))
     asked = leader[:, None], way_there[:, None] ^ every

@@ -60,7 +60,7 @@ def assemble(
     decomposition : Decomposition
     """
     face_graph = face_graph_of(given, working)
-    contacts = _contacts(given, working, results, face_graph)
+    contacts = _contacts(working, results, face_graph)
     mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
     coarse = [mirror for mirror in mirrors if mirror.within]
     found = symmetric_within_faces(results, coarse) if coarse and results else FoundCandidates.of(results)
@@ -75,8 +75,8 @@ def assemble(
     if len(hint):  # after symmetry: of what was marked on one side only, the other knows nothing
         label, hierarchy = hinted_candidates(face_graph, contacts, label, hierarchy, hint)
     mirror = Mirror.joined(mirrors)
-    label, hierarchy = settle(face_graph.with_contacts(contacts), label, hierarchy)
     face_graph = face_graph.with_contacts(contacts)
+    label, hierarchy = settle(face_graph, label, hierarchy)
     values, notes = _vertex_field(given, working, results, parameters)
     tables = tables_of(given, working, face_graph, label)
     nodes, points = _graph_candidates(results, label)
@@ -265,9 +265,7 @@ def _apart(
                                      np.concatenate([np.zeros(len(apart)), hierarchy.salience]))
 
 
-def _contacts(
-    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], graph: FaceGraph
-) -> np.ndarray:
+def _contacts(working: WorkingMesh, results: list[ComponentResult], graph: FaceGraph) -> np.ndarray:
     """(k, 2) int64, faces of the caller that touch without an edge; bodies hang on the nearest that is larger."""
     inside = [r.component.polygon[r.contacts] for r in results]
     pairs = np.concatenate([np.empty((0, 2), np.int64), *inside])

@@ -110,7 +110,7 @@ class FoundCandidates:
 
 
 def firsts(counts: list[int]) -> list[int]:
-    """The number of the first of each of several lists that are put one after the other, and were counted from 0."""
+    """Where each of several lists begins when they are put one after the other. counts : their lengths."""
     return [0, *accumulate(counts)][:-1]
 
 

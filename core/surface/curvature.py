@@ -17,22 +17,20 @@ SOLVER_STEPS = 60  # upper bound of the number of conjugate gradient steps
 MAX_CONDUCTANCE = 20.0
 
 
-def k_min(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
+def k_min(mesh: TriMesh) -> np.ndarray:
     """Estimate the smaller principal curvature at every vertex, negative in concavities.
 
     Parameters
     ----------
     mesh : TriMesh
         n vertices, faces turned outwards.
-    smoothing_steps : int
-        Number of rings of neighbors over which the tensor of a vertex is summed.
 
     Returns
     -------
     k_min : (n,) float64
         In units of 1 / length of the vertices.
     """
-    return principal_curvatures(mesh, smoothing_steps)[:, 0]
+    return principal_curvatures(mesh)[:, 0]
 
 
 def principal_curvatures(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:

@@ -149,7 +149,7 @@ def part_descriptors(
     }
     field = surface.quantiles(surface.mean_field(), QUANTILES)
     depth = surface.quantiles(surface.depth(), (0.5, 0.9, 1.0)) / size[:, None]
-    radius = np.log(_radii(surface, parts, size))
+    radius = np.log(_radii(parts, size))
     for place, quantile in enumerate((10, 50, 90)):
         columns |= {f"field_{quantile}": field[:, place], f"log_radius_{quantile}": radius[:, place]}
     columns |= {"depth_50": depth[:, 0], "depth_90": depth[:, 1], "depth_100": depth[:, 2]}
@@ -185,7 +185,7 @@ def _neighborhood(surface: _Surface, parts: Parts) -> tuple[dict[str, np.ndarray
     )
 
 
-def _radii(surface: _Surface, parts: Parts, size: np.ndarray) -> np.ndarray:
+def _radii(parts: Parts, size: np.ndarray) -> np.ndarray:
     """Quantiles of the radius of the contours in each part, (count, 3), in units of its size.
 
     A part without a contour counts as a ball of its area.

@@ -139,8 +139,8 @@ def _failure(answer: Any) -> BaseException:
 def do_job(job: dict[str, Any]) -> dict[str, Any]:
     """What a worker does with a model: have it done by the process that belongs to this thread.
 
-    job : dict, see ``work.do_model``, with ``memory_limit`` in bytes, 0 for the memory of the worker's machine divided by
-    its processors, and ``time_limit`` in seconds. Returns the answer of ``ModelProcess.run``.
+    job : dict, see ``work.do_model``, with ``memory_limit`` in bytes, 0 for the memory of the worker's machine divided
+    by its processors, and ``time_limit`` in seconds. Returns the answer of ``ModelProcess.run``.
     """
     limit = job["memory_limit"] or psutil.virtual_memory().total // (os.cpu_count() or 1)
     process = getattr(_own, "process", None)

@@ -7,10 +7,12 @@ import glob
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from ..core.errors import ReebError
 from ..core.sentence import Sentence
+from .records import RECORD, read_record
 
 
 class SourceError(ReebError):
@@ -43,7 +45,7 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     kinds : tuple of str
         Suffixes of models in folders, small letters. A file that is named or fits a pattern may have any.
     out : Path
-        Folder of the results, which are no models.
+        Folder of the results, which are no models, as those of earlier runs elsewhere are none.
     root : Path, optional
         What names begin below; the innermost folder that holds all models without.
 
@@ -76,6 +78,9 @@ def _paths(place: str, kinds: tuple[str, ...]) -> Iterator[Path]:
     path = Path(place)
     if path.is_dir():
         for base, folders, files in os.walk(path):
+            if _is_of_a_run(base):
+                folders.clear()
+                continue
             folders[:] = [name for name in folders if not name.startswith(".")]
             for name in files:
                 if os.path.splitext(name)[1].lower() in kinds and not name.startswith("."):
@@ -84,10 +89,16 @@ def _paths(place: str, kinds: tuple[str, ...]) -> Iterator[Path]:
         yield Path(os.path.abspath(path))
     elif glob.has_magic(place):
         for found in glob.iglob(place, recursive=True):
-            if os.path.isfile(found):
+            if os.path.isfile(found) and not any(map(_is_of_a_run, Path(os.path.abspath(found)).parents)):
                 yield Path(os.path.abspath(found))
     else:
         raise SourceError(Sentence("There is no file and no folder {place}.", place=place))
+
+
+@cache
+def _is_of_a_run(folder: str | Path) -> bool:
+    """Whether a folder holds what a run, this or an earlier one, made of a model."""
+    return os.path.isfile(os.path.join(folder, RECORD)) and read_record(Path(folder)) is not None
 
 
 def read_list(path: Path) -> list[str]:

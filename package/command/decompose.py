@@ -68,7 +68,8 @@ def run(options: argparse.Namespace) -> int:
 
     def add(path: Path, data: bytes) -> str:
         if Path(os.path.abspath(path)) in map(Path, map(os.path.abspath, files)):
-            raise OutputFileError(Sentence("{path} would be written twice. Give each file a name of its own.", path=path))
+            raise OutputFileError(
+                Sentence("{path} would be written twice. Give each file a name of its own.", path=path))
         files[path] = data
         return str(path)
 

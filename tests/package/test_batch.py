@@ -448,6 +448,21 @@ def test_folders_patterns_lists_and_files_are_found_once_each(models, tmp_path, 
     assert [source.name for source in find_sources(["."], kinds, models / "deep")] == ["damaged.ply", "tree.ply"]
 
 
+def test_what_an_earlier_run_made_is_no_model(batch, models, tmp_path):
+    archive = tmp_path / "archive"
+    shutil.copytree(models, archive)
+    shutil.copytree(batch[0], archive / "results")
+    (archive / "deep" / "record.json").write_text("{}")  # somebody's own
+    names = ["damaged.ply", "deep/dumb bell.obj", "tiny.stl", "tree.ply"]
+    kinds = (".obj", ".ply", ".stl", ".glb")
+    assert (archive / "results" / "models" / "tree.ply" / "colored.ply").is_file()
+    for place in (archive, f"{archive}/**/*.*"):
+        found = [source.name for source in find_sources([str(place)], kinds, tmp_path / "out", archive)]
+        assert [name for name in found if name.endswith(kinds)] == names
+    named = archive / "results" / "models" / "tree.ply" / "colored.ply"
+    assert [source.path for source in find_sources([str(named)], kinds, tmp_path / "out")] == [named]
+
+
 @pytest.mark.parametrize(("places", "root", "words"), [
     (["none"], None, "no file and no folder none"), (["*.xyz"], None, "no model"), (["tree.ply"], "deep", "1 model is"),
 ])  # fmt: skip

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The installed package: what is in it, and what it takes."""
 
+import re
+import subprocess
+import sys
 import zipfile
 from pathlib import Path
 
@@ -37,6 +40,37 @@ def test_it_has_every_name_of_core():
     assert set(core.__all__) <= set(reeb_parts.__all__)
     assert reeb_parts.Parameters is reeb_parts.core.Parameters
     assert Path(reeb_parts.__file__).parents[1] != ROOT
+
+
+#: The command in a Python in which no package is installed but those of a list.
+ALONE = """
+import sys
+from importlib.metadata import packages_distributions
+hidden = packages_distributions().keys() - set(sys.argv[3:])
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in hidden:
+            raise ModuleNotFoundError(f"{name} is no dependency", name=name)
+sys.meta_path.insert(0, Finder())
+from reeb_parts.command.main import main
+sys.exit(main(["decompose", sys.argv[1], "--colored", sys.argv[2], "--n-parts", "3"]))
+"""
+
+
+def test_a_model_with_texture_coordinates_needs_no_other_packages_than_are_named(wheel, tmp_path):
+    """What pip brings along is enough; other packages of this environment are hidden."""
+    with zipfile.ZipFile(wheel) as archive:
+        text = archive.read(f"reeb_parts-{VERSION}.dist-info/METADATA").decode().partition("\n\n")[0]
+    needed = [re.split("[<>=]", line.removeprefix("Requires-Dist: "))[0] for line in text.splitlines()
+              if line.startswith("Requires-Dist: ") and "extra ==" not in line]
+    assert {"numpy", "scipy", "trimesh"} < set(needed)
+    names = ["PIL" if name == "pillow" else name for name in needed]
+    for colored in ("spot.ply", "spot.glb"):
+        done = subprocess.run(
+            [sys.executable, "-c", ALONE, ROOT / "models" / "spot.obj", tmp_path / colored, "reeb_parts", *names],
+            capture_output=True, text=True, check=False, timeout=100)
+        assert done.returncode == 0, done.stderr
+        assert (tmp_path / colored).is_file()
 
 
 @pytest.mark.parametrize("mesh", [

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tomllib
 import zipfile
+from importlib import metadata
 from pathlib import Path
 
 import pytest
@@ -61,20 +62,25 @@ def test_the_manifest_says_what_the_site_asks_for(manifest):
 
 
 def test_whom_the_wheels_name_is_credited(manifest):
-    """Every holder in a wheel's own licence files, of which two wheels at hand are read."""
+    """Every holder in the licence files of SciPy as it is installed here, and of the wheels that are at hand."""
     credited = " ".join(manifest["copyright"])
-    wheels = [ROOT / wheel for wheel in manifest["wheels"] if (ROOT / wheel).exists()]
-    for wheel in wheels:
+    licences = {"installed": "\n".join(
+        file.locate().read_text(encoding="utf-8", errors="replace") for file in metadata.files("scipy")
+        if LICENCE.search(file.name) and ".dist-info" in str(file))}
+    assert "SciPy Developers" in licences["installed"]
+    for wheel in [ROOT / wheel for wheel in manifest["wheels"] if (ROOT / wheel).exists()]:
         with zipfile.ZipFile(wheel) as archive:
-            names = [name for name in archive.namelist() if re.search(r"LICEN[CS]E|COPYING", name)]
-            text = "\n".join(archive.read(name).decode("utf-8", "replace") for name in names)
+            licences[wheel.name] = "\n".join(archive.read(name).decode("utf-8", "replace")
+                                             for name in archive.namelist() if LICENCE.search(name))
+    for where, text in licences.items():
         for holder in HOLDERS:
             if holder in text:
-                assert holder in credited, (wheel.name, holder)
+                assert holder in credited, (where, holder)
         found = set(re.findall(r"(?im)^\W*copyright \(c\)\s+[\d, -]+,?\s*(.+?)[\s.,<]*$", text))
         assert {line for line in found if not any(holder in line for holder in HOLDERS)} <= NO_HOLDERS
 
 
+LICENCE = re.compile(r"LICEN[CS]E|COPYING")
 #: Names in the licence files of the wheels that hold copyright in what the wheels carry.
 HOLDERS = (
     "Enthought", "SciPy Developers", "The OpenBLAS Project", "The University of Tennessee", "Free Software Foundation",

@@ -74,11 +74,6 @@ class RegionAdjacencyGraph:
         for index, (a, b) in enumerate(self.ends.tolist()):
             self.neighbors[a][b] = self.neighbors[b][a] = index
 
-    @property
-    def n_alive(self) -> int:
-        """Number of regions that have not merged into another."""
-        return int(self.regions.alive.sum())
-
     def features(self, borders: np.ndarray) -> np.ndarray:
         """Compute the features of some borders.
 

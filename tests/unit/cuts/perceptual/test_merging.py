@@ -105,7 +105,7 @@ def test_merging_leaves_one_region_and_every_step_is_a_partition(tree):
     merges, salience = merge_all_(graph, by_length)
     assert merges.shape == (n - 1, 2)
     assert salience.shape == (n - 1,)
-    assert graph.n_alive == 1
+    assert graph.regions.alive.sum() == 1
     for steps in range(0, n, 7):
         merged = groups_after(merges, n, steps)[label]
         assert merged.max() + 1 == n - steps
