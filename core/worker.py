@@ -42,8 +42,8 @@ def run(folder: Path) -> None:
     Notes
     -----
     The messages are {"ready": true}, then for each shape {"shape", "stage", "share"} many times and one of
-    {"shape", "done": true} and {"shape", "error"}, and in the end {"end": true}. If that does not come, the run has failed,
-    and standard error has the reason. If memory runs out, {"failed": "memory"} says so before the process ends.
+    {"shape", "done": true} and {"shape", "error"}, and in the end {"end": true}. If that does not come, the run has
+    failed, and standard error has the reason. If memory runs out, {"failed": "memory"} says so before the process ends.
     """
     if sys.platform != "win32":  # there, who starts the process says so
         os.nice(NICE)

@@ -71,8 +71,8 @@ class Images:
         """The planes in which to mirror small faces, as polygons are too large; none where they are not.
 
         Polygons are too large if there are few of them and most of the area has no exact image. The first of the planes
-        is this one. If it mirrors nearly all of the shape, other planes that do so follow, all at right angles to it and
-        to each other.
+        is this one. If it mirrors nearly all of the shape, other planes that do so follow, all at right angles to it
+        and to each other.
         """
         faces = self.faces
         if faces.n_polygons >= MANY_FACES or faces.polygons.area[self._polygons[1]].sum() >= MOSTLY:
