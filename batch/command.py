@@ -198,10 +198,21 @@ def _imported(path: Path) -> list:
         IMPORTERS[path.suffix.lower()](str(path.resolve()))
     except RuntimeError as error:
         raise SceneError(f"{path} could not be read: {reason(error)}") from error
-    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and obj not in before]
+    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and obj not in before
+              and not _is_of_importer(obj)]
     if not meshes:
         raise SceneError(f"There is no mesh in {path}.")
     return meshes
+
+
+def _is_of_importer(obj: bpy.types.Object) -> bool:
+    """Whether an object is no part of the model, but how Blender's importer of glTF shows bones; it is left out."""
+    layers = bpy.context.view_layer.layer_collection.children
+    own = [collection for collection in obj.users_collection if collection.name.startswith("glTF_not_exported")]
+    for collection in own:
+        if collection.name in layers:
+            layers[collection.name].exclude = True
+    return bool(own)
 
 
 def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, options: argparse.Namespace) -> dict:

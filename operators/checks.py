@@ -26,7 +26,7 @@ class REEB_PARTS_OT_check_pieces(PieceOperator, bpy.types.Operator):
     bl_label = "Check Parts"
 
     def run(self, context: bpy.types.Context) -> None:
-        chosen = [context.view_layer.objects.active, *context.view_layer.objects.selected]
+        chosen = [targets.active_object(context), *targets.selected_objects(context)]
         pieces = list(dict.fromkeys(obj for obj in chosen if piece_objects.original(obj) is not None))
         piece_objects.check_pieces(pieces)
         redraw.sidebars()
@@ -49,7 +49,7 @@ class REEB_PARTS_OT_select_faults(PieceOperator, bpy.types.Operator):
     )
 
     def run(self, context: bpy.types.Context) -> None:
-        piece = context.view_layer.objects.active
+        piece = piece_objects.active_piece(context)
         found, faults = piece_checks.check(piece.data, bridge.world_stretch(piece))
         piece_checks.keep(piece, found)
         mask = getattr(faults, self.kind.lower())
@@ -69,7 +69,7 @@ class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
     bl_label = "Repair Part"
 
     def run(self, context: bpy.types.Context) -> None:
-        piece = context.view_layer.objects.active
+        piece = piece_objects.active_piece(context)
         if piece.data.users > 1:
             raise SceneError(rpt_("Other objects share the mesh of {name}").format(name=piece.name))
         before, after = piece_repairs.repair(piece, bridge.world_stretch(piece))

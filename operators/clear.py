@@ -19,7 +19,7 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        obj = context.view_layer.objects.active
+        obj = targets.active_object(context)
         if obj is None or obj.type != "MESH" or not (store.has_result(obj.data) or graph_objects.find(obj)):
             raise SceneError(rpt_("The active object has no parts"))
 

@@ -46,7 +46,7 @@ class REEB_PARTS_OT_decompose(
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        obj = context.view_layer.objects.active
+        obj = targets.active_object(context)
         if obj is None or obj.type != "MESH":
             cls.poll_message_set(rpt_("Select a mesh first"))
             # Scripts are let through, to be told what is wrong in a sentence.
@@ -61,7 +61,7 @@ class REEB_PARTS_OT_decompose(
         self._take_over_former_names()
         defaults.adopt(context.scene)
         values = {name: getattr(context.scene.reeb_parts, name) for name in (*PARAMETERS, *HINTS, *OUTPUTS, *OVERLAY)}
-        values |= results.detail_of(context.view_layer.objects.active)
+        values |= results.detail_of(targets.active_object(context))
         for name, value in values.items():
             if not self.properties.is_property_set(name):
                 setattr(self, name, value)

@@ -12,7 +12,7 @@ from ..scene.modes import object_mode
 from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.store import Stored
-from ..scene.targets import users
+from ..scene.targets import active_object, users
 from ..viewport import framing, hover, shading
 
 
@@ -130,7 +130,7 @@ class REEB_PARTS_OT_mark(ReportingOperator, bpy.types.Operator):
     )
 
     def run(self, context: bpy.types.Context) -> None:
-        mesh = context.view_layer.objects.active.data
+        mesh = active_object(context).data
         with_faces = set()
         if self.action == "FACES":
             with object_mode(context):

@@ -27,11 +27,11 @@ class REEB_PARTS_OT_rigid_bodies(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        targets.check_object(context.view_layer.objects.active)
-        check_parts(piece_objects.whole(context.view_layer.objects.active))
+        targets.check_object(targets.active_object(context))
+        check_parts(piece_objects.whole(targets.active_object(context)))
 
     def run(self, context: bpy.types.Context) -> None:
-        obj = piece_objects.whole(context.view_layer.objects.active)
+        obj = piece_objects.whole(targets.active_object(context))
         with object_mode(context):
             made = piece_objects.make_bodies(context, obj, store.load(obj.data), self.joints)
         self.report({"INFO"}, rpt_("{n} {n:rigid body|rigid bodies}, {total} {total:joint|joints}").format(

@@ -8,11 +8,12 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
 from ..scene import piece_objects, store, targets
+from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import check_parts, wanted_numbers
 from ..scene.reporting import ReportingOperator
-from ..scene.selection import select_objects
+from ..scene.selection import in_layer, select_objects
 from ..scene.settings import SeparateProperties
 from ..scene.stepped import LARGE, SteppedOperator
 from ..viewport import shading
@@ -47,7 +48,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
             layout.row().prop(self, name, expand=name == "which")
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
-        check_parts(context.view_layer.objects.active)
+        check_parts(targets.active_object(context))
         objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
         made = []
         with object_mode(context):
@@ -83,10 +84,10 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
 
     def _report(self, obj: bpy.types.Object, separated: piece_objects.Separated) -> None:
         self.report({"INFO"}, rpt_("{name}: {n} {n:part is an object|parts are objects} now").format(
-            name=obj.name, n=Count(len(separated.pieces) - len(separated.part))))
-        if separated.part:
+            name=obj.name, n=Count(len(separated.pieces) - separated.more)))
+        if separated.more:
             self.report({"INFO"}, rpt_("{n} more {n:piece|pieces}, so that all fit the bed").format(
-                n=Count(len(separated.part))))
+                n=Count(separated.more)))
         if separated.too_long:
             self.report({"WARNING"}, rpt_("Not closed, so not cut to fit the bed: {names}").format(
                 names=", ".join(separated.names[key] for key in separated.too_long)))
@@ -128,10 +129,15 @@ class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        targets.check_object(piece_objects.original(piece_objects.active_piece(context)))
+        obj = piece_objects.original(piece_objects.active_piece(context))
+        targets.check_object(obj)
+        assert obj is not None
+        if not in_layer(context, obj):
+            raise SceneError(rpt_("{name} is not in this view layer. Include its collection first.").format(
+                name=obj.name))
 
     def run(self, context: bpy.types.Context) -> None:
-        obj = piece_objects.original(context.view_layer.objects.active)
+        obj = piece_objects.original(targets.active_object(context))
         piece_objects.show_original(context, obj)
         shading.show_colors(context)
         select_objects(context, [obj], active=obj)

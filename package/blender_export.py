@@ -12,6 +12,18 @@ import bpy
 import numpy as np
 
 
+def _include_all(layer: bpy.types.LayerCollection) -> None:
+    """Have Blender evaluate what is excluded or disabled, too: without that, nothing says where it is."""
+    for obj in bpy.context.scene.objects:
+        obj.hide_viewport = False
+    open_ = [*layer.children]
+    while open_:
+        layer = open_.pop()
+        layer.collection.hide_viewport = layer.exclude = False
+        open_ += layer.children
+    bpy.context.view_layer.update()
+
+
 def export(path: str, out: str) -> None:
     """Read the model and write vertices (n, 3), triangles (m, 3) and the polygon (m,) of each triangle."""
     if path.lower().endswith(".blend"):
@@ -19,6 +31,7 @@ def export(path: str, out: str) -> None:
     else:
         bpy.ops.wm.read_homefile(use_empty=True)
         bpy.ops.import_scene.fbx(filepath=path)
+    _include_all(bpy.context.view_layer.layer_collection)
     vertices, triangles, polygons = [np.empty((0, 3))], [np.empty((0, 3), np.int64)], [np.empty(0, np.int64)]
     n_vertices = n_polygons = 0
     for obj in bpy.context.scene.objects:

@@ -157,7 +157,7 @@ def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types
     twin = bpy.data.objects.new(copy.name, copy)
     with removed(bpy.data.meshes, copy), removed(bpy.data.objects, twin):
         twin.vertex_groups.clear()
-        twin.matrix_world = obj.matrix_world
+        bridge.put(twin, bridge.world_matrix(obj))
         context.scene.collection.objects.link(twin)
         with nothing_selected(context.view_layer):
             for each in (twin, rig):

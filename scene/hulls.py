@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from . import made, mesh_arrays, part_names, piece_objects
+from . import bridge, made, mesh_arrays, part_names, piece_objects
 from .store import Stored
 
 _LONGEST = 59  # bytes of a name, with room for a number that Blender adds
@@ -61,7 +61,7 @@ def _fitting(before: str, name: str, after: str) -> str:
 
 def _placed(hull: bpy.types.Object, obj: bpy.types.Object) -> bpy.types.Object:
     """A hull where its object is, shown as lines and not rendered."""
-    hull.matrix_world = obj.matrix_world
+    bridge.put(hull, bridge.world_matrix(obj))
     hull.display_type = "WIRE"
     hull.hide_render = True
     hull[made.ROLE] = "hull"

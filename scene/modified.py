@@ -75,6 +75,7 @@ def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,
         explode.forget(twin)
         hidden.forget(twin)
         twin.data.attributes.new(_NUMBER, "INT", "FACE").data.foreach_set("value", face_numbers.astype(np.int32))
+        twin.hide_viewport = False  # or Blender would not evaluate it
         context.scene.collection.objects.link(twin)
         context.view_layer.update()
         depsgraph = context.evaluated_depsgraph_get()
@@ -83,6 +84,10 @@ def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,
         # What is ours on the new mesh is told by the result, which does not come along.
         with quiet.quiet():
             set_values(mesh.reeb_parts, values_of(obj.data.reeb_parts))
+    if not len(mesh.polygons):
+        bpy.data.meshes.remove(mesh)
+        raise SceneError(rpt_("The modifiers of {name} leave no faces, though perhaps instances. Apply them as a mesh "
+                              "and decompose again.").format(name=obj.name))
     numbers = _numbers(mesh)
     lost = int((numbers == 0).sum())
     if lost:

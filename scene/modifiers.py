@@ -22,6 +22,12 @@ def remove(obj: bpy.types.Object, modifier: bpy.types.Modifier) -> None:
         transaction.at_end(obj.modifiers.remove, modifier)
 
 
+def only_shades(modifier: bpy.types.Modifier) -> bool:
+    """Whether a modifier leaves the shape as it is, as that of Blender's Shade Auto Smooth does."""
+    nodes = modifier.node_group if modifier.type == "NODES" else None
+    return nodes is not None and nodes.name.startswith("Smooth by Angle")
+
+
 def find_nodes(obj: bpy.types.Object, ours: str) -> bpy.types.NodesModifier | None:
     """The modifier on an object whose node group is marked by a property of that name, or None."""
     return next((modifier for modifier in obj.modifiers

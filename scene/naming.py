@@ -25,7 +25,7 @@ def suggested(obj: bpy.types.Object, stored: Stored) -> dict[int, str]:
     """
     mesh = obj.data
     numbered = stored.shown_parts()
-    world = np.array(obj.matrix_world, np.float64)
+    world = np.array(bridge.world_matrix(obj), np.float64)
     points = mesh_arrays.shown_points(obj).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
     vertex, face = mesh_arrays.face_corners(mesh)
     center = mesh_arrays.corner_table(mesh, points).face_means(points)

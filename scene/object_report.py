@@ -24,7 +24,7 @@ def object_report(obj: bpy.types.Object, labels: bool = False, check: bool = Fal
     mesh = obj.data
     stored = store.load(mesh)
     numbered = stored.shown_parts()
-    world = np.array(obj.matrix_world, np.float64)
+    world = np.array(bridge.world_matrix(obj), np.float64)
     stretch = store.stretch_of(mesh)
     from_result = world.copy()
     from_result[:3, :3] = world[:3, :3] @ bridge.unstretch(stretch)

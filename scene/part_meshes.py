@@ -40,7 +40,9 @@ def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
         copy.property_unset("reeb_parts")
     for key in [key for key in copy.keys() if key.startswith("reeb_parts")]:  # noqa: SIM118
         del copy[key]
-    for name in [a.name for a in copy.attributes if a.name.startswith((kept_aside.PREFIX, hidden.ATTRIBUTE))]:
+    is_hidden = any(a.name.startswith(hidden.ATTRIBUTE) for a in copy.attributes)  # then it is we who hid faces
+    ours = (kept_aside.PREFIX, hidden.ATTRIBUTE, *([".hide_"] if is_hidden else []))
+    for name in [a.name for a in copy.attributes if a.name.startswith(ours)]:
         copy.attributes.remove(copy.attributes[name])
     return copy
 

@@ -8,7 +8,7 @@ constraints and parent.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 import bpy
@@ -30,14 +30,17 @@ from . import (
     made,
     mesh_arrays,
     modified,
+    modifiers,
     part_names,
     piece_checks,
     rigid_bodies,
+    targets,
     transaction,
 )
 from .errors import SceneError
 from .outputs.colors import linear
 from .part_meshes import making_pieces
+from .selection import in_layer
 from .settings import SeparateProperties
 from .store import Stored
 from .temporary import remove_object, removed
@@ -87,14 +90,28 @@ def is_of(item: bpy.types.Object, numbers: Collection[int]) -> bool:
 
 
 def original(piece: bpy.types.Object) -> bpy.types.Object | None:
-    """The object in the scene that a piece was separated from, or None."""
-    objects = bpy.context.view_layer.objects
+    """The object that a piece was separated from, or None if it is gone."""
     for collection in piece.users_collection:
-        source = collection.get(COLLECTION_OF, "")
-        obj = objects.get(source if isinstance(source, str) else source.name)
-        if obj is not None and collection_of(obj) == collection and NUMBER in piece:
+        obj = collection.get(COLLECTION_OF)
+        if isinstance(obj, str):
+            obj = bpy.data.objects.get((obj, None))
+        if obj is not None and obj.users_scene and collection_of(obj) == collection and NUMBER in piece:
             return obj
     return None
+
+
+def left_behind() -> Iterator[bpy.types.Collection]:
+    """Collections of pieces whose original is gone from all scenes; it would stay in the file for them."""
+    for collection in bpy.data.collections:
+        source = collection.get(COLLECTION_OF)
+        if isinstance(source, bpy.types.Object) and not source.users_scene and collection.is_editable:
+            yield collection
+
+
+def forget_original(collection: bpy.types.Collection) -> None:
+    """Let pieces be the user's alone, as their original is gone."""
+    transaction.keep_keys(collection, COLLECTION_OF)
+    del collection[COLLECTION_OF]
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,6 +135,8 @@ class Separated:
         What pieces are called, by the keys that the cuts have for them.
     part : dict of int -> int
         The number of the part that a piece comes from, by its key, where that is another one.
+    more : int
+        How many more pieces there are, so that all fit the bed.
     too_long : list of int
         Keys of pieces that do not fit the bed and could not be cut.
     """
@@ -130,6 +149,7 @@ class Separated:
     cuts: list[joints.CutJoints]
     names: dict[int, str]
     part: dict[int, int]
+    more: int
     too_long: list[int]
 
     def cut_name(self, cut: joints.CutJoints) -> str:
@@ -198,7 +218,8 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     for index, piece in enumerate(pieces if close else ()):
         yield 0.8 + 0.2 * index / len(pieces)
         check_pieces([piece], stretch)
-    return Separated(pieces, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part, fitted.left)
+    return Separated(pieces, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part,
+                     len(fitted.part), fitted.left)
 
 
 def _names(obj: bpy.types.Object, origin: dict[int, int], sides: modified.BothSides) -> dict[int, str]:
@@ -244,7 +265,7 @@ def _dowel(context: bpy.types.Context, obj: bpy.types.Object, dowel: joints.Dowe
 
 def active_piece(context: bpy.types.Context) -> bpy.types.Object:
     """The active object, in Object Mode; raises SceneError unless it is a piece that was separated."""
-    piece = context.view_layer.objects.active
+    piece = targets.active_object(context)
     if piece is None or original(piece) is None:
         raise SceneError(rpt_("The active object is not a part that was separated from another one"))
     if context.mode != "OBJECT":
@@ -292,7 +313,19 @@ def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.ty
         if not transaction.is_new(collection):
             transaction.on_failure(context.scene.collection.children.unlink, collection)
         context.scene.collection.children.link(collection)
+    _include(context, collection)
     return collection
+
+
+def _include(context: bpy.types.Context, collection: bpy.types.Collection) -> None:
+    """Put a collection of ours back into the view layer: what is made in it is to be seen."""
+    open_ = [context.view_layer.layer_collection]
+    while open_:
+        layer = open_.pop()
+        if layer.collection == collection and layer.exclude:
+            transaction.on_failure(setattr, layer, "exclude", True)
+            layer.exclude = False
+        open_ += layer.children
 
 
 def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
@@ -350,7 +383,8 @@ def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: Separa
 
 def _works_anywhere(modifier: bpy.types.Modifier) -> bool:
     """Whether a modifier does the same wherever the origin is."""
-    return modifier.type in _ANYWHERE or (modifier.type == "MIRROR" and modifier.mirror_object is not None)
+    return (modifier.type in _ANYWHERE or modifiers.only_shades(modifier)
+            or (modifier.type == "MIRROR" and modifier.mirror_object is not None))
 
 
 def _center(mesh: bpy.types.Mesh) -> Vector:
@@ -365,18 +399,19 @@ def _center(mesh: bpy.types.Mesh) -> Vector:
 
 def show_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Show the object that pieces come from, with its graph if the scene shows graphs."""
-    _set_hidden(obj, False)
+    _set_hidden(context, obj, False)
     graph_objects.set_hidden(context, obj, not context.scene.reeb_parts.graph)
 
 
 def hide_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Hide the object that pieces come from, with its graph, in the viewport and in renders."""
-    _set_hidden(obj, True)
+    _set_hidden(context, obj, True)
     graph_objects.set_hidden(context, obj, True)
 
 
-def _set_hidden(obj: bpy.types.Object, hidden: bool) -> None:
+def _set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> None:
     transaction.keep(obj, "hide_render")
-    transaction.on_failure(obj.hide_set, obj.hide_get())
-    obj.hide_set(hidden)
+    if in_layer(context, obj):
+        transaction.on_failure(obj.hide_set, obj.hide_get())
+        obj.hide_set(hidden)
     obj.hide_render = hidden

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.errors import ReebError
-from . import store
+from . import store, targets
 from .errors import SceneError, translated
 from .modes import object_mode
 from .part_list import check_parts
@@ -35,7 +35,7 @@ class ReportingOperator:
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
         """Raise SceneError where the operator cannot be used: by default, where the active object has no parts."""
-        check_parts(context.view_layer.objects.active)
+        check_parts(targets.active_object(context))
 
     def run(self, context: bpy.types.Context) -> set[str] | None:
         """Do what the operator is for; its result, None for FINISHED. Raises SceneError or ReebError."""
@@ -74,7 +74,7 @@ class PartOperator(ReportingOperator):
         raise NotImplementedError
 
     def run(self, context: bpy.types.Context) -> None:
-        obj = context.view_layer.objects.active
+        obj = targets.active_object(context)
         with object_mode(context):
             message = self.work(context, obj, store.load(obj.data))
         if message:

@@ -66,13 +66,22 @@ def _set_flags(mesh: bpy.types.Mesh, flag: str, faces: np.ndarray, edges: np.nda
 
 def select_objects(context: bpy.types.Context, objects: list[bpy.types.Object],
                    active: bpy.types.Object | None = None) -> None:
-    """Select these objects and no others, and make one of them the active one if that is asked for."""
+    """Select these objects and no others, and make one of them the active one if that is asked for.
+
+    What the view layer does not have, such as objects of a collection that is excluded, is left out.
+    """
     for other in list(context.view_layer.objects.selected):
         other.select_set(False)
     for obj in objects:
-        obj.select_set(True)
-    if active is not None:
+        if in_layer(context, obj):
+            obj.select_set(True)
+    if active is not None and in_layer(context, active):
         context.view_layer.objects.active = active
+
+
+def in_layer(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
+    """Whether the view layer has an object; of an excluded collection it has none."""
+    return context.view_layer.objects.get(obj.name) == obj
 
 
 @contextmanager

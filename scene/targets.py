@@ -29,20 +29,34 @@ def chosen_objects(
     SceneError
         The active object is none that can be decomposed.
     """
-    active = context.view_layer.objects.active
+    active = active_object(context)
     check_object(active)
     first: dict[bpy.types.Mesh, bpy.types.Object] = {active.data: active}
-    for obj in context.view_layer.objects.selected:
+    for obj in selected_objects(context):
         if obj.type != "MESH" or obj.data in first:
             continue
         try:
             check_object(obj)
+            if obj.mode != active.mode:
+                raise SceneError(rpt_("{name} is in another mode than the active object. Go to Object Mode there "
+                                      "first.").format(name=obj.name))
         except SceneError as error:
             if report:
                 report({"WARNING"}, str(error))
         else:
             first[obj.data] = obj
     return list(first.values())
+
+
+def active_object(context: bpy.types.Context) -> bpy.types.Object | None:
+    """The active object; a script may give another one with ``temp_override``."""
+    return getattr(context, "active_object", None) or context.view_layer.objects.active
+
+
+def selected_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The selected objects; a script may give others with ``temp_override``."""
+    found = getattr(context, "selected_objects", None)
+    return list(context.view_layer.objects.selected if found is None else found)
 
 
 def check_object(obj: bpy.types.Object | None) -> None:

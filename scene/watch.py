@@ -11,7 +11,7 @@ import time
 import bpy
 from bpy.app.handlers import persistent
 
-from . import graph_follow, graph_objects, mesh_arrays, redraw, seen_points, store, transaction
+from . import graph_follow, graph_objects, mesh_arrays, piece_objects, redraw, seen_points, store, transaction
 
 REST = 0.3  # seconds
 
@@ -32,7 +32,7 @@ def check(mesh: bpy.types.Mesh) -> None:
 def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     global _last
     deleted = depsgraph.id_type_updated("COLLECTION") or depsgraph.id_type_updated("SCENE")
-    if deleted and any(graph_objects.left_behind()) and not bpy.app.timers.is_registered(_tidy):
+    if deleted and _is_untidy() and not bpy.app.timers.is_registered(_tidy):
         # Not within Blender's own deletion, which has yet to become a step of undo.
         bpy.app.timers.register(_tidy, first_interval=0.0)
     found = _changed_objects(depsgraph)
@@ -85,20 +85,36 @@ def _look() -> float | None:
     return None
 
 
+def _is_untidy() -> bool:
+    """Whether anything is left of objects that were deleted."""
+    return any(graph_objects.left_behind()) or any(piece_objects.left_behind())
+
+
 def _tidy() -> None:
-    """Remove the graphs of objects that were deleted."""
+    """Remove the graphs of objects that were deleted; their pieces stay."""
     with transaction.transaction():
         for obj in list(graph_objects.left_behind()):
             graph_objects.remove(obj)
+        for collection in list(piece_objects.left_behind()):
+            piece_objects.forget_original(collection)
+
+
+@persistent
+def _saving(*_: object) -> None:
+    """A file is about to be written: without a window no timer has tidied."""
+    if _is_untidy():
+        _tidy()
 
 
 def register() -> None:
     bpy.app.handlers.depsgraph_update_post.append(_changed)
     bpy.app.handlers.frame_change_post.append(_animated)
     bpy.app.handlers.load_post.append(_opened)
+    bpy.app.handlers.save_pre.append(_saving)
 
 
 def unregister() -> None:
+    bpy.app.handlers.save_pre.remove(_saving)
     bpy.app.handlers.load_post.remove(_opened)
     bpy.app.handlers.frame_change_post.remove(_animated)
     bpy.app.handlers.depsgraph_update_post.remove(_changed)

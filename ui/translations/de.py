@@ -923,6 +923,13 @@ TEXTS = {
         "durchdringen",
     "{n} {n:edge stays|edges stay} open: more than two faces meet beside {n:it|them}":
         "{n} {n:Kante bleibt|Kanten bleiben} offen: neben {n:ihr|ihnen} treffen mehr als zwei Flächen zusammen",
+    "{name} is in another mode than the active object. Go to Object Mode there first.":
+        "{name} ist in einem anderen Modus als das aktive Objekt. Bitte dort zuerst in den Objektmodus gehen.",
+    "The modifiers of {name} leave no faces, though perhaps instances. Apply them as a mesh and decompose again.":
+        "Die Modifikatoren von {name} lassen keine Flächen übrig, vielleicht aber Instanzen. Bitte als Mesh anwenden "
+        "und erneut zerlegen.",
+    "{name} is not in this view layer. Include its collection first.":
+        "{name} ist nicht in dieser Ansichtsebene. Bitte zuerst seine Sammlung einschließen.",
     "The active object is not a part that was separated from another one":
         "Das aktive Objekt ist kein Teil, das von einem anderen abgetrennt wurde",
     "Seams around {n} {n:part|parts}": "Nähte um {n} {n:Teil|Teile}",

@@ -827,6 +827,11 @@ TEXTS = {
         "{n} 条边界沿面分割：平滑切口会在该处撕裂部件或与部件相交",
     "{n} {n:edge stays|edges stay} open: more than two faces meet beside {n:it|them}":
         "{n} 条边保持开放：其旁边有两个以上的面相接",
+    "{name} is in another mode than the active object. Go to Object Mode there first.":
+        "{name} 与活动物体处于不同的模式。请先在该物体上进入物体模式。",
+    "The modifiers of {name} leave no faces, though perhaps instances. Apply them as a mesh and decompose again.":
+        "{name} 的修改器没有留下任何面，可能只有实例。请将其应用为网格后重新分解。",
+    "{name} is not in this view layer. Include its collection first.": "{name} 不在此视图层中。请先包含其集合。",
     "The active object is not a part that was separated from another one": "活动物体不是从其他物体分离出的部件",
     "Seams around {n} {n:part|parts}": "{n} 个部件周围的缝合边",
     "The seams are yours alone again": "现在只剩您自己的缝合边",
