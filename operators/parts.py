@@ -130,7 +130,9 @@ class REEB_PARTS_OT_mark(ReportingOperator, bpy.types.Operator):
     )
 
     def run(self, context: bpy.types.Context) -> None:
-        mesh = active_object(context).data
+        obj = active_object(context)
+        assert obj is not None  # check_context has looked
+        mesh = obj.data
         with_faces = set()
         if self.action == "FACES":
             with object_mode(context):

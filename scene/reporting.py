@@ -75,6 +75,7 @@ class PartOperator(ReportingOperator):
 
     def run(self, context: bpy.types.Context) -> None:
         obj = targets.active_object(context)
+        assert obj is not None  # check_context has looked
         with object_mode(context):
             message = self.work(context, obj, store.load(obj.data))
         if message:

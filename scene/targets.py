@@ -31,6 +31,7 @@ def chosen_objects(
     """
     active = active_object(context)
     check_object(active)
+    assert active is not None
     first: dict[bpy.types.Mesh, bpy.types.Object] = {active.data: active}
     for obj in selected_objects(context):
         if obj.type != "MESH" or obj.data in first:

@@ -214,3 +214,26 @@ def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, m
     assert "Interrupted; nothing was written." in err
     assert process.content(tmp_path) == before
     assert list((tmp_path / "parts").iterdir()) == []
+
+
+def test_a_rigged_glb_has_no_object_for_its_bones(run, obj, tmp_path):
+    """Blender's importer makes one with which it shows them."""
+    rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+    bpy.context.scene.collection.objects.link(rig)
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    for name in ("DEF-a", "DEF-b"):
+        bone = rig.data.edit_bones.new(name)
+        bone.head, bone.tail = (0, 0, 0), (0, 0, 1)
+        obj.vertex_groups.new(name=name).add(range(len(obj.data.vertices)), 0.5, "REPLACE")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    obj.parent = rig
+    obj.modifiers.new("Armature", "ARMATURE").object = rig
+    path = tmp_path / "rig.glb"
+    bpy.ops.export_scene.gltf(filepath=str(path))
+    bpy.ops.wm.read_homefile(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=str(path))
+    assert len([o for o in bpy.data.objects if o.type == "MESH"]) == 2
+    ended = run(path, "--parts", tmp_path / "parts", "--picture", tmp_path / "x.png")
+    assert [entry["name"] for entry in ended.answer["objects"]] == ["Tree"]
+    assert all(file.name.startswith("Tree ") for file in (tmp_path / "parts").iterdir())
