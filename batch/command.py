@@ -46,7 +46,7 @@ from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
 from ..scene.whole_files import WholeFiles, reason, scene_files, together
 from .interrupt import Interrupted, Interrupts
-from .options import MODELS, parser, separate_style
+from .options import MODELS, UNITS, parser, separate_style
 
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
@@ -146,7 +146,7 @@ def find_objects(options: argparse.Namespace) -> tuple[list, list[dict], dict]:
     Returns the objects to decompose, the problems with those that are not there, and what the JSON says of where an
     object comes from, if there are several models.
     """
-    meshes, problems, sources = _open(options.models)
+    meshes, problems, sources = _open(options.models, options.unit)
     if not options.object:
         return meshes or ([] if problems else [bpy.context.view_layer.objects.active]), problems, sources
     names = list(dict.fromkeys(options.object))
@@ -155,19 +155,25 @@ def find_objects(options: argparse.Namespace) -> tuple[list, list[dict], dict]:
     return [bpy.data.objects[name] for name in names if name in bpy.data.objects], problems, sources
 
 
-def _open(models: list[Path]) -> tuple[list, list[dict], dict]:
+def _open(models: list[Path], unit: str | None) -> tuple[list, list[dict], dict]:
     """Open a scene, or import models into an empty one; the meshes of models and, of several, problems and sources."""
-    if not models:
-        return [], [], {}
     if len(models) == 1:
         _check_model(models[0], (".blend", *MODELS))
-    if len(models) == 1 and models[0].suffix.lower() == ".blend":
+    is_scene = len(models) == 1 and models[0].suffix.lower() == ".blend"
+    if unit and (is_scene or not models):
+        raise SceneError("--unit is for models; a scene has its own.")
+    if not models:
+        return [], [], {}
+    if is_scene:
         try:
             bpy.ops.wm.open_mainfile(filepath=str(models[0].resolve()), load_ui=False)
         except RuntimeError as error:  # what Blender's own operators report
             raise SceneError(f"{models[0]} could not be read: {reason(error)}") from error
         return [], [], {}
     bpy.ops.wm.read_homefile(use_empty=True)
+    if unit:
+        units = bpy.context.scene.unit_settings
+        units.system, (units.scale_length, units.length_unit) = "METRIC", UNITS[unit]
     meshes, problems, sources = [], [], {}
     for path in models:
         try:

@@ -86,8 +86,15 @@ def assemble(
         candidate_pair_length=tables.pair_length, hierarchy=hierarchy, field=values,
         graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
         point_candidate=points, contacts=contacts, mirror=mirror.plane, face_twin=mirror.twin,
-        face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters, notes=working.notes + notes,
-        seconds=seconds)
+        face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters,
+        notes=working.notes + notes + _too_many(parameters.n_parts, hierarchy.n_candidates), seconds=seconds)
+
+
+def _too_many(asked: int, n_candidates: int) -> tuple[Sentence, ...]:
+    """A note where more parts were asked for than there can be."""
+    if asked <= n_candidates:
+        return ()
+    return (Sentence("{asked} parts were asked for; there are {n} at most.", asked=asked, n=n_candidates),)
 
 
 def _symmetric(

@@ -13,6 +13,7 @@ import argparse
 import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from ..core.memory import keep_freed_memory
@@ -57,6 +58,21 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Do what the options ask for; returns the exit status. Raises ReebError."""
+    try:
+        return _run(options)
+    except BaseException:
+        _withdraw(options)
+        raise
+
+
+def _withdraw(options: argparse.Namespace) -> None:
+    """Remove the JSON of an earlier run, which would be taken for the answer of this one, unless it is the model."""
+    with suppress(OSError):
+        if options.json and options.json.is_file() and not options.json.samefile(options.model):
+            options.json.unlink()
+
+
+def _run(options: argparse.Namespace) -> int:
     parameters, notes = chosen_parameters(options)
     for note in notes:
         _say(note)

@@ -123,6 +123,13 @@ def test_what_is_wrong_is_one_sentence_and_nothing_is_written(arguments, words, 
     assert model.read_bytes() == before
 
 
+def test_an_earlier_answer_does_not_outlive_a_run_that_fails(model, reeb_parts_command, tmp_path):
+    (tmp_path / "out.json").write_text("{}")
+    done = reeb_parts_command("decompose", model, "--json", tmp_path / "out.json", "--labels", "/proc/none/x.npy")
+    assert done.returncode == 1
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_ctrl_c_ends_it_with_130_and_nothing_is_written(request, model, tmp_path):
     command = [sys.executable, request.config.command, "decompose", model, "--json", tmp_path / "x.json"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

@@ -716,6 +716,8 @@ TEXTS = {
         "Punkte ohne Fläche: {n}; sie kommen in kein Teil.",
     "{n} {n:face has zero area; it follows its|faces have zero area; they follow their} neighbors.":
         "Flächen ohne Flächeninhalt: {n}; sie folgen ihren Nachbarn.",
+    "{asked} parts were asked for; there are {n} at most.":
+        "{asked} Teile wurden verlangt; es gibt höchstens {n}.",
     "{n} coincident border {n:vertex is|vertices are} treated as joined.":
         "Zusammenfallende Randpunkte: {n}; sie gelten als verbunden.",
     "{n} {n:triangle faces inwards or against its|triangles face inwards or against their} neighbors.":

@@ -662,6 +662,7 @@ TEXTS = {
         "{n} 个顶点不属于任何面；它们不归入部件。",
     "{n} {n:face has zero area; it follows its|faces have zero area; they follow their} neighbors.":
         "{n} 个面的面积为零；它们随相邻面归类。",
+    "{asked} parts were asked for; there are {n} at most.": "要求 {asked} 个部件；最多有 {n} 个。",
     "{n} coincident border {n:vertex is|vertices are} treated as joined.": "{n} 个重合的开放边顶点视为相连。",
     "{n} {n:triangle faces inwards or against its|triangles face inwards or against their} neighbors.":
         "{n} 个三角形朝内或与相邻面方向相反。",

@@ -237,3 +237,16 @@ def test_a_rigged_glb_has_no_object_for_its_bones(run, obj, tmp_path):
     ended = run(path, "--parts", tmp_path / "parts", "--picture", tmp_path / "x.png")
     assert [entry["name"] for entry in ended.answer["objects"]] == ["Tree"]
     assert all(file.name.startswith("Tree ") for file in (tmp_path / "parts").iterdir())
+
+
+def test_a_model_in_millimeters(run, tree, tmp_path):
+    """Is as large in a slicer as in its own unit; without a word a unit is a meter."""
+    model = process.write_obj(tmp_path / "mm.obj", (tree[0] * 10.0, tree[1]))
+    size = np.ptp(tree[0] * 10.0, axis=0)
+    for unit, factor in ((["--unit", "mm"], 1.0), (["--unit", "cm"], 10.0), ([], 1000.0)):
+        assert run(model, *unit, "--threemf", tmp_path / "x.3mf").status == 0
+        bodies, _ = read_3mf(tmp_path / "x.3mf")
+        points = np.concatenate([body.vertices for body in bodies])
+        assert sorted(np.ptp(points, axis=0)) == pytest.approx(sorted(size * factor), rel=1e-3)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "x.blend"))
+    assert "a scene has its own" in run(tmp_path / "x.blend", "--unit", "mm").err
