@@ -250,3 +250,17 @@ def test_a_model_in_millimeters(run, tree, tmp_path):
         assert sorted(np.ptp(points, axis=0)) == pytest.approx(sorted(size * factor), rel=1e-3)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "x.blend"))
     assert "a scene has its own" in run(tmp_path / "x.blend", "--unit", "mm").err
+
+
+def test_an_object_of_an_excluded_collection_costs_nobody_anything(run, obj, make, tree, tmp_path):
+    make(tree, "Other")
+    own = bpy.data.collections.new("Own")
+    bpy.context.scene.collection.children.link(own)
+    own.objects.link(obj)
+    bpy.context.scene.collection.objects.unlink(obj)
+    bpy.context.view_layer.layer_collection.children["Own"].exclude = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "x.blend"))
+    for use in ("--separate", "--rigid-bodies", "--armature", "--unwrap"):
+        ended = run(tmp_path / "x.blend", "--object", "Other", "--object", "Tree", use, "--save", tmp_path / "y.blend")
+        assert "Other" in [entry["name"] for entry in ended.answer["objects"]], ended.err
+        assert "Traceback" not in ended.err
