@@ -88,7 +88,8 @@ class PolygonMesh:
             raise EmptyMeshError(
                 Sentence("The mesh has no faces. Add some, or choose another object."))
         vertices = positions(vertices)
-        check_corners(faces, len(vertices), polygon)
+        if vertices.ndim:  # or TriMesh says what they are
+            check_corners(faces, len(vertices), polygon)
         triangles, exponent = _normalized(TriMesh(vertices, faces))
         mesh = cls(triangles, frozen(polygon, np.int64), n_polygons, exponent)
         mesh._check_size()

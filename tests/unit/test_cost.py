@@ -77,7 +77,7 @@ ODD = {
     "tall fan": lambda: fan(120, 100.0), "tetrahedra": lambda: tetrahedra(99),
     "thousands of tetrahedra": lambda: tetrahedra(2500, 1e-2), "needles": lambda: needles(3),
     "needle": lambda: shapes.cylinder(4, 12, 1e-4, 1.0), "crumbs": lambda: shapes.crumbs(3000),
-    "lawn": lambda: lawn(3_500), "planks": lambda: planks(7),
+    "lawn": lambda: lawn(2_500), "planks": lambda: planks(7),
     "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
 }
 
