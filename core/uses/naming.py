@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from ..result.decomposition import Parts
 
-# Up is the third axis, the front is towards the negative second one, as in Blender.
+# Up is the third axis, the front is towards the negative second one, as in Blender; of a model that is turned about the
+# third, those of its own axes that are nearest to these.
 _PLACES = (("right", "left"), ("front", "back"), ("bottom", "top"))
 
 # Shares of the model's height, width or length.
@@ -25,11 +26,13 @@ _FOUR = 4  # legs of a creature that has its head where a head is looked for
 _NECK = 1.3  # a part between head and body that is less long may be the head, and the head its snout
 _BROAD = 1.2  # a part between them, of an upright creature, that is so many times as wide as the head has the shoulders
 _LONG = 1.8  # a part so many times as long as wide is a limb
+_LEVEL = 0.5  # a plane of symmetry whose normal is less level, as share of its length, has a top and a bottom, no sides
+_OBLONG = 1.2  # seen from above, a model so many times as long as wide lies along its longest axis
 
 
 @dataclass(frozen=True, eq=False)
 class Shapes:
-    """Where parts are and how large, in the world.
+    """Where parts are and how large: upright as in the world, and about that axis turned to the model's own axes.
 
     Attributes
     ----------
@@ -41,8 +44,10 @@ class Shapes:
         Middle of the surface of each part.
     length : (k, 3) float64
         Extents of each part along its own axes, longest first.
-    normal : (3,) float64
-        Of the plane of symmetry; zero without one.
+    across : int
+        The axis, 0 or 1, across a creature.
+    mirrored : bool
+        Whether that is known, by a plane of symmetry.
     """
 
     parts: Parts
@@ -50,7 +55,8 @@ class Shapes:
     high: np.ndarray
     middle: np.ndarray
     length: np.ndarray
-    normal: np.ndarray
+    across: int
+    mirrored: bool
 
     @classmethod
     def of(cls, parts: Parts, center: np.ndarray, area: np.ndarray, points: np.ndarray,
@@ -70,6 +76,10 @@ class Shapes:
         """
         labels, count = parts.labels, parts.count
         weight = area + 1e-12 * area.sum() + 1e-300
+        mirror = parts.decomposition.mirror
+        normal = turn @ mirror[:3] if len(mirror) else np.zeros(3)
+        own = _own_axes(normal, center, weight)
+        center, points, normal = center @ own.T, points @ own.T, own @ normal
         total = np.bincount(labels, weight, count)
         middle = np.stack([np.bincount(labels, weight * axis, count) for axis in center.T], axis=1) / total[:, None]
         low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
@@ -79,8 +89,7 @@ class Shapes:
         spread = np.stack([np.bincount(labels, weight * offset[:, i] * offset[:, j], count)
                            for i in range(3) for j in range(3)], axis=1).reshape(-1, 3, 3) / total[:, None, None]
         length = np.sqrt(np.maximum(np.linalg.eigvalsh(spread)[:, ::-1], 0.0))
-        mirror = parts.decomposition.mirror
-        return cls(parts, low, high, middle, length, turn @ mirror[:3] if len(mirror) else np.zeros(3))
+        return cls(parts, low, high, middle, length, int(abs(normal[1]) > abs(normal[0])), bool(normal.any()))
 
     @cached_property
     def size(self) -> np.ndarray:
@@ -140,11 +149,6 @@ class Shapes:
         return (self.middle - self.middle[self.body]) / self.size
 
     @cached_property
-    def across(self) -> int:
-        """The axis, 0 or 1, across a creature: that across the plane of symmetry, or else the first."""
-        return int(abs(self.normal[1]) > abs(self.normal[0]))
-
-    @cached_property
     def upright(self) -> bool:
         """Whether a creature would stand on two legs: it is higher than long."""
         return bool(self.size[2] > _UPRIGHT * self.size[1 - self.across])
@@ -165,6 +169,25 @@ class Shapes:
     def paired(self) -> np.ndarray:
         """(k,) bool, whether a part has a mirror image that is another part."""
         return self.parts.side != 0
+
+
+def _own_axes(normal: np.ndarray, center: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """The least turn about the third axis, (3, 3), after which a model lies along the others.
+
+    It has a plane of symmetry across one of them, or else its longest axis, if that is clear, along one. normal : (3,),
+    of that plane; zero without one. center, weight : (p, 3) and (p,), the faces.
+    """
+    level = normal[:2]
+    if np.linalg.norm(level) <= _LEVEL * np.linalg.norm(normal):
+        away = center[:, :2] - np.average(center[:, :2], axis=0, weights=weight)
+        spread, axes = np.linalg.eigh((weight[:, None] * away).T @ away)
+        if not spread[1] > _OBLONG**2 * spread[0]:
+            return np.eye(3)
+        level = axes[:, 1]
+    angle = np.arctan2(level[1], level[0])
+    angle -= np.round(angle / (np.pi / 2)) * np.pi / 2
+    cos, sin = np.cos(angle), np.sin(angle)
+    return np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
 
 
 @dataclass(frozen=True)
@@ -194,19 +217,28 @@ def suggestions(shapes: Shapes) -> list[Suggestion]:
     model is upright, and of the parts there one that reaches highest. Of one with more than four legs, only these and
     the body are named: which end has the head is not clear. Parts that fit no rule get their kind only.
 
+    Without a plane of symmetry a creature looks along the axis by which more parts have a word.
+
     Returns
     -------
     names : list of Suggestion
         One for each part.
     """
-    count = shapes.parts.count
+    ways = [shapes] if shapes.mirrored else [shapes, replace(shapes, across=1 - shapes.across)]
+    words, shapes = max(((_words(way), way) for way in ways),
+                        key=lambda found: ("head" in found[0].values(), len(found[0])))
+    has_head = "head" in words.values()
+    return [_suggestion(shapes, part, words.get(part, ""), has_head) for part in range(shapes.parts.count)]
+
+
+def _words(shapes: Shapes) -> dict[int, str]:
+    """The words for those parts that have one, by their number."""
     words = dict.fromkeys(_handles(shapes), "handle")
-    creature = [] if words or count < 2 else _creature(shapes)
+    creature = [] if words or shapes.parts.count < 2 else _creature(shapes)
     for word, found in creature:
         for part in found:
             words.setdefault(part, word)
-    has_head = "head" in words.values()
-    return [_suggestion(shapes, part, words.get(part, ""), has_head) for part in range(count)]
+    return words
 
 
 def _suggestion(shapes: Shapes, part: int, word: str, has_head: bool) -> Suggestion:

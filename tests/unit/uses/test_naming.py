@@ -56,6 +56,49 @@ def test_in_which_direction_it_walks_does_not_matter(cow, turn):
         (name.word, name.place) for name in names if name.word != "piece"]
 
 
+def heading(degrees):
+    """A turn about the third axis, (3, 3)."""
+    cos, sin = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return np.array([(cos, -sin, 0), (sin, cos, 0), (0, 0, 1)])
+
+
+CREATURES = {"horse": shapes.horse, "figure": shapes.mirrored_figure}
+
+
+@pytest.fixture(scope="module", params=["cow", *CREATURES])
+def creature(request):
+    """Vertices, faces and decomposition of a symmetric creature."""
+    if request.param == "cow":
+        return request.getfixturevalue("cow")
+    vertices, faces = CREATURES[request.param]()
+    return vertices, faces, decompose(vertices, faces)
+
+
+def test_nor_does_it_between_the_axes(creature):
+    """All names and sides are the same in all 36 directions; images of each other differ in the side only."""
+    names = named(*creature)
+    assert "head" in words(names)
+    twin = creature[2].parts().twin
+    for degrees in range(0, 360, 10):
+        assert named(*creature, turn=heading(degrees)) == names, degrees
+    for name, image in zip(names, twin.tolist(), strict=True):
+        assert image < 0 or names[image] == Suggestion(name.word, name.place, -name.side)
+
+
+def test_nor_without_a_plane_of_symmetry(creature):
+    """The longest axis tells then which way it looks; left and right are those of the world."""
+    vertices, faces, _ = creature
+    result = decompose(vertices, faces, {"symmetry": False})
+    assert not len(result.mirror)
+    names = named(vertices, faces, result)
+    assert "head" in words(names)
+    for degrees in range(0, 360, 10):
+        turned = named(vertices, faces, result, heading(degrees))
+        assert [(name.word, name.place) for name in turned] == [(name.word, name.place) for name in names], degrees
+        legs = [name for name in turned if name.word == "leg"]
+        assert sorted(name.side for name in legs) == sorted([1, -1] * (len(legs) // 2)), degrees
+
+
 @pytest.mark.parametrize("scale", [1e-3, 1e4])
 def test_neither_does_its_size(cow, scale):
     vertices, faces, result = cow
