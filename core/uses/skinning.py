@@ -25,7 +25,8 @@ _WAYS = ((1.6, 0.0), (1.6, 1.0), (2.4, 0.0), (1.2, 1.0))
 # In each round, faces that turned over in the one before, and those around them, resist a change of weights so many
 # times as much as they did. A way is left when so many rounds brought nothing better.
 _STIFFER, _PATIENCE = 4.0, 4
-# Where a part ends within reach, its farthest tenth has the weight that the distance gives it.
+# Where a part ends within reach, its farthest tenth has the weight that the distance gives it: there is nothing else
+# that holds it.
 _TIP = 0.9
 #: The angle at which no face should be turned over, in radians.
 BENT = np.pi / 3
@@ -95,13 +96,15 @@ class _Joint:
     """The part of a surface around a joint on which weights change.
 
     bone : int. near : (k,) int64, vertices within reach of the border. depth : (k,) float64, their distance from it
-    over the reach. side : (n,) int8, of all vertices, 1 beyond the border, -1 on this side, 0 on it.
+    over the reach. side : (n,) int8, of all vertices, 1 beyond the border, -1 on this side, 0 on it. goes_on : for
+    these sides, by 1 and -1, whether the surface goes on past the reach.
     """
 
     bone: int
     near: np.ndarray
     depth: np.ndarray
     side: np.ndarray
+    goes_on: dict[int, bool]
 
     def odds(self, laplacian: csr_array) -> np.ndarray:
         """The odds that each vertex goes beyond, (n,): by a share that is harmonic near the joint."""
@@ -110,7 +113,7 @@ class _Joint:
         free = np.ones(len(self.near), bool)
         for sign in (-1, 1):
             deepest = np.max(self.depth, where=side == sign, initial=0.0)
-            free &= (side != sign) | (self.depth < _TIP * deepest) | (deepest >= _TIP)
+            free &= (side != sign) | (self.depth < _TIP * deepest) | (deepest >= _TIP and self.goes_on[sign])
         inside = self.near[free]
         if len(inside):
             known, rows = share.copy(), laplacian[inside]
@@ -136,7 +139,10 @@ def _joints(table: CornerTable, labels: np.ndarray, bones: Bones, reach: float) 
         side[border] = 0
         distance = dijkstra(graph, directed=False, indices=border, min_only=True, limit=far)
         near = np.flatnonzero(distance < far)
-        joints.append(_Joint(bone, near, distance[near] / max(far, np.finfo(float).tiny), side))
+        inner = (distance < far)[table.edges]
+        last = side[table.edges[inner & ~inner[:, ::-1]]]  # of the vertices from which an edge leads out of reach
+        joints.append(_Joint(bone, near, distance[near] / max(far, np.finfo(float).tiny), side,
+                             {sign: bool((last == sign).any()) for sign in (1, -1)}))
     return joints
 
 

@@ -53,6 +53,17 @@ def test_half_and_half_at_the_joint_all_far_from_it():
     assert found[:, 0].reshape(-1, 24) == pytest.approx(found[:, 2].reshape(-1, 24)[::-1], abs=0.002)
 
 
+@pytest.mark.parametrize("length", [1.0, 1.375, 1.5, 2.0])
+def test_a_part_that_ends_just_within_reach_has_weights(length):
+    """The ear of a cow, 0.93 of the reach long, was moved by no bone of its own: nothing held its end."""
+    table, _ = rod()
+    x = table.vertices[:, 0]
+    labels = (table.face_means(table.vertices)[:, 0] > 6 - length).astype(int)
+    beyond = dense(smooth_weights(table, labels, chain(-6, 6 - length, 6)), 2)[:, 1]
+    assert beyond[np.isclose(x, 6 - length)] == pytest.approx(0.5, abs=0.01)
+    assert (beyond[np.isclose(x, 6)] > 0.7).all()
+
+
 def test_no_face_is_turned_over_by_60_degrees():
     table, labels = rod()
     bones = chain(-6, -2, 2, 6)
