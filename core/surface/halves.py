@@ -11,6 +11,8 @@ import numpy as np
 from ..errors import MeshError
 from ..sentence import Sentence
 from .arguments import numbers
+from .arrays import distinct_pairs
+from .corners import CornerTable, next_of_owner
 from .mirror_plane import MirrorPlane
 from .polygons import PolygonMesh
 
@@ -66,19 +68,56 @@ def completed(half: PolygonMesh, plane: np.ndarray) -> Completed:
         A vertex of a border nearer to the plane than WELD is on it.
     """
     mesh = half.triangles
-    mirror = MirrorPlane(plane[:3], float(plane[3]))
-    height = mirror.heights(mesh.vertices)
-    size = np.linalg.norm(np.ptp(mesh.vertices[mesh.used], axis=0))
-    border = np.zeros(mesh.n_vertices, bool)
-    border[mesh.edges.vertices[np.bincount(mesh.edges.face_edges.ravel()) == 1]] = True
-    on_plane = border & (np.abs(height) <= WELD * size)
-    vertices = np.where(on_plane[:, None], mesh.vertices - height[:, None] * plane[:3], mesh.vertices)
-    beside = np.flatnonzero(~on_plane)
-    image = np.arange(mesh.n_vertices)
-    image[beside] = mesh.n_vertices + np.arange(len(beside))
-    return Completed(np.concatenate([vertices, mirror.mirrored(vertices[beside])]),
-                     np.concatenate([mesh.faces, image[mesh.faces[:, ::-1]]]),
+    border = mesh.edges.vertices[np.bincount(mesh.edges.face_edges.ravel()) == 1]
+    vertices, image = _with_images(mesh.vertices, mesh.used, border, MirrorPlane(plane[:3], float(plane[3])))
+    return Completed(vertices, np.concatenate([mesh.faces, image[mesh.faces[:, ::-1]]]),
                      np.concatenate([half.polygon, half.polygon + half.n_polygons]))
+
+
+def completed_table(half: CornerTable, mirror: MirrorPlane) -> tuple[CornerTable, np.ndarray]:
+    """Add its mirror image to a half model given corner by corner; borders at the plane are closed.
+
+    Parameters
+    ----------
+    half : CornerTable
+        n vertices, p faces.
+    mirror : MirrorPlane
+
+    Returns
+    -------
+    whole : CornerTable
+        2 p faces; face k + p is the mirror image of face k. The n vertices come first.
+    image : (n,) int64
+        Vertex of the whole that is the mirror image of each; on the plane, itself.
+    """
+    border = half.edges[np.bincount(half.corner_edge, minlength=len(half.edges)) == 1]
+    vertices, image = _with_images(half.vertices, half.corner_vertex, border, mirror)
+    first = np.searchsorted(half.corner_face, half.corner_face)
+    last = np.searchsorted(half.corner_face, half.corner_face, side="right") - 1
+    back = image[half.corner_vertex[first + last - np.arange(len(first))]]  # the corners of each face in reverse
+    start = np.concatenate([half.corner_vertex, back])
+    face = np.concatenate([half.corner_face, half.corner_face + half.n_faces]).astype(np.int64)
+    end = start[next_of_owner(face)]
+    edges, corner_edge = distinct_pairs(np.minimum(start, end), np.maximum(start, end))
+    return CornerTable(vertices, edges, start, corner_edge, face, 2 * half.n_faces), image
+
+
+def _with_images(vertices: np.ndarray, used: np.ndarray, border: np.ndarray,
+                 mirror: MirrorPlane) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices and, behind them, the images of those that are not on the plane; and the image of each, (n,) int64.
+
+    used : vertices of faces, as mask or indices. border : (b, 2) int64, the edges of one face. A vertex of a border
+    that is near to the plane is moved onto it.
+    """
+    height = mirror.heights(vertices)
+    at_border = np.zeros(len(vertices), bool)
+    at_border[border] = True
+    on_plane = at_border & (np.abs(height) <= WELD * np.linalg.norm(np.ptp(vertices[used], axis=0)))
+    vertices = np.where(on_plane[:, None], vertices - height[:, None] * mirror.normal, vertices)
+    beside = np.flatnonzero(~on_plane)
+    image = np.arange(len(vertices))
+    image[beside] = len(vertices) + np.arange(len(beside))
+    return np.concatenate([vertices, mirror.mirrored(vertices[beside])]), image
 
 
 def is_one_side(vertices: np.ndarray, plane: np.ndarray) -> bool:

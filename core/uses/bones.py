@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components, mini
 
 from ..surface.arrays import distinct_pairs, sums_by
 from ..surface.corners import CornerTable
+from ..surface.mirror_plane import MirrorPlane
 
 # Least length of a bone, as a share of the diagonal of the bounding box of the faces' centers. A shorter bone is
 # replaced by one of this length that points upwards.
@@ -49,9 +50,39 @@ class Bones:
     order: tuple[int, ...]
 
 
+@dataclass(frozen=True, eq=False)
+class Images:
+    """Which parts, or bones, are exact mirror images of which, so that bones are, too.
+
+    Attributes
+    ----------
+    twin : (count,) int64
+        The mirror image of each, itself if it is its own. Of two, the first is the one that is looked at.
+    mirror : MirrorPlane
+        In units of the vertices.
+    """
+
+    twin: np.ndarray
+    mirror: MirrorPlane
+
+    @property
+    def own(self) -> np.ndarray:
+        """(count,) bool, which are their own images: their bones lie in the plane."""
+        return self.twin == np.arange(len(self.twin))
+
+    @property
+    def first(self) -> np.ndarray:
+        """(count,) int64, the first of each and its image."""
+        return np.minimum(self.twin, np.arange(len(self.twin)))
+
+    def onto_plane(self, points: np.ndarray) -> np.ndarray:
+        """The feet of points, (k, 3), on the plane, (k, 3)."""
+        return points - self.mirror.heights(points)[:, None] * self.mirror.normal
+
+
 def part_bones(
     table: CornerTable, labels: np.ndarray, area: np.ndarray, height: np.ndarray, line: np.ndarray,
-    line_part: np.ndarray,
+    line_part: np.ndarray, images: Images | None = None,
 ) -> Bones:
     """Make a bone for each part, and a tree of bones along the cuts between parts.
 
@@ -69,6 +100,8 @@ def part_bones(
         Points on the center lines of the parts, in units of the vertices.
     line_part : (r,) int64
         Part of each point.
+    images : Images, optional
+        Of the parts, for a mesh that is its own mirror image: so are the bones and their tree then.
 
     Returns
     -------
@@ -81,33 +114,56 @@ def part_bones(
     middle = sums_by(labels, weight[:, None] * center, count) / share[:, None]
     pairs, length = _joints(table, labels)
     of_part = np.bincount(labels, weight * table.face_means(height), count) / share
-    parent, order = _tree(count, pairs, length, of_part)
+    tree = _tree(count, pairs, length, of_part) if images is None else _even_tree(images, pairs, length, of_part)
+    (parent, order), connected = tree, np.zeros(count, bool)
     head, beyond = middle.copy(), following(parent, order)
     for part in np.flatnonzero(parent >= 0).tolist():
         # Of all that divides the two sides, which may be more than one cut: a leg meets belly and rump.
         head[part] = _border(table, beyond[part][labels])[2]
+    if images is not None:
+        head = _even(images, head)
     tail = head.copy()
-    connected = np.zeros(count, bool)
     shortest = _SHORTEST * float(np.linalg.norm(np.ptp(center, axis=0)))
     for part in order:
         children = np.flatnonzero(parent == part)
-        tail[part] = _end(head[part], head[children], line[line_part == part], middle[part], parent[part] < 0)
+        way = head[children], line[line_part == part], middle[[part]]
+        if images is not None and images.own[part]:
+            way = tuple(images.onto_plane(points) for points in way)
+        tail[part] = _end(head[part], *way, parent[part] < 0)
         if np.linalg.norm(tail[part] - head[part]) < shortest:
-            tail[part] = head[part] + (0.0, 0.0, max(shortest, 1e-6))
+            tail[part] = head[part] + max(shortest, 1e-6) * _up(images)
         elif len(children) == 1:
             connected[children] = True
-    return Bones(head, tail, parent, connected, tuple(order))
+    return Bones(head, tail if images is None else _even(images, tail), parent, connected, tuple(order))
+
+
+def _up(images: Images | None) -> np.ndarray:
+    """The direction of bones that would have no length, (3,): upwards, or as nearly as the plane of symmetry goes."""
+    up, side = np.eye(3)[[2, 0]]
+    if images is None:
+        return up
+    normal = images.mirror.normal
+    within = side - normal[0] * normal if abs(normal[2]) > 0.9 else up - normal[2] * normal
+    return within / np.linalg.norm(within)
+
+
+def _even(images: Images, points: np.ndarray) -> np.ndarray:
+    """Ends of bones, (count, 3), as images of each other: of two the first counts; their own ones are in the plane."""
+    first = points[images.first]
+    image = images.first != np.arange(len(points))
+    return np.where(images.own[:, None], images.onto_plane(points),
+                    np.where(image[:, None], images.mirror.mirrored(first), points))
 
 
 def limb_bones(
     table: CornerTable, labels: np.ndarray, area: np.ndarray, height: np.ndarray, line: np.ndarray,
-    line_part: np.ndarray,
+    line_part: np.ndarray, images: Images | None = None,
 ) -> tuple[Bones, np.ndarray, np.ndarray]:
     """Make bones for parts that can be bent where they are cut; all other parts have that of the part they hang on.
 
     Parameters
     ----------
-    table, labels, area, height, line, line_part
+    table, labels, area, height, line, line_part, images
         As for ``part_bones``.
 
     Returns
@@ -122,9 +178,11 @@ def limb_bones(
     while True:
         bone_part, part_bone = np.unique(owner, return_inverse=True)
         of_face = part_bone[labels]
-        bones = part_bones(table, of_face, area, height, line, np.where(line_part < 0, -1, part_bone[line_part]))
-        held = bone_part.copy()
-        for bone in np.flatnonzero(~_necks(table, of_face, area, bones)).tolist():
+        of_bones = None if images is None else Images(part_bone[images.twin[bone_part]], images.mirror)
+        bones = part_bones(table, of_face, area, height, line, np.where(line_part < 0, -1, part_bone[line_part]),
+                           of_bones)
+        held, neck = bone_part.copy(), _necks(table, of_face, area, bones)
+        for bone in np.flatnonzero(~neck if of_bones is None else ~neck[of_bones.first]).tolist():
             held[bone] = bone_part[bones.parent[bone]]
         if (held == bone_part).all():
             return bones, bone_part, part_bone
@@ -204,11 +262,38 @@ def _tree(count: int, pairs: np.ndarray, length: np.ndarray, height: np.ndarray)
     return parent, order
 
 
+def _even_tree(
+    images: Images, pairs: np.ndarray, length: np.ndarray, height: np.ndarray
+) -> tuple[np.ndarray, list[int]]:
+    """As ``_tree``, but its own mirror image: a part in the plane hangs on another one there, or is a root."""
+    used = np.unique(images.first)
+    count, middle = len(used), images.own[used]
+    place = np.searchsorted(used, images.first)
+    low, high = np.sort(place[pairs], axis=1).T
+    apart = low != high
+    pairs, which = distinct_pairs(low[apart], high[apart])
+    length = sums_by(which, length[apart], len(pairs))
+    length = length + 2.0 * length.sum() * middle[pairs].all(axis=1)  # along the plane if there is a way
+    # A root is in the plane if anything is that hangs together with it.
+    before, order = _tree(count, pairs, length, height[used] - middle * (1.0 + np.ptp(height)))
+    for part in order:
+        while middle[part] and before[part] >= 0 and not middle[before[part]]:
+            before[part] = before[before[part]]
+    parent, both = np.full(len(images.twin), -1), []
+    for part in order:
+        mine, above = int(used[part]), int(used[before[part]]) if before[part] >= 0 else -1
+        image = int(images.twin[mine])
+        parent[image], parent[mine] = -1 if above < 0 else images.twin[above], above
+        both += [mine] if image == mine else [mine, image]
+    return parent, both
+
+
 def _end(head: np.ndarray, children: np.ndarray, line: np.ndarray, middle: np.ndarray, is_root: bool) -> np.ndarray:
     """End of a bone, (3,): at its only child, amid several children, or at the far end of its center line.
 
     The bone of a root with several children ends at the farthest child. Without children and without a center line, it
     ends as far beyond the middle of the part as it starts before it. children : (k, 3), heads of the child bones.
+    middle : (1, 3).
     """
     if len(children) == 1:
         return children[0]
@@ -216,5 +301,5 @@ def _end(head: np.ndarray, children: np.ndarray, line: np.ndarray, middle: np.nd
         return children.mean(axis=0)
     far = children if len(children) else line
     if not len(far):
-        return 2 * middle - head
+        return 2 * middle[0] - head
     return far[np.argmax(np.linalg.norm(far - head, axis=1))]

@@ -224,6 +224,39 @@ def limited(mass: np.ndarray, fifth: float = 0.0) -> Weights:
     return Weights(bone, weight)
 
 
+def stiff_weights(table: CornerTable, labels: np.ndarray, count: int) -> Weights:
+    """Weights with which each part moves as a whole: a vertex on a cut goes with all that meet there.
+
+    table : CornerTable. labels : (p,) int64, bone of each face, 0..count-1. Returns Weights.
+    """
+    mass = np.zeros((len(table.vertices), count))
+    mass[table.corner_vertex, labels[table.corner_face]] = 1.0
+    return limited(mass)
+
+
+def of_half(weights: Weights, on_plane: np.ndarray, twin: np.ndarray) -> Weights:
+    """The weights of a half model, from those of the whole.
+
+    Parameters
+    ----------
+    weights : Weights
+        Of the whole; its first n vertices are those of the half.
+    on_plane : (n,) bool
+        These vertices are their own images: they go with both bones of a pair alike.
+    twin : (count,) int64
+        The mirror image of each bone, itself if it is its own.
+
+    Returns
+    -------
+    weights : Weights
+    """
+    bone, weight = weights.bone[: len(on_plane)].copy(), weights.weight[: len(on_plane)].copy()
+    mass = Weights(bone[on_plane], weight[on_plane]).of_bones(len(twin))
+    even = limited(mass + mass[:, twin])
+    bone[on_plane], weight[on_plane] = even.bone, even.weight
+    return Weights(bone, weight)
+
+
 def turned_over(
     table: CornerTable, share: np.ndarray, joint: np.ndarray, along: np.ndarray, angle: float
 ) -> np.ndarray:

@@ -3,12 +3,14 @@
 
 import numpy as np
 import pytest
+import shapes
 
 from core.surface.corners import CornerTable
-from core.uses.bones import part_bones
+from core.surface.mirror_plane import MirrorPlane
+from core.uses.bones import Images, part_bones
 
 
-def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None):
+def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None, twin=None):
     """Parts of one face each, with the given middles; an edge of the given middle and length at each cut."""
     count = len(centers)
     height = np.arange(count, dtype=float) if height is None else height
@@ -31,8 +33,9 @@ def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None
     vertex, edge = np.array([corner for face in corners for corner in face]).T
     face = np.repeat(np.arange(count), [len(found) for found in corners])
     table = CornerTable(np.array(vertices), np.array(edges), vertex, edge, face, count)
+    images = None if twin is None else Images(np.array(twin), MirrorPlane(np.array([1.0, 0, 0]), 0.0))
     return part_bones(table, np.arange(count), np.ones(count), np.array(at_vertex),
-                      np.array(line, float).reshape(-1, 3), np.array(line_part, int))
+                      np.array(line, float).reshape(-1, 3), np.array(line_part, int), images)
 
 
 def test_an_arm_of_three_parts_is_a_chain():
@@ -75,3 +78,48 @@ def test_loose_parts_have_no_parent_and_no_bone_is_without_length():
 def test_joints_are_weighted_by_the_length_of_their_edges():
     made = bones([(0, 0, 0), (4, 0, 0)], [(0, 1), (0, 1)], [(2, 0, 0), (2, 4, 0)], length=[3, 1])
     assert made.head[1].tolist() == [2, 1, 0]
+
+
+def mirrored(points):
+    return points * (-1, 1, 1)
+
+
+def test_bones_of_images_are_images():
+    """Body, arm.L, arm.R, head, hand.L, hand.R; the given places are not quite even, and the first hand counts."""
+    made = bones([(0.1, 0, 0), (3, 0, 0), (-3, 0.2, 0), (0, 0, 3), (5, 0, 0), (-5, 0, 1)],
+                 [(0, 1), (0, 2), (0, 3), (1, 4), (2, 5)],
+                 [(2, 0, 0), (-2, 0, 0), (0.1, 0, 2), (4, 0, 0), (-4, 0.1, 0)],
+                 line=[(6, 1, 0), (-6, 0, 0), (0.2, 0, 4)], line_part=[4, 5, 3], twin=[0, 2, 1, 3, 5, 4])
+    assert made.parent.tolist() == [-1, 0, 0, 0, 1, 2]
+    assert made.connected.tolist() == [False, False, False, False, True, True]
+    for own, image in ((1, 2), (4, 5)):
+        np.testing.assert_allclose(made.head[image], mirrored(made.head[own]))
+        np.testing.assert_allclose(made.tail[image], mirrored(made.tail[own]))
+    assert made.tail[4].tolist() == [6, 1, 0]
+    assert made.head[[0, 3], 0].tolist() == made.tail[[0, 3], 0].tolist() == [0, 0]
+    assert sorted(made.order) == list(range(6))
+    assert all(made.parent[bone] < 0 or made.order.index(made.parent[bone]) < made.order.index(bone)
+               for bone in range(6))
+
+
+def test_what_lies_in_the_plane_hangs_on_what_lies_there():
+    """A ring of body, two arms and what both hold: held by one arm alone, it would not go with the other."""
+    made = bones([(0, 0, 0), (3, 2, 0), (-3, 2, 0), (0, 4, 0)], [(0, 1), (0, 2), (1, 3), (2, 3)],
+                 [(2, 0, 0), (-2, 0, 0), (2, 4, 0), (-2, 4, 0)], height=[1, 0, 0, 2], twin=[0, 2, 1, 3])
+    assert made.parent.tolist() == [-1, 0, 0, 0]
+
+
+def test_without_anything_in_the_plane_there_are_two_trees():
+    made = bones([(2, 0, 0), (-2, 0, 0), (4, 0, 0), (-4, 0, 0)], [(0, 1), (0, 2), (1, 3)],
+                 [(0, 0, 0), (3, 0, 0), (-3, 0, 0)], twin=[1, 0, 3, 2])
+    assert made.parent.tolist() == [-1, -1, 0, 1]
+    np.testing.assert_allclose(made.head[[1, 3]], mirrored(made.head[[0, 2]]))
+
+
+@pytest.mark.parametrize("normal", [(1, 0, 0), (0, 0, 1), (0.6, 0, 0.8)])
+def test_a_bone_without_length_stays_in_the_plane(normal):
+    table = CornerTable.of(*shapes.octahedron())
+    images = Images(np.array([0]), MirrorPlane(np.array(normal, float), 0.0))
+    made = part_bones(table, np.zeros(8, int), np.ones(8), np.zeros(6), np.zeros((0, 3)), np.zeros(0, int), images)
+    assert np.linalg.norm(made.tail - made.head) > 0.01
+    assert np.abs(images.mirror.heights(np.concatenate([made.head, made.tail]))).max() < 1e-12
