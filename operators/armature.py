@@ -29,8 +29,7 @@ class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
     )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
-        rig = armature.make(context, obj, stored, self.deform, self.weights)
-        stiff = len(obj.data.reeb_parts.parts) - len(rig.data.bones)
+        rig, stiff = armature.make(context, obj, stored, self.deform, self.weights)
         if stiff:
             message = rpt_("{n} {n:part moves with the one it hangs|parts move with the ones they hang} on: "
                            "no neck to bend at")

@@ -4,32 +4,20 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
-from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts
-from . import (
-    bridge,
-    made,
-    mesh_arrays,
-    modifiers,
-    outputs,
-    part_meshes,
-    part_names,
-    piece_objects,
-    quiet,
-    store,
-    targets,
-    transaction,
-)
+from ..core.surface.corners import CornerTable
+from . import made, modifiers, outputs, part_meshes, part_names, piece_objects, quiet, targets, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
 from .selection import nothing_selected
+from .skeleton import Skeleton, skeleton
 from .store import Stored
 from .temporary import removed
 
@@ -40,6 +28,13 @@ if TYPE_CHECKING:
 NAME = "Reeb Parts Armature"
 WEIGHTS = "reeb_parts_weights"  # on the mesh: the names of the vertex groups that hold its weights, as JSON
 DEFORM = "DEF-"  # how their names begin, as Rigify's do; after that comes the name of the part
+
+
+class Made(NamedTuple):
+    """An armature, and how many parts have no bone of their own."""
+
+    rig: bpy.types.Object
+    n_stiff: int
 
 
 def remove_modifier(obj: bpy.types.Object) -> None:
@@ -74,7 +69,7 @@ def _weight_groups(mesh: bpy.types.Mesh) -> list[str]:
 
 
 def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, deform: bool,
-         weights: str = "SMOOTH") -> bpy.types.Object:
+         weights: str = "SMOOTH") -> Made:
     """Make an armature in place of an earlier one, unless the user has worked on that one; Object Mode.
 
     Parameters
@@ -86,11 +81,12 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         Give the object a modifier, so that the bones move it.
     weights : str
         "SMOOTH" for weights that change smoothly across cuts and "AUTOMATIC" for Blender's, both in vertex groups of
-        their own; "PARTS" for the parts' vertex groups, so that each part moves as a whole.
+        their own; "PARTS" for the parts' vertex groups, so that each part moves as a whole. A half model has groups of
+        its own for that, too.
 
     Returns
     -------
-    rig : bpy.types.Object
+    made : Made
 
     Raises
     ------
@@ -98,66 +94,88 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         Blender finds no weights.
     """
     numbered = stored.shown_parts()
-    place, bones, bone_part, part_bone = _bones(obj, stored.decomposition, numbered, weights != "PARTS")
+    found = skeleton(obj, numbered, limbs=weights != "PARTS")
+    # The parts' own groups have no sides, by which the mirrored half of a half model would follow other bones.
+    own_groups = weights != "PARTS" or found.is_half
     remove_weights(obj.data)
-    if weights == "PARTS":
+    if own_groups:
+        groups = _new_groups(obj, found)
+    else:
         _write_groups(obj, numbered)
         groups = [part.group for part in obj.data.reeb_parts.parts]
-    else:
-        numbers = numbered.numbers[bone_part].tolist()
-        groups = _new_groups(obj, [part_names.part_name(obj.data, number) for number in numbers])
     collection = piece_objects.make_collection(context, obj)
     made.remove_untouched(collection.objects, "armature", _looks)
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
     rig = bpy.data.objects.new(data.name, data)
-    rig.matrix_world = place
+    rig.matrix_world = found.place
     rig.show_in_front = True
     rig[made.ROLE] = "armature"
     collection.objects.link(rig)
-    _add_bones(context, rig, bones, groups)
+    _add_bones(context, rig, found.bones, groups)
     made.mark(rig, _looks)
-    if weights != "PARTS":
-        found = _smooth_weights(obj, place, part_bone[numbered.parts.labels], bones)
-        _write_weights(obj, groups, found if weights == "SMOOTH" else _automatic(context, obj, rig, groups, found))
+    if own_groups:
+        _write_weights(obj, groups, found.of_mesh(_weights(context, obj, rig, groups, found, weights)))
     if deform:
         modifier = _modifier(obj) or modifiers.new(obj, NAME, "ARMATURE")
         transaction.keep(modifier, "object")
         modifier.object = rig
     else:
         remove_modifier(obj)
-    return rig
+    return Made(rig, found.n_stiff)
 
 
-def _new_groups(obj: bpy.types.Object, parts: list[str]) -> list[str]:
-    """A vertex group for the weights of each part; their names."""
+def _new_groups(obj: bpy.types.Object, found: Skeleton) -> list[str]:
+    """A vertex group for the weights of each bone; their names."""
     mesh = obj.data
     transaction.keep_mesh(mesh)
     active = obj.vertex_groups.active_index
-    names = [obj.vertex_groups.new(name=f"{DEFORM}{name}").name for name in parts]
+    wanted = _sided_names(obj, found) if found.is_half else [DEFORM + name for name in found.names]
+    names = [obj.vertex_groups.new(name=name).name for name in wanted]
     obj.vertex_groups.active_index = max(active, 0)
     mesh[WEIGHTS] = json.dumps(names)
     return names
 
 
-def _smooth_weights(obj: bpy.types.Object, place: Matrix, labels: np.ndarray, bones: Bones) -> Weights:
-    """Weights that change smoothly across cuts. labels : (p,) int64, bone of each face."""
-    from ..core.uses.skinning import smooth_weights  # imports SciPy
+def _sided_names(obj: bpy.types.Object, found: Skeleton) -> list[str]:
+    """Names of groups for a half model: those of images are each other's flipped, as the Mirror modifier flips them.
 
-    turn = np.array(place.inverted() @ obj.matrix_world, np.float64)
-    points = mesh_arrays.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3]
-    return smooth_weights(mesh_arrays.corner_table(obj.data, points), labels, bones)
+    It does so only if both groups are there, be they empty.
+    """
+    taken, names = set(), list(found.names)
+    for group in obj.vertex_groups:
+        taken |= {group.name, bpy.utils.flip_name(group.name)}
+    for bone, image in enumerate(found.twin.tolist()):
+        if image < bone:
+            names[bone] = bpy.utils.flip_name(names[image])
+            continue
+        stem, side = (names[bone][:-2], names[bone][-2:]) if image != bone else (names[bone], "")
+        name = (DEFORM + stem).encode()[: 63 - len(side)].decode(errors="ignore") + side
+        names[bone] = part_names.distinct(name, taken)
+        taken |= {names[bone], bpy.utils.flip_name(names[bone])}
+    return names
+
+
+def _weights(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.Object, groups: list[str],
+             found: Skeleton, kind: str) -> Weights:
+    """The weights of a skeleton's surface. kind : see ``make``."""
+    from ..core.uses.skinning import smooth_weights, stiff_weights  # imports SciPy
+
+    if kind == "PARTS":
+        return stiff_weights(found.table, found.labels, len(groups))
+    smooth = smooth_weights(found.table, found.labels, found.bones)
+    return smooth if kind == "SMOOTH" else _automatic(context, obj, rig, groups, found, smooth)
 
 
 def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.Object, groups: list[str],
-               smooth: Weights) -> Weights:
+               skeleton: Skeleton, smooth: Weights) -> Weights:
     """Blender's own weights, found on a copy; where it finds none, the smooth ones."""
     from ..core.uses.skinning import Weights, limited
 
-    copy = part_meshes.plain_copy(obj.data)
+    copy = _whole_mesh(skeleton.table) if skeleton.is_half else part_meshes.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
     with removed(bpy.data.meshes, copy), removed(bpy.data.objects, twin):
         twin.vertex_groups.clear()
-        bridge.put(twin, bridge.world_matrix(obj))
+        bridge.put(twin, rig.matrix_world if skeleton.is_half else bridge.world_matrix(obj))
         context.scene.collection.objects.link(twin)
         with nothing_selected(context.view_layer):
             for each in (twin, rig):
@@ -180,6 +198,15 @@ def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types
     return Weights(np.where(known, found.bone, smooth.bone), np.where(known, found.weight, smooth.weight))
 
 
+def _whole_mesh(table: CornerTable) -> bpy.types.Mesh:
+    """A new mesh of the faces of a table, for the caller to remove."""
+    mesh = bpy.data.meshes.new(NAME)
+    starts = np.flatnonzero(np.diff(table.corner_face, prepend=-1))
+    faces = [corners.tolist() for corners in np.split(table.corner_vertex, starts)[1:]]
+    mesh.from_pydata(table.vertices.tolist(), [], faces)
+    return mesh
+
+
 def _write_weights(obj: bpy.types.Object, groups: list[str], weights: Weights) -> None:
     """Write weights into their groups, all vertices of one weight at once."""
     for index, name in enumerate(groups):
@@ -190,32 +217,6 @@ def _write_weights(obj: bpy.types.Object, groups: list[str], weights: Weights) -
         starts = np.flatnonzero(np.diff(weight, prepend=-1.0))
         for value, some in zip(weight[starts].tolist(), np.split(vertex, starts)[1:], strict=True):
             obj.vertex_groups[name].add(some.tolist(), value, "REPLACE")
-
-
-def _bones(obj: bpy.types.Object, decomposition: Decomposition, numbered: NumberedParts,
-           limbs: bool) -> tuple[Matrix, Bones, np.ndarray, np.ndarray]:
-    """Where the armature is in the world, the bones in its coordinates, the part of each, and the bone of each part.
-
-    limbs : bool, only bones of parts that can be bent where they are cut.
-    """
-    from ..core.uses.bones import limb_bones, part_bones  # imports SciPy
-
-    mesh, parts = obj.data, numbered.parts
-    world = obj.matrix_world
-    place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
-    turn = np.array(place.inverted() @ world, np.float64)
-    points = mesh_arrays.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3]
-    back = turn[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
-    line = decomposition.graph.point_position @ back.T + turn[:3, 3]
-    nodes = decomposition.graph.node_position @ back.T + turn[:3, 3]
-    surface = (
-        mesh_arrays.corner_table(mesh, points), parts.labels, bridge.face_graph(obj)[0].area,
-        np.nan_to_num(decomposition.field), np.concatenate([line, nodes]),
-        np.concatenate([parts.point_part, parts.node_part]))
-    if limbs:
-        return place, *limb_bones(*surface)
-    every = np.arange(parts.count)
-    return place, part_bones(*surface), every, every
 
 
 def _write_groups(obj: bpy.types.Object, numbered: NumberedParts) -> None:

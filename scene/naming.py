@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.uses.naming import Shapes, Suggestion, suggestions
-from . import bridge, mesh_arrays, store
+from . import bridge, mesh_arrays, skeleton, store
 from .store import Stored
 
 _WORDS = {word: word for word in (
@@ -23,16 +25,21 @@ def suggested(obj: bpy.types.Object, stored: Stored) -> dict[int, str]:
 
     Names of several parts may be the same.
     """
-    mesh = obj.data
-    numbered = stored.shown_parts()
-    world = np.array(bridge.world_matrix(obj), np.float64)
-    points = mesh_arrays.shown_points(obj).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
-    vertex, face = mesh_arrays.face_corners(mesh)
-    center = mesh_arrays.corner_table(mesh, points).face_means(points)
-    turn = world[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
-    shapes = Shapes.of(numbered.parts, center, bridge.read_shape(obj).face_area, points[vertex], face, turn)
+    numbered, shape = stored.shown_parts(), bridge.read_shape(obj)
+    world, mesh = np.array(bridge.world_matrix(obj), np.float64), obj.data
+    whole = skeleton.whole_model(obj, shape, numbered)
+    if whole is None:
+        points = mesh_arrays.shown_points(obj).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
+        parts, table, area = numbered.parts, mesh_arrays.corner_table(mesh, points), shape.face_area
+        turn = world[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
+    else:  # it has the names of what is seen
+        turn = world[:3, :3] @ bridge.unstretch(shape.stretch)
+        parts, area = whole.parts, np.tile(shape.face_area, 2)
+        table = replace(whole.table, vertices=whole.table.vertices @ turn.T + world[:3, 3])
+    shapes = Shapes.of(parts, table.face_means(table.vertices), area, table.vertices[table.corner_vertex],
+                       table.corner_face, turn)
     names = [_spoken(suggestion) for suggestion in suggestions(shapes)]
-    return dict(zip(numbered.numbers.tolist(), names, strict=True))
+    return dict(zip(numbered.numbers.tolist(), names[: numbered.parts.count], strict=True))
 
 
 def _spoken(suggestion: Suggestion) -> str:
