@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from ..result.decomposition import Parts
 
-# Up is the third axis, the front is towards the negative second one, as in Blender; of a model that is turned about the
-# third, those of its own axes that are nearest to these.
+# Up is the third axis, the front is towards the negative second one, as in Blender; of a model whose plane of symmetry
+# is turned about the third, its own axes that are nearest to these.
 _PLACES = (("right", "left"), ("front", "back"), ("bottom", "top"))
 
 # Shares of the model's height, width or length.
@@ -26,13 +27,13 @@ _FOUR = 4  # legs of a creature that has its head where a head is looked for
 _NECK = 1.3  # a part between head and body that is less long may be the head, and the head its snout
 _BROAD = 1.2  # a part between them, of an upright creature, that is so many times as wide as the head has the shoulders
 _LONG = 1.8  # a part so many times as long as wide is a limb
-_LEVEL = 0.5  # a plane of symmetry whose normal is less level, as share of its length, has a top and a bottom, no sides
-_OBLONG = 1.2  # seen from above, a model so many times as long as wide lies along its longest axis
+_LEVEL = 0.5  # a plane of symmetry is one of left and right if its normal is so level, as a share of its length
+_OBLONG = 1.2  # seen from above, a model so many times as long as wide has a longest axis
 
 
 @dataclass(frozen=True, eq=False)
 class Shapes:
-    """Where parts are and how large: upright as in the world, and about that axis turned to the model's own axes.
+    """Where parts are and how large: upright as in the world, turned about that axis until the model lies along others.
 
     Attributes
     ----------
@@ -46,8 +47,8 @@ class Shapes:
         Extents of each part along its own axes, longest first.
     across : int
         The axis, 0 or 1, across a creature.
-    mirrored : bool
-        Whether that is known, by a plane of symmetry.
+    others : tuple of Shapes
+        Other ways in which a creature may look, where no plane of symmetry tells.
     """
 
     parts: Parts
@@ -56,7 +57,7 @@ class Shapes:
     middle: np.ndarray
     length: np.ndarray
     across: int
-    mirrored: bool
+    others: tuple[Shapes, ...] = ()
 
     @classmethod
     def of(cls, parts: Parts, center: np.ndarray, area: np.ndarray, points: np.ndarray,
@@ -74,12 +75,26 @@ class Shapes:
         turn : (3, 3) float64
             Takes directions of the decomposition to those of the world.
         """
-        labels, count = parts.labels, parts.count
-        weight = area + 1e-12 * area.sum() + 1e-300
         mirror = parts.decomposition.mirror
         normal = turn @ mirror[:3] if len(mirror) else np.zeros(3)
-        own = _own_axes(normal, center, weight)
-        center, points, normal = center @ own.T, points @ own.T, own @ normal
+        known = np.linalg.norm(normal[:2]) > _LEVEL * np.linalg.norm(normal)
+        weight = area + 1e-12 * area.sum() + 1e-300
+        faces = parts, center, weight, points, point_face
+        found = cls._turned(*faces, _onto_axis(normal[:2]) if known else np.eye(3))
+        found = found._with(across=int(abs(normal[1]) > abs(normal[0])))
+        if normal.any():  # if it is not level, a creature lies on its side
+            return found
+        others = [found._with(across=1 - found.across)]
+        if len(longest := _longest(center, weight)):
+            along = cls._turned(*faces, _onto_axis(longest))
+            others += [found._with(low=along.low, high=along.high, middle=along.middle, across=axis) for axis in (0, 1)]
+        return found._with(others=tuple(others))
+
+    @classmethod
+    def _turned(cls, parts: Parts, center: np.ndarray, weight: np.ndarray, points: np.ndarray, point_face: np.ndarray,
+                turn: np.ndarray) -> Shapes:
+        """Measure parts once they are turned."""
+        labels, count, center, points = parts.labels, parts.count, center @ turn.T, points @ turn.T
         total = np.bincount(labels, weight, count)
         middle = np.stack([np.bincount(labels, weight * axis, count) for axis in center.T], axis=1) / total[:, None]
         low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
@@ -89,7 +104,13 @@ class Shapes:
         spread = np.stack([np.bincount(labels, weight * offset[:, i] * offset[:, j], count)
                            for i in range(3) for j in range(3)], axis=1).reshape(-1, 3, 3) / total[:, None, None]
         length = np.sqrt(np.maximum(np.linalg.eigvalsh(spread)[:, ::-1], 0.0))
-        return cls(parts, low, high, middle, length, int(abs(normal[1]) > abs(normal[0])), bool(normal.any()))
+        return cls(parts, low, high, middle, length, 0)
+
+    def _with(self, **changes: Any) -> Shapes:
+        """A copy with changes that leave the parts as they are; what touches what is not found again."""
+        copy = replace(self, **changes)
+        copy.__dict__.update(neighbors=self.neighbors, body=self.body, steps=self.steps)
+        return copy
 
     @cached_property
     def size(self) -> np.ndarray:
@@ -171,19 +192,15 @@ class Shapes:
         return self.parts.side != 0
 
 
-def _own_axes(normal: np.ndarray, center: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """The least turn about the third axis, (3, 3), after which a model lies along the others.
+def _longest(center: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """The longest axis of a model seen from above, (2,), or (0,) if it is not clear. center, weight : of the faces."""
+    away = center[:, :2] - np.average(center[:, :2], axis=0, weights=weight)
+    spread, axes = np.linalg.eigh((weight[:, None] * away).T @ away)
+    return axes[:, 1] if spread[1] > _OBLONG**2 * spread[0] else np.empty(0)
 
-    It has a plane of symmetry across one of them, or else its longest axis, if that is clear, along one. normal : (3,),
-    of that plane; zero without one. center, weight : (p, 3) and (p,), the faces.
-    """
-    level = normal[:2]
-    if np.linalg.norm(level) <= _LEVEL * np.linalg.norm(normal):
-        away = center[:, :2] - np.average(center[:, :2], axis=0, weights=weight)
-        spread, axes = np.linalg.eigh((weight[:, None] * away).T @ away)
-        if not spread[1] > _OBLONG**2 * spread[0]:
-            return np.eye(3)
-        level = axes[:, 1]
+
+def _onto_axis(level: np.ndarray) -> np.ndarray:
+    """The least turn about the third axis, (3, 3), that brings a level direction, (2,), onto one of the others."""
     angle = np.arctan2(level[1], level[0])
     angle -= np.round(angle / (np.pi / 2)) * np.pi / 2
     cos, sin = np.cos(angle), np.sin(angle)
@@ -217,16 +234,19 @@ def suggestions(shapes: Shapes) -> list[Suggestion]:
     model is upright, and of the parts there one that reaches highest. Of one with more than four legs, only these and
     the body are named: which end has the head is not clear. Parts that fit no rule get their kind only.
 
-    Without a plane of symmetry a creature looks along the axis by which more parts have a word.
+    Where no plane of symmetry tells which way a creature looks, it is a way in which it has a head, and of these that
+    in which most parts have a word.
 
     Returns
     -------
     names : list of Suggestion
         One for each part.
     """
-    ways = [shapes] if shapes.mirrored else [shapes, replace(shapes, across=1 - shapes.across)]
-    words, shapes = max(((_words(way), way) for way in ways),
-                        key=lambda found: ("head" in found[0].values(), len(found[0])))
+    words = _words(shapes)
+    for other in shapes.others:
+        found = _words(other)
+        if "head" in found.values() and ("head" not in words.values() or len(found) > len(words)):
+            shapes, words = other, found
     has_head = "head" in words.values()
     return [_suggestion(shapes, part, words.get(part, ""), has_head) for part in range(shapes.parts.count)]
 

@@ -212,11 +212,13 @@ def test_undo(obj):
     check_undo(lambda: bpy.ops.reeb_parts.armature(deform=True))
 
 
-def test_a_part_too_small_for_weights_of_its_own(obj):
+def test_every_bone_has_vertices_however_small_its_part(obj):
+    """Some had none, when a part ended just within reach of its joint, and others were not written for that."""
     bpy.ops.reeb_parts.decompose(n_parts=500)
     assert bpy.ops.reeb_parts.armature() == {"FINISHED"}
     used = {entry.group for vertex in obj.data.vertices for entry in vertex.groups if entry.weight > 0}
     bones = [group.index for group in obj.vertex_groups if group.name.startswith(DEFORM)]
-    assert set(bones) - used, "every bone has vertices; this tries nothing"
+    assert len(bones) > 2
+    assert set(bones) <= used
     at_rest = world(obj)
     np.testing.assert_allclose(at_rest, [obj.matrix_world @ v.co for v in obj.data.vertices], atol=1e-5)
