@@ -13,7 +13,7 @@ from mathutils import Matrix, Vector
 
 from ..core.result.numbering import NumberedParts
 from ..core.surface.corners import CornerTable
-from . import made, modifiers, outputs, part_meshes, part_names, piece_objects, quiet, targets, transaction
+from . import bridge, made, modifiers, outputs, part_meshes, part_names, piece_objects, quiet, targets, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
 from .selection import nothing_selected
