@@ -6,7 +6,7 @@ Everything is read in bulk on the main thread, so that the computation can run i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bmesh
 import bpy
@@ -157,12 +157,14 @@ def unstretch(stretch: np.ndarray) -> np.ndarray:
 def face_graph(obj: bpy.types.Object) -> tuple[FaceGraph, CornerTable]:
     """Which faces of an object's mesh share an edge, with areas and lengths, and their corners; Object Mode.
 
-    In coordinates of the shape, see ``Shape.vertices``.
+    In coordinates of the shape, see ``Shape.vertices``. Edges go across seams as Decompose does, see
+    ``mesh_arrays.joined_table``; corners have their own vertices, each of which is in a part.
     """
     shape, mesh = read_shape(obj), obj.data
-    table = mesh_arrays.corner_table(mesh, shape.vertices)
+    table = mesh_arrays.joined_table(mesh, shape.vertices)
     pairs, edge = table.face_pairs()
-    return FaceGraph(table.n_faces, pairs, table.edge_length(edge), shape.face_area), table
+    graph = FaceGraph(table.n_faces, pairs, table.edge_length(edge), shape.face_area)
+    return graph, replace(table, corner_vertex=mesh_arrays.face_corners(mesh)[0])
 
 
 def face_centers(obj: bpy.types.Object) -> np.ndarray:

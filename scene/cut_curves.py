@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def read(obj: bpy.types.Object) -> tuple[CornerTable, np.ndarray]:
     """What ``finding_curves`` wants of an object: its faces as Separate sees them, and the points of its mesh."""
     points = mesh_arrays.basis_points(obj.data)
-    return mesh_arrays.corner_table(obj.data, points.astype(np.float64) @ bridge.world_stretch(obj).T), points
+    return mesh_arrays.joined_table(obj.data, points.astype(np.float64) @ bridge.world_stretch(obj).T), points
 
 
 def finding_curves(table: CornerTable, points: np.ndarray, face_numbers: np.ndarray,

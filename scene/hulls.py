@@ -34,7 +34,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     from ..core.uses.hulls import part_hulls  # imports SciPy
 
     numbered = stored.shown_parts()
-    table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
+    table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))
     hulls = part_hulls(table, numbered.parts.labels, count)
     collection = piece_objects.make_collection(context, obj)
     made.remove_untouched(collection.objects, "hull", _looks)

@@ -7,6 +7,7 @@ Everything is read in bulk. n vertices, e edges, c corners, p faces.
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -26,6 +27,7 @@ _VALUES = {  # of an attribute: the name of its values, their type, how many
 }  # fmt: skip
 
 _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
+_joined_faces: dict[tuple, CornerTable | None] = {}  # None where nothing has to be joined
 _digested: list[tuple[tuple[np.ndarray, ...], str]] = []
 
 
@@ -75,6 +77,7 @@ def set_active(mesh: bpy.types.Mesh, like: bpy.types.Mesh) -> None:
 def forget() -> None:
     """Free what is kept in memory."""
     _face_corners.clear()
+    _joined_faces.clear()
     _digested.clear()
 
 
@@ -119,18 +122,23 @@ def face_corners(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     Kept for as long as the stored result is that of the mesh: the caller has made sure of that, or has
     just stored it.
     """
-    # To ask a mesh that has no result for it would give it an empty one.
-    fingerprint = mesh.reeb_parts.fingerprint if mesh.is_property_set("reeb_parts") else ""
-    key = (fingerprint, len(mesh.vertices), len(mesh.polygons), len(mesh.loops))
+    key = _result_key(mesh)
     if key not in _face_corners:
         total = face_sizes(mesh)
         face = np.repeat(np.arange(len(total), dtype=np.int32), total)
         corners = corner_vertices(mesh), face
-        if not fingerprint:
+        if not key[0]:
             return corners
         _face_corners.clear()
         _face_corners[key] = corners
     return _face_corners[key]
+
+
+def _result_key(mesh: bpy.types.Mesh) -> tuple[str, int, int, int]:
+    """What changes with the mesh once its result is stored; "" and counts before."""
+    # To ask a mesh that has no result for it would give it an empty one.
+    fingerprint = mesh.reeb_parts.fingerprint if mesh.is_property_set("reeb_parts") else ""
+    return fingerprint, len(mesh.vertices), len(mesh.polygons), len(mesh.loops)
 
 
 def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -161,6 +169,26 @@ def corner_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> Corn
     vertex, face = face_corners(mesh)
     points = basis_points(mesh) if points is None else points
     return CornerTable(points.astype(np.float64), edge_ends(mesh), vertex, corner_edges(mesh), face, len(mesh.polygons))
+
+
+def joined_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> CornerTable:
+    """As ``corner_table``, with border vertices joined that are one for Decompose: see core.surface.borders.
+
+    Vertices and faces keep their numbers; edges are not those of the mesh where it has such seams. Kept as
+    ``face_corners`` are.
+    """
+    key = _result_key(mesh)
+    table = corner_table(mesh, points)
+    if key in _joined_faces:
+        joined = _joined_faces[key]
+    else:
+        basis = table if points is None else corner_table(mesh)
+        joined, _ = basis.joined()
+        joined = None if joined is basis else joined
+        if key[0]:
+            _joined_faces.clear()
+            _joined_faces[key] = joined
+    return table if joined is None else replace(joined, vertices=table.vertices)
 
 
 def face_sizes(mesh: bpy.types.Mesh) -> np.ndarray:

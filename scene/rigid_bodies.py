@@ -59,7 +59,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     numbered = stored.shown_parts()
     world = np.array(obj.matrix_world, np.float64)
     points = mesh_arrays.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
-    table = mesh_arrays.corner_table(obj.data, points)
+    table = mesh_arrays.joined_table(obj.data, points)
     hulls = [hull for (hull,) in part_hulls(table, numbered.parts.labels)]
     found = body_joints(table, numbered.parts.labels)
     several = [pieces.get(number, []) for number in numbered.numbers.tolist()]

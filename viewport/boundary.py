@@ -46,8 +46,9 @@ class Boundary:
 
         self.number = number
         self.numbers = stored.face_numbers
-        pairs, edges = mesh_arrays.corner_table(obj.data).face_pairs()
-        self.pairs, self.edges = pairs, edges  # (e, 2) faces that meet, and (e,) the edges where they do
+        table = mesh_arrays.joined_table(obj.data)
+        pairs, edges = table.face_pairs()
+        self.pairs, self.edges, self.ends = pairs, edges, table.edges  # (e, 2) faces that meet, and (e,) at which edges
         self.center = bridge.face_centers(obj)
         length = np.linalg.norm(self.center[pairs[:, 0]] - self.center[pairs[:, 1]], axis=1)
         size = float(np.linalg.norm(np.ptp(self.center, axis=0)))
@@ -94,7 +95,7 @@ class Boundary:
         return int(np.ceil(low)), int(np.ceil(high))
 
     def ring_edges(self, rings: int, ahead: int) -> tuple[np.ndarray, np.ndarray]:
-        """Edges where the boundary is after so many rings, and where it would be after a few more.
+        """Ends of edges where the boundary is after so many rings, (k, 2), and where it would be after a few more.
 
         ahead : 1 for more rings outwards, -1 inwards.
         """
@@ -105,7 +106,7 @@ class Boundary:
         label = np.clip(ahead * (ring - rings), 0, AHEAD).astype(np.int8)
         first, second = label[self.pairs[:, 0]], label[self.pairs[:, 1]]
         differ, on_boundary = first != second, np.minimum(first, second) == 0
-        return self.edges[differ & on_boundary], self.edges[differ & ~on_boundary]
+        return self.ends[self.edges[differ & on_boundary]], self.ends[self.edges[differ & ~on_boundary]]
 
 
 def write_moved(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: np.ndarray,

@@ -32,7 +32,7 @@ class Brush:
     def __init__(self, obj: bpy.types.Object, model: Model, number: int) -> None:
         self.model, self.number = model, number
         count = len(model.face_value)
-        pairs, _ = mesh_arrays.corner_table(obj.data).face_pairs()
+        pairs, _ = mesh_arrays.joined_table(obj.data).face_pairs()
         first, second = both_ways(pairs).T
         self.neighbors = second[np.argsort(first, kind="stable")]  # of each face, one face after the other
         self.start = np.append(0, np.cumsum(np.bincount(first, minlength=count)))

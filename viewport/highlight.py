@@ -98,7 +98,9 @@ def outline(obj: bpy.types.Object, numbers: list[int] | None, curves: Curves | N
         mine = (part if numbers is None else np.isin(part, numbers)).astype(np.int64)
         if hidden is not None:
             mine[hidden] = 0
-        return (points[mesh_arrays.edge_ends(mesh)[mesh_arrays.cut_edges(mesh, mine)].ravel()],)
+        table = mesh_arrays.joined_table(mesh)
+        low, high = table.edge_labels(mine)
+        return (points[table.edges[low < high].ravel()],)
     here = (~np.isin(curves.pair, gone or []).all(axis=1) if numbers is None
             else curves.around(np.setdiff1d(numbers, gone or [])))
     return (curves.points(points)[curves.segments[here].ravel()].astype(np.float32),)
@@ -126,9 +128,9 @@ def without_outline(obj: bpy.types.Object, numbers: list[int]) -> np.ndarray:
     mesh = obj.data
     part = store.load(mesh).face_numbers
     mine = np.isin(part, numbers) & ~selection.hidden_faces(mesh)
-    _, face = mesh_arrays.face_corners(mesh)
-    at_cut = mesh_arrays.cut_edges(mesh, mine.astype(np.int64))[mesh_arrays.corner_edges(mesh)]
-    whole = mine & ~np.isin(part, part[face[at_cut]])
+    table = mesh_arrays.joined_table(mesh)
+    low, high = table.edge_labels(mine.astype(np.int64))
+    whole = mine & ~np.isin(part, part[table.corner_face[(low < high)[table.corner_edge]]])
     if not whole.any():
         return np.empty((0, 3, 3), np.float32)
     corners, of = mesh_arrays.triangles(mesh)

@@ -26,7 +26,7 @@ class Knife:
 
     def __init__(self, obj: bpy.types.Object, model: Model) -> None:
         self.model = model
-        self.table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
+        self.table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))
         self.seen = seen_points(bpy.context, obj).astype(np.float64)  # where the vertices are drawn
         self._parts: dict[int, CornerTable] = {}  # corners of the parts that were asked for
         self._surface: tuple[FaceGraph, CornerTable, np.ndarray] | None = None  # for curves

@@ -64,7 +64,7 @@ class Model:
         self.lines = GraphLines.of(self.stored.decomposition, self.stretch)
         self.shown_lines = GraphLines.shown(self.stored, self.stretch).without(
             self.stored.shown, graph_objects.hidden_parts(obj.data, self.stored.face_numbers))
-        table = mesh_arrays.corner_table(obj.data, mesh_arrays.shown_points(obj))
+        table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))
         self.face_value = table.face_means(np.nan_to_num(self.stored.decomposition.field))
         self.face_center = table.face_means(table.vertices)
         self._tree = None

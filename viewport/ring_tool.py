@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps
-from ..scene import cut_curves, edits, mesh_arrays, part_list
+from ..scene import cut_curves, edits, part_list
 from ..scene.errors import SceneError
 from ..scene.seen_points import seen_points
 from ..scene.store import Stored
@@ -92,7 +92,7 @@ class RingTool(ColoredTool):
         self.moving = self.boundaries(obj, self.model.stored)
         lows, highs = zip(*(boundary.most for boundary in self.moving), strict=True)
         self.limits = max(lows), max(highs)
-        self.points, self.edges = seen_points(bpy.context, obj), mesh_arrays.edge_ends(obj.data)
+        self.points = seen_points(bpy.context, obj)
         self.typed = ""
 
     def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
@@ -131,7 +131,7 @@ class RingTool(ColoredTool):
         self.show(obj, moved(self.moving, self.rings))
         ahead = (1 if self.rings > 0 else -1) if self.rings else self.way
         found = [boundary.ring_edges(self.rings, ahead) for boundary in self.moving]
-        self.rim, self.next = (self.points[self.edges[np.concatenate(some)]] for some in zip(*found, strict=True))
+        self.rim, self.next = (self.points[np.concatenate(some)] for some in zip(*found, strict=True))
 
     def _show_rings(self, context: bpy.types.Context) -> None:
         cut = context.scene.reeb_parts_use.cut

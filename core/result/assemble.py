@@ -309,6 +309,7 @@ def _vertex_field(
     for r in results:
         kept = r.component.vertex_source >= 0
         values[r.component.vertex_source[kept]] = r.field.normalized[kept]
+    values = values[working.joined]  # at a seam all have the value of the one that the copy has
     n_pieces, piece = working.mesh.face_components
     n_flat = sum(not r.field.values.any() for r in results)
     n_cut = sum(len(np.unique(piece[r.component.faces])) for r in results)

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import cross, distinct_pairs, first_at_place, lengths, renumbered, stable_order, sums_by
+from .arrays import cross, distinct_pairs, lengths, renumbered, stable_order, sums_by
+from .borders import joined_borders
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,22 +63,30 @@ class CornerTable:
                            self.corner_face[kept], self.n_faces)
 
     def joined(self) -> tuple[CornerTable, np.ndarray]:
-        """Join the border vertices at one place: files keep them apart where textures or normals have seams.
+        """Join the border vertices that are one, see ``joined_borders``.
 
         Returns
         -------
         table : CornerTable
-            Of the same vertices and faces; corners and edges have the first vertex at each place, edges other numbers.
+            Of the same vertices and faces; corners and edges have the vertices that theirs are joined to, edges other
+            numbers. The table itself where none are joined.
         first : (n,) int64
-            The first border vertex at the place of each border vertex; all others themselves.
+            The vertex that each vertex is joined to, itself for most.
         """
-        border = np.unique(self.edges[np.bincount(self.corner_edge, minlength=len(self.edges)) == 1])
-        first = first_at_place(self.vertices, border)
-        if (first[border] == border).all():
-            return self, first
+        single = np.bincount(self.corner_edge, minlength=len(self.edges)) == 1
+        if not single.any():
+            return self, np.arange(len(self.vertices))
+        first = joined_borders(self.vertices, np.unique(self.edges[single]), self.corner_vertex, self.corner_face)
+        return self.with_joined(first), first
+
+    def with_joined(self, first: np.ndarray) -> CornerTable:
+        """The table with some vertices joined. first : (n,) int64, the one of each. Returns as ``joined``."""
+        moved = first != np.arange(len(first))
+        if not moved.any():
+            return self
         edges, number = distinct_pairs(*np.sort(first[self.edges], axis=1).T)
         return replace(self, edges=edges, corner_vertex=first[self.corner_vertex],
-                       corner_edge=number[self.corner_edge]), first
+                       corner_edge=number[self.corner_edge])
 
     def vertices_of(self, mask: np.ndarray) -> np.ndarray:
         """Which vertices are corners of some faces, (n,) bool. mask : (p,) bool, the faces."""

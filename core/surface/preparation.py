@@ -11,10 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..sentence import Sentence
-from .arrays import components, distinct_pairs, first_at_place, frozen, inverse, renumbered, stable_order
+from .arrays import components, distinct_pairs, frozen, inverse, renumbered, stable_order
+from .borders import joined_borders
 from .contact import Bridges, bridges
 from .mesh import TriMesh
 from .ordering import Ordering
@@ -32,8 +32,6 @@ ALL_BUDGETS = 25_000  # number of faces that several bodies share for that
 # A body of few faces takes as long as hundreds of faces of a large one. So of very many bodies only those of more faces
 # are decomposed: this number of bodies, and one more for so many faces of the whole.
 MANY_BODIES, FACES_PER_BODY = 20, 300
-GAP = 5e-5  # share of the diagonal within which border vertices are one: seams that were moved, and rounded, apart
-NEAREST = 8  # of the border vertices around each, itself included, so many are looked at
 MOST_AROUND = 32  # number of faces around a vertex that are walked along; of more, all are looked at together
 # Relative difference below which two lengths are equal: rounding errors must not decide how a box is divided.
 ROUNDING = 1e-9
@@ -52,6 +50,8 @@ class WorkingMesh:
         The caller's face in which each triangle lies.
     vertex_source : (n,) int64
         The caller's vertex at each vertex.
+    joined : (v,) int64
+        The vertex that each of the caller's v vertices was joined to, itself for most.
     notes : tuple of Sentence
         What is odd about the caller's mesh and what was repaired, one sentence each.
     vertex_rank : (n,) int64, optional
@@ -61,6 +61,7 @@ class WorkingMesh:
     mesh: TriMesh
     polygon: np.ndarray
     vertex_source: np.ndarray
+    joined: np.ndarray
     notes: tuple[str, ...] = ()
     vertex_rank: np.ndarray | None = None
 
@@ -204,7 +205,7 @@ def repair(given: PolygonMesh) -> WorkingMesh:
     copy, vertex_source = _separate_fans(copy)
     copy, note_turned = turn_outwards(copy)
     return WorkingMesh(copy, frozen(given.polygon[whole], np.int64),
-                       frozen(vertex_source, np.int64),
+                       frozen(vertex_source, np.int64), frozen(joined, np.int64),
                        _notes(given) + note_joined + note_turned,
                        None if given.vertex_rank is None else given.vertex_rank[vertex_source])
 
@@ -308,47 +309,14 @@ def _either(which: np.ndarray, one: tuple[np.ndarray, ...], other: tuple[np.ndar
 
 
 def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]]:
-    """Vertex that each vertex is joined to, (n,) int64, and a note of how many were joined.
-
-    A border vertex is joined to the first border vertex at its place, or within GAP of it, any other vertex to itself:
-    two closed surfaces that touch stay two components.
-    """
+    """Vertex that each vertex is joined to, (n,) int64, see ``joined_borders``, and a note of how many were joined."""
     border = np.unique(mesh.edges.vertices[mesh.edges.n_faces == 1])
-    joined = _joined_nearby(mesh, first_at_place(mesh.vertices, border), border)
+    joined = joined_borders(mesh.vertices, border, mesh.faces.ravel(), np.repeat(np.arange(mesh.n_faces), 3))
     n_joined = int((joined != np.arange(len(joined))).sum())
     if not n_joined:
         return joined, ()
     return joined, (
         Sentence("{n} coincident border {n:vertex is|vertices are} treated as joined.", n=n_joined),)
-
-
-def _joined_nearby(mesh: TriMesh, joined: np.ndarray, border: np.ndarray) -> np.ndarray:
-    """As ``joined``, (n,) int64, but border vertices within GAP of each other are joined, too.
-
-    Not where a face would have a corner twice: what is as small as that stays as it is.
-    """
-    place = border[joined[border] == border]
-    if len(place) < 2:
-        return joined
-    gap = GAP * np.linalg.norm(np.ptp(mesh.vertices[mesh.used], axis=0))
-    distance, near = cKDTree(mesh.vertices[place]).query(
-        mesh.vertices[place], k=range(2, min(NEAREST, len(place)) + 1), distance_upper_bound=gap)
-    row, column = np.nonzero(np.isfinite(distance))
-    if not len(row):
-        return joined
-    count, group = components(len(place), row, near[row, column])
-    of_vertex = np.full(mesh.n_vertices, -1)
-    of_vertex[place] = group
-    corners = np.sort(of_vertex[joined][mesh.faces], axis=1)
-    # Corners that were one before are no matter of this.
-    doubled = (corners[:, 1:] == corners[:, :-1]) & (corners[:, 1:] >= 0)
-    kept = np.ones(count, bool)
-    kept[corners[:, 1:][doubled]] = False
-    first = np.full(count, mesh.n_vertices)
-    np.minimum.at(first, group, place)
-    goal = np.arange(mesh.n_vertices)
-    goal[place] = np.where(kept[group], first[group], place)
-    return goal[joined]
 
 
 def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:

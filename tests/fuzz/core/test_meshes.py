@@ -20,8 +20,9 @@ from core.result.decomposition import Decomposition
 from core.result.numbering import Numbering
 from core.surface import mirror_images, small_faces
 from core.surface.arrays import components
+from core.surface.borders import GAP
 from core.surface.polygons import PolygonMesh
-from core.surface.preparation import GAP, bodies, repair
+from core.surface.preparation import bodies, repair
 from core.uses.report import document, report
 
 damages = st.tuples(st.sampled_from(sorted(DAMAGES)), st.floats(0, 1, width=16), st.integers(0, 99)).map(list)
