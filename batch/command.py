@@ -22,7 +22,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 import bpy
 
@@ -246,12 +246,14 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
 def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
     """Make of the parts of an object what the options ask for; what its entry in the JSON says of that."""
     stored = store.load(obj.data)
-    said = {}
+    said: dict[str, Any] = {}
     if is_separated(options):
         style = separate_style(options)
         numbers = stored.shown_parts().numbers.tolist()
         separated = piece_objects.separate(bpy.context, obj, stored, numbers, style)
         piece_objects.hide_original(bpy.context, obj)
+        if style.caps or style.joints != "NONE" or style.fit_bed:
+            said["unjoined"] = separated.n_apart
         if style.joints != "NONE":
             said["joints"] = [
                 {"parts": sorted(numbers.index(separated.part.get(key, key)) for key in cut.keys), "count": cut.count,

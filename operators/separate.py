@@ -104,6 +104,10 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         if separated.left_open:
             self.report({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "
                                           "{n:it|them}").format(n=Count(separated.left_open)))
+        if separated.n_apart:
+            self.report({"WARNING"}, rpt_(
+                "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but "
+                "cannot be joined with them}: parts stay open there").format(n=Count(separated.n_apart)))
 
     def _report_joints(self, separated: piece_objects.Separated) -> None:
         """Say how many cuts have joints, and of which others why not."""

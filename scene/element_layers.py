@@ -19,7 +19,7 @@ from .temporary import freed, removed
 SPECIAL = KEY, WEIGHTS, SKIN, FREESTYLE = "shape key", "weights", "skin", "Freestyle"
 
 # Of attributes, the beginnings of names that say what is selected, hidden or pinned, which is no work.
-_PASSING = (".select_", ".hide_", ".uv_select", ".vs.", ".es.", ".pn.")
+PASSING = (".select_", ".hide_", ".uv_select", ".vs.", ".es.", ".pn.")
 _TOPOLOGY = {".edge_verts", ".corner_vert", ".corner_edge"}
 _ITEMS = {POINT: "vertices", EDGE: "edges", FACE: "polygons", CORNER: "loops"}
 _WEIGHT = np.dtype([("group", np.int32), ("weight", np.float32)])
@@ -55,7 +55,7 @@ def contents(mesh: bpy.types.Mesh) -> str:
     for name, layer in sorted(read(mesh).layers.items()):
         values = layer.values
         says = values.count.any() if isinstance(values, Ragged) else values.any()
-        if says and name != "position" and not name.startswith(_PASSING):
+        if says and name != "position" and not name.startswith(PASSING):
             arrays = (values.count, values.items) if isinstance(values, Ragged) else (_bytes(values),)
             digests.append((name, layer.kind, layer.domain, mesh_arrays.digest(*arrays)))
     return str(digests)

@@ -135,7 +135,7 @@ class Elements:
         """The elements that were chosen, with what they carry."""
         all_of = {domain: len(chosen.of(domain)) == self.size(domain) for domain in (POINT, EDGE)}
         layers = {name: layer if all_of.get(layer.domain) else
-                  replace(layer, values=_take(layer.values, chosen.of(layer.domain)))
+                  replace(layer, values=take(layer.values, chosen.of(layer.domain)))
                   for name, layer in self.layers.items()}
         ends = self.ends if all_of[EDGE] else self.ends[chosen.edges]
         vertex, edge = np.take(self.corner_vertex, chosen.corners), np.take(self.corner_edge, chosen.corners)
@@ -177,7 +177,7 @@ class Elements:
         same = theirs and (theirs.kind, theirs.domain) == (layer.kind, layer.domain)
         number = other.size(layer.domain)
         second = theirs.values if theirs and same else _nothing(layer.values, number)
-        return replace(layer, values=_concatenated(first, _take(second, np.arange(kept[layer.domain], number))))
+        return replace(layer, values=_concatenated(first, take(second, np.arange(kept[layer.domain], number))))
 
     def with_layer(self, name: str, layer: Layer) -> Elements:
         """The same with another layer."""
@@ -207,7 +207,8 @@ def _continued(known: np.ndarray, count: int, number: int) -> np.ndarray:
     return np.concatenate([known, count + np.arange(number - len(known))]).astype(np.int32)
 
 
-def _take(values: Values, index: np.ndarray) -> Values:
+def take(values: Values, index: np.ndarray) -> Values:
+    """The values of some elements. index : (k,) int64."""
     if isinstance(values, np.ndarray):
         return np.take(values, index, axis=0)
     count = values.count[index]

@@ -8,7 +8,7 @@ these were asked for.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import bpy
@@ -17,13 +17,14 @@ import numpy as np
 from ..core.steps import Steps, finished, stretched
 from ..core.surface.arrays import distinct_pairs, stable_order
 from ..core.surface.corners import edge_labels
-from . import cap_looks, caps, element_layers, hidden, mesh_arrays, outputs, quiet, smooth_faces
-from .elements import Elements
+from . import cap_looks, caps, element_layers, hidden, mesh_arrays, outputs, quiet, smooth_faces, welding
+from .elements import CORNER, Elements
 from .holes import Holes
 from .outputs import kept_aside, materials
 from .sculpted_pieces import SculptedMesh, is_sculpted
 from .temporary import removed
 
+_CUSTOM = "custom_normal"  # Blender's own
 _NORMAL = "reeb_parts_normal"  # corner attribute: the user's normals, while faces are taken apart
 
 
@@ -63,6 +64,8 @@ class PieceMeshes:
         Numbers of parts between which caps cross the mesh or themselves.
     n_crossings : int
         How often.
+    n_apart : int
+        Border vertices of holes to be closed that lie on others and could not be made one with them.
     """
 
     meshes: dict[int, bpy.types.Mesh]
@@ -70,6 +73,7 @@ class PieceMeshes:
     along_faces: int
     crossing: np.ndarray
     n_crossings: int
+    n_apart: int = 0
 
 
 def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterable[int], close: bool = False,
@@ -85,7 +89,7 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
     wanted : iterable of int
         Numbers of the parts; loose edges and vertices belong to none.
     close : bool
-        Fill the holes that the cuts leave.
+        Fill the holes that the cuts leave; for that, border vertices that are one for Decompose are made one.
     smooth : (3, 3) float64, optional
         What the object does to its mesh, see bridge.world_stretch: faces are divided where smooth cuts run. Without
         it, cuts run along the edges of faces.
@@ -110,8 +114,10 @@ def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterab
     wanted = [number for number in wanted if (face_numbers == number).any()]
     with removed(bpy.data.meshes, plain):
         _keep_normals(plain)
-        source = partial(SculptedMesh, plain, planar) if is_sculpted(mesh) else partial(
-            PlainMesh, plain, element_layers.read(plain), planar)
+        whole, n_apart, sculpted = element_layers.read(plain), 0, is_sculpted(mesh)
+        if close:
+            whole, n_apart = _welded(whole, np.isin(face_numbers, wanted), sculpted)
+        source = partial(SculptedMesh, plain, planar) if sculpted else partial(PlainMesh, plain, whole, planar)
         yield 0.1
         made = yield from stretched(_made(source(), face_numbers, wanted, close, smooth, np.empty((0, 2), np.int64)),
                                     0.1, 0.8)
@@ -119,7 +125,21 @@ def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterab
             made = yield from stretched(_with_whole_faces(source, face_numbers, wanted, smooth, made), 0.8, 1.0)
     for number, piece in made.meshes.items():
         materials.drop_slots(piece, [material for other, material in others if other != number])
-    return made
+    return replace(made, n_apart=n_apart)
+
+
+def _welded(whole: Elements, faces: np.ndarray, sculpted: bool) -> tuple[Elements, int]:
+    """The elements with border vertices welded, and how many at some faces, (p,) bool, stay on others.
+
+    What is sculpted is no array, see sculpted_pieces: all of its vertices stay.
+    """
+    if sculpted:
+        twin = welding.border_twins(whole)
+        welded, apart = whole, np.flatnonzero(twin != np.arange(len(twin)))
+    else:
+        kept = whole.layers.get(_NORMAL) or whole.layers.get(_CUSTOM)
+        welded, apart = welding.welded(whole, kept.values if kept and kept.domain == CORNER else None)
+    return welded, len(np.intersect1d(apart, whole.corner_vertex[faces[whole.corner_face]]))
 
 
 def _with_whole_faces(source: Callable[[], PlainMesh | SculptedMesh], face_numbers: np.ndarray, wanted: list[int],
@@ -218,7 +238,7 @@ def _keep_normals(mesh: bpy.types.Mesh) -> None:
     """
     if not mesh.has_custom_normals:
         return
-    kept = mesh.attributes.get("custom_normal")
+    kept = mesh.attributes.get(_CUSTOM)
     if kept is not None and kept.data_type == "FLOAT_VECTOR":
         return  # Blender 4.5 and later can keep them as they are
     normals = mesh_arrays.read(mesh.corner_normals, "vector", np.float32, 3)

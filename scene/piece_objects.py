@@ -139,6 +139,8 @@ class Separated:
         How many more pieces there are, so that all fit the bed.
     too_long : list of int
         Keys of pieces that do not fit the bed and could not be cut.
+    n_apart : int
+        Border vertices that lie on others and could not be made one with them, along which pieces stay open.
     """
 
     pieces: list[bpy.types.Object]
@@ -151,6 +153,7 @@ class Separated:
     part: dict[int, int]
     more: int
     too_long: list[int]
+    n_apart: int
 
     def cut_name(self, cut: joints.CutJoints) -> str:
         """What a cut is called: by its two pieces."""
@@ -219,7 +222,7 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
         yield 0.8 + 0.2 * index / len(pieces)
         check_pieces([piece], stretch)
     return Separated(pieces, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part,
-                     len(fitted.part), fitted.left)
+                     len(fitted.part), fitted.left, found.n_apart)
 
 
 def _names(obj: bpy.types.Object, origin: dict[int, int], sides: modified.BothSides) -> dict[int, str]:

@@ -932,6 +932,10 @@ TEXTS = {
         "und erneut zerlegen.",
     "{name} is not in this view layer. Include its collection first.":
         "{name} ist nicht in dieser Ansichtsebene. Bitte zuerst seine Sammlung einschließen.",
+    "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but cannot be joined "
+    "with them}: parts stay open there":
+        "{n} {n:Randpunkt liegt auf einem anderen, ist aber nicht mit ihm zu verbinden|Randpunkte liegen auf anderen, "
+        "sind aber nicht mit ihnen zu verbinden}: dort bleiben Teile offen",
     "The active object is not a part that was separated from another one":
         "Das aktive Objekt ist kein Teil, das von einem anderen abgetrennt wurde",
     "Seams around {n} {n:part|parts}": "Nähte um {n} {n:Teil|Teile}",

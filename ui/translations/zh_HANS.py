@@ -833,6 +833,9 @@ TEXTS = {
     "The modifiers of {name} leave no faces, though perhaps instances. Apply them as a mesh and decompose again.":
         "{name} 的修改器没有留下任何面，可能只有实例。请将其应用为网格后重新分解。",
     "{name} is not in this view layer. Include its collection first.": "{name} 不在此视图层中。请先包含其集合。",
+    "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but cannot be joined "
+    "with them}: parts stay open there":
+        "{n} 个开放边顶点与其他顶点重合，但无法相连：部件在该处保持开放",
     "The active object is not a part that was separated from another one": "活动物体不是从其他物体分离出的部件",
     "Seams around {n} {n:part|parts}": "{n} 个部件周围的缝合边",
     "The seams are yours alone again": "现在只剩您自己的缝合边",
