@@ -159,8 +159,8 @@ def _normals_differ(whole: Elements, some: np.ndarray, normals: np.ndarray) -> n
 
 
 def _of_edges(values: np.ndarray, edges: np.ndarray, number: np.ndarray) -> np.ndarray:
-    """What edges carry that become one: what the first does; marks, if any has one."""
+    """What edges carry that become one: what the first does; of marks and creases, the most."""
     found = np.take(values, edges, axis=0)
-    if values.dtype == bool:
-        np.logical_or.at(found, number, values)
+    if values.dtype in (bool, np.float32):
+        np.maximum.at(found, number, values)
     return found

@@ -89,3 +89,21 @@ def test_the_field_is_the_same_on_both_sides_of_a_seam(both, package):
         corner = np.array([loop.vertex_index for loop in obj.data.loops])
         values.append(store.load(obj.data).decomposition.field[corner])
     assert np.allclose(*values, atol=1e-6)
+
+
+def test_hulls_and_rigid_bodies_cross_seams(both):
+    found = []
+    for obj in both:
+        decomposed(obj)
+        bpy.ops.reeb_parts.hulls()
+        bpy.ops.reeb_parts.separate(hide=False)
+        bpy.context.view_layer.objects.active = obj
+        bpy.ops.reeb_parts.rigid_bodies()
+        made = bpy.data.collections[f"Parts of {obj.name}"].objects
+        joints = [item.location[:] for item in made if item.rigid_body_constraint is not None]
+        sizes = sorted(item.dimensions[:] for item in made if item.name.startswith("UCX_"))
+        assert len(joints) > 3
+        assert len(sizes) > 3
+        found.append((np.array(sorted(joints)), np.array(sizes)))
+    for whole, split in zip(*found, strict=True):
+        np.testing.assert_allclose(split, whole, atol=1e-3)

@@ -128,3 +128,37 @@ def test_separate_says_what_cannot_be_joined(make, tree, capfd):
         obj.data.attributes["Paint"].data[index].color = (index, 0, 0, 1)
     separate(obj, caps=True)
     assert "cannot be joined with them: parts stay open there" in capfd.readouterr().out
+
+
+def test_marks_of_either_edge_stay(make, tree, package):
+    part_meshes = importlib.import_module(f"{package}.scene.part_meshes")
+    obj = make(shapes.unjoined(tree))
+    rng = np.random.default_rng(0)
+    creases = np.where(rng.random(len(obj.data.edges)) < 0.1, rng.random(len(obj.data.edges)), 0).astype(np.float32)
+    obj.data.attributes.new("crease_edge", "FLOAT", "EDGE").data.foreach_set("value", creases)
+    obj.data.edges.foreach_set("use_seam", creases > 0.5)
+    whole = np.ones(len(obj.data.polygons), np.int64)
+    mesh = part_meshes.piece_meshes(obj.data, whole, [1], close=True).meshes[1]
+
+    def most(mesh, key):
+        """The largest value of the edges at each place."""
+        middle = read(mesh.vertices, "co", np.float32, 3)[read(mesh.edges, "vertices", np.int32, 2)].mean(axis=1)
+        values = (read(mesh.attributes[key].data, "value", np.float32) if key == "crease_edge"
+                  else read(mesh.edges, key, bool))[:, 0]
+        found = {}
+        for place, value in zip(map(tuple, middle.round(5).tolist()), values.tolist(), strict=True):
+            found[place] = max(found.get(place, 0), value)
+        return found
+
+    assert 2 * len(mesh.edges) == len(obj.data.edges)
+    assert most(mesh, "crease_edge") == most(obj.data, "crease_edge")
+    assert most(mesh, "use_seam") == most(obj.data, "use_seam")
+
+
+def test_sculpted_vertices_stay_split_and_are_counted(make, tree, package):
+    part_meshes = importlib.import_module(f"{package}.scene.part_meshes")
+    obj = make(shapes.unjoined(tree))
+    obj.modifiers.new("Multires", "MULTIRES")
+    made = part_meshes.piece_meshes(obj.data, np.ones(len(obj.data.polygons), np.int64), [1], close=True)
+    assert len(made.meshes[1].vertices) == len(obj.data.vertices)
+    assert made.n_apart == len(obj.data.vertices) - len(tree.vertices)
