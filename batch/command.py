@@ -46,7 +46,7 @@ from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
 from ..scene.whole_files import WholeFiles, reason, scene_files, together
 from .interrupt import Interrupted, Interrupts
-from .options import MODELS, UNITS, parser, separate_style
+from .options import MODELS, UNITS, WITHOUT_UNIT, parser, separate_style
 
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
@@ -162,6 +162,8 @@ def _open(models: list[Path], unit: str | None) -> tuple[list, list[dict], dict]
     is_scene = len(models) == 1 and models[0].suffix.lower() == ".blend"
     if unit and (is_scene or not models):
         raise SceneError("--unit is for models; a scene has its own.")
+    if unit and (own := [path for path in models if path.suffix.lower() not in WITHOUT_UNIT]):
+        raise SceneError(f"--unit is for {', '.join(WITHOUT_UNIT)}; {own[0]} has its own.")
     if not models:
         return [], [], {}
     if is_scene:

@@ -14,6 +14,8 @@ from ..scene.settings import HintProperties, JointProperties, OutputProperties, 
 
 #: Lengths of units in meters, with what Blender calls them.
 UNITS = {"m": (1.0, "METERS"), "cm": (0.01, "CENTIMETERS"), "mm": (0.001, "MILLIMETERS")}
+#: Models whose lengths are in no unit.
+WITHOUT_UNIT = (".obj", ".ply", ".stl")
 #: Models that can be read besides scenes, see command.IMPORTERS.
 MODELS = (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
 
@@ -30,8 +32,8 @@ def parser(description: str | None) -> argparse.ArgumentParser:
     made.add_argument("--object", action="append", default=[], metavar="NAME",
                       help="object to decompose, can be given several times; the active object of a scene "
                       "and every mesh of a model file without")
-    made.add_argument("--unit", choices=UNITS, help="what a length of 1 in the models is (default: m; what slicers "
-                      "read is in mm)")
+    made.add_argument("--unit", choices=UNITS, help=f"what a length of 1 in {', '.join(WITHOUT_UNIT)} is (default: m; "
+                      "what slicers read is in mm)")
     _add_files(made.add_argument_group("files to write"))
     _add_uses(made.add_argument_group("what is made of the parts"))
     parameters = made.add_argument_group("parameters")

@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits, graph_objects, part_names, quiet, reactions, transaction
+from ..scene import edits, graph_objects, part_names, quiet, reactions, targets, transaction
 from ..scene.errors import SceneError
 from ..scene.graph_objects import part_of, source_of_arcs
 from ..scene.part_list import check_parts, choose, chosen_numbers
@@ -37,13 +37,13 @@ class REEB_PARTS_OT_from_nodes(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        found = part_of(context.view_layer.objects.active)
+        found = part_of(targets.active_object(context))
         if found is None:
             raise SceneError(rpt_("Select a node of a graph"))
         check_parts(found[0])
 
     def run(self, context: bpy.types.Context) -> None:
-        found = part_of(context.view_layer.objects.active)
+        found = part_of(targets.active_object(context))
         assert found is not None  # poll
         source, number = found
         parts = [part_of(item) for item in context.view_layer.objects.selected]
@@ -65,7 +65,7 @@ class REEB_PARTS_OT_from_arc(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        source = source_of_arcs(context.view_layer.objects.active)
+        source = source_of_arcs(targets.active_object(context))
         if source is None or context.mode != "OBJECT":
             raise SceneError(rpt_("Select the arcs of a graph"))
         check_parts(source)
@@ -75,7 +75,7 @@ class REEB_PARTS_OT_from_arc(ReportingOperator, bpy.types.Operator):
 
     def _run_at_pointer(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Blender has just selected the curve, by the last press of a button; the pointer may have gone on."""
-        source = source_of_arcs(context.view_layer.objects.active)
+        source = source_of_arcs(targets.active_object(context))
         assert source is not None  # poll
         pressed = event.mouse_prev_press_x, event.mouse_prev_press_y
         place = pointing.view_region(context.area, *pressed) if context.area else None
@@ -88,7 +88,7 @@ class REEB_PARTS_OT_from_arc(ReportingOperator, bpy.types.Operator):
         return self.execute(context)
 
     def run(self, context: bpy.types.Context) -> None:
-        item = context.view_layer.objects.active
+        item = targets.active_object(context)
         source = source_of_arcs(item)
         assert source is not None  # poll
         model = pointing.Model(source)
@@ -106,7 +106,7 @@ class REEB_PARTS_OT_to_nodes(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        obj = context.view_layer.objects.active
+        obj = targets.active_object(context)
         check_parts(obj)
         if obj.mode != "OBJECT":
             raise SceneError(rpt_("Go to Object Mode first"))
@@ -114,7 +114,7 @@ class REEB_PARTS_OT_to_nodes(ReportingOperator, bpy.types.Operator):
             raise SceneError(rpt_("The active object shows no graph"))
 
     def run(self, context: bpy.types.Context) -> None:
-        obj = context.view_layer.objects.active
+        obj = targets.active_object(context)
         graph_objects.select_nodes(obj, chosen_numbers(obj.data))
 
 
@@ -126,15 +126,16 @@ class REEB_PARTS_OT_split_at_node(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        item = context.view_layer.objects.active
-        if part_of(item) is None:
+        item = targets.active_object(context)
+        if item is None or part_of(item) is None:
             raise SceneError(rpt_("Select a node of a graph"))
         if item.parent.mode != "OBJECT":
             raise SceneError(rpt_("Leave the object's mode first"))
         check_parts(item.parent)
 
     def run(self, context: bpy.types.Context) -> None:
-        item = context.view_layer.objects.active
+        item = targets.active_object(context)
+        assert item is not None  # check_context has looked
         mesh = item.parent.data
         number, new = edits.split_at_node(context, mesh, item["node"])
         # The node's part is the one to go on with.

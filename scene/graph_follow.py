@@ -55,7 +55,8 @@ def _follow_waiting() -> float | None:
     waiting = set(_waiting)
     _waiting.clear()
     for obj in bpy.context.view_layer.objects if bpy.context.view_layer else ():
-        if obj.session_uid in waiting and store.has_parts(obj) and not obj.data.is_editmode:
+        # After removals there are places without an object.
+        if obj is not None and obj.session_uid in waiting and store.has_parts(obj) and not obj.data.is_editmode:
             follow(bpy.context, obj)
     # The evaluation may have told of more: meanwhile ``soon`` has found this timer registered.
     return 0.0 if _waiting else None

@@ -321,13 +321,16 @@ def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.ty
 
 
 def _include(context: bpy.types.Context, collection: bpy.types.Collection) -> None:
-    """Put a collection of ours back into the view layer: what is made in it is to be seen."""
+    """Have a collection of ours shown by the view layer: what is made in it is to be seen."""
+    transaction.keep(collection, "hide_viewport")
+    collection.hide_viewport = False
     open_ = [context.view_layer.layer_collection]
     while open_:
         layer = open_.pop()
-        if layer.collection == collection and layer.exclude:
-            transaction.on_failure(setattr, layer, "exclude", True)
-            layer.exclude = False
+        for name in ("exclude", "hide_viewport") if layer.collection == collection else ():
+            if getattr(layer, name):
+                transaction.on_failure(setattr, layer, name, True)
+                setattr(layer, name, False)
         open_ += layer.children
 
 

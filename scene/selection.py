@@ -81,7 +81,8 @@ def select_objects(context: bpy.types.Context, objects: list[bpy.types.Object],
 
 def in_layer(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     """Whether the view layer has an object; of an excluded collection it has none."""
-    return context.view_layer.objects.get(obj.name) == obj
+    # A linked object may have the same name. After removals there are places without an object.
+    return any(other == obj for other in context.view_layer.objects)
 
 
 @contextmanager

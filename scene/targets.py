@@ -32,6 +32,9 @@ def chosen_objects(
     active = active_object(context)
     check_object(active)
     assert active is not None
+    # A script may override the active object; the mode that is left for writing is that of the view layer's.
+    if active != context.view_layer.objects.active and active.mode != "OBJECT":
+        raise SceneError(_in_another_mode(active))
     first: dict[bpy.types.Mesh, bpy.types.Object] = {active.data: active}
     for obj in selected_objects(context):
         if obj.type != "MESH" or obj.data in first:
@@ -39,14 +42,18 @@ def chosen_objects(
         try:
             check_object(obj)
             if obj.mode != active.mode:
-                raise SceneError(rpt_("{name} is in another mode than the active object. Go to Object Mode there "
-                                      "first.").format(name=obj.name))
+                raise SceneError(_in_another_mode(obj))
         except SceneError as error:
             if report:
                 report({"WARNING"}, str(error))
         else:
             first[obj.data] = obj
     return list(first.values())
+
+
+def _in_another_mode(obj: bpy.types.Object) -> str:
+    return rpt_("{name} is in another mode than the active object. Go to Object Mode there first.").format(
+        name=obj.name)
 
 
 def active_object(context: bpy.types.Context) -> bpy.types.Object | None:

@@ -207,7 +207,8 @@ class Transaction:
 
     def _to_object_mode(self) -> None:
         """Whatever mode it was interrupted in: meshes can be written in Object Mode only."""
-        new = [obj for obj in self._layer.objects if obj.mode != "OBJECT" and self.is_new(obj)]
+        there = [obj for obj in self._layer.objects if obj is not None]  # after removals some places are empty
+        new = [obj for obj in there if obj.mode != "OBJECT" and self.is_new(obj)]
         for obj in [*new, self._active]:
             if obj is not None and obj.mode != "OBJECT":
                 self._layer.objects.active = obj

@@ -79,7 +79,8 @@ def _undone(*_: object) -> None:
     """Undo or redo has taken pieces away or brought them back: the view follows, which is no part of undo."""
     if not _of_pieces:
         return
-    there = any(piece_objects.original(obj) is not None for obj in bpy.context.view_layer.objects if obj.visible_get())
+    objects = [obj for obj in bpy.context.view_layer.objects if obj is not None]  # after removals some are none
+    there = any(piece_objects.original(obj) is not None for obj in objects if obj.visible_get())
     for space in redraw.view_spaces():
         if _of_pieces.get(space.as_pointer(), there) == there:
             continue

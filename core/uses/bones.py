@@ -119,7 +119,9 @@ def part_bones(
     head, beyond = middle.copy(), following(parent, order)
     for part in np.flatnonzero(parent >= 0).tolist():
         # Of all that divides the two sides, which may be more than one cut: a leg meets belly and rump.
-        head[part] = _border(table, beyond[part][labels])[2]
+        border, _, place = _border(table, beyond[part][labels])
+        if len(border):  # an image may hang on what it does not touch
+            head[part] = place
     if images is not None:
         head = _even(images, head)
     tail = head.copy()
@@ -197,6 +199,8 @@ def _necks(table: CornerTable, labels: np.ndarray, area: np.ndarray, bones: Bone
     beyond, neck = following(bones.parent, bones.order), bones.parent < 0
     for bone in np.flatnonzero(~neck).tolist():
         border, length, middle = _border(table, beyond[bone][labels])
+        if not len(border):
+            continue
         pair = sorted((bone, int(bones.parent[bone])))
         own = length[(low[border] == pair[0]) & (high[border] == pair[1])].sum()
         radius = np.linalg.norm(table.vertices[table.edges[border]].mean(axis=1) - middle, axis=1).max()

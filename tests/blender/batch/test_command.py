@@ -250,6 +250,8 @@ def test_a_model_in_millimeters(run, tree, tmp_path):
         assert sorted(np.ptp(points, axis=0)) == pytest.approx(sorted(size * factor), rel=1e-3)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "x.blend"))
     assert "a scene has its own" in run(tmp_path / "x.blend", "--unit", "mm").err
+    bpy.ops.export_scene.gltf(filepath=str(tmp_path / "x.glb"))
+    assert "has its own" in run(tmp_path / "x.glb", "--unit", "mm").err
 
 
 def test_an_object_of_an_excluded_collection_costs_nobody_anything(run, obj, make, tree, tmp_path):

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Armatures and names of half models: those of the whole that is seen, with left and right."""
 
+from pathlib import Path
+
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -9,6 +12,7 @@ from mathutils import Euler, Matrix
 from snapshot import check_undo
 
 DEFORM = "DEF-"
+SPOT = Path(__file__).resolve().parents[3] / "models" / "spot.obj"
 
 
 @pytest.fixture
@@ -185,3 +189,21 @@ def test_while_the_mirror_is_hidden_all_is_as_for_any_model(half):
 def test_undo(half):
     bpy.ops.reeb_parts.decompose()
     check_undo(lambda: bpy.ops.reeb_parts.armature())
+
+
+@pytest.mark.parametrize("detail", [0.8, 1.0])
+def test_a_half_in_many_parts_gets_its_bones(detail):
+    """Some images hang on what they do not touch."""
+    bpy.ops.wm.obj_import(filepath=str(SPOT))
+    mesh = bpy.context.object.data
+    edited = bmesh.new()
+    edited.from_mesh(mesh)
+    bmesh.ops.bisect_plane(edited, geom=[*edited.verts, *edited.edges, *edited.faces], plane_co=(0, 0, 0),
+                           plane_no=(1, 0, 0), clear_inner=True)
+    bmesh.ops.dissolve_degenerate(edited, edges=edited.edges, dist=1e-5)
+    edited.to_mesh(mesh)
+    edited.free()
+    bpy.context.object.modifiers.new("Mirror", "MIRROR")
+    bpy.ops.reeb_parts.decompose(detail=detail)
+    assert bpy.ops.reeb_parts.armature() == {"FINISHED"}
+    assert 1 < len(rig_of().data.bones) < len(mesh.reeb_parts.parts)

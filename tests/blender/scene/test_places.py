@@ -96,6 +96,36 @@ def test_what_is_made_in_an_excluded_collection_of_ours_brings_it_back(obj):
     assert bpy.ops.reeb_parts.armature() == {"FINISHED"}
 
 
+@pytest.mark.parametrize("way", ["eye", "monitor"])
+def test_what_is_made_in_a_hidden_collection_of_ours_shows_it(obj, way):
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    bpy.ops.reeb_parts.separate(hide=False)
+    own = bpy.data.collections["Parts of Tree"]
+    if way == "eye":
+        layer_of(own).hide_viewport = True
+    else:
+        own.hide_viewport = True
+    activate(obj)
+    assert bpy.ops.reeb_parts.separate() == {"FINISHED"}
+    assert all(piece.visible_get() for piece in pieces())
+    assert set(bpy.context.selected_objects) == set(pieces())
+
+
+def test_an_original_beside_a_linked_object_of_its_name(obj, tmp_path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "library.blend"))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "own.blend"))
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, to):
+        to.objects = ["Tree"]
+    bpy.context.scene.collection.objects.link(to.objects[0])
+    activate(obj)
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    bpy.ops.reeb_parts.separate()
+    assert obj.hide_get()
+    bpy.context.view_layer.objects.active = pieces()[0]
+    assert bpy.ops.reeb_parts.show_original() == {"FINISHED"}
+    assert not obj.hide_get()
+
+
 def test_an_original_in_an_excluded_collection_is_named(obj):
     own = bpy.data.collections.new("Own")
     bpy.context.scene.collection.children.link(own)
@@ -154,6 +184,21 @@ def test_auto_smooth_leaves_the_origin_free(obj):
     bpy.ops.reeb_parts.decompose(n_parts=3)
     bpy.ops.reeb_parts.separate(center=True)
     assert len({tuple(round(x, 3) for x in piece.location) for piece in pieces()}) == 3
+
+
+def test_an_override_cannot_name_an_object_in_another_mode(obj, make, tree):
+    """It would be written to in Edit Mode, where Blender loses its attributes."""
+    other = make(tree, "Other")
+    obj.data.attributes.new("own", "INT", "FACE")
+    activate(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.context.view_layer.objects.active = other
+    with (bpy.context.temp_override(object=obj, active_object=obj, selected_objects=[obj]),
+          pytest.raises(RuntimeError, match="Tree is in another mode")):
+        bpy.ops.reeb_parts.decompose()
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert "own" in obj.data.attributes
 
 
 def test_a_script_names_the_object_with_an_override(obj, make, tree):
