@@ -76,7 +76,7 @@ class REEB_PARTS_OT_from_arc(ReportingOperator, bpy.types.Operator):
     def _run_at_pointer(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Blender has just selected the curve, by the last press of a button; the pointer may have gone on."""
         source = source_of_arcs(targets.active_object(context))
-        assert source is not None  # poll
+        assert item is not None and source is not None  # poll
         pressed = event.mouse_prev_press_x, event.mouse_prev_press_y
         place = pointing.view_region(context.area, *pressed) if context.area else None
         if place is None:  # it was selected elsewhere, in the outliner
@@ -90,7 +90,7 @@ class REEB_PARTS_OT_from_arc(ReportingOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> None:
         item = targets.active_object(context)
         source = source_of_arcs(item)
-        assert source is not None  # poll
+        assert item is not None and source is not None  # poll
         model = pointing.Model(source)
         choose(source.data, [model.number(model.at(source, self.location, True))])
         item.select_set(False)
@@ -108,6 +108,7 @@ class REEB_PARTS_OT_to_nodes(ReportingOperator, bpy.types.Operator):
     def check_context(cls, context: bpy.types.Context) -> None:
         obj = targets.active_object(context)
         check_parts(obj)
+        assert obj is not None  # check_parts has looked
         if obj.mode != "OBJECT":
             raise SceneError(rpt_("Go to Object Mode first"))
         if graph_objects.find(obj) is None:
@@ -115,6 +116,7 @@ class REEB_PARTS_OT_to_nodes(ReportingOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> None:
         obj = targets.active_object(context)
+        assert obj is not None  # check_parts has looked
         graph_objects.select_nodes(obj, chosen_numbers(obj.data))
 
 
