@@ -76,7 +76,7 @@ class REEB_PARTS_OT_from_arc(ReportingOperator, bpy.types.Operator):
     def _run_at_pointer(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Blender has just selected the curve, by the last press of a button; the pointer may have gone on."""
         source = source_of_arcs(targets.active_object(context))
-        assert item is not None and source is not None  # poll
+        assert source is not None  # poll
         pressed = event.mouse_prev_press_x, event.mouse_prev_press_y
         place = pointing.view_region(context.area, *pressed) if context.area else None
         if place is None:  # it was selected elsewhere, in the outliner
@@ -90,7 +90,8 @@ class REEB_PARTS_OT_from_arc(ReportingOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> None:
         item = targets.active_object(context)
         source = source_of_arcs(item)
-        assert item is not None and source is not None  # poll
+        assert item is not None  # poll
+        assert source is not None
         model = pointing.Model(source)
         choose(source.data, [model.number(model.at(source, self.location, True))])
         item.select_set(False)
