@@ -27,6 +27,8 @@ from .outputs import face_sets
 from .selection import selected_faces
 from .store import Stored
 
+_BESIDE = 0.5  # share of a candidate's faces, more on one side than on the other, from which on it is of that side
+
 
 def free_number(mesh: bpy.types.Mesh, stored: Stored, also: Iterable[int] = ()) -> int:
     """The smallest number that no part has or had, that no name is kept for, and that is none of some others."""
@@ -167,7 +169,8 @@ def grown(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
     """The result with the next candidate beyond a part's weakest boundary in it, unless that is of a locked part."""
     from ..core.result.editing import growth
 
-    taken = growth(stored.decomposition, stored.shown == number, _not_locked(mesh, stored, number))
+    allowed = _not_locked(mesh, stored, number) & (_own_side(stored, number) > _BESIDE)
+    taken = growth(stored.decomposition, stored.shown == number, allowed)
     if taken is None:
         raise SceneError(rpt_("Nothing is left around {name} that is not locked.").format(
             name=part_names.part_name(mesh, number)))
@@ -178,7 +181,8 @@ def shrunk(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
     """The result with a candidate of a part in the part beside it, unless that part is locked."""
     from ..core.result.editing import shrinkage
 
-    step = shrinkage(stored.decomposition, stored.shown == number, _not_locked(mesh, stored, number))
+    allowed = _not_locked(mesh, stored, number) & (_own_side(stored, number) > -_BESIDE)
+    step = shrinkage(stored.decomposition, stored.shown == number, allowed)
     if step is None:
         raise SceneError(rpt_("{name} cannot give away anything more.").format(name=part_names.part_name(mesh, number)))
     given, receiver = step
@@ -188,6 +192,24 @@ def shrunk(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
 def _not_locked(mesh: bpy.types.Mesh, stored: Stored, number: int) -> np.ndarray:
     """Candidates that are in no locked part, or in the part itself, (c,) bool."""
     return ~np.isin(stored.shown, locked_others(mesh, number))
+
+
+def _own_side(stored: Stored, number: int) -> np.ndarray:
+    """How far candidates lie on a part's own side of the plane of symmetry, (c,) float64: 1, 0 across it, -1 beyond it.
+
+    All 1 if the part is no mirror image of another. A part and its image cannot both take a candidate across the plane,
+    and would change sides if they took from beyond it.
+    """
+    from ..core.result.mirroring import twin_numbers
+
+    found, shown = stored.decomposition, stored.shown
+    twin = twin_numbers(stored.shown_parts()).get(number, number)
+    if twin == number or not bpy.context.scene.reeb_parts.symmetry or not len(found.face_side):
+        return np.ones(len(shown))
+    count = np.bincount(found.candidates, minlength=len(shown))
+    beside = np.bincount(found.candidates, found.face_side, len(shown)) / np.maximum(count, 1)
+    own = np.sign((beside * count)[shown == number].sum())
+    return np.where(shown == twin, -1.0, beside * own)
 
 
 def _moved(mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int) -> Stored:

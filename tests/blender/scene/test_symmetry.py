@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Symmetry: names of mirror images, and changes by hand on both sides."""
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 import pytest
 import shapes
+
+SPOT = Path(__file__).resolve().parents[3] / "models" / "spot.obj"
 
 
 @pytest.fixture
@@ -113,3 +117,25 @@ def test_faces_assigned_are_assigned_on_both_sides(mesh):
     center = np.array([polygon.center for polygon in mesh.polygons])
     assert len(set(face_numbers(mesh)[center[:, 0] > 1.0])) == 1
     assert len(set(face_numbers(mesh)[center[:, 0] < -1.0])) == 1
+
+
+@pytest.mark.parametrize("name", [".L", ".R"])
+def test_parts_that_grow_stay_on_their_side(name):
+    """Nor do a part and its image change sides, which touch or nearly so at the plane."""
+    bpy.ops.wm.obj_import(filepath=str(SPOT))
+    mesh = bpy.context.object.data
+    bpy.ops.reeb_parts.decompose()
+    left = np.array([polygon.center[0] for polygon in mesh.polygons]) > 0
+    for entry in [entry for entry in mesh.reeb_parts.parts if entry.name.endswith(name)]:
+        number = entry.number
+        beside = (face_numbers(mesh) == number) @ np.where(left, 1, -1)
+        for action in ("grow", "grow", "shrink", "grow", "shrink", "shrink"):
+            listed = {entry.number: entry for entry in mesh.reeb_parts.parts}
+            choose(mesh, listed[number])
+            try:
+                getattr(bpy.ops.reeb_parts, action)()
+            except RuntimeError as error:
+                assert "cannot give away" in str(error) or "Nothing is left" in str(error)
+            now = face_numbers(mesh) == number
+            assert abs(now @ np.where(left, 1, -1)) >= 0.8 * now.sum()
+            assert (now @ np.where(left, 1, -1)) * beside > 0
