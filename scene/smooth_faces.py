@@ -141,6 +141,8 @@ def triangulate(bm: BMesh, faces: np.ndarray) -> None:
 
 def divide(bm: BMesh, cuts: CleanCuts) -> None:
     """Split the edges, then the faces; write the number of its part to each face."""
+    if not len(cuts.face):
+        return
     layer = bm.faces.layers.int[NUMBER]
     for items in (bm.verts, bm.edges, bm.faces):
         items.ensure_lookup_table()

@@ -162,3 +162,16 @@ def test_sculpted_vertices_stay_split_and_are_counted(make, tree, package):
     made = part_meshes.piece_meshes(obj.data, np.ones(len(obj.data.polygons), np.int64), [1], close=True)
     assert len(made.meshes[1].vertices) == len(obj.data.vertices)
     assert made.n_apart == len(obj.data.vertices) - len(tree.vertices)
+
+
+@pytest.mark.parametrize("cut", ["SMOOTH", "PLANAR", "FACES"])
+def test_a_flat_model_with_multires_is_separated(make, cut):
+    """No cut runs smoothly where every edge is a border."""
+    shape = shapes.dumbbell(40, 16)
+    make(shapes.unjoined(shape), "Tree")
+    obj = bpy.data.objects["Tree"]
+    modifier = obj.modifiers.new("Multires", "MULTIRES")
+    bpy.ops.object.multires_subdivide(modifier=modifier.name, mode="SIMPLE")
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    assert bpy.ops.reeb_parts.separate(cut=cut, caps=False, hide=False) == {"FINISHED"}
+    assert sum(len(piece.data.polygons) for piece in pieces_of(obj)) >= len(shape.faces)
