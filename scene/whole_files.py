@@ -10,9 +10,9 @@ from __future__ import annotations
 import errno
 import os
 import re
+import secrets
 import shutil
 import stat
-import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -99,11 +99,12 @@ class WholeFiles:
         """Make a folder and those that it is in, unless they are there; raises SceneError if that is not possible."""
         missing = [folder for folder in (path, *path.parents) if not folder.exists()]
         for folder in reversed(missing):
+            self._made.append(folder)  # before it is there: an interruption may come between
             try:
                 folder.mkdir()
             except OSError as error:
+                self._made.pop()
                 raise _unwritten(path, error) from error
-            self._made.append(folder)
         if not path.is_dir():
             raise _unwritten(path, NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR)))
 
@@ -151,8 +152,9 @@ class WholeFiles:
     def _place(self, target: Path, alone: bool) -> Path:
         """Where to write what belongs to a target."""
         if alone:
-            made = Path(tempfile.mkdtemp(dir=target.parent, prefix=_HIDDEN))
-            self._made.append(made)
+            made = target.with_name(f"{_HIDDEN}{secrets.token_hex(8)}")
+            self._made.append(made)  # before it is there: an interruption may come between
+            made.mkdir(mode=0o700)
             return made / target.name
         # In the same folder: a scene's paths to its pictures are relative to where it is saved.
         place = target.with_name(f"{_HIDDEN}{os.getpid()}_{len(self._made)}{target.suffix[:20]}")

@@ -2,6 +2,7 @@
 """scene.complete: what Blender has written is complete, and no beginning of it is, nor one with a hole or a tail."""
 
 from importlib import import_module
+from pathlib import Path
 
 import bpy
 import numpy as np
@@ -90,3 +91,21 @@ def test_materials_that_are_cut_off(complete, obj, tmp_path):
         assert not complete.model([obj.data], "obj")(tmp_path / "it.obj")
     library.write_bytes(whole)
     assert complete.model([obj.data], "obj")(tmp_path / "it.obj")
+
+
+@pytest.mark.parametrize("way", ["folder", "alone"])
+def test_an_interruption_just_when_a_folder_is_made_leaves_none(package, tmp_path, monkeypatch, way):
+    whole_files = import_module(f"{package}.scene.whole_files")
+    mkdir = Path.mkdir
+
+    def interrupted(folder, *arguments, **options):
+        mkdir(folder, *arguments, **options)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "mkdir", interrupted)
+    with pytest.raises(KeyboardInterrupt), whole_files.together() as files:
+        if way == "folder":
+            files.folder(tmp_path / "new" / "deep")
+        with files.writing(tmp_path / "x.stl", lambda place: True, alone=True):
+            pass
+    assert list(tmp_path.iterdir()) == []
