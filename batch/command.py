@@ -206,21 +206,20 @@ def _imported(path: Path) -> list:
         IMPORTERS[path.suffix.lower()](str(path.resolve()))
     except RuntimeError as error:
         raise SceneError(f"{path} could not be read: {reason(error)}") from error
-    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and obj not in before
-              and not _is_of_importer(obj)]
+    bones = _leave_out_bones()
+    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and obj not in before and obj not in bones]
     if not meshes:
         raise SceneError(f"There is no mesh in {path}.")
     return meshes
 
 
-def _is_of_importer(obj: bpy.types.Object) -> bool:
-    """Whether an object is no part of the model, but how Blender's importer of glTF shows bones; it is left out."""
-    layers = bpy.context.view_layer.layer_collection.children
-    own = [collection for collection in obj.users_collection if collection.name.startswith("glTF_not_exported")]
-    for collection in own:
-        if collection.name in layers:
-            layers[collection.name].exclude = True
-    return bool(own)
+def _leave_out_bones() -> set[bpy.types.Object]:
+    """Exclude what is no part of a model, but how Blender's importer of glTF shows bones; these objects."""
+    layers = [layer for layer in bpy.context.view_layer.layer_collection.children
+              if layer.name.startswith("glTF_not_exported")]
+    for layer in layers:
+        layer.exclude = True
+    return {obj for layer in layers for obj in layer.collection.objects}
 
 
 def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, options: argparse.Namespace) -> dict:

@@ -207,9 +207,9 @@ def _own_side(stored: Stored, number: int) -> np.ndarray:
     if twin == number or not bpy.context.scene.reeb_parts.symmetry or not len(found.face_side):
         return np.ones(len(shown))
     count = np.bincount(found.candidates, minlength=len(shown))
-    beside = np.bincount(found.candidates, found.face_side, len(shown)) / np.maximum(count, 1)
-    own = np.sign((beside * count)[shown == number].sum())
-    return np.where(shown == twin, -1.0, beside * own)
+    beside = np.bincount(found.candidates, found.face_side, len(shown))
+    own = np.sign(beside[shown == number].sum())
+    return np.where(shown == twin, -1.0, own * beside / np.maximum(count, 1))
 
 
 def _moved(mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int) -> Stored:

@@ -259,11 +259,11 @@ def _objects(context: bpy.types.Context, obj: bpy.types.Object, meshes: dict[int
 def _dowel(context: bpy.types.Context, obj: bpy.types.Object, dowel: joints.Dowel, part: dict[int, int],
            style: SeparateProperties) -> bpy.types.Object:
     """An object for a loose dowel, beside the pieces."""
-    made_of = _piece(obj, dowel.mesh, f"{obj.name} Dowel", style)
-    made_of.modifiers.clear()
-    made_of[DOWEL] = sorted(part.get(key, key) for key in dowel.keys)
-    make_collection(context, obj).objects.link(made_of)
-    return made_of
+    item = _piece(obj, dowel.mesh, f"{obj.name} Dowel", style)
+    item.modifiers.clear()
+    item[DOWEL] = sorted(part.get(key, key) for key in dowel.keys)
+    make_collection(context, obj).objects.link(item)
+    return item
 
 
 def active_piece(context: bpy.types.Context) -> bpy.types.Object:

@@ -81,8 +81,9 @@ def select_objects(context: bpy.types.Context, objects: list[bpy.types.Object],
 
 def in_layer(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     """Whether the view layer has an object; of an excluded collection it has none."""
-    # A linked object may have the same name. After removals there are places without an object.
-    return any(other == obj for other in context.view_layer.objects)
+    objects = context.view_layer.objects
+    # A linked object may have the same name: then each is looked at.
+    return objects.get(obj.name) == obj or any(other == obj for other in objects)
 
 
 @contextmanager

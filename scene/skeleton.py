@@ -81,7 +81,7 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
     """
     from ..core.uses.bones import Images, limb_bones, part_bones  # imports SciPy
 
-    mesh, parts, world, shape = obj.data, numbered.parts, obj.matrix_world, bridge.read_shape(obj)
+    mesh, parts, world, shape = obj.data, numbered.parts, bridge.world_matrix(obj), bridge.read_shape(obj)
     place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
     turn = np.array(place.inverted() @ world, np.float64)
     whole, images, area = whole_model(obj, shape, numbered), None, shape.face_area

@@ -81,11 +81,14 @@ def _run(options: argparse.Namespace) -> int:
     result = decompose(model, parameters=parameters, progress=_Progress())
     parts = result.parts()
     files: dict[Path, bytes] = {}
+    places: set[str] = set()
 
     def add(path: Path, data: bytes) -> str:
-        if Path(os.path.abspath(path)) in map(Path, map(os.path.abspath, files)):
+        place = os.path.abspath(path)
+        if place in places:
             raise OutputFileError(
                 Sentence("{path} would be written twice. Give each file a name of its own.", path=path))
+        places.add(place)
         files[path] = data
         return str(path)
 

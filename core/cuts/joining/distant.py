@@ -16,7 +16,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
 from ...surface.arrays import on_grid, rounded
-from .pairs import PartPairs, Salience, unlikeness
+from .pairs import PartPairs, Salience, cut_between, unlikeness
 
 MOST = 80  # parts that are compared with all others; pairs grow as the square of it
 #: Of one part; of a pair first the smaller.
@@ -74,8 +74,6 @@ def distant_pairs(
     level = _joined_at(*_strongest_first(near.parts, shapes.agd[near.parts].min(axis=1)), chosen, LOWEST)[first, second]
     steps, way = _ways(near.parts, shapes.center, chosen)
     same = shapes.piece[small] == shapes.piece[large]
-    cut = np.ones(len(same))
-    cut[same] = salience(small[same], large[same])
     of_part = {
         "log_area": np.log(shapes.area), "log_piece_area": np.log(shapes.piece_area), "agd": shapes.agd,
         **{f"extent_{k + 1}": shapes.extents[:, k] for k in range(3)}}
@@ -85,7 +83,7 @@ def distant_pairs(
         "joined": _joined_at(merges, np.minimum.accumulate(score), chosen, NEVER)[first, second],
         "steps": steps[first, second], "way": way[first, second],
         "distance": np.linalg.norm(shapes.center[small] - shapes.center[large], axis=1),
-        "pass": level, "same_piece": same, "salience": cut,
+        "pass": level, "same_piece": same, "salience": cut_between(salience, small, large, same),
         "alike": unlikeness(shapes.extents[small], shapes.extents[large]),
         **{f"small_{n}": value[small] for n, value in of_part.items()},
         **{f"large_{n}": value[large] for n, value in of_part.items()},
@@ -129,8 +127,6 @@ def _joined_at(merges: np.ndarray, level: np.ndarray, chosen: np.ndarray, never:
     members: dict[int, list[int]] = {part: [place] for place, part in enumerate(chosen.tolist())}
     for (a, b), value in zip(merges.tolist(), level.tolist(), strict=True):
         a, b = groups[a], groups[b]
-        if a == b:
-            continue
         of_a, of_b = members.pop(a, []), members.pop(b, [])
         if of_a and of_b:
             found[np.ix_(of_a, of_b)] = found[np.ix_(of_b, of_a)] = value

@@ -119,8 +119,7 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: Salience, agd: np.nda
     small, large = np.where(swap[:, None], near.parts[:, ::-1], near.parts).T
     same = shape["piece"][small] == shape["piece"][large]
     nearest, gap = near.nearest()
-    cut = np.ones(len(same))
-    cut[same] = salience(small[same], large[same])
+    cut = cut_between(salience, small, large, same)
     columns = {
         "same_piece": same, "salience": cut,
         "distance": np.linalg.norm(shape["center"][small] - shape["center"][large], axis=1),
@@ -137,6 +136,13 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: Salience, agd: np.nda
     shapes = PartShapes(shape["piece"], area, np.exp(shape["log_piece_area"]), shape["center"], shape["extents"],
                         shape["agd"])
     return PartPairs(near.parts, features, same, cut, gap, points.face[nearest], shapes)
+
+
+def cut_between(salience: Salience, first: np.ndarray, second: np.ndarray, same_piece: np.ndarray) -> np.ndarray:
+    """Salience of the cut between parts, (e,) float64: 1 between pieces. same_piece : (e,) bool."""
+    cut = np.ones(len(same_piece))
+    cut[same_piece] = salience(first[same_piece], second[same_piece])
+    return cut
 
 
 def unlikeness(first: np.ndarray, second: np.ndarray) -> np.ndarray:
