@@ -13,7 +13,6 @@ from mathutils import Matrix
 from ..core.result.numbering import NumberedParts
 from ..core.result.whole import Whole, whole_of
 from ..core.surface.corners import CornerTable
-from ..core.surface.mirror_plane import MirrorPlane
 from . import bridge, mesh_arrays, part_names, store
 
 if TYPE_CHECKING:
@@ -90,9 +89,11 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
     else:
         rigid, parts, area = turn[:3, :3] @ bridge.unstretch(shape.stretch), whole.parts, np.tile(area, 2)
         table = replace(whole.table, vertices=whole.table.vertices @ rigid.T + turn[:3, 3])
-        normal = rigid @ whole.mirror.normal
-        images = Images(parts.twin, MirrorPlane(normal, whole.mirror.offset + float(normal @ turn[:3, 3])))
+        images = Images(parts.twin, whole.mirror.moved(rigid, turn[:3, 3]))
     graph, back = parts.decomposition.graph, turn[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
+    plane = parts.decomposition.plane
+    if images is None and plane is not None:
+        images = Images.of_parts(parts.twin, plane.moved(back, turn[:3, 3]), table, parts.labels, area)
     line = np.concatenate([graph.point_position, graph.node_position]) @ back.T + turn[:3, 3]
     surface = (table, parts.labels, area, np.nan_to_num(parts.decomposition.field), line,
                np.concatenate([parts.point_part, parts.node_part]), images)

@@ -87,14 +87,12 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, op
 
 def _images(table: CornerTable, stored: Stored) -> np.ndarray:
     """The corner that each corner of a part is the exact mirror image of, (c,), -1 for none."""
-    from ..core.surface.mirror_plane import MirrorPlane
     from ..core.uses.stacking import image_corners
 
     decomposition, parts = stored.decomposition, stored.shown_parts().parts
-    if not len(decomposition.mirror):
+    if decomposition.plane is None:
         return np.full(len(table.corner_vertex), -1)
-    plane = MirrorPlane(decomposition.mirror[:3], float(decomposition.mirror[3]))
-    return image_corners(table, parts.labels, parts.side, plane, decomposition.face_twin)
+    return image_corners(table, parts.labels, parts.side, decomposition.plane, decomposition.face_twin)
 
 
 def _distortion(table: CornerTable, flat: np.ndarray, image: np.ndarray) -> Distortion:

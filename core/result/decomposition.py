@@ -18,6 +18,7 @@ from ..graph.reeb import ReebGraph
 from ..parameters import SEPARATE, Parameters, present_names
 from ..surface.arrays import distinct_pairs, inverse, renumbered, sums_by
 from ..surface.labels import majority
+from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
 from .stored import DamagedError, NewerError, check, is_newer, read_archive, read_head
 
@@ -219,6 +220,11 @@ class Decomposition:
         """(c,) float64, mean index of each candidate's faces."""
         index = np.arange(self.n_faces)
         return np.bincount(self.candidates, index) / np.bincount(self.candidates)
+
+    @property
+    def plane(self) -> MirrorPlane | None:
+        """The plane of symmetry, or None."""
+        return MirrorPlane(self.mirror[:3], float(self.mirror[3])) if len(self.mirror) else None
 
     @cached_property
     def candidate_twin(self) -> np.ndarray:

@@ -38,3 +38,13 @@ class MirrorPlane:
     def turned(self, directions: np.ndarray) -> np.ndarray:
         """Mirror images of directions, (k, 3)."""
         return directions - 2.0 * inner_products(directions, self.normal)[:, None] * self.normal
+
+    def moved(self, matrix: np.ndarray, shift: np.ndarray) -> MirrorPlane:
+        """The plane of points y = matrix @ x + shift for the points x of this one.
+
+        matrix : (3, 3) float64, exactly invertible for a plane to be there. shift : (3,) float64.
+        """
+        normal = np.linalg.pinv(matrix).T @ self.normal  # covariant
+        length = max(float(np.linalg.norm(normal)), 1e-300)
+        normal = normal / length
+        return MirrorPlane(normal, self.offset / length + float(normal @ shift), self.share)

@@ -6,20 +6,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.cluster.hierarchy import DisjointSet
-from scipy.spatial import cKDTree
 
 from ..surface.arrays import components, distinct_pairs, sums_by
 from ..surface.corners import CornerTable
+from .groups import touching_groups
 from .hulls import Hull
 
 # A cut that is shorter than this share of the longest one between its two parts gets no joint of its own.
 _CRUMB = 0.2
-# Parts that no cuts connect touch if they come nearer than this share of the diagonal; they hold together where they
-# are at most this much farther from each other.
-_NEAR, _SLACK = 0.03, 0.01
-# Of a part with more corners so many are looked at.
-_MOST = 2_000
 # A cut is round where its length squared, along its longest line, is not more than this times that across.
 _ROUND = 1.3
 
@@ -64,7 +58,7 @@ def body_joints(table: CornerTable, labels: np.ndarray) -> BodyJoints:
     joints : BodyJoints
     """
     pairs, joint, middle, weight = _cuts(table, labels)
-    contacts = _contacts(table, labels, pairs)
+    contacts = touching_groups(table, labels, pairs)
     pairs = np.concatenate([pairs, *([pair] for pair, _ in contacts)])
     joint = np.concatenate([joint, *(np.full(len(some), len(pairs) - len(contacts) + k)
                                      for k, (_, some) in enumerate(contacts))])
@@ -95,36 +89,6 @@ def _cuts(table: CornerTable, labels: np.ndarray) -> tuple[np.ndarray, np.ndarra
     some = kept[joint]
     return (pairs[pair[kept]], (np.cumsum(kept) - 1)[joint[some]], table.vertices[table.edges[cut[some]]].mean(axis=1),
             weight[some])
-
-
-def _contacts(table: CornerTable, labels: np.ndarray,
-              pairs: np.ndarray) -> list[tuple[tuple[int, int], np.ndarray]]:
-    """Pairs of parts that touch where no cuts connect them, each with the places, (k, 3), where they do."""
-    count = int(labels.max()) + 1
-    group = DisjointSet(range(count))
-    for a, b in pairs.tolist():
-        group.merge(a, b)
-    if group.n_subsets == 1:
-        return []
-    near, slack = (share * np.linalg.norm(np.ptp(table.vertices[table.corner_vertex], axis=0))
-                   for share in (_NEAR, _SLACK))
-    points = [_points(table, labels == part) for part in range(count)]
-    trees = [cKDTree(some) for some in points]
-    found = []
-    for a in range(count):
-        for b in (b for b in range(a + 1, count) if not group.connected(a, b)):
-            distance, place = trees[b].query(points[a], distance_upper_bound=near + slack)
-            if distance.min() <= near:
-                close = distance <= distance.min() + slack
-                found.append((distance.min(), (a, b), 0.5 * (points[a][close] + points[b][place[close]])))
-    return [(pair, places) for _, pair, places in sorted(found, key=lambda contact: contact[:2]) if group.merge(*pair)]
-
-
-def _points(table: CornerTable, faces: np.ndarray) -> np.ndarray:
-    """Corners of some faces and the middles of their edges, (k, 3), not too many."""
-    some = table.within(faces)
-    points = np.concatenate([table.vertices[np.unique(some.corner_vertex)], table.vertices[some.edges].mean(axis=1)])
-    return points[:: -(-len(points) // _MOST)]
 
 
 def _middles(table: CornerTable, labels: np.ndarray) -> np.ndarray:

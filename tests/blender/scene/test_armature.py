@@ -175,6 +175,29 @@ def test_loose_parts_have_roots_of_their_own(make):
     assert sum(bone.parent is None for bone in rig_of(obj).data.bones) == 2
 
 
+@pytest.mark.parametrize("kind", ["LIMBS", "PARTS"])
+def test_a_symmetric_model_has_symmetric_bones(make, kind):
+    """Of one piece, and with a hat and shoes, or with a stick in one hand, as pieces of their own."""
+    figure = shapes.mirrored_figure()
+    shoes = [shapes.moved(shapes.box((0.5, 0.9, 0.2)), (x - 0.25, -0.4, -1.8)) for x in (-0.55, 0.55)]
+    hat, stick = shapes.moved(shapes.icosphere(2, 0.4), (0, 0, 2.3)), shapes.moved(
+        shapes.box((0.1, 0.1, 3.0)), (1.4, 0.05, -0.5))
+    for shape, n_lone in ((figure, 0), (shapes.together(figure, hat, *shoes), 0), (shapes.together(figure, stick), 1)):
+        obj = make(shape, f"Figure {len(shape.faces)} {kind}")
+        obj.rotation_euler, obj.location, obj.scale = (0.3, 1.0, -0.4), (1, 2, 3), (1.5, 1.5, 1.5)
+        bpy.ops.reeb_parts.decompose()
+        bpy.ops.reeb_parts.armature(weights="SMOOTH" if kind == "LIMBS" else "PARTS")
+        (rig,) = [modifier.object for modifier in obj.modifiers]
+        turn = np.array(obj.matrix_world.inverted() @ rig.matrix_world)
+        ends = np.array([[bone.head_local, bone.tail_local] for bone in rig.data.bones]) @ turn[:3, :3].T + turn[:3, 3]
+        parent = np.array([rig.data.bones.find(bone.parent.name) if bone.parent else -1 for bone in rig.data.bones])
+        assert (parent < 0).sum() == 1
+        off = np.linalg.norm(ends[:, None] * (-1, 1, 1) - ends[None], axis=3).max(axis=2)
+        image, even = off.argmin(axis=1), off.min(axis=1) < 1e-5
+        assert even.sum() == len(even) - n_lone >= 5
+        assert (np.where(parent < 0, -1, image[parent]) == parent[image])[even].all()
+
+
 def test_twice_is_once_and_a_used_armature_is_kept(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature(deform=True)

@@ -123,3 +123,61 @@ def test_a_bone_without_length_stays_in_the_plane(normal):
     made = part_bones(table, np.zeros(8, int), np.ones(8), np.zeros(6), np.zeros((0, 3)), np.zeros(0, int), images)
     assert np.linalg.norm(made.tail - made.head) > 0.01
     assert np.abs(images.mirror.heights(np.concatenate([made.head, made.tail]))).max() < 1e-12
+
+
+def boxes(*places, twin=None):
+    """Bones of boxes, each a part of its own: (middle, size) of each."""
+    table = CornerTable.of(*shapes.together(*(box_about(*place) for place in places)))
+    labels = np.repeat(np.arange(len(places)), 12)
+    images = None if twin is None else Images(np.array(twin), MirrorPlane(np.array([1.0, 0, 0]), 0.0))
+    part = np.zeros(len(table.vertices), int)
+    part[table.corner_vertex] = labels[table.corner_face]
+    return part_bones(table, labels, np.linalg.norm(table.face_vectors(), axis=1), part.astype(float),
+                      np.zeros((0, 3)), np.zeros(0, int), images)
+
+
+def box_about(middle, size=(1, 1, 1)):
+    return shapes.moved(shapes.box(size), np.subtract(middle, np.divide(size, 2)))
+
+
+def test_pieces_that_touch_hang_on_each_other_and_others_do_not():
+    """A trunk, an arm that ends 0.1 beside it with a hand in its end, and a ball far away."""
+    made = boxes(((0, 0, 0), (2, 2, 6)), ((4.1, 0, 0), (6, 1, 1)), ((7.5, 0, 0), (1.2, 0.8, 0.8)),
+                 ((0, 0, 20), (1, 1, 1)))
+    assert made.parent.tolist() == [-1, 0, 1, -1]
+    assert made.head[1] == pytest.approx((1.05, 0, 0), abs=0.02)
+    assert made.head[2] == pytest.approx((7, 0, 0), abs=0.2)
+
+
+def test_pieces_of_two_sides_hang_on_their_own_side_whatever_their_order():
+    """Trunk, leg.L, leg.R, foot.R, foot.L, and a sword in the hand of the right arm, which has no image."""
+    made = boxes(((0, 0, 0), (4, 1, 4)), ((1.5, 0, -4), (1, 1, 4)), ((-1.5, 0, -4), (1, 1, 4)),
+                 ((-1.5, 1, -6.4), (1, 3, 0.8)), ((1.5, 1, -6.4), (1, 3, 0.8)),
+                 ((3.5, 0, 1), (3, 1, 1)), ((-3.5, 0, 1), (3, 1, 1)), ((-5.2, 0, 4), (0.4, 0.4, 8)),
+                 twin=[0, 2, 1, 4, 3, 6, 5, -1])
+    assert made.parent.tolist() == [-1, 0, 0, 2, 1, 0, 0, 6]
+    for left, right in ((1, 2), (4, 3), (5, 6)):
+        np.testing.assert_array_equal(made.head[right], mirrored(made.head[left]))
+        np.testing.assert_array_equal(made.tail[right], mirrored(made.tail[left]))
+    assert (made.head[0, 0], made.tail[0, 0]) == (0, 0)
+    assert made.head[7, 0] < -4.5
+
+
+def test_a_head_does_not_end_at_its_eyes():
+    head = ((0, 0, 0), (2, 2, 2))
+    alone = boxes(((0, 0, -4), (4, 4, 6)), head)
+    eyes = boxes(((0, 0, -4), (4, 4, 6)), head, ((0.5, -1, 0.5), (0.2, 0.2, 0.2)), ((-0.5, -1, 0.5), (0.2, 0.2, 0.2)))
+    assert eyes.parent.tolist() == [-1, 0, 1, 1]
+    np.testing.assert_array_equal(eyes.tail[1], alone.tail[1])
+
+
+def test_a_part_that_was_posed_has_no_image():
+    table = CornerTable.of(*shapes.together(*(box_about(middle) for middle in (
+        (0, 0, 0), (3, 0, 0), (-3, 0, 0), (5, 0, 0), (-5, 0, 2)))))
+    labels, twin = np.repeat(np.arange(5), 12), np.array([0, 2, 1, 4, 3])
+    plane = MirrorPlane(np.array([1.0, 0, 0]), 0.0)
+    images = Images.of_parts(twin, plane, table, labels, np.ones(60))
+    assert images.twin.tolist() == [0, 2, 1, -1, -1]
+    assert images.first.tolist() == [0, 1, 1, 3, 4]
+    beside = np.where(twin == 0, -1, twin)
+    assert Images.of_parts(beside, plane, table, labels, np.ones(60)) is None
