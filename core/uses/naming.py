@@ -377,7 +377,7 @@ def _between(shapes: Shapes, ends: list[int]) -> list[int]:
     while at:
         at = [part for part in {other for part in at for other in shapes.neighbors[part]
                                 if 0 < shapes.steps[other] < shapes.steps[part]}
-              if abs(shapes.offset[part, shapes.across]) > 0.5 * _MIDST
+              if (abs(shapes.offset[part, shapes.across]) > 0.5 * _MIDST or shapes.paired[part])
               and part not in found and part not in ends]
         found += at
     return found

@@ -139,3 +139,15 @@ def test_an_insect_has_six_legs_and_what_is_larger_or_higher_is_not_called_its_h
     assert (found["leg"], found["body"]) == (6, 1)
     assert not found.keys() & {"head", "neck", "tail", "ear", "arm"}
     assert Counter((name.place, name.side) for name in names if name.word == "leg") == {("", 1): 3, ("", -1): 3}
+
+
+def test_legs_are_legs_down_to_the_shoes_however_far_the_arms_are_stretched():
+    """A man of boxes: trunk, head, and on both sides arm, leg and shoe, which hang on each other."""
+    boxes = [((0, 0, 1.3), (0.6, 0.3, 0.8)), ((0, 0, 1.9), (0.3, 0.3, 0.4)),
+             *[((side * x, y, z), size) for x, y, z, size in (
+                 (1.2, 0, 1.5, (1.8, 0.15, 0.15)), (0.14, 0, 0.6, (0.2, 0.2, 0.6)), (0.14, -0.1, 0.15, (0.2, 0.4, 0.3)))
+               for side in (1, -1)]]
+    pieces = [shapes.subdivide(shapes.subdivide(shapes.moved(
+        shapes.box(size), np.subtract(middle, np.divide(size, 2))))) for middle, size in boxes]
+    names = named(*shapes.together(*pieces), n_parts=8)
+    assert words(names) == {"body": 1, "head": 1, "arm": 2, "leg": 4}
