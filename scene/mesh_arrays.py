@@ -16,7 +16,7 @@ from bmesh.types import BMesh
 from numpy.typing import DTypeLike
 
 from ..core.surface.arrays import cross, lengths
-from ..core.surface.corners import CornerTable, edge_labels
+from ..core.surface.corners import CornerTable
 
 _VALUES = {  # of an attribute: the name of its values, their type, how many
     "FLOAT": ("value", np.float32, 1), "INT": ("value", np.int32, 1), "BOOLEAN": ("value", bool, 1),
@@ -212,10 +212,11 @@ def face_middles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def cut_edges(mesh: bpy.types.Mesh, numbers: np.ndarray) -> np.ndarray:
-    """Whether faces of different parts meet at each edge, (e,) bool."""
-    _, face = face_corners(mesh)
-    low, high = edge_labels(corner_edges(mesh), face, numbers, len(mesh.edges))
-    return low < high
+    """Whether faces of different parts meet at each edge, (e,) bool; both of two edges where vertices are split."""
+    table, found = joined_table(mesh), np.zeros(len(mesh.edges), bool)
+    low, high = table.edge_labels(numbers)
+    found[corner_edges(mesh)[(low < high)[table.corner_edge]]] = True
+    return found
 
 
 def basis_points(mesh: bpy.types.Mesh) -> np.ndarray:

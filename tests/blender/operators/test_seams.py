@@ -107,3 +107,15 @@ def test_hulls_and_rigid_bodies_cross_seams(both):
         found.append((np.array(sorted(joints)), np.array(sizes)))
     for whole, split in zip(*found, strict=True):
         np.testing.assert_allclose(split, whole, atol=1e-3)
+
+
+def test_uv_seams_are_marked_on_both_sides_of_a_seam(both):
+    marked = []
+    for obj in both:
+        bpy.context.view_layer.objects.active = obj
+        bpy.ops.reeb_parts.decompose(seams=True)
+        ends = np.array([[obj.data.vertices[vertex].co[:] for vertex in edge.vertices]
+                         for edge in obj.data.edges if edge.use_seam])
+        marked.append(np.unique(np.sort(ends.round(4), axis=1).reshape(-1, 6), axis=0))
+    assert len(marked[0]) > 10
+    np.testing.assert_array_equal(*marked)
