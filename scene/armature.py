@@ -13,7 +13,7 @@ from mathutils import Matrix, Vector
 
 from ..core.result.numbering import NumberedParts
 from ..core.surface.corners import CornerTable
-from . import bridge, made, modifiers, outputs, part_meshes, part_names, piece_objects, quiet, targets, transaction
+from . import made, modifiers, outputs, part_meshes, part_names, piece_objects, placing, quiet, targets, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
 from .selection import nothing_selected
@@ -175,7 +175,7 @@ def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types
     twin = bpy.data.objects.new(copy.name, copy)
     with removed(bpy.data.meshes, copy), removed(bpy.data.objects, twin):
         twin.vertex_groups.clear()
-        bridge.put(twin, rig.matrix_world if skeleton.is_half else bridge.world_matrix(obj))
+        placing.put(twin, rig.matrix_world if skeleton.is_half else placing.world_matrix(obj))
         context.scene.collection.objects.link(twin)
         with nothing_selected(context.view_layer):
             for each in (twin, rig):

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 import bmesh
 import bpy
 import numpy as np
-from mathutils import Matrix
 
 from ..core.sentence import Sentence
 from ..core.steps import Steps, finished
@@ -21,6 +20,7 @@ from ..core.surface.labels import FaceGraph
 from . import face_hints, mesh_arrays, modifiers, targets
 from .half_models import half_plane
 from .mesh_arrays import shown_points
+from .placing import world_matrix
 from .temporary import freed, removed
 
 
@@ -101,38 +101,6 @@ def reading_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Steps[
     yield 0.8
     digest = mesh_arrays.digest(vertices, triangles, polygon)
     return Shape(vertices, triangles, polygon, stretch, mirror, hint, digest, _notes(obj, len(mirror) > 0))
-
-
-def world_matrix(obj: bpy.types.Object) -> Matrix:
-    """Where an object is, also one that Blender does not evaluate and whose own ``matrix_world`` may be out of date.
-
-    Such are objects of excluded or disabled collections and of other scenes, and those disabled in viewports. Of these
-    parents count that are objects; constraints, and parents that are bones or vertices, are as they were last seen.
-    """
-    parent = obj.parent
-    if _is_evaluated(obj) or obj.constraints or (parent and obj.parent_type != "OBJECT"):
-        return obj.matrix_world.copy()
-    return (world_matrix(parent) @ obj.matrix_parent_inverse if parent else Matrix()) @ obj.matrix_basis
-
-
-def put(item: bpy.types.Object, matrix: Matrix) -> None:
-    """Put an object whose mesh is ours at a place.
-
-    What shears, as a parent with another scale along each axis does, is no place of an object: then its mesh is moved.
-    """
-    nearest = Matrix.LocRotScale(*matrix.decompose())
-    if np.abs(np.array(nearest) - np.array(matrix)).max() <= 1e-5 * max(np.abs(np.array(matrix)).max(), 1e-30):
-        item.matrix_world = matrix
-        return
-    item.data.transform(matrix, shape_keys=True)
-    if matrix.determinant() < 0:
-        item.data.flip_normals()
-
-
-def _is_evaluated(obj: bpy.types.Object) -> bool:
-    """Whether the window's dependency graph has an object."""
-    return obj.visible_get() or any(
-        found.original == obj for found in bpy.context.evaluated_depsgraph_get().objects)
 
 
 def world_stretch(obj: bpy.types.Object) -> np.ndarray:

@@ -13,7 +13,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.uses.threemf import Assembly, Body, write_3mf
-from . import bridge, complete, mesh_arrays, part_names, piece_objects, store
+from . import bridge, complete, mesh_arrays, part_names, piece_objects, placing, store
 from .errors import SceneError
 from .part_meshes import piece_meshes
 from .selection import nothing_selected
@@ -99,7 +99,7 @@ def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str,
                       for items in (piece_objects.piece_objects(obj), piece_objects.dowels(obj)))
     if not pieces:
         raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(name=obj.name))
-    to_object = bridge.world_matrix(obj).inverted_safe()
+    to_object = placing.world_matrix(obj).inverted_safe()
     meshes = {}
     for piece in (*pieces, *dowels):
         meshes[piece.name] = copy = piece.data.copy()
@@ -120,7 +120,7 @@ def _write(files: WholeFiles, path: Path, obj: bpy.types.Object, pieces: dict[st
 
 def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Mesh]) -> tuple[Body, ...]:
     """Meshes in the place of an object as bodies of a 3MF file, in the colors of their parts."""
-    world = np.array(bridge.world_matrix(obj), np.float64)
+    world = np.array(placing.world_matrix(obj), np.float64)
     mirrored = np.linalg.det(world[:3, :3]) < 0
     colors = {part_names.piece_name(obj, part.number): part.color[:] for part in obj.data.reeb_parts.parts}
     numbers = {piece.name: piece[piece_objects.NUMBER] for piece in piece_objects.piece_objects(obj)}
@@ -160,7 +160,7 @@ def _export(obj: bpy.types.Object, meshes: dict[str, bpy.types.Mesh], path: Path
     with removed(bpy.data.objects, *pieces):
         for piece in pieces:
             bpy.context.scene.collection.objects.link(piece)
-            bridge.put(piece, bridge.world_matrix(obj))
+            placing.put(piece, placing.world_matrix(obj))
             piece.select_set(True)
             bpy.context.view_layer.objects.active = piece
         EXPORTERS[kind](str(path))

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.surface.halves import is_one_side
+from .placing import world_matrix
 
 _ROUNDING = 1e-4  # by how much the axes of a mirror object may be no axes of a mirror
 
@@ -44,7 +45,7 @@ def half_plane(obj: bpy.types.Object, vertices: np.ndarray, stretch: np.ndarray)
         return nothing
     local = np.eye(4)
     if modifier.mirror_object is not None:
-        local = np.array(modifier.mirror_object.matrix_world.inverted_safe() @ obj.matrix_world, dtype=np.float64)
+        local = np.array(world_matrix(modifier.mirror_object).inverted_safe() @ world_matrix(obj), dtype=np.float64)
     axis = list(modifier.use_axis).index(True)
     length = np.linalg.norm(local[axis, :3])
     image = np.linalg.pinv(local) @ np.diag(np.where(np.arange(4) == axis, -1.0, 1.0)) @ local  # of points of the mesh

@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from . import bridge, made, mesh_arrays, part_names, piece_objects
+from . import made, mesh_arrays, part_names, piece_objects, placing
 from .store import Stored
 
 _LONGEST = 59  # bytes of a name, with room for a number that Blender adds
@@ -61,7 +61,7 @@ def _fitting(before: str, name: str, after: str) -> str:
 
 def _placed(hull: bpy.types.Object, obj: bpy.types.Object) -> bpy.types.Object:
     """A hull where its object is, shown as lines and not rendered."""
-    bridge.put(hull, bridge.world_matrix(obj))
+    placing.put(hull, placing.world_matrix(obj))
     hull.display_type = "WIRE"
     hull.hide_render = True
     hull[made.ROLE] = "hull"

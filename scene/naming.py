@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.uses.naming import Shapes, Suggestion, suggestions
-from . import bridge, mesh_arrays, skeleton, store
+from . import bridge, mesh_arrays, placing, skeleton, store
 from .store import Stored
 
 _WORDS = {word: word for word in (
@@ -26,7 +26,7 @@ def suggested(obj: bpy.types.Object, stored: Stored) -> dict[int, str]:
     Names of several parts may be the same.
     """
     numbered, shape = stored.shown_parts(), bridge.read_shape(obj)
-    world, mesh = np.array(bridge.world_matrix(obj), np.float64), obj.data
+    world, mesh = np.array(placing.world_matrix(obj), np.float64), obj.data
     whole = skeleton.whole_model(obj, shape, numbered)
     if whole is None:
         points = mesh_arrays.shown_points(obj).astype(np.float64) @ world[:3, :3].T + world[:3, 3]

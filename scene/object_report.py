@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.uses.report import bounding_boxes, report
-from . import bridge, mesh_arrays, part_meshes, part_names, piece_checks, store
+from . import bridge, mesh_arrays, part_meshes, part_names, piece_checks, placing, store
 from .temporary import removed
 
 
@@ -24,7 +24,7 @@ def object_report(obj: bpy.types.Object, labels: bool = False, check: bool = Fal
     mesh = obj.data
     stored = store.load(mesh)
     numbered = stored.shown_parts()
-    world = np.array(bridge.world_matrix(obj), np.float64)
+    world = np.array(placing.world_matrix(obj), np.float64)
     stretch = store.stretch_of(mesh)
     from_result = world.copy()
     from_result[:3, :3] = world[:3, :3] @ bridge.unstretch(stretch)

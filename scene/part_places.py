@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.result.numbering import NumberedParts
-from . import bridge, mesh_arrays
+from . import mesh_arrays, placing
 
 _middles: list[tuple[tuple, np.ndarray]] = []  # the last ones, with what they are of
 
@@ -43,6 +43,6 @@ def box(obj: bpy.types.Object, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray
     mask : (p,) bool, at least one.
     """
     vertex, face = mesh_arrays.face_corners(obj.data)
-    world = np.array(bridge.world_matrix(obj), np.float64)
+    world = np.array(placing.world_matrix(obj), np.float64)
     points = mesh_arrays.shown_points(obj)[np.unique(vertex[mask[face]])] @ world[:3, :3].T + world[:3, 3]
     return points.min(axis=0), points.max(axis=0)

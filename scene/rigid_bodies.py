@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import made, mesh_arrays, transaction
+from . import made, mesh_arrays, placing, transaction
 from .store import Stored
 
 #: How joints hold: the names of Blender's constraints.
@@ -57,7 +57,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
 
     remove_joints(collection)
     numbered = stored.shown_parts()
-    world = np.array(obj.matrix_world, np.float64)
+    world = np.array(placing.world_matrix(obj), np.float64)
     points = mesh_arrays.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
     table = mesh_arrays.joined_table(obj.data, points)
     hulls = [hull for (hull,) in part_hulls(table, numbered.parts.labels)]
@@ -119,7 +119,7 @@ def _nearest(pieces: list[bpy.types.Object], place: np.ndarray) -> bpy.types.Obj
         return pieces[0]
 
     def distance(piece: bpy.types.Object) -> float:
-        world = np.array(piece.matrix_world)
+        world = np.array(placing.world_matrix(piece))
         points = mesh_arrays.basis_points(piece.data) @ world[:3, :3].T + world[:3, 3]
         return float(np.linalg.norm(points - place, axis=1).min())
 

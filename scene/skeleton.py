@@ -13,7 +13,7 @@ from mathutils import Matrix
 from ..core.result.numbering import NumberedParts
 from ..core.result.whole import Whole, whole_of
 from ..core.surface.corners import CornerTable
-from . import bridge, mesh_arrays, part_names, store
+from . import bridge, mesh_arrays, part_names, placing, store
 
 if TYPE_CHECKING:
     from ..core.uses.bones import Bones
@@ -80,7 +80,7 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
     """
     from ..core.uses.bones import Images, limb_bones, part_bones  # imports SciPy
 
-    mesh, parts, world, shape = obj.data, numbered.parts, bridge.world_matrix(obj), bridge.read_shape(obj)
+    mesh, parts, world, shape = obj.data, numbered.parts, placing.world_matrix(obj), bridge.read_shape(obj)
     place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
     turn = np.array(place.inverted() @ world, np.float64)
     whole, images, area = whole_model(obj, shape, numbered), None, shape.face_area

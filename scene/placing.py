@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where objects are in the world, evaluated or not, and how they get there."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+
+def world_matrix(obj: bpy.types.Object) -> Matrix:
+    """Where an object is, also one that Blender does not evaluate and whose own ``matrix_world`` may be out of date.
+
+    Such are objects of excluded or disabled collections and of other scenes, and those disabled in viewports. Of these
+    parents count that are objects; constraints, and parents that are bones or vertices, are as they were last seen.
+    """
+    parent = obj.parent
+    if _is_evaluated(obj) or obj.constraints or (parent and obj.parent_type != "OBJECT"):
+        return obj.matrix_world.copy()
+    return (world_matrix(parent) @ obj.matrix_parent_inverse if parent else Matrix()) @ obj.matrix_basis
+
+
+def put(item: bpy.types.Object, matrix: Matrix) -> None:
+    """Put an object whose mesh is ours at a place.
+
+    What shears, as a parent with another scale along each axis does, is no place of an object: then its mesh is moved.
+    """
+    nearest = Matrix.LocRotScale(*matrix.decompose())
+    if np.abs(np.array(nearest) - np.array(matrix)).max() <= 1e-5 * max(np.abs(np.array(matrix)).max(), 1e-30):
+        item.matrix_world = matrix
+        return
+    item.data.transform(matrix, shape_keys=True)
+    if matrix.determinant() < 0:
+        item.data.flip_normals()
+
+
+def _is_evaluated(obj: bpy.types.Object) -> bool:
+    """Whether the window's dependency graph has an object."""
+    return obj.visible_get() or any(
+        found.original == obj for found in bpy.context.evaluated_depsgraph_get().objects)
