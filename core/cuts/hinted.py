@@ -58,9 +58,9 @@ def hinted_candidates(
     own, said = (majority(cell, named, graph.area + ROUNDING * area.sum(), len(area)) for named in (label, hint))
     pairs, _ = graph.with_contacts(contacts).boundaries(cell)
     a, b = pairs.T
-    salience = hierarchy.salience[hierarchy.merge_of(own[a], own[b]).clip(max=len(hierarchy.salience) - 1)]
+    salience = hierarchy.salience_between(own[a], own[b])
     other = said[a] != said[b]
-    salience = np.where(own[a] == own[b], 0.0, salience).clip(np.where(other, LEAST, ROUNDING), 1.0 - ROUNDING)
+    salience = salience.clip(np.where(other, LEAST, ROUNDING), 1.0 - ROUNDING)
     score = on_grid(np.log(1.0 / salience - 1.0)) + np.where(other, -OTHER, SAME)
     weight = np.sqrt(area[pairs].min(axis=1) / area.sum()) + 1e-9
     merges, joined, _ = average_linkage(len(area), pairs, score, weight)

@@ -94,8 +94,8 @@ def _rows(faces: Sequence) -> tuple[np.ndarray, np.ndarray]:
 
 
 def hints_of(hints: Any, n_faces: int) -> np.ndarray:
-    """Labels of faces that the caller has, (n_faces,) int64; raises MeshError if they are anything else."""
+    """Labels of faces that the caller has, numbered from 0, (n_faces,) int64; MeshError if they are anything else."""
     array = whole_numbers(hints)
     if array is None or array.shape != (n_faces,):
         raise MeshError(Sentence("Hints must be one whole number for each of the {n} faces.", n=n_faces))
-    return array
+    return np.unique(array, return_inverse=True)[1].astype(np.int64)

@@ -83,7 +83,7 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
         _color_material(part.material, linear(part.color))
         if part.material not in mesh.materials[:]:
             mesh.materials.append(part.material)
-        slots[label] = mesh.materials.find(part.material.name)
+        slots[label] = mesh.materials[:].index(part.material)
     mesh.polygons.foreach_set("material_index", slots[numbered.parts.labels])
 
 

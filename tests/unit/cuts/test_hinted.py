@@ -6,9 +6,11 @@ import pytest
 import shapes
 from results import same_partition
 
-from core import MeshError, decompose
+from core import MeshError, Parameters, decompose
+from core.cuts import hinted
 from core.cuts.hierarchy import Hierarchy
 from core.cuts.hinted import hinted_candidates
+from core.parameters import METHODS
 from core.surface.labels import FaceGraph
 
 
@@ -28,6 +30,35 @@ def test_where_the_shape_says_nothing_the_hint_decides():
     assert found.parts(0.0).count == 1
     assert same_partition(found.parts(n_parts=2).labels, upper)
     assert same_partition(found.parts(0.5).labels, upper)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_where_a_method_finds_nothing_the_hint_decides(method):
+    """Most methods have one candidate of a ball."""
+    ball = shapes.icosphere(3)
+    upper = (centers(ball)[:, 2] > 0).astype(int)
+    found = decompose(*ball, Parameters(method=method), hints=upper)
+    assert same_partition(found.parts(n_parts=2).labels, upper)
+
+
+def test_hints_may_be_below_zero(tree):
+    hints = (3 * centers(tree)[:, 0]).astype(int)
+    expected = decompose(*tree, hints=hints)
+    for other in (hints - hints.max() - 1, -hints, 10**15 * hints - 2**60):
+        found = decompose(*tree, hints=other)
+        assert same_partition(found.candidates, expected.candidates)
+
+
+def test_two_groups_are_judged_by_the_mean_over_the_smaller_of_each_two_places():
+    """A, B and C touch each other; A and B are of one candidate, B and C of one hint. B and C join first."""
+    graph = FaceGraph(3, np.array([[0, 1], [0, 2], [1, 2]]), np.ones(3), np.array([1.0, 0.5, 1.0]))
+    label, hierarchy = hinted_candidates(graph, np.empty((0, 2), np.int64), np.array([0, 0, 1]),
+                                         Hierarchy.of(2, [(0, 1)], [0.6]), np.array([0, 1, 1]))
+    assert label.tolist() == [0, 1, 2]
+    score = np.array([np.log(1 / hinted.LEAST - 1), np.log(1 / 0.6 - 1)]) - hinted.OTHER  # of A and B, A and C
+    joined = np.average(score, weights=np.sqrt([0.5, 1.0]))
+    assert hierarchy.salience[-1] == pytest.approx(1 / (1 + np.exp(joined)), abs=1e-6)
+    assert hierarchy.merges[0].tolist() == [1, 2]
 
 
 def test_one_hint_for_all_is_none(tree):
