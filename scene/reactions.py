@@ -149,13 +149,16 @@ def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 
 @reaction
 def lock(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """A part was locked or unlocked in the list."""
+    """A part was locked or unlocked in the list; one that was changed by hand before stays pinned."""
     mesh = part.id_data
     number, locked = part.number, part.locked
 
     def pin(stored: Stored) -> None:
-        pinned = np.where(stored.shown == number, number if locked else 0, stored.pinned)
+        stays = locked or not part.only_locked
+        pinned = np.where(stored.shown == number, number if stays else 0, stored.pinned)
+        transaction.keep_result(mesh)
         with quiet.quiet():
+            part.only_locked = locked and not part.pinned
             store.save_numbers(mesh, replace(stored, pinned=pinned))
         show(mesh.reeb_parts, context)
 

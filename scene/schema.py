@@ -43,6 +43,7 @@ class ReebPart(bpy.types.PropertyGroup):
         description="The part stays as it is, whatever the detail and whatever is done to its neighbors",
     )
     pinned: BoolProperty(name="Pinned", description="The part was changed by hand and stays whatever the detail")
+    only_locked: BoolProperty(description="The part is pinned by its lock alone, and was not changed by hand")
     selected: BoolProperty(name="Selected", description="Included in what is done to the selected parts")
     group: StringProperty(description="The vertex group made for the part")
     material: PointerProperty(type=bpy.types.Material, description="The material made for the part")

@@ -109,7 +109,7 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
     """
     result = mesh.reeb_parts
     active = result.parts[result.active].number if result.active < len(result.parts) else 0
-    keys = ("group", "material", "locked", "selected")
+    keys = ("group", "material", "locked", "only_locked", "selected")
     known = {part.number: [getattr(part, key) for key in keys] for part in result.parts}
     wanted = numbered.numbers.tolist()
     shades = _part_colors(mesh, numbered)

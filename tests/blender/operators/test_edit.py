@@ -133,6 +133,23 @@ def test_lock_keeps_a_part_and_unlock_releases_it(obj, result):
     check(obj)
 
 
+def test_unlocked_a_part_that_was_changed_by_hand_stays_so_until_it_is_released(obj, result):
+    choose(result, 1, neighbours(obj.data, 1)[0])
+    bpy.ops.reeb_parts.merge()
+    merged = numbers(obj.data)
+    for detail in (None, 0.9):  # also if other parts were listed meanwhile
+        part(result, 1).locked = True
+        if detail is not None:
+            result.detail = detail
+        part(result, 1).locked = False
+        assert part(result, 1).pinned
+        result.detail = 0.5
+        assert ((numbers(obj.data) == 1) == (merged == 1)).all()
+    choose(result, 1)
+    bpy.ops.reeb_parts.release()
+    assert not any(p.pinned for p in result.parts)
+
+
 def test_a_locked_part_is_kept_by_another_run(obj, result):
     number = result.parts[-1].number
     mask = numbers(obj.data) == number
