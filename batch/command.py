@@ -44,6 +44,7 @@ from ..scene import (
 )
 from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
+from ..scene.transaction import transaction
 from ..scene.whole_files import WholeFiles, reason, scene_files, together
 from .interrupt import Interrupted, Interrupts
 from .options import MODELS, UNITS, WITHOUT_UNIT, parser, separate_style
@@ -223,7 +224,10 @@ def _leave_out_bones() -> set[bpy.types.Object]:
 
 
 def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, options: argparse.Namespace) -> dict:
-    """Read, compute and write one object; its entry in the JSON. Raises what the user should hear."""
+    """Read, compute and write one object, all that is asked for or nothing; its entry in the JSON.
+
+    Raises what the user should hear.
+    """
     from ..scene.object_report import object_report  # imports SciPy
 
     targets.check_object(obj)
@@ -239,9 +243,10 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
     (outcome,) = compute_all([(obj.name, shape)], parameters, progress)
     if outcome.decomposition is None:
         raise SceneError(f"{obj.name}: {outcome.problem}")
-    results.write_result(bpy.context, obj, outcome, options)
-    made = make_uses(obj, options)
-    return object_report(obj, options.labels, options.check) | made
+    with transaction():
+        results.write_result(bpy.context, obj, outcome, options)
+        made = make_uses(obj, options)
+        return object_report(obj, options.labels, options.check) | made
 
 
 def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:

@@ -51,12 +51,16 @@ class ChosenPartsOperator(PartOperator):
         return None
 
 
-class REEB_PARTS_OT_merge_neighbour(ChosenPartsOperator, bpy.types.Operator):
+class REEB_PARTS_OT_merge_neighbour(PartOperator, bpy.types.Operator):
     """Merge each chosen part into the neighbor that it is least clearly cut from"""
 
     bl_idname = "reeb_parts.merge_neighbour"
     bl_label = "Merge into Neighbor"
-    edit = staticmethod(edits.merged_into_neighbor)
+
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
+        numbers = chosen_numbers(obj.data)
+        edits.check_unlocked(obj.data, numbers)
+        edits.write(context, obj.data, stored, edits.merged_into_neighbors(obj.data, stored, numbers))
 
 
 class REEB_PARTS_OT_merge_small(PartOperator, bpy.types.Operator):

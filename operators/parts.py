@@ -13,7 +13,7 @@ from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.store import Stored
 from ..scene.targets import active_object, users
-from ..viewport import framing, hover, shading
+from ..viewport import framing, hover, pointing, shading
 
 
 class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
@@ -54,10 +54,7 @@ class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
         mesh = obj.data
         numbers = stored.face_numbers
         shown = np.full(len(numbers), True) if self.show_all else np.isin(numbers, chosen_numbers(mesh))
-        hidden.hide(mesh, ~shown)
-        hover.clear()
-        for user in users(mesh):
-            graph_objects.update_parts(user, stored.shown_parts())
+        _hide(mesh, stored, ~shown)
 
 
 class REEB_PARTS_OT_hide(PartOperator, bpy.types.Operator):
@@ -68,8 +65,16 @@ class REEB_PARTS_OT_hide(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         mask = np.isin(stored.face_numbers, chosen_numbers(obj.data))
-        hidden.hide(obj.data, selection.hidden_faces(obj.data) | mask)
-        hover.clear()  # until the pointer moves, it would stay filled
+        _hide(obj.data, stored, selection.hidden_faces(obj.data) | mask)
+
+
+def _hide(mesh: bpy.types.Mesh, stored: Stored, mask: np.ndarray) -> None:
+    """Hide faces, (p,) bool, and what the graph has of parts that are hidden as a whole; show all others."""
+    hidden.hide(mesh, mask)
+    pointing.forget()
+    hover.clear()  # until the pointer moves, it would stay filled
+    for user in users(mesh):
+        graph_objects.update_parts(user, stored.shown_parts())
 
 
 class REEB_PARTS_OT_frame(PartOperator, bpy.types.Operator):

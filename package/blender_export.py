@@ -45,6 +45,8 @@ def export(path: str, out: str) -> None:
         mesh.loop_triangles.foreach_get("vertices", corner)
         mesh.loop_triangles.foreach_get("polygon_index", polygon)
         matrix = np.array(obj.matrix_world)
+        if np.linalg.det(matrix[:3, :3]) < 0:  # a mirror image would look inwards
+            corner = corner.reshape(-1, 3)[:, ::-1]
         vertices.append(place.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3])
         triangles.append(corner.reshape(-1, 3).astype(np.int64) + n_vertices)
         polygons.append(polygon.astype(np.int64) + n_polygons)

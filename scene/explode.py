@@ -51,7 +51,7 @@ def _ensure(obj: bpy.types.Object) -> None:
     name = _face_attribute(obj)
     modifier = find(obj) or modifiers.new(obj, NAME, "NODES")
     group = modifier.node_group
-    if group is None or group[OURS] != obj.name:
+    if group is None or _source(group) != obj:
         # A copy of the object comes with the group of the original, which listens to the original.
         transaction.keep(modifier, "node_group")
         modifier.node_group = group = _node_group(obj)
@@ -76,7 +76,7 @@ def _face_attribute(obj: bpy.types.Object) -> str:
 
 def _node_group(obj: bpy.types.Object) -> bpy.types.NodeTree:
     """Nodes that move each part from the middle of the whole by a multiple of its distance from there."""
-    group = modifiers.new_nodes(f"{NAME} {obj.name}", OURS, obj.name)
+    group = modifiers.new_nodes(f"{NAME} {obj.name}", OURS)
     made = _Nodes(group)
     start, end = made.new("NodeGroupInput"), made.new("NodeGroupOutput")
     part = made.new("GeometryNodeInputNamedAttribute", "Part", data_type="INT")
@@ -100,6 +100,13 @@ def _drive(socket: bpy.types.NodeSocket, obj: bpy.types.Object) -> None:
     variable = driver.variables.new()
     variable.targets[0].id = obj
     variable.targets[0].data_path = PROPERTY
+
+
+def _source(group: bpy.types.NodeTree) -> bpy.types.Object | None:
+    """The object that nodes of ours listen to."""
+    drivers = group.animation_data.drivers if group.animation_data else ()
+    return next((target.id for curve in drivers for variable in curve.driver.variables
+                 for target in variable.targets), None)
 
 
 class _Nodes:

@@ -63,7 +63,7 @@ def _ensure(obj: bpy.types.Object, attribute: str) -> None:
 
 def _node_group() -> bpy.types.NodeTree:
     """Nodes that leave out the faces that an attribute tells."""
-    group = modifiers.new_nodes(NAME, OURS, True)
+    group = modifiers.new_nodes(NAME, OURS)
     start, attribute, left, end = (group.nodes.new(kind) for kind in (
         "NodeGroupInput", "GeometryNodeInputNamedAttribute", "GeometryNodeDeleteGeometry", "NodeGroupOutput"))
     for place, node in enumerate((start, attribute, left, end)):

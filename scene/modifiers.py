@@ -45,10 +45,10 @@ def remove_nodes(obj: bpy.types.Object, ours: str) -> None:
             transaction.discard(group)
 
 
-def new_nodes(name: str, ours: str, value: str | bool) -> bpy.types.NodeTree:
-    """A node group for such a modifier, marked by a value: geometry comes in and goes out."""
+def new_nodes(name: str, ours: str) -> bpy.types.NodeTree:
+    """A node group for such a modifier, marked as that: geometry comes in and goes out."""
     group = bpy.data.node_groups.new(name, "GeometryNodeTree")
-    group[ours] = value
+    group[ours] = True
     group.is_modifier = True
     for way in ("INPUT", "OUTPUT"):
         group.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")

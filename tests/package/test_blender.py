@@ -43,3 +43,18 @@ def test_what_blender_cannot_read_is_said(tmp_path):
     (tmp_path / "broken.blend").write_bytes(b"no blend file")
     with pytest.raises(reeb_parts.ModelFileError, match="broken.blend could not be read"):
         reeb_parts.read_model(tmp_path / "broken.blend", os.environ["BLENDER"])
+
+
+def test_a_mirrored_object_looks_outwards(tmp_path):
+    path = tmp_path / "mirrored.blend"
+    make = """
+import bpy, sys
+bpy.ops.wm.read_homefile(use_empty=True)
+bpy.ops.mesh.primitive_cube_add(size=2, location=(5, 0, 0), scale=(-1, 1, 1))
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
+"""
+    subprocess.run([os.environ["BLENDER"], "--background", "--factory-startup", "--python-expr", make, "--", str(path)],
+                   check=True, capture_output=True)
+    model = reeb_parts.read_model(path, os.environ["BLENDER"])
+    a, b, c = model.vertices[model.faces].transpose(1, 0, 2)
+    assert (np.cross(a, b) * c).sum() / 6 == pytest.approx(8)

@@ -266,3 +266,21 @@ def test_an_object_of_an_excluded_collection_costs_nobody_anything(run, obj, mak
         ended = run(tmp_path / "x.blend", "--object", "Other", "--object", "Tree", use, "--save", tmp_path / "y.blend")
         assert "Other" in [entry["name"] for entry in ended.answer["objects"]], ended.err
         assert "Traceback" not in ended.err
+
+
+def test_an_object_of_which_not_all_can_be_made_is_left_as_it_was(run, obj, make, tree, tmp_path):
+    """It has as many UV maps as there can be, so that it cannot be unwrapped."""
+    other = make(tree, "Other")
+    while len(other.data.uv_layers) < 8:
+        other.data.uv_layers.new()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "x.blend"))
+    ended = run(tmp_path / "x.blend", "--object", "Other", "--object", "Tree", "--separate", "--unwrap", "--save",
+                tmp_path / "y.blend")
+    assert [problem["name"] for problem in ended.answer["problems"]] == ["Other"]
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "y.blend"))
+    left = bpy.data.objects["Other"]
+    assert not left.data.reeb_parts.parts
+    assert not left.vertex_groups
+    assert not left.hide_render
+    assert len(bpy.data.collections["Parts of Tree"].objects) > 1
+    assert "Parts of Other" not in bpy.data.collections

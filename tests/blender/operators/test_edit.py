@@ -93,6 +93,29 @@ def test_merge_into_neighbour(obj, result):
     check(obj)
 
 
+def test_parts_that_are_nearest_to_each_other_merge_and_take_no_third(obj, result):
+    bpy.context.scene.reeb_parts.symmetry = False
+    result.detail = 0.75
+    before, count = numbers(obj.data), len(result.parts)
+    into = {}
+    for number in [p.number for p in result.parts]:
+        choose(result, number)
+        bpy.ops.reeb_parts.merge_neighbour()
+        (into[number],) = set(numbers(obj.data)[before == number].tolist())
+        bpy.ops.reeb_parts.release(everything=True)
+        assert (numbers(obj.data) == before).all()
+    low, high = next(pair for pair in into.items() if pair == (into[pair[1]], pair[1]))
+    choose(result, low, high)
+    bpy.ops.reeb_parts.merge_neighbour()
+    assert len(result.parts) == count - 1
+    assert len(set(numbers(obj.data)[np.isin(before, [low, high])].tolist())) == 1
+    result.detail = 0.75
+    choose(result, *into)  # all at once: groups of those that are nearest
+    bpy.ops.reeb_parts.merge_neighbour()
+    assert 1 <= len(result.parts) < count / 2
+    check(obj)
+
+
 def test_split_and_merge_again(obj, result):
     result.n_parts = 2
     before = numbers(obj.data)

@@ -113,6 +113,18 @@ def test_a_copy_has_a_slider_of_its_own(obj):
     activate(obj)
 
 
+def test_a_copy_that_takes_the_name_of_its_original_has_a_slider_of_its_own(obj):
+    bpy.ops.reeb_parts.decompose()
+    obj.reeb_parts_made.explode = 1.0
+    bpy.ops.object.duplicate()
+    twin, name = bpy.context.object, obj.name
+    obj.name, twin.name = "Former", name
+    twin.reeb_parts_made.explode = 0.5
+    assert shown(twin) == pytest.approx(expected(obj, 0.5), abs=1e-4)
+    assert shown(obj) == pytest.approx(expected(obj, 1.0), abs=1e-4)
+    activate(obj)
+
+
 def test_pieces_are_not_exploded(obj):
     bpy.ops.reeb_parts.decompose()
     obj.reeb_parts_made.explode = 1.0

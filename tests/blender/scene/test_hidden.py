@@ -117,3 +117,19 @@ def test_parts_that_border_on_none_are_filled_instead_of_outlined(make, package)
 def test_parts_with_an_outline_are_not_filled(obj, result, package):
     highlight = importlib.import_module(f"{package}.viewport.highlight")
     assert not len(highlight.without_outline(obj, [result.parts[1].number]))
+
+
+@pytest.mark.parametrize("way", ["hide", "isolate"])
+def test_the_graph_of_hidden_parts_is_hidden_and_not_pointed_at(obj, result, package, way):
+    pointing = importlib.import_module(f"{package}.viewport.pointing")
+    shown = len(pointing.model_of(obj).shown_lines.segments)
+    nodes = [item for item in bpy.data.objects if item.get("reeb_parts_role") == "node"]
+    seen = [node.name for node in nodes if not node["folded"]]
+    choose(result, 1)
+    getattr(bpy.ops.reeb_parts, way)()
+    left = len(pointing.model_of(obj).shown_lines.segments)
+    assert left == len(pointing.Model(obj).shown_lines.segments) < shown
+    assert len([node for node in nodes if not node["folded"]]) < len(seen)
+    bpy.ops.reeb_parts.isolate(show_all=True)
+    assert len(pointing.model_of(obj).shown_lines.segments) == shown
+    assert [node.name for node in nodes if not node["folded"]] == seen

@@ -112,3 +112,16 @@ def test_a_group_deleted_by_hand_comes_back_and_leaves_no_vertex_in_another(obj,
         for part in result.parts:
             faces = [f for f in obj.data.polygons if numbers[f.index] == part.number]
             assert members(obj, part.group) == {v: 1.0 for f in faces for v in f.vertices}
+
+
+def test_a_part_has_its_own_material_not_a_linked_one_of_its_name(obj, tmp_path):
+    bpy.data.libraries.write(str(tmp_path / "library.blend"), {bpy.data.materials.new("Part 01")}, fake_user=True)
+    bpy.data.materials.remove(bpy.data.materials["Part 01"])
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, wanted):
+        wanted.materials = ["Part 01"]
+    (linked,) = wanted.materials
+    obj.data.materials.append(linked)
+    bpy.ops.reeb_parts.decompose(materials=True)
+    used = {obj.data.materials[polygon.material_index] for polygon in obj.data.polygons}
+    assert linked not in used
+    assert len(used) == len(obj.data.reeb_parts.parts)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapes
 from mathutils import Matrix, Vector
-from results import numbers
+from results import numbers, same_partition
 from snapshot import activate, check_undo, snapshot
 
 
@@ -255,6 +255,18 @@ def test_face_sets_painted_by_hand_become_parts(obj, result):
     # The ball is not connected with the rest of part 1: it is a part of its own.
     (other,) = set(after[ball].tolist())
     assert other not in (before[ball][0], new)
+
+
+def test_many_face_sets_are_as_many_parts(make):
+    """A plane of 25 squares of 18 faces."""
+    bpy.context.scene.reeb_parts.symmetry = False
+    obj = make(shapes.flat_grid(15, 15))
+    bpy.ops.reeb_parts.decompose(face_sets=True)
+    sets = (np.floor(centers(obj)[:, :2] / 3) @ (1, 5)).astype(np.int32)
+    obj.data.attributes[".sculpt_face_set"].data.foreach_set("value", 100 + sets)
+    bpy.ops.reeb_parts.from_face_sets()
+    assert same_partition(numbers(obj.data), sets)
+    assert len(obj.data.reeb_parts.parts) == 25
 
 
 def test_rays_meet_the_surface_as_it_is_shown(obj, result, package):
