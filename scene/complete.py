@@ -118,7 +118,8 @@ def _obj(path: Path, counts: Counts) -> bool:
             return False
     if len(corners) != counts.corners:
         return False
-    named = set(re.findall(rb"^usemtl (.*)$", text, re.M))
+    # An empty slot of materials has no name.
+    named = set(re.findall(rb"^usemtl (.+)$", text, re.M))
     library = path.with_suffix(".mtl")
     materials = library.read_bytes() if library.exists() else b"\n"
     _, *blocks = re.split(rb"^newmtl ", materials, flags=re.M)

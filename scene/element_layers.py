@@ -149,3 +149,6 @@ def _set_weights(mesh: bpy.types.Mesh, weights: Ragged) -> None:
         runs = zip(group[first].tolist(), weight[first].tolist(), first.tolist(), end.tolist(), strict=True)
         for index, value, here, there in runs:
             groups[index].add(vertices[here:there], value, "REPLACE")
+        if not len(first):  # where no vertex has ever had a weight, a shape key works as if it had no group
+            groups[0].add([0], 0.0, "REPLACE")
+            groups[0].remove([0])

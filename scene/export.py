@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import bpy
@@ -72,27 +73,45 @@ def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, It
     paths = []
     for obj, wanted in objects:
         pieces = _separated(obj, wanted) if separated else _parts(obj, wanted, close, cut)
-        with removed(bpy.data.meshes, *pieces.values()), nothing_selected(bpy.context.view_layer):
+        with _removed(pieces), nothing_selected(bpy.context.view_layer):
             if kind == "3mf" or one_file:
                 paths.append(_write(files, folder / f"{names.free(obj.name)}.{kind}", obj, pieces, kind))
                 continue
-            for name, mesh in pieces.items():
-                paths.append(_write(files, folder / f"{names.free(name)}.{kind}", obj, {name: mesh}, kind))
+            for name, piece in pieces.items():
+                paths.append(_write(files, folder / f"{names.free(name)}.{kind}", obj, {name: piece}, kind))
     return paths
 
 
 def _parts(obj: bpy.types.Object, wanted: Iterable[int] | None, close: bool,
-           cut: str) -> dict[str, bpy.types.Mesh]:
-    """New meshes of parts, all without ``wanted``, by their names."""
+           cut: str) -> dict[str, bpy.types.Object]:
+    """New objects of parts, all without ``wanted``, by their names."""
     face_numbers = store.load(obj.data).face_numbers
     numbers = sorted(set(face_numbers.tolist()) if wanted is None else wanted)
     stretch = None if cut == "FACES" else bridge.world_stretch(obj)
     meshes = piece_meshes(obj.data, face_numbers, numbers, close, stretch, cut == "PLANAR").meshes
-    return {part_names.piece_name(obj, number): meshes[number] for number in numbers}
+    return {name: _stand_in(name, meshes[number], obj) for number in numbers
+            for name in [part_names.piece_name(obj, number)]}
 
 
-def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str, bpy.types.Mesh]:
-    """Copies of the meshes of an object's pieces, and of their dowels, by their names, in its coordinates."""
+def _stand_in(name: str, mesh: bpy.types.Mesh, source: bpy.types.Object) -> bpy.types.Object:
+    """A new object in no scene, which shows the shape keys of its mesh as another one does."""
+    item = bpy.data.objects.new(name, mesh)
+    if mesh.shape_keys is not None:
+        item.show_only_shape_key = source.show_only_shape_key
+        item.active_shape_key_index = source.active_shape_key_index
+    return item
+
+
+@contextmanager
+def _removed(pieces: dict[str, bpy.types.Object]) -> Iterator[None]:
+    """Remove objects and their meshes once they have been used."""
+    meshes = [piece.data for piece in pieces.values()]
+    with removed(bpy.data.meshes, *meshes), removed(bpy.data.objects, *pieces.values()):
+        yield
+
+
+def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str, bpy.types.Object]:
+    """Copies of an object's pieces, and of their dowels, by their names, with meshes in its coordinates."""
     bpy.context.view_layer.update()  # pieces made just now do not know where they are
     numbers = None if wanted is None else set(wanted)
     pieces, dowels = ([item for item in items if numbers is None or piece_objects.is_of(item, numbers)]
@@ -100,17 +119,18 @@ def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str,
     if not pieces:
         raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(name=obj.name))
     to_object = placing.world_matrix(obj).inverted_safe()
-    meshes = {}
+    copies = {}
     for piece in (*pieces, *dowels):
-        meshes[piece.name] = copy = piece.data.copy()
-        copy.transform(to_object @ piece.matrix_world)
-    return meshes
+        mesh = piece.data.copy()
+        mesh.transform(to_object @ piece.matrix_world, shape_keys=True)
+        copies[piece.name] = _stand_in(piece.name, mesh, piece)
+    return copies
 
 
-def _write(files: WholeFiles, path: Path, obj: bpy.types.Object, pieces: dict[str, bpy.types.Mesh],
+def _write(files: WholeFiles, path: Path, obj: bpy.types.Object, pieces: dict[str, bpy.types.Object],
            kind: str) -> Path:
-    """Write meshes, by their names, as one file; returns its path."""
-    with files.writing(path, complete.model(list(pieces.values()), kind), alone=True) as place:
+    """Write pieces, by their names, as one file; returns its path."""
+    with files.writing(path, complete.model([piece.data for piece in pieces.values()], kind), alone=True) as place:
         if kind == "3mf":
             write_3mf(place, [Assembly(obj.name, _bodies(obj, pieces))])
         else:
@@ -118,17 +138,17 @@ def _write(files: WholeFiles, path: Path, obj: bpy.types.Object, pieces: dict[st
     return path
 
 
-def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Mesh]) -> tuple[Body, ...]:
-    """Meshes in the place of an object as bodies of a 3MF file, in the colors of their parts."""
+def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object]) -> tuple[Body, ...]:
+    """Pieces in the place of an object as bodies of a 3MF file, in the colors of their parts."""
     world = np.array(placing.world_matrix(obj), np.float64)
     mirrored = np.linalg.det(world[:3, :3]) < 0
     colors = {part_names.piece_name(obj, part.number): part.color[:] for part in obj.data.reeb_parts.parts}
     numbers = {piece.name: piece[piece_objects.NUMBER] for piece in piece_objects.piece_objects(obj)}
     of_number = part_names.number_colors(obj.data)
     bodies = []
-    for name, mesh in pieces.items():
-        points = mesh_arrays.basis_points(mesh).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
-        triangles = mesh_arrays.triangles(mesh)[0].astype(np.int64)
+    for name, piece in pieces.items():
+        points = mesh_arrays.shown_points(piece).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
+        triangles = mesh_arrays.triangles(piece.data)[0].astype(np.int64)
         color = colors.get(name) or tuple(of_number[numbers[name], :3].tolist() if name in numbers else _PLAIN)
         bodies.append(Body(name, color, points * millimeters(), triangles[:, ::-1] if mirrored else triangles))
     return tuple(bodies)
@@ -148,22 +168,45 @@ def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], pat
     assemblies = []
     for obj in objects:
         pieces = _separated(obj, None) if separated else _parts(obj, None, True, cut)
-        with removed(bpy.data.meshes, *pieces.values()):
+        with _removed(pieces):
             assemblies.append(Assembly(obj.name, _bodies(obj, pieces)))
     with files.writing(path, complete.model([], "3mf")) as place:
         write_3mf(place, assemblies)
 
 
-def _export(obj: bpy.types.Object, meshes: dict[str, bpy.types.Mesh], path: Path, kind: str) -> None:
-    """Write meshes, by their names, in the place of an object as a file."""
-    pieces = [bpy.data.objects.new(name, mesh) for name, mesh in meshes.items()]
-    with removed(bpy.data.objects, *pieces):
-        for piece in pieces:
-            bpy.context.scene.collection.objects.link(piece)
+def _export(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object], path: Path, kind: str) -> None:
+    """Write pieces in the place of an object as a file."""
+    scene = bpy.context.scene.collection
+    with _named(pieces):
+        for piece in pieces.values():
+            scene.objects.link(piece)
             placing.put(piece, placing.world_matrix(obj))
             piece.select_set(True)
             bpy.context.view_layer.objects.active = piece
-        EXPORTERS[kind](str(path))
+        try:
+            EXPORTERS[kind](str(path))
+        finally:
+            for piece in pieces.values():
+                scene.objects.unlink(piece)
+
+
+@contextmanager
+def _named(pieces: dict[str, bpy.types.Object]) -> Iterator[None]:
+    """Lend pieces their names, which the objects that they were copied from have."""
+    changed: list[tuple[bpy.types.Object, str]] = []
+    try:
+        for name, piece in pieces.items():
+            if piece.name != name:
+                holder, own = bpy.data.objects.get((name, None)), piece.name  # None: of this file
+                if holder is None:  # the name is too long for an object
+                    continue
+                changed += [(holder, name), (piece, own)]
+                holder.name = f"{own} "  # any that is free
+                piece.name = name
+        yield
+    finally:
+        for item, name in reversed(changed):
+            item.name = name
 
 
 class FileNames:

@@ -230,3 +230,68 @@ def test_pieces_are_written_as_they_were_separated(obj, tmp_path):
         bpy.ops.wm.stl_import(filepath=str(path))
         found = np.array([bpy.context.object.matrix_world @ v.co for v in bpy.context.object.data.vertices])
         assert np.sort(found, axis=0)[[0, -1]] == pytest.approx(np.sort(wanted, axis=0)[[0, -1]], abs=1e-4)
+
+
+def bounds_of(points):
+    return np.sort(points, axis=0)[[0, -1]]
+
+
+@pytest.mark.parametrize("separated", [False, True])
+@pytest.mark.parametrize("kind", [*IMPORT, "3mf"])
+def test_the_shape_keys_that_are_seen_are_written(obj, tmp_path, kind, separated):
+    """One that stretches the upper half to a side, by half; of another none is left."""
+    obj.location, obj.scale = (1, 2, 3), (2, 2, 2)
+    obj.shape_key_add(name="Basis")
+    stretched, other = (obj.shape_key_add(name=name) for name in ("Stretched", "Other"))
+    group = obj.vertex_groups.new(name="Upper")
+    group.add([vertex.index for vertex in obj.data.vertices if vertex.co.z > 0.5], 0.5, "REPLACE")
+    for index, vertex in enumerate(obj.data.vertices):
+        stretched.data[index].co, other.data[index].co = vertex.co * 3, vertex.co * 0.1
+    stretched.value, other.value = 1.0, 0.0
+    if kind != "glb":  # which knows no groups of shape keys
+        stretched.vertex_group = "Upper"
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    wanted = bounds_of(np.array([obj.matrix_world @ vertex.co for vertex in seen.data.vertices]))
+    if separated:
+        bpy.ops.reeb_parts.separate(hide=False)
+    before = snapshot()
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format=kind, separated=separated, one_file=True)
+    assert snapshot() == before
+    (file,) = tmp_path.glob(f"Tree.{kind}")
+    if kind == "3mf":
+        bodies, (item,) = read_3mf(file)
+        found = (np.concatenate([body.vertices for body in bodies]) + item) / 1000
+        assert np.ptp(found, axis=0) == pytest.approx(np.ptp(wanted, axis=0), rel=1e-4)
+        return
+    bpy.ops.wm.read_homefile(use_empty=True)
+    IMPORT[kind](str(file))
+    bpy.context.view_layer.update()
+    pieces = [item for item in bpy.data.objects if item.type == "MESH"]
+    evaluated = [(item, item.evaluated_get(bpy.context.evaluated_depsgraph_get()).data) for item in pieces]
+    found = np.array([item.matrix_world @ vertex.co for item, mesh in evaluated for vertex in mesh.vertices])
+    if kind == "obj":  # written with Y up, and read as it is
+        found = np.stack([found[:, 0], -found[:, 2], found[:, 1]], axis=1)
+    assert bounds_of(found) == pytest.approx(wanted, abs=1e-3)
+
+
+@pytest.mark.parametrize("slots", [(None,), ("Red", None)])
+def test_empty_slots_of_materials_are_written(obj, tmp_path, slots):
+    for name in slots:
+        obj.data.materials.append(name and bpy.data.materials.new(name))
+    for polygon in obj.data.polygons:
+        polygon.material_index = int(polygon.center.x > 0)
+    bpy.ops.reeb_parts.decompose()
+    assert bpy.ops.reeb_parts.export(directory=str(tmp_path), format="obj") == {"FINISHED"}
+    assert len(list(tmp_path.glob("*.obj"))) == len(obj.data.reeb_parts.parts)
+
+
+@pytest.mark.parametrize("kind", ["obj", "glb"])
+def test_separated_pieces_have_their_own_names_in_a_file(obj, tmp_path, kind):
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    bpy.ops.reeb_parts.separate(joints="DOWEL", hide=False)
+    names = {piece.name for piece in bpy.data.collections["Parts of Tree"].objects}
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format=kind, separated=True, one_file=True)
+    bpy.ops.wm.read_homefile(use_empty=True)
+    IMPORT[kind](str(tmp_path / f"Tree.{kind}"))
+    assert {piece.name.replace("_", " ") for piece in bpy.data.objects if piece.type == "MESH"} == names
