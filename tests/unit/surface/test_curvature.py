@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.curvature import k_min
+from core.surface.curvature import curvature_across, k_min
 from core.surface.mesh import TriMesh
 
 
@@ -75,3 +75,15 @@ def test_flat_faces_and_borders_give_finite_values():
     for shape in (shapes.with_flat_faces(shapes.icosphere(2)), shapes.with_fin(shapes.box()),
                   shapes.unjoined(shapes.box()), shapes.with_unused_vertices(shapes.box())):
         assert np.isfinite(k_min(TriMesh(*shape))).all()
+
+
+def test_across_edges_it_is_positive_on_ridges_and_negative_in_grooves():
+    """A cross of blocks: its outer edges are ridges, the four where its bars meet are grooves."""
+    vertices, quads = shapes.cross_of_blocks(4, 4)
+    mesh = TriMesh(vertices, shapes.split_quads(quads))
+    turn = mesh.dihedral
+    for across in curvature_across(mesh, (1e-3, 0.02)):
+        sharp = np.abs(turn) > 1.0
+        assert sharp.sum() > 50
+        assert (turn[sharp] < 0).sum() >= 8
+        assert (np.sign(across[sharp]) == np.sign(turn[sharp])).all()

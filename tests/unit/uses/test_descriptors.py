@@ -6,7 +6,8 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
-from core.uses.descriptors import NAMES, SCALE, distances, part_descriptors
+from core.surface.mesh import TriMesh
+from core.uses.descriptors import NAMES, SCALE, _Surface, distances, part_descriptors
 
 
 @pytest.fixture(scope="module")
@@ -82,3 +83,17 @@ def test_every_part_has_one_like_it_in_another_tessellation(tree):
 def test_the_distance_is_the_mean_of_scaled_differences():
     one = np.zeros(len(NAMES))
     assert distances(one, np.stack([one, SCALE, -2 * SCALE])).tolist() == pytest.approx([0, 1, 2])
+
+
+def test_depth_is_the_way_from_the_cuts_of_the_own_part():
+    """A strip of eight squares, the last three of which are another part; a square is as wide as the way to the next."""
+    vertices, quads = shapes.flat_cells([(x, 0) for x in range(8)])
+    mesh = TriMesh(vertices, quads)
+    part = (mesh.face_centroids[:, 0] > 5).astype(int)
+    depth = _Surface(mesh, part, np.zeros(mesh.n_vertices), 2).depth()
+    nearest = [mesh.face_centroids[(part == own) & (np.abs(mesh.face_centroids[:, 0] - 5) < 1)] for own in (0, 1)]
+    for face, own in enumerate(part):
+        straight = np.linalg.norm(mesh.face_centroids[face] - nearest[own], axis=1).min()
+        assert straight - 1e-9 <= depth[face] <= 1.7 * straight + 1e-9
+    assert depth.max() > 4
+    assert (_Surface(mesh, np.zeros(mesh.n_faces, int), np.zeros(mesh.n_vertices), 1).depth() == 0).all()
