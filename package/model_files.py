@@ -8,12 +8,15 @@ import re
 import subprocess
 import tempfile
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
 from .core.errors import ReebError
 from .core.sentence import Sentence
+from .core.surface.ears import without_folds
+from .whole_files import readable
 
 #: Files that Blender alone can read, see ``blender_export``.
 BY_BLENDER = (".blend", ".fbx")
@@ -43,7 +46,8 @@ class Model:
     faces : (m, 3) int64
         Triangles; in the order of the file, polygons cut into triangles.
     polygon : (m,) int64
-        Face to which each triangle belongs. Where the reader cuts polygons itself, each triangle is a face.
+        Face of the file to which each triangle belongs; in files other than .obj, .blend and .fbx, whose readers cut
+        polygons themselves, each triangle is a face.
     up : str
         "y" or "z", the axis that is up in files of its kind.
     """
@@ -92,40 +96,67 @@ def read_model(path: str | Path, blender: str | Path | None = None) -> Model:
     if kind not in formats():
         known = ", ".join((*formats(), *BY_BLENDER))
         raise NoReaderError(Sentence("{path} is none of {known}.", path=path, known=known))
+    reader = {ARRAYS: _read_arrays, ".obj": _read_obj}.get(kind, _read_by_trimesh)
     try:
-        vertices, faces = _read_arrays(path) if kind == ARRAYS else _read_by_trimesh(path)
+        vertices, faces, polygon = reader(path)
     except MemoryError:
         raise
     except Exception as error:  # noqa: BLE001 - whatever a reader of damaged files raises
         raise _unreadable(path, error) from error
     if not len(faces):
         raise ModelFileError(Sentence("There is no mesh in {path}.", path=path))
-    return Model(path.stem, vertices, faces, np.arange(len(faces)), "z" if kind in Z_UP else "y")
+    return Model(readable(path.stem), vertices, faces, polygon, "z" if kind in Z_UP else "y")
 
 
-def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices and triangles of NumPy's own file."""
+def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and their polygons of NumPy's own file."""
     with np.load(path, allow_pickle=False) as data:
-        return data["vertices"].astype(np.float64), data["faces"].astype(np.int64)
+        faces = data["faces"].astype(np.int64)
+        return data["vertices"].astype(np.float64), faces, np.arange(len(faces))
 
 
-def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices and triangles of all meshes of a file, in its order."""
+def _read_obj(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and their polygons of an .obj.
+
+    trimesh cuts polygons into fans and puts all second halves of quads behind the first; it gets triangles, which are
+    cut again where a fan is folded.
+    """
+    sizes: list[int] = []
+
+    def fan(face: re.Match[bytes]) -> bytes:
+        """Lines of the triangles of a line with a face."""
+        first, *others = face[1].split() or (b"",)
+        if len(others) < 2:
+            return b""
+        sizes.append(1 + len(others))
+        return b"\n".join(b"f %b %b %b" % (first, *two) for two in pairwise(others))
+
+    # Lines that go on in the next one are one; materials and groups would sort the faces.
+    text = re.sub(rb"\\\r?\n", b"", path.read_bytes())
+    text = re.sub(rb"(?m)^[ \t]*(usemtl|mtllib|g|o|s)\b.*$", b"", text)
+    if not re.search(rb"(?m)^f(?:[ \t]+[^\s]+){4}", text):
+        return _read_by_trimesh(path, text)
+    vertices, faces, _ = _read_by_trimesh(path, re.sub(rb"(?m)^f[ \t](.*)$", fan, text))
+    corners = np.array(sizes)
+    return vertices, without_folds(vertices, faces, corners), np.repeat(np.arange(len(corners)), corners - 2)
+
+
+def _read_by_trimesh(path: Path, data: bytes | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices and triangles of all meshes of a file, in its order, each a polygon. data : what is in it."""
     import trimesh
 
-    # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
-    options = {"process": False, "maintain_order": True}
-    if path.suffix.lower() == ".obj":
-        # Materials and groups would sort the faces.
-        plain = re.sub(rb"(?m)^[ \t]*(usemtl|mtllib|g|o|s)\b.*$", b"", path.read_bytes())
-        scene = trimesh.load_scene(io.BytesIO(plain), file_type="obj", **options)
-    else:
-        scene = trimesh.load_scene(path, **options)
+    # It takes names of meshes from that of the file, and not every one is UTF-8.
+    resolver = trimesh.resolvers.FilePathResolver(path)
+    resolver.file_name = readable(path.name)
+    with path.open("rb") if data is None else io.BytesIO(data) as stream:
+        # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
+        scene = trimesh.load_scene(stream, path.suffix[1:].lower(), resolver, process=False, maintain_order=True)
     meshes = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]
     first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     faces = [mesh.faces + start for mesh, start in zip(meshes, first, strict=False)]
-    return (np.concatenate([np.empty((0, 3)), *(mesh.vertices for mesh in meshes)]),
-            np.concatenate([np.empty((0, 3), np.int64), *faces]))
+    triangles = np.concatenate([np.empty((0, 3), np.int64), *faces])
+    return (np.concatenate([np.empty((0, 3)), *(mesh.vertices for mesh in meshes)]), triangles,
+            np.arange(len(triangles)))
 
 
 def _read_by_blender(path: Path, blender: str | Path | None) -> Model:
@@ -147,7 +178,7 @@ def _read_by_blender(path: Path, blender: str | Path | None) -> Model:
             if done.returncode or not out.is_file():
                 raise RuntimeError((done.stderr.strip() or done.stdout.strip()).splitlines()[-1:])
             with np.load(out, allow_pickle=False) as data:
-                return Model(path.stem, data["vertices"], data["triangles"], data["polygon"], "z")
+                return Model(readable(path.stem), data["vertices"], data["triangles"], data["polygon"], "z")
         except NoReaderError:
             raise
         except (OSError, RuntimeError, ValueError, KeyError) as error:

@@ -32,6 +32,19 @@ def as_output_error(path: Path) -> Iterator[None]:
                                        reason=error.strerror or error)) from error
 
 
+def readable(name: str | Path) -> str:
+    """A name of a file as a text for JSON and tables: the same if it can be, else with its strange bytes as \\xdf.
+
+    Systems other than Windows allow names that are no UTF-8, such as those that old archives bring along.
+    """
+    text = str(name)
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return os.fsencode(text).decode(errors="backslashreplace")
+    return text
+
+
 def write_files(files: dict[Path, bytes], read: Path) -> None:
     """Write files beside their places, all of them, then put each in its place.
 

@@ -13,6 +13,7 @@ from ..errors import EmptyMeshError, MeshError
 from ..sentence import Sentence
 from .arguments import corners, positions, whole_numbers
 from .arrays import expanded, frozen
+from .ears import without_folds
 from .mesh import TriMesh, check_corners
 
 if TYPE_CHECKING:
@@ -63,7 +64,8 @@ class PolygonMesh:
         vertices : (n, 3) array_like of float
             Positions, in any unit of length.
         faces : (p, k) array_like of int, or a sequence of p index sequences
-            Vertices of each polygon. A polygon is cut into the triangles that its first corner forms with its sides.
+            Vertices of each polygon. A polygon is cut into the triangles that its first corner forms with its sides, or
+            by ``without_folds`` where these would lie on each other.
         polygon : (m,) array_like of int, optional
             For a caller who has cut polygons into triangles already: ``faces`` are then (m, 3) triangles, and this
             is the polygon of each.
@@ -80,8 +82,10 @@ class PolygonMesh:
         EmptyMeshError
             There are fewer than MIN_FACES polygons, or the surface has no area.
         """
+        sizes = None
         if polygon is None:
-            faces, polygon, n_polygons = _fan(faces)
+            faces, polygon, sizes = _fan(faces)
+            n_polygons = len(sizes)
         else:
             faces, polygon, n_polygons = _numbered(faces, polygon)
         if n_polygons == 0:
@@ -91,6 +95,8 @@ class PolygonMesh:
         if vertices.ndim:  # or TriMesh says what they are
             check_corners(faces, len(vertices), polygon)
         triangles, exponent = _normalized(TriMesh(vertices, faces))
+        if sizes is not None and (cut := without_folds(triangles.vertices, faces, sizes)) is not faces:
+            triangles = TriMesh(triangles.vertices, cut)
         mesh = cls(triangles, frozen(polygon, np.int64), n_polygons, exponent)
         mesh._check_size()
         return mesh
@@ -139,16 +145,13 @@ def _numbered(faces: ArrayLike, polygon: ArrayLike) -> tuple[np.ndarray, np.ndar
     return flat.reshape(-1, 3), number, int(number.max(initial=-1)) + 1
 
 
-def _fan(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray, int]:
-    """Triangles of polygons, (m, 3), the polygon of each triangle, (m,), and the number of polygons."""
+def _fan(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Triangles of polygons, (m, 3), the polygon of each, (m,), and how many corners each polygon has, (p,)."""
     flat, sizes = corners(faces)
-    if not len(sizes):
-        return np.empty((0, 3), np.int64), np.empty(0, np.int64), 0
     if (sizes < 3).any():
         bad = np.flatnonzero(sizes < 3)
         raise MeshError(
             Sentence("{n} {n:face has|faces have} fewer than three corners.", n=len(bad)), faces=bad)
     start = np.cumsum(sizes) - sizes
     polygon, corner = expanded(start, sizes - 2)
-    places = np.stack([start[polygon], corner + 1, corner + 2], axis=1)
-    return flat[places], polygon, len(sizes)
+    return flat[np.stack([start[polygon], corner + 1, corner + 2], axis=1)], polygon, sizes

@@ -16,6 +16,7 @@ from urllib.parse import unquote
 
 from ..core.parameters import Parameters
 from ..core.result.decomposition import VERSION
+from ..whole_files import readable
 
 FORMAT = 1  # version of what a record holds
 RECORD = "record.json"
@@ -118,8 +119,8 @@ def is_done(path: Path, folder: Path, settings: Settings, retry: bool = False) -
 
 def failure(name: str, status: str, reason: str, settings: str, digest: str = "") -> dict[str, Any]:
     """The record of a model that could not be decomposed."""
-    return {"format": FORMAT, "name": name, "status": status, "reason": reason, "settings": settings, "digest": digest,
-            "files": {}, "model": {}, "parts": []}
+    return {"format": FORMAT, "name": name, "status": status, "reason": readable(reason), "settings": settings,
+            "digest": digest, "files": {}, "model": {}, "parts": []}
 
 
 def records(folders: list[tuple[str, Path]]) -> Iterator[dict[str, Any]]:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from ..core.errors import ReebError
 from ..core.sentence import Sentence
+from ..whole_files import readable
 from .records import RECORD, read_record
 
 
@@ -28,7 +29,7 @@ class Source:
     path : Path
         Absolute.
     name : str
-        Its path below the root of the batch, with slashes: what its results are called.
+        Its path below the root of the batch, with slashes: what its results are called; see ``readable``.
     """
 
     path: Path
@@ -70,7 +71,8 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     if outside:
         raise SourceError(Sentence("{n} {n:model is|models are} not in {root} (first: {first}).", n=len(outside),
                                    root=root, first=outside[0]))
-    return sorted((Source(path, path.relative_to(root).as_posix()) for path in paths), key=lambda source: source.name)
+    named = (Source(path, readable(path.relative_to(root).as_posix())) for path in paths)
+    return sorted(named, key=lambda source: source.name)
 
 
 def _paths(place: str, kinds: tuple[str, ...]) -> Iterator[Path]:

@@ -12,7 +12,7 @@ from typing import Any
 import pyarrow as pa
 from pyarrow import parquet
 
-from ..whole_files import HIDDEN
+from ..whole_files import HIDDEN, readable
 from .records import RECORD
 
 ROWS = 5_000  # rows that are kept in memory before they are written
@@ -63,7 +63,7 @@ def write_tables(out: Path, rows: Iterable[tuple[dict[str, Any], Path, Path]]) -
 
 def _model_row(record: dict[str, Any], path: Path, folder: Path) -> dict[str, Any]:
     """The row of a model."""
-    return {**record["model"], "name": record["name"], "path": str(path), "folder": str(folder),
+    return {**record["model"], "name": record["name"], "path": readable(path), "folder": readable(folder),
             "status": record["status"], "reason": record["reason"],
             "files": [name for name in record["files"] if name != RECORD], "digest": record["digest"],
             "settings": record["settings"]}

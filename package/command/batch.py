@@ -30,7 +30,7 @@ from ..core.sentence import Sentence
 from ..core.uses.options import add_parameters, chosen_parameters
 from ..model_files import BY_BLENDER, formats
 from ..outputs import COLORED, LABELS, PARTS
-from ..whole_files import as_output_error, remove_leftovers, write_folder
+from ..whole_files import as_output_error, readable, remove_leftovers, write_folder
 
 NEEDED = ("distributed", "pyarrow", "tqdm", "psutil")
 INTERRUPTED = 130
@@ -188,7 +188,8 @@ class _Batch:
         counted = dict(statuses)
         page = write_page(self.out, f"{len(self.sources)} models", rows(), len(self.sources), self.sources[0].path)
         return {"models": counted, "kept": self.kept, "files": {
-            "models": str(models), "parts": str(parts), "page": str(page), "folders": str(self.out / "models")}}
+            "models": readable(models), "parts": readable(parts), "page": readable(page),
+            "folders": readable(self.out / "models")}}
 
 
 def _memory() -> int:

@@ -32,7 +32,7 @@ from ..outputs import (
     part_files,
     picture_bytes,
 )
-from ..whole_files import OutputFileError, write_files
+from ..whole_files import OutputFileError, readable, write_files
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -90,7 +90,7 @@ def _run(options: argparse.Namespace) -> int:
                 Sentence("{path} would be written twice. Give each file a name of its own.", path=path))
         places.add(place)
         files[path] = data
-        return str(path)
+        return readable(path)
 
     written: dict[str, str | list[str]] = {}
     if options.labels:
@@ -104,7 +104,7 @@ def _run(options: argparse.Namespace) -> int:
         made = part_files(model, parts, options.parts_format)
         written["parts"] = [add(options.parts / name, data) for name, data in made.items()]
     if options.json:
-        written["json"] = str(options.json)
+        written["json"] = readable(options.json)
     answer = json_bytes(model_document(model, result, parts, files=written))
     if options.json:
         add(options.json, answer)

@@ -470,3 +470,24 @@ def test_places_without_models_are_refused(places, root, words, models, tmp_path
     monkeypatch.chdir(models)
     with pytest.raises(SourceError, match=words):
         find_sources(places, (".ply",), tmp_path, root and models / root)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")
+def test_a_file_whose_name_is_no_utf8_is_a_model_as_any_other(tree, reeb_parts_command, tmp_path):
+    save(tree, tmp_path / "models" / "tree.ply")
+    odd = Path(os.fsdecode(os.fsencode(tmp_path) + b"/models/Stra\xdfe.ply"))
+    shutil.copy(tmp_path / "models" / "tree.ply", odd)
+    odd.with_name(f"torn {odd.name}").write_text("ply\nnonsense")
+    done = reeb_parts_command("batch", tmp_path / "models", "--out", tmp_path / "out", "--parts", "ply", *LOCAL)
+    assert json.loads(done.stdout)["models"] == {"done": 2, "unreadable": 1}, done.stderr
+    table = {row["name"]: row for row in rows(tmp_path / "out" / "models.parquet")}
+    assert set(table) == {"tree.ply", r"Stra\xdfe.ply", r"torn Stra\xdfe.ply"}
+    assert table[r"Stra\xdfe.ply"]["n_parts"] == table["tree.ply"]["n_parts"]
+    assert r"Stra\xdfe.ply could not be read" in table[r"torn Stra\xdfe.ply"]["reason"]
+    assert r"Stra\\xdfe.ply" in (tmp_path / "out" / "index.html").read_text(encoding="utf-8")
+    done = reeb_parts_command("decompose", odd, "--json", tmp_path / "odd.json", "--labels", odd.with_suffix(".npy"))
+    assert done.returncode == 0, done.stderr
+    answer = json.loads(done.stdout)
+    assert answer["objects"][0]["name"] == r"Stra\xdfe"
+    assert answer["files"]["labels"].endswith(r"Stra\xdfe.npy")
+    assert odd.with_suffix(".npy").is_file()

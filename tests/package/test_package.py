@@ -138,6 +138,28 @@ def test_an_obj_with_materials_and_texture_seams_keeps_the_order_of_its_faces(tm
     assert (model.vertices[model.faces] == vertices[faces]).all()
 
 
+@pytest.mark.parametrize("corner", ["{0}", "{0}/1", "{0}//2", "{0}/1/2"])
+def test_polygons_of_an_obj_are_faces_and_concave_ones_are_cut_right(corner, tmp_path):
+    square = [(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)]  # with a notch, so that no fan of corner 0 is right
+    vertices = np.array([(x, y, z) for z in (0, 1) for x, y in square], float)
+    sides = [[i, (i + 1) % 5, 5 + (i + 1) % 5, 5 + i] for i in range(4)]
+    faces = [[0, 4, 3, 2, 1], [5, 6, 7, 8, 9], *sides, [4, 0, 5], [4, 5, 9]]
+    lines = [*(f"v {x} {y} {z}" for x, y, z in vertices), "vt 0 0", "vn 0 0 1", "vn 0 1 0", "g some"]
+    lines += ["f " + " ".join(corner.format(place + 1) for place in face) for face in faces]
+    lines[-3] = lines[-3].replace(" ", " \\\n", 3)  # goes on in the next line
+    path = tmp_path / "model.obj"
+    path.write_text("\n".join(lines))
+    model = reeb_parts.read_model(path)
+    assert model.polygon.tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 7]
+    for polygon, face in enumerate(faces):
+        used = model.vertices[model.faces[model.polygon == polygon]].reshape(-1, 3)
+        assert {tuple(place) for place in used} == {tuple(place) for place in vertices[face]}
+    parts = reeb_parts.decompose(model).parts()
+    assert len(parts.labels) == len(faces)
+    around = np.linalg.norm(np.roll(square, -1, axis=0) - square, axis=1).sum()
+    assert parts.area.sum() == pytest.approx(2 * 10 + around)
+
+
 def test_meshes_of_a_scene_come_in_their_places(tmp_path):
     scene = trimesh.Scene()
     for place in (0.0, 5.0):

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polygons that are not convex are covered once by their triangles, whichever corner comes first."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import decompose
+from core.metrics import rand_index_error
+from core.surface.arrays import cross, lengths
+from core.surface.polygons import PolygonMesh
+
+ARROW = [(0, 0), (2, 3), (0, 1.2), (-2, 3)]
+LETTER_H = [(0, 0), (1, 0), (1, 2), (3, 2), (3, 0), (4, 0), (4, 5), (3, 5), (3, 3), (1, 3), (1, 5), (0, 5)]
+#: A square with a hole, tied to the outside along an edge that is there twice; two corners there are one point.
+KEYHOLE = [(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)]
+#: An L with corners in the middle of its sides.
+STRAIGHT = [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (0, 1)]
+
+
+def outline(corners, first=0):
+    return np.roll(np.array(corners, float), -first, axis=0)
+
+
+def extruded(corners, first=0, height=1.0):
+    """A solid between two copies of an outline, as vertices and polygons; the caps begin with another corner."""
+    n = len(corners)
+    flat = np.array(corners, float)
+    vertices = np.vstack([np.c_[flat, np.zeros(n)], np.c_[flat, np.full(n, height)]])
+    cap = np.roll(np.arange(n), -first).tolist()
+    sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    return vertices, [cap[::-1], [n + i for i in cap], *sides]
+
+
+def signed_areas(points, triangles):
+    """Twice the area of triangles in the plane."""
+    a, b, c = (points[column] for column in triangles.T)
+    return np.cross(np.c_[b - a, np.zeros(len(a))], np.c_[c - a, np.zeros(len(a))])[:, 2]
+
+
+def cut(points, turn=None):
+    """Triangles of one polygon, which is turned in space; three more faces make a mesh of it."""
+    n = len(points)
+    space = np.c_[points, np.zeros(n)] @ (np.eye(3) if turn is None else turn)
+    vertices = np.vstack([space, 9 * np.eye(3) + 20])
+    mesh = PolygonMesh.of(vertices, [list(range(n)), *[[n, n + 1, n + 2]] * 3])
+    return mesh.triangles.faces[mesh.polygon == 0]
+
+
+@pytest.mark.parametrize("first", range(10))
+@pytest.mark.parametrize("corners", [ARROW, LETTER_H, KEYHOLE, STRAIGHT])
+def test_concave_polygons_are_covered_once(corners, first):
+    points = outline(corners, first)
+    triangles = cut(points, shapes.rotation(np.random.default_rng(first)))
+    areas = signed_areas(points, triangles)
+    x, y = points.T
+    area = x @ np.roll(y, -1) - y @ np.roll(x, -1)
+    assert len(triangles) == len(points) - 2
+    assert (areas * np.sign(area) > -1e-9).all()
+    assert areas.sum() == pytest.approx(area)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_stars_are_covered_once(seed):
+    rng = np.random.default_rng(seed)
+    k = int(rng.integers(4, 60))
+    angle, reach = 2 * np.pi * (np.arange(k) + 0.9 * rng.random(k)) / k, 0.1 + rng.random(k)
+    points = np.stack([reach * np.cos(angle), reach * np.sin(angle)], axis=1)
+    areas = signed_areas(points, cut(points, shapes.rotation(rng)))
+    x, y = points.T
+    assert areas.min() > -1e-9
+    assert areas.sum() == pytest.approx(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+def test_a_concave_quad_is_cut_along_the_other_diagonal():
+    for first in range(4):
+        corners = [(first + i) % 4 for i in range(4)]
+        triangles = cut(outline(ARROW, first))
+        # Both triangles have the notch, which is corner 2, and the tip, corner 0.
+        assert all({0, 2} <= {corners[corner] for corner in triangle} for triangle in triangles.tolist())
+
+
+@pytest.mark.parametrize("corners", [
+    [(0, 0), (3, 3), (3, 0), (0, 1)],  # crosses itself, one half larger
+    [(0, 0), (1, 1), (1, 0), (0, 1)],  # of no area
+    [(0, 0), (2, 0), (2, 0), (2, 2), (2, 2), (0, 0)],  # corners there twice
+    [(0, 0), (4, 0), (2, 0), (3, 0)],  # on a line
+    [(np.cos(2.4 * i * np.pi / 3), np.sin(2.4 * i * np.pi / 3)) for i in range(5)],
+    [(1, 1)] * 6,
+])
+def test_degenerate_polygons_have_as_many_triangles_as_a_fan(corners):
+    assert cut(outline(corners)).shape == (len(corners) - 2, 3)
+
+
+def test_polygons_that_cross_themselves_keep_their_fans():
+    assert cut(outline([(0, 0), (3, 3), (3, 0), (0, 1)])).tolist() == [[0, 1, 2], [0, 2, 3]]
+
+
+def test_convex_polygons_keep_their_fans_also_when_corners_are_off_by_rounding():
+    angle = 2 * np.pi * np.arange(40) / 40
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    midpoints = (circle + np.roll(circle, -1, axis=0)) / 2
+    points = np.stack([circle, midpoints], axis=1).reshape(-1, 2).astype(np.float32).astype(np.float64)
+    assert cut(points).tolist() == [[0, i, i + 1] for i in range(1, 79)]
+
+
+def test_solids_of_concave_polygons_have_their_area_and_one_decomposition():
+    flat = np.array(LETTER_H, float)
+    x, y = flat.T
+    area = x @ np.roll(y, -1) - y @ np.roll(x, -1) + np.linalg.norm(np.roll(flat, -1, axis=0) - flat, axis=1).sum()
+    found = [decompose(*extruded(LETTER_H, first)).parts() for first in range(0, 12, 3)]
+    for parts in found:
+        assert parts.area.sum() == pytest.approx(area)
+        assert rand_index_error(parts.labels, found[0].labels) == 0
+
+
+def test_some_concave_polygons_among_others_leave_these_as_they_are():
+    vertices, faces = extruded(LETTER_H, 2)
+    mesh = PolygonMesh.of(vertices, faces)
+    sides = mesh.polygon >= 2
+    assert mesh.triangles.faces[sides].tolist() == [
+        triangle for a, b, c, d in faces[2:] for triangle in ([a, b, c], [a, c, d])]
+    normal = cross(*(np.diff(vertices[mesh.triangles.faces], axis=1)).transpose(1, 0, 2))
+    assert lengths(normal)[~sides].sum() / 2 == pytest.approx(2 * 12)
