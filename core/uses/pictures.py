@@ -13,7 +13,7 @@ from ..graph.reeb import ReebGraph
 from ..surface.arrays import expanded
 from ..surface.mesh import TriMesh
 
-CHUNK = 2_000_000  # pixels of faces that are looked at together
+CHUNK = 2_000_000  # pixels, of the picture, of faces or of discs, that are looked at together
 LIGHT = np.array([-0.4, 0.5, 0.76])  # direction to the light, in the picture's axes: right, up, to the viewer
 TILT = np.radians([25.0, 20.0])  # turn around the upright axis, then around the horizontal one
 #: Right, up and towards the viewer of a model that stands upright, by the name of its upward axis.
@@ -85,31 +85,41 @@ def picture(
     """
     axes = _tilted(UPRIGHT[up], -1.0) if up else _tilted(_principal_view(mesh))
     camera = _Camera.of(mesh.corners.reshape(-1, 3), axes, size * fine)
-    face = _nearest_faces(camera, mesh.corners)
+    place, height = (values.reshape(-1, 3, *values.shape[1:]) for values in camera.pixels(mesh.corners.reshape(-1, 3)))
+    discs = [] if graph is None else _graph_discs(camera, graph)
     light = 0.45 + 0.55 * np.abs(mesh.face_normals @ axes.T @ (LIGHT / np.linalg.norm(LIGHT)))
     shown = np.vstack([color * light[:, None], np.ones((1, 3))])  # the last is the background
-    image = shown[face].reshape(size * fine, size * fine, 3)
-    if graph is not None:
-        _draw_graph(image, camera, graph)
-    image = image.reshape(size, fine, size, fine, 3).mean(axis=(1, 3))
-    return (255 * image).round().astype(np.uint8)
+    image = np.empty((size, size, 3), np.uint8)
+    n_rows = max(CHUNK // (camera.size * fine), 1)
+    for top in range(0, size, n_rows):  # bands, so that a large picture needs little memory
+        rows = range(top * fine, min(top + n_rows, size) * fine)
+        band = shown[_nearest_faces(place, height, rows, camera.size)].reshape(len(rows), camera.size, 3)
+        for centers, *look in discs:
+            _draw_discs(band, centers - (0, rows.start), *look)
+        mean = band.reshape(-1, fine, size, fine, 3).mean(axis=(1, 3))
+        image[top:top + n_rows] = (255 * mean).round().astype(np.uint8)
+    return image
 
 
-def _nearest_faces(camera: _Camera, corners: np.ndarray) -> np.ndarray:
-    """Face that is seen at each pixel, row by row, (size**2,) int64; -1 for none. corners : (m, 3, 3)."""
-    place, height = (values.reshape(-1, 3, *values.shape[1:]) for values in camera.pixels(corners.reshape(-1, 3)))
-    first = np.ceil(place.min(axis=1)).astype(np.int64).clip(0, camera.size)
-    count = (np.floor(place.max(axis=1)).astype(np.int64) + 1).clip(0, camera.size) - first
+def _nearest_faces(place: np.ndarray, height: np.ndarray, rows: range, size: int) -> np.ndarray:
+    """Face that is seen at each pixel of some rows, row by row, (r * size,) int64; -1 for none.
+
+    place : (m, 3, 2) float64, column and row of each corner. height : (m, 3) float64, nearness. size : int, pixels in
+    a row.
+    """
+    low, high = np.array([0, rows.start]), np.array([size, rows.stop])
+    first = np.ceil(place.min(axis=1)).astype(np.int64).clip(low, high)
+    count = (np.floor(place.max(axis=1)).astype(np.int64) + 1).clip(low, high) - first
     n_pixels = count.clip(0).prod(axis=1)
-    seen, nearest = np.full(camera.size**2, -1), np.full(camera.size**2, -np.inf)
+    seen, nearest = np.full(len(rows) * size, -1), np.full(len(rows) * size, -np.inf)
     bounds = np.searchsorted(np.cumsum(n_pixels), np.arange(0, n_pixels.sum() + CHUNK, CHUNK))
-    for begin, end in zip(bounds, np.append(bounds[1:], len(corners)), strict=True):
+    for begin, end in zip(bounds, np.append(bounds[1:], len(place)), strict=True):
         face, step = expanded(np.zeros(end - begin, np.int64), n_pixels[begin:end])
         face = face + begin
         column, row = first[face, 0] + step % count[face, 0], first[face, 1] + step // count[face, 0]
         weight = _barycentric(place[face], np.stack([column, row], axis=1))
         depth = (weight * height[face]).sum(axis=1)
-        pixel = row * camera.size + column
+        pixel = (row - rows.start) * size + column
         there = (weight >= 0).all(axis=1) & (depth > nearest[pixel])
         order = np.flatnonzero(there)[np.argsort(depth[there], kind="stable")]
         # NumPy keeps the last: the nearest.
@@ -124,7 +134,7 @@ def _barycentric(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
         (corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], points - corners[:, 0]))
     with np.errstate(divide="ignore", invalid="ignore"):
         second, third = np.stack([x * by - y * bx, ax * y - ay * x]) / (ax * by - ay * bx)
-    weight = np.stack([1 - second - third, second, third], axis=1)
+        weight = np.stack([1 - second - third, second, third], axis=1)
     return np.where(np.isfinite(weight), weight, -1.0)
 
 
@@ -148,8 +158,8 @@ def _tilted(axes: np.ndarray, side: float = 1.0) -> np.ndarray:
     return over @ around @ axes
 
 
-def _draw_graph(image: np.ndarray, camera: _Camera, graph: ReebGraph) -> None:
-    """Draw arcs as lines and nodes as discs, the nearest last, into the picture."""
+def _graph_discs(camera: _Camera, graph: ReebGraph) -> list[tuple[np.ndarray, np.ndarray, float]]:
+    """Discs that draw arcs as lines and nodes, the nearest last: centers, (k, 2) int64, color, (3,), and radius."""
     ends = graph.node_position[graph.arcs]
     lines = [camera.pixels(np.vstack([
         ends[arc, :1], graph.point_position[graph.arc_points[arc]:graph.arc_points[arc + 1]], ends[arc, 1:]]))[0]
@@ -158,23 +168,26 @@ def _draw_graph(image: np.ndarray, camera: _Camera, graph: ReebGraph) -> None:
     count = np.ceil(np.linalg.norm(segments[:, 2:] - segments[:, :2], axis=1)).astype(np.int64) + 1
     which, step = expanded(np.zeros(len(segments), np.int64), count)
     share = (step / np.maximum(count[which] - 1, 1))[:, None]
-    _draw_discs(image, segments[which, :2] * (1 - share) + segments[which, 2:] * share,
-                np.array(ARC_COLOR), camera.size * ARC_WIDTH / 2)
+    discs = [(segments[which, :2] * (1 - share) + segments[which, 2:] * share, np.array(ARC_COLOR), ARC_WIDTH / 2)]
     pixel, nearness = camera.pixels(graph.node_position)
     order = np.argsort(nearness, kind="stable")
-    for place, kind in zip(pixel[order], graph.node_kind[order], strict=True):
-        _draw_discs(image, place[None], np.array(ARC_COLOR), camera.size * NODE_WIDTH / 2)
-        _draw_discs(image, place[None], NODE_COLORS[kind], camera.size * NODE_WIDTH / 3)
+    for place, kind in zip(pixel[order, None], graph.node_kind[order], strict=True):
+        discs += [(place, np.array(ARC_COLOR), NODE_WIDTH / 2), (place, NODE_COLORS[kind], NODE_WIDTH / 3)]
+    return [(np.unique(np.round(centers).astype(np.int64), axis=0), color, camera.size * radius)
+            for centers, color, radius in discs]
 
 
 def _draw_discs(image: np.ndarray, centers: np.ndarray, color: np.ndarray, radius: float) -> None:
-    """Fill discs of one color around centers, (k, 2) in columns and rows."""
+    """Fill discs of one color around centers, (k, 2) int64, columns and rows, which may lie outside."""
     reach = np.arange(-int(radius) - 1, int(radius) + 2)
     offset = np.stack(np.meshgrid(reach, reach), -1).reshape(-1, 2)
     offset = offset[(offset**2).sum(axis=1) <= radius**2]
-    pixel = (np.round(centers).astype(int)[:, None] + offset).reshape(-1, 2)
-    pixel = pixel[((pixel >= 0) & (pixel < len(image))).all(axis=1)]
-    image[pixel[:, 1], pixel[:, 0]] = color
+    centers = centers[(centers[:, 1] >= reach[0]) & (centers[:, 1] < len(image) - reach[0])]
+    several = max(CHUNK // len(offset), 1)
+    for begin in range(0, len(centers), several):
+        pixel = (centers[begin:begin + several, None] + offset).reshape(-1, 2)
+        pixel = pixel[((pixel >= 0) & (pixel < image.shape[1::-1])).all(axis=1)]
+        image[pixel[:, 1], pixel[:, 0]] = color
 
 
 def png(image: np.ndarray) -> bytes:

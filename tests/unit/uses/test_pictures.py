@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures: what is in front is seen, nothing is missed, and a shape fills what its outline says."""
 
+import tracemalloc
+import warnings
 import zlib
 
 import numpy as np
 import pytest
 import shapes
 
+from core import decompose
 from core.surface.mesh import TriMesh
 from core.uses import pictures
 from core.uses.pictures import picture, png
@@ -68,3 +71,32 @@ def test_a_png_holds_the_image():
     assert data[16:24] == (7).to_bytes(4, "big") + (5).to_bytes(4, "big")
     rows = np.frombuffer(zlib.decompress(data[data.index(b"IDAT") + 4:data.index(b"IEND") - 8]), np.uint8)
     assert (rows.reshape(5, 22)[:, 1:].reshape(5, 7, 3) == image).all()
+
+
+def test_large_pictures_are_drawn_in_bands_and_are_the_same(monkeypatch):
+    shape = shapes.tube_tree(step=0.2)
+    mesh, graph = TriMesh(*shape), decompose(*shape).graph
+    color = np.random.default_rng(0).random((mesh.n_faces, 3))
+    whole = picture(mesh, color, 90, "y", graph, fine=2)
+    monkeypatch.setattr(pictures, "CHUNK", 180 * 2 * 7)  # seven rows, which leaves six
+    assert np.array_equal(picture(mesh, color, 90, "y", graph, fine=2), whole)
+
+
+def test_memory_does_not_grow_with_the_picture(monkeypatch):
+    monkeypatch.setattr(pictures, "CHUNK", 100_000)
+    mesh = TriMesh(*shapes.icosphere(2))
+    tracemalloc.start()
+    try:
+        image = picture(mesh, np.tile(RED, (mesh.n_faces, 1)), 1000, "y", fine=2)
+        most = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert most < image.nbytes + 60e6  # four million pixels at once take 160 MB and more
+
+
+def test_faces_without_area_give_no_warning():
+    vertices, faces = shapes.icosphere(1)
+    flat = np.vstack([faces, [[0, 0, 1], [0, 1, 1], [2, 2, 2]]])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        picture(TriMesh(vertices, flat), np.tile(RED, (len(flat), 1)), 40)
