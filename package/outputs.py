@@ -13,7 +13,7 @@ import numpy as np
 
 from .core.result.decomposition import Decomposition, Parts
 from .core.surface.mesh import TriMesh
-from .core.uses.colors import part_colors
+from .core.uses.colors import linear, part_colors
 from .core.uses.pictures import picture, png
 from .core.uses.report import bounding_boxes, document, report
 from .meshes import face_colors
@@ -72,9 +72,9 @@ def colored_bytes(model: Model, parts: Parts, kind: str) -> bytes:
         colors = part_colors(parts.count, parts.cuts)
         for part, (vertices, faces) in enumerate(part_arrays(model, parts)):
             # Colors of materials are linear in this format.
-            linear = np.where(colors[part] <= 0.04045, colors[part] / 12.92, ((colors[part] + 0.055) / 1.055) ** 2.4)
             material = trimesh.visual.material.PBRMaterial(
-                name=parts.names[part], baseColorFactor=[*linear, 1.0], metallicFactor=0.0, roughnessFactor=0.8)
+                name=parts.names[part], baseColorFactor=[*linear(colors[part]), 1.0], metallicFactor=0.0,
+                roughnessFactor=0.8)
             mesh = trimesh.Trimesh(vertices, faces, process=False,
                                    visual=trimesh.visual.TextureVisuals(material=material))
             scene.add_geometry(mesh, node_name=parts.names[part], geom_name=parts.names[part])

@@ -17,9 +17,9 @@ import numpy as np
 from ..core.graph.fold import unfolded
 from ..core.graph.reeb import ReebGraph
 from ..core.result.numbering import NumberedParts
+from ..core.uses.colors import linear
 from . import bridge, mesh_arrays, part_names, store, transaction
 from .made import ROLE
-from .outputs.colors import linear
 from .temporary import remove_object
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
@@ -214,7 +214,7 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
         transaction.keep_keys(node, "part")
         transaction.keep(node, "color")
         node["part"] = numbers[node["node"]]
-        node.color = (*linear(colors[node["part"], :3].tolist()), 1.0)
+        node.color = (*linear(colors[node["part"], :3]), 1.0)
         _fold(node, not shown[node["node"]])
     _show_arcs(obj, graph, arcs_shown)
     update_names(obj)

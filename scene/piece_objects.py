@@ -17,6 +17,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from ..core.steps import Steps, finished, stretched
+from ..core.uses.colors import linear
 from . import (
     beds,
     bridge,
@@ -38,7 +39,6 @@ from . import (
     transaction,
 )
 from .errors import SceneError
-from .outputs.colors import linear
 from .part_meshes import making_pieces
 from .selection import in_layer
 from .settings import SeparateProperties

@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..result.numbering import NumberedParts, NumberGraph
 from ..surface.arrays import frozen
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 # The palette of Okabe and Ito without black, then the muted scheme of Paul Tol, in sRGB, 0..1. Both were made to stay
 # distinct under the common kinds of color blindness. Each of the later colors is the one that differs most from all
@@ -53,6 +57,15 @@ _DEFICIENCIES = np.array([
 ])
 
 
+def linear(colors: ArrayLike) -> np.ndarray:
+    """Turn sRGB, which people choose and files of faces use, into the linear RGB of light, materials and objects.
+
+    colors : array_like of float, 0..1. Returns float64 of the same shape.
+    """
+    colors = np.asarray(colors, np.float64)
+    return np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
+
+
 def distance_matrix(colors: np.ndarray = PALETTE) -> np.ndarray:
     """Measure how much each two colors differ for those who can tell them apart least.
 
@@ -67,8 +80,8 @@ def distance_matrix(colors: np.ndarray = PALETTE) -> np.ndarray:
         Smallest distance of two colors over normal, protanopic and deuteranopic vision: Euclidean, of the cube roots of
         linear RGB.
     """
-    linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
-    views = [linear] + [linear @ m.T for m in _DEFICIENCIES]
+    light = linear(colors)
+    views = [light] + [light @ m.T for m in _DEFICIENCIES]
     views = [np.cbrt(np.clip(view, 0.0, 1.0)) for view in views]  # equal steps of these look about equally large
     return np.min([np.linalg.norm(v[:, None] - v[None], axis=2) for v in views], axis=0)
 

@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import bpy
 import numpy as np
 
+from ...core.uses.colors import linear
 from .. import mesh_arrays, targets
 from ..modes import call_with
 from .kept_aside import add_attribute, remove_attribute
@@ -92,7 +91,7 @@ def _write_many(mesh: bpy.types.Mesh, attribute: bpy.types.Attribute, numbers: n
         return False
     name, chosen = attribute.name, (mesh.attributes.active_color_name, mesh.attributes.default_color_name)
     active = mesh.attributes.active.name if mesh.attributes.active else ""
-    exact = [(*linear(color), 1.0) for color in (np.floor(255.0 * colors[:, :3] + 0.5) / 255.0).tolist()]
+    exact = np.column_stack([linear(np.floor(255.0 * colors[:, :3] + 0.5) / 255.0), np.ones(len(colors))])
     made = mesh.attributes.new(name, "FLOAT_COLOR", "FACE").name
     done = False
     try:
@@ -116,8 +115,3 @@ def _spread(colors: np.ndarray, index: np.ndarray) -> np.ndarray:
     # A colour as one number of sixteen bytes is copied four times as fast as a row.
     whole = np.ascontiguousarray(colors, np.float32).view(np.complex128)[:, 0]
     return whole[index].view(np.float32)
-
-
-def linear(color: Iterable[float]) -> list:
-    """sRGB, which lists and vertex colors use, as what objects and materials are colored with."""
-    return [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color]

@@ -9,8 +9,8 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
+from ...core.uses.colors import linear
 from .. import mesh_arrays, transaction
-from .colors import linear
 from .kept_aside import PREFIX, bring_back, is_kept, keep_aside, remove_attribute
 
 _MATERIAL_INDEX = "material_index"
@@ -87,7 +87,7 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     mesh.polygons.foreach_set("material_index", slots[numbered.parts.labels])
 
 
-def _color_material(material: bpy.types.Material, color: list[float]) -> None:
+def _color_material(material: bpy.types.Material, color: np.ndarray) -> None:
     transaction.keep(material, "diffuse_color")
     material.diffuse_color = (*color, 1.0)
     for node in material.node_tree.nodes:
