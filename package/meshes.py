@@ -82,6 +82,7 @@ def decompose(vertices: Any, faces: Any = None, parameters: Parameters | Mapping
     EmptyMeshError
         The mesh has too few faces to have parts, or no area.
     """
+    _check_arguments(vertices, faces)
     if faces is None:
         mesh = vertices
         if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
@@ -89,6 +90,18 @@ def decompose(vertices: Any, faces: Any = None, parameters: Parameters | Mapping
         vertices, faces = np.asarray(mesh.vertices), mesh.faces
         polygon = getattr(mesh, "polygon", None) if polygon is None else polygon
     return pipeline.decompose(vertices, faces, parameters, polygon, progress, mirror=mirror, hints=hints)
+
+
+def _check_arguments(mesh: Any, faces: Any) -> None:
+    """Raise MeshError, which says what to give, for what is taken for vertices and faces by mistake."""
+    kind = type(mesh).__name__
+    if isinstance(faces, (Parameters, Mapping)):
+        raise MeshError(Sentence("Parameters are given by name: decompose(mesh, parameters=...)."))
+    if faces is not None and hasattr(mesh, "vertices"):
+        raise MeshError(Sentence("{type} has faces of its own: give it alone, or its vertices and other faces.",
+                                 type=kind))
+    if faces is None and hasattr(mesh, "to_mesh"):
+        raise MeshError(Sentence("{type} is no mesh: decompose what its to_mesh() gives.", type=kind))
 
 
 def face_colors(parts: Parts) -> np.ndarray:

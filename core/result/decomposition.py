@@ -16,6 +16,8 @@ from ..cuts.hierarchy import Hierarchy
 from ..errors import ParameterError
 from ..graph.reeb import ReebGraph
 from ..parameters import SEPARATE, Parameters, present_names
+from ..sentence import Sentence
+from ..surface.arguments import whole_numbers
 from ..surface.arrays import distinct_pairs, inverse, renumbered, sums_by
 from ..surface.labels import majority
 from ..surface.mirror_plane import MirrorPlane
@@ -294,8 +296,17 @@ class Decomposition:
         Returns
         -------
         parts : Parts
+
+        Raises
+        ------
+        ParameterError
+            They are not c whole numbers.
         """
-        _, part = renumbered(candidate_part)
+        groups = whole_numbers(candidate_part)
+        if groups is None or groups.shape != (self.n_candidates,):
+            raise ParameterError(Sentence("Groups must be {n} whole numbers, one for each candidate.",
+                                          n=self.n_candidates))
+        _, part = renumbered(groups)
         area = np.bincount(part, self.candidate_area)
         n_faces = np.bincount(self.candidates, minlength=self.n_candidates)
         middle = np.bincount(part, n_faces * self._face_order) / np.bincount(part, n_faces)

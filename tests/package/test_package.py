@@ -173,6 +173,7 @@ def test_meshes_of_a_scene_come_in_their_places(tmp_path):
 
 @pytest.mark.parametrize(("name", "text", "words"), [
     ("there_is_none.obj", None, "There is no file"),
+    ("", None, "is a folder, not a model"),
     ("model.xyzzy", "", "is none of"),
     ("damaged.ply", "ply\nformat nonsense", "could not be read"),
     ("empty.obj", "# nothing\n", "empty.obj"),
@@ -193,3 +194,15 @@ def test_the_mirror_of_a_half_model_reaches_core():
     expected = decompose(*half, mirror=(1.0, 0.0, 0.0, 0.0))
     assert (result.parts().labels == expected.parts().labels).all()
     assert (result.candidates != reeb_parts.decompose(mesh).candidates).any()
+
+
+def test_what_is_taken_for_faces_by_mistake_says_what_to_give(tree):
+    mesh = trimesh.Trimesh(*tree, process=False)
+    for parameters in (reeb_parts.Parameters(), {"detail": 0.5}):
+        with pytest.raises(reeb_parts.MeshError, match="parameters="):
+            reeb_parts.decompose(mesh, parameters)
+    with pytest.raises(reeb_parts.MeshError, match="Trimesh has faces of its own"):
+        reeb_parts.decompose(mesh, mesh.faces)
+    with pytest.raises(reeb_parts.MeshError, match="Scene is no mesh: decompose what its to_mesh"):
+        reeb_parts.decompose(trimesh.Scene([mesh]))
+    assert reeb_parts.decompose(trimesh.Scene([mesh]).to_mesh()).n_faces == len(tree.faces)

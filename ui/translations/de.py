@@ -795,6 +795,8 @@ TEXTS = {
     "Weights must be 0 or more, and not all of them 0.": "Gewichte müssen 0 oder mehr sein, und nicht alle 0.",
     "Faces must have shape (m, corners), not {shape}.": "Flächen müssen die Form (m, Ecken) haben, nicht {shape}.",
     "Face indices must be whole numbers, not {type}.": "Flächenindizes müssen ganze Zahlen sein, nicht {type}.",
+    "Groups must be {n} whole numbers, one for each candidate.":
+        "Gruppen müssen {n} ganze Zahlen sein, eine für jeden Kandidaten.",
     "Polygon numbers must be {n} whole numbers from 0, one per triangle.":
         "Polygonnummern müssen {n} ganze Zahlen ab 0 sein, eine je Dreieck.",
     "{name} must be one of {choices}, not {value}.": "{name} muss eines von {choices} sein, nicht {value}.",

@@ -76,6 +76,12 @@ def test_any_grouping():
     assert parts.cut_length.tolist() == [3]
 
 
+@pytest.mark.parametrize("groups", [[0], np.zeros(10_000, int), np.zeros((3, 2), int), "x", [0.5, 1, 2], None, 7])
+def test_a_grouping_that_is_none_is_refused(groups, tree):
+    with pytest.raises(ParameterError, match=r"Groups must be \d+ whole numbers, one for each candidate."):
+        tree.group(groups)
+
+
 def test_every_number_of_parts(tree):
     for n in range(tree.hierarchy.n_loose, tree.n_candidates + 1):
         parts = tree.parts(n_parts=n)
