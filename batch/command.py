@@ -127,6 +127,17 @@ def _claim(options: argparse.Namespace, files: WholeFiles) -> None:
             files.claim(path)
     if options.parts is not None:
         files.claim_folder(options.parts)
+    _check_kinds(options)
+    if options.parts is not None:
+        files.folder(options.parts)  # now, as nothing else tells whether it can be made
+
+
+def _check_kinds(options: argparse.Namespace) -> None:
+    """Raise SceneError if the name of a file says that it is something else."""
+    for option, kind in (("save", ".blend"), ("picture", ".png"), ("threemf", ".3mf")):
+        path = getattr(options, option)
+        if path is not None and path.suffix.lower() != kind:
+            raise SceneError(f"--{option} {path} must end in {kind}.")
 
 
 def _as_text(result: dict) -> str:
@@ -193,6 +204,8 @@ def _open(models: list[Path], unit: str | None) -> tuple[list, list[dict], dict]
 
 def _check_model(path: Path, kinds: tuple[str, ...]) -> None:
     """Raise SceneError if there is no file of that kind there."""
+    if path.is_dir():
+        raise SceneError(f"{path} is a folder, not a model.")
     if not path.is_file():
         raise SceneError(f"There is no file {path}.")
     if path.suffix.lower() not in kinds:

@@ -4,12 +4,10 @@
 from __future__ import annotations
 
 import argparse
-import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ..core.uses.options import add_parameters, dashed
+from ..core.uses.options import add_parameters, dashed, number
 from ..scene.settings import HintProperties, JointProperties, OutputProperties, OverlayProperties, SeparateProperties
 
 #: Lengths of units in meters, with what Blender calls them.
@@ -18,6 +16,7 @@ UNITS = {"m": (1.0, "METERS"), "cm": (0.01, "CENTIMETERS"), "mm": (0.001, "MILLI
 WITHOUT_UNIT = (".obj", ".ply", ".stl")
 #: Models that can be read besides scenes, see command.IMPORTERS.
 MODELS = (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
+PIXELS = number(16, 8192, int)
 
 
 def parser(description: str | None) -> argparse.ArgumentParser:
@@ -57,10 +56,10 @@ def _add_files(files: argparse._ArgumentGroup) -> None:
     files.add_argument("--threemf", type=Path, metavar="OUT.3mf",
                        help="all parts, closed, for slicers: one assembly for each object, with names and colors")
     files.add_argument("--picture", type=Path, metavar="OUT.png", help="a picture of the parts with the graph")
-    files.add_argument("--picture-turn", type=_number(-36000.0, 36000.0), default=0.0, metavar="DEGREES",
+    files.add_argument("--picture-turn", type=number(-36000.0, 36000.0), default=0.0, metavar="DEGREES",
                        help="turn its camera, which looks at the front, around the objects")
     files.add_argument("--picture-size", type=_size, default=(960, 540), metavar="WxH",
-                       help="its width and height in pixels (default: 960x540)")
+                       help="its width and height in pixels, 16 to 8192 each (default: 960x540)")
 
 
 def _add_uses(uses: argparse._ArgumentGroup) -> None:
@@ -73,7 +72,7 @@ def _add_uses(uses: argparse._ArgumentGroup) -> None:
     uses.add_argument("--cap-material", action="store_true",
                       help="close them, and give the new faces a material of their own, Cap")
     _add_pegs(uses)
-    uses.add_argument("--bed", nargs=3, type=_number(1.0, 100000.0), metavar=("X", "Y", "Z"),
+    uses.add_argument("--bed", nargs=3, type=number(1.0, 100000.0), metavar=("X", "Y", "Z"),
                       help="cut them further where they do not fit into a box of so many millimeters")
     uses.add_argument("--unwrap", action="store_true", help="a UV map with an island for each part")
     uses.add_argument("--armature", action="store_true", help="a bone for each part, and weights to pose it with")
@@ -95,7 +94,7 @@ def _add_pegs(uses: argparse._ArgumentGroup) -> None:
                          ("clearance", "joint_clearance"), ("wall", "joint_wall")):
         words = joint[name].keywords
         uses.add_argument(f"--peg-{option}", dest=name, default=words["default"], metavar="N",
-                          type=_number(words["min"], words["max"]), help=words["description"])
+                          type=number(words["min"], words["max"]), help=words["description"])
 
 
 def _add_outputs(outputs: argparse._ArgumentGroup) -> None:
@@ -107,7 +106,7 @@ def _add_outputs(outputs: argparse._ArgumentGroup) -> None:
             words["choices"] = [item[0] for item in prop.keywords["items"]]
             words["default"] = words["choices"][0]
         else:
-            words |= {"type": _number(prop.keywords["min"], prop.keywords["max"]), "metavar": "N"}
+            words |= {"type": number(prop.keywords["min"], prop.keywords["max"]), "metavar": "N"}
         outputs.add_argument(f"--{dashed(name)}", **words)
 
 
@@ -132,21 +131,11 @@ def _default(name: str) -> object:
     return prop.keywords["default"]
 
 
-def _number(low: float, high: float) -> Callable[[str], float]:
-    """What reads a number from low to high; argparse turns the error into a sentence."""
-
-    def number(text: str) -> float:
-        value = float(text)
-        if not (math.isfinite(value) and low <= value <= high):
-            raise argparse.ArgumentTypeError(f"must be a number from {low} to {high}, not {text}")
-        return value
-
-    return number
-
-
 def _size(text: str) -> tuple[int, int]:
     """Width and height out of "960x540"; argparse turns the error into a sentence."""
-    width, height = (int(number) for number in text.split("x"))
-    if not (16 <= width <= 8192 and 16 <= height <= 8192):
-        raise ValueError
-    return width, height
+    width, _, height = text.partition("x")
+    try:
+        return int(PIXELS(width)), int(PIXELS(height))
+    except argparse.ArgumentTypeError as error:
+        raise argparse.ArgumentTypeError(
+            f"must be two whole numbers from 16 to 8192 with an x between them, such as 960x540, not {text}") from error

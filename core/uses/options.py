@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import argparse
+import math
+from collections.abc import Callable
 from dataclasses import fields, replace
 
 from ..parameters import PRESETS, RENAMED, Parameters, present_names
@@ -64,3 +66,33 @@ def chosen_parameters(options: argparse.Namespace) -> tuple[Parameters, tuple[Se
 def dashed(name: str) -> str:
     """Name of the option for a name in Python: dashes for underscores."""
     return name.replace("_", "-")
+
+
+def number(low: float, high: float = math.inf, kind: type[float] | type[int] = float) -> Callable[[str], float]:
+    """Make what reads a number of an option.
+
+    Parameters
+    ----------
+    low, high : float
+        The least and the largest number that it takes.
+    kind : type
+        float, or int for whole numbers.
+
+    Returns
+    -------
+    read : callable(str) -> float
+        Raises ``argparse.ArgumentTypeError``, of which argparse makes a sentence; neither infinity nor nan is a number.
+    """
+    name = "a whole number" if kind is int else "a number"
+    limits = f"{name} from {low:g} to {high:g}" if math.isfinite(high) else f"{name}, {low:g} or more"
+
+    def read(text: str) -> float:
+        try:
+            value = kind(text)
+            if math.isfinite(value) and low <= value <= high:
+                return value
+        except (ValueError, OverflowError):
+            pass
+        raise argparse.ArgumentTypeError(f"must be {limits}, not {text}")
+
+    return read

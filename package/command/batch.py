@@ -27,7 +27,7 @@ from ..batch.records import CRASH, DONE, OPEN, RECORD, Settings, failure, is_don
 from ..batch.sources import Source, find_sources, read_list
 from ..core.errors import ReebError
 from ..core.sentence import Sentence
-from ..core.uses.options import add_parameters, chosen_parameters
+from ..core.uses.options import add_parameters, chosen_parameters, number
 from ..model_files import BY_BLENDER, formats
 from ..outputs import COLORED, LABELS, PARTS
 from ..whole_files import as_output_error, readable, remove_leftovers, write_folder
@@ -59,15 +59,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     files.add_argument("--thumbnail", type=int, choices=(64, 96, 128, 192, 256), default=128,
                        help="pixels along a side of the pictures (default: %(default)s)")
     run = parser.add_argument_group("how to run")
-    run.add_argument("--workers", type=_count, default=os.cpu_count() or 1, metavar="N",
+    run.add_argument("--workers", type=number(1, kind=int), default=os.cpu_count() or 1, metavar="N",
                      help="processes on this machine (default: one for each processor, %(default)s)")
     run.add_argument("--scheduler", metavar="ADDRESS", help="use the Dask cluster that is there instead, such as "
                      "tcp://host:8786; its workers have this package and see the same folders")
-    run.add_argument("--dashboard", default="127.0.0.1:8787", metavar="ADDRESS",
+    run.add_argument("--dashboard", type=_address, default="127.0.0.1:8787", metavar="ADDRESS",
                      help="where Dask's dashboard is shown (default: %(default)s)")
-    run.add_argument("--memory-limit", type=float, metavar="GIB", help="memory of one model (default: that of the "
+    run.add_argument("--memory-limit", type=number(0), metavar="GIB", help="memory of one model (default: that of the "
                      "machine, divided by the number of its workers)")
-    run.add_argument("--time-limit", type=float, default=600.0, metavar="SECONDS",
+    run.add_argument("--time-limit", type=number(0), default=600.0, metavar="SECONDS",
                      help="time of one model, 0 for any (default: %(default)g)")
     run.add_argument("--retry", action="store_true", help="also try models again that were refused before")
     add_parameters(parser.add_argument_group("parameters"))
@@ -130,7 +130,7 @@ class _Batch:
                        if not is_done(source.path, self.folder(source), self.settings, self.options.retry)]
         self.kept = len(self.sources) - len(waiting)
         if self.kept:
-            _say(f"{self.kept} of {len(self.sources)} models are done already.")
+            _say(f"{self.kept} of {_models(len(self.sources))} {'is' if self.kept == 1 else 'are'} done already.")
         if not waiting:
             return
         # Dask takes long to import, and a look at what is done needs none of it.
@@ -186,10 +186,15 @@ class _Batch:
         statuses: Counter[str] = Counter()
         models, parts = write_tables(self.out, rows())
         counted = dict(statuses)
-        page = write_page(self.out, f"{len(self.sources)} models", rows(), len(self.sources), self.sources[0].path)
+        page = write_page(self.out, _models(len(self.sources)), rows(), len(self.sources), self.sources[0].path)
         return {"models": counted, "kept": self.kept, "files": {
             "models": readable(models), "parts": readable(parts), "page": readable(page),
             "folders": readable(self.out / "models")}}
+
+
+def _models(count: int) -> str:
+    """So many models."""
+    return Sentence("{n} {n:model|models}", n=count)
 
 
 def _memory() -> int:
@@ -199,11 +204,12 @@ def _memory() -> int:
     return psutil.virtual_memory().total
 
 
-def _count(text: str) -> int:
-    """A whole number of one or more; argparse turns the error into a sentence."""
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text} is no whole number of one or more")
-    return int(text)
+def _address(text: str) -> str:
+    """A host and a port, or a port; argparse turns the error into a sentence."""
+    port = text.rpartition(":")[2]
+    if not port.isdecimal() or int(port) > 65535:
+        raise argparse.ArgumentTypeError(f"{text} is no address such as 127.0.0.1:8787")
+    return text
 
 
 def _kinds(suffixes: tuple[str, ...]) -> tuple[str, ...]:

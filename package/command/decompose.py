@@ -18,7 +18,7 @@ from pathlib import Path
 
 from ..core.memory import keep_freed_memory
 from ..core.sentence import Sentence
-from ..core.uses.options import add_parameters, chosen_parameters
+from ..core.uses.options import add_parameters, chosen_parameters, number
 from ..meshes import decompose
 from ..model_files import read_model
 from ..outputs import (
@@ -51,8 +51,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                        help="format of those files (default: %(default)s)")
     files.add_argument("--picture", type=_file_of((".png",)), metavar="OUT.png",
                        help="a picture of the parts with the graph")
-    files.add_argument("--picture-size", type=int, default=640, metavar="N",
-                       help="its width and height in pixels (default: %(default)s)")
+    files.add_argument("--picture-size", type=number(16, 4096, int), default=640, metavar="N",
+                       help="its width and height in pixels, 16 to 4096 (default: %(default)s)")
     add_parameters(parser.add_argument_group("parameters"))
 
 
@@ -98,8 +98,8 @@ def _run(options: argparse.Namespace) -> int:
     if options.colored:
         written["colored"] = add(options.colored, colored_bytes(model, parts, options.colored.suffix.lower()))
     if options.picture:
-        size = min(max(options.picture_size, 16), 8192)
-        written["picture"] = add(options.picture, picture_bytes(model, result, parts, size))
+        data = picture_bytes(model, result, parts, options.picture_size)
+        written["picture"] = add(options.picture, data)
     if options.parts:
         made = part_files(model, parts, options.parts_format)
         written["parts"] = [add(options.parts / name, data) for name, data in made.items()]

@@ -16,6 +16,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ..core.sentence import Sentence
+from ..core.uses.options import number as number_option
 from ..whole_files import write_files
 from .batch import MissingPackageError
 
@@ -24,7 +25,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options to a parser."""
     parser.add_argument("results", type=Path, help="folder of the results of reeb-parts batch")
     parser.add_argument("part", type=_part, metavar="PART", help="such as cow.obj:3")
-    parser.add_argument("--count", type=int, default=20, metavar="N", help="how many (default: %(default)s)")
+    parser.add_argument("--count", type=number_option(1, kind=int), default=20, metavar="N",
+                        help="how many (default: %(default)s)")
     parser.add_argument("--other-models", action="store_true", help="leave out the parts of the same model")
     parser.add_argument("--page", type=Path, metavar="OUT.html", help="a page with a picture of each")
 
@@ -36,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
     from ..batch.similar import page, similar_parts
 
     model, number = options.part
-    parts = similar_parts(options.results, model, number, max(options.count, 1), options.other_models)
+    parts = similar_parts(options.results, model, number, options.count, options.other_models)
     if options.page:
         write_files({options.page: page(options.results, parts).encode()}, options.results / "parts.parquet")
     sys.stdout.write(json.dumps({"part": parts[0], "similar": parts[1:]}, indent=2) + "\n")

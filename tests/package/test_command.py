@@ -138,3 +138,10 @@ def test_ctrl_c_ends_it_with_130_and_nothing_is_written(request, model, tmp_path
     out, err = process.communicate(timeout=60)
     assert (process.returncode, out, list(tmp_path.iterdir())) == (130, "", [])
     assert err.splitlines()[-1] == "reeb-parts: Interrupted."
+
+
+@pytest.mark.parametrize("size", ["15", "4097", "-1", "nan", "640x480"])
+def test_a_picture_has_a_size_in_its_range(size, model, reeb_parts_command, tmp_path):
+    done = reeb_parts_command("decompose", model, "--picture", tmp_path / "x.png", f"--picture-size={size}")
+    assert (done.returncode, done.stdout, list(tmp_path.iterdir())) == (2, "", [])
+    assert done.stderr.endswith(f"--picture-size: must be a whole number from 16 to 4096, not {size}\n")

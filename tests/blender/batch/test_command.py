@@ -190,6 +190,14 @@ def test_numbers_out_of_range_are_refused(run, model, option, value):
     assert option in ended.err
 
 
+@pytest.mark.parametrize("size", ["15x100", "100x8193", "100", "100x", "axb", "100x100x100", "nanx16"])
+def test_a_picture_has_a_size_in_its_range(run, model, tmp_path, size):
+    ended = run(model, "--picture", tmp_path / "x.png", "--picture-size", size)
+    assert (ended.status, ended.out) == (2, "")
+    assert (f"--picture-size: must be two whole numbers from 16 to 8192 with an x between them, such as 960x540, "
+            f"not {size}") in ended.err
+
+
 @pytest.mark.parametrize(("moment", "number"), [
     ("mesh 0%", signal.SIGINT), ("cuts", signal.SIGTERM), ("files", signal.SIGINT)])
 def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, moment, number):

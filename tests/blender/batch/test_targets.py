@@ -88,6 +88,29 @@ def test_a_model_that_is_a_folder(run, tmp_path, name):
     refused(run, tmp_path, [], name, "--json", tmp_path / "x.json")
 
 
+def test_a_folder_given_as_model_is_said_to_be_one(run, model, tmp_path):
+    refused(run, tmp_path, [f"{tmp_path} is a folder, not a model."], tmp_path, "--json", tmp_path / "x.json")
+    (tmp_path / "scene.blend").mkdir()
+    refused(run, tmp_path, ["scene.blend is a folder"], tmp_path / "scene.blend", "--json", tmp_path / "x.json")
+
+
+@pytest.mark.parametrize(("option", "name", "kind"), [
+    ("--save", "a.txt", ".blend"), ("--save", "a", ".blend"), ("--threemf", "a.txt", ".3mf"),
+    ("--picture", "p.jpg", ".png")])
+def test_a_file_named_as_another_kind(run, model, tmp_path, option, name, kind):
+    refused(run, tmp_path, [f"{option} {tmp_path / name} must end in {kind}."], model, option, tmp_path / name)
+
+
+def test_a_folder_that_cannot_be_made_is_refused_before_anything_is_computed(run, model, tmp_path):
+    ended = run(model, "--parts", "/proc/none/parts")
+    assert (ended.status, ended.out) == (1, "")
+    assert "/proc/none/parts could not be written" in ended.err
+    assert "mesh 0%" not in ended.err
+    # One that could be made is gone again when nothing comes of the run.
+    assert run(tmp_path / "none.obj", "--parts", tmp_path / "new" / "parts").status == 1
+    assert not (tmp_path / "new").exists()
+
+
 def test_links_to_files_are_followed_and_stay(run, model, tmp_path):
     (tmp_path / "latest.json").symlink_to(tmp_path / "answer.json")
     (tmp_path / "answer.json").write_text("old")
