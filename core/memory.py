@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a process that does nothing but decompose tells the allocator of its memory."""
+"""What a process that does nothing but decompose tells the allocator of its memory, and how a lack of it shows."""
 
 from __future__ import annotations
 
 import ctypes
+import re
 import sys
 
 # Of the GNU C library's malloc.h: how many blocks come from the system one by one, and how much memory that is free at
@@ -27,3 +28,12 @@ def keep_freed_memory() -> bool:
         return False
     mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
     return mallopt is not None and bool(mallopt(_M_MMAP_MAX, 0)) and bool(mallopt(_M_TRIM_THRESHOLD, 2**31 - 1))
+
+
+def lacks_memory(words: str) -> bool:
+    """Whether the words of an error, or the last ones of a process, mean that there was no memory left.
+
+    Not everything says so by a MemoryError: a thread gets no stack, and BLAS ends the process.
+    """
+    return re.search("can't start new thread|MemoryError|Memory allocation|Cannot allocate memory|bad_alloc", words
+                     ) is not None

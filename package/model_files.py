@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import io
+import os
 import re
 import subprocess
 import tempfile
@@ -14,9 +15,10 @@ from pathlib import Path
 import numpy as np
 
 from .core.errors import ReebError
+from .core.memory import lacks_memory
 from .core.sentence import Sentence
 from .core.surface.ears import without_folds
-from .whole_files import readable
+from .whole_files import HIDDEN, readable
 
 #: Files that Blender alone can read, see ``blender_export``.
 BY_BLENDER = (".blend", ".fbx")
@@ -66,7 +68,7 @@ def formats() -> tuple[str, ...]:
     return (*sorted(f".{name}" for name in mesh_formats() if name != "stl_ascii"), ARRAYS)
 
 
-def read_model(path: str | Path, blender: str | Path | None = None) -> Model:
+def read_model(path: str | Path, blender: str | Path | None = None, temporary: str | Path | None = None) -> Model:
     """Read a model.
 
     Parameters
@@ -75,6 +77,8 @@ def read_model(path: str | Path, blender: str | Path | None = None) -> Model:
         A file of a kind in ``formats()``, or one that Blender reads.
     blender : str or Path, optional
         A Blender, to read .blend and .fbx.
+    temporary : str or Path, optional
+        Folder for the temporary files of that; the system's own without.
 
     Returns
     -------
@@ -89,10 +93,12 @@ def read_model(path: str | Path, blender: str | Path | None = None) -> Model:
     """
     path = Path(path)
     kind = path.suffix.lower()
+    if path.is_dir():
+        raise ModelFileError(Sentence("{path} is a folder, not a model.", path=path))
     if not path.is_file():
         raise ModelFileError(Sentence("There is no file {path}.", path=path))
     if kind in BY_BLENDER:
-        return _read_by_blender(path, blender)
+        return _read_by_blender(path, blender, temporary)
     if kind not in formats():
         known = ", ".join((*formats(), *BY_BLENDER))
         raise NoReaderError(Sentence("{path} is none of {known}.", path=path, known=known))
@@ -102,6 +108,8 @@ def read_model(path: str | Path, blender: str | Path | None = None) -> Model:
     except MemoryError:
         raise
     except Exception as error:  # noqa: BLE001 - whatever a reader of damaged files raises
+        if lacks_memory(str(error)):
+            raise MemoryError from error
         raise _unreadable(path, error) from error
     if not len(faces):
         raise ModelFileError(Sentence("There is no mesh in {path}.", path=path))
@@ -159,19 +167,21 @@ def _read_by_trimesh(path: Path, data: bytes | None = None) -> tuple[np.ndarray,
             np.arange(len(triangles)))
 
 
-def _read_by_blender(path: Path, blender: str | Path | None) -> Model:
+def _read_by_blender(path: Path, blender: str | Path | None, temporary: str | Path | None) -> Model:
     """Model of a file that a Blender reads; z is up then."""
     if blender is None:
         raise NoReaderError(Sentence("{path} can be read by Blender only. Say where it is with --blender.", path=path))
     script = Path(__file__).with_name("blender_export.py")
-    with tempfile.TemporaryDirectory(prefix="reeb_parts_") as folder:
+    with tempfile.TemporaryDirectory(prefix=HIDDEN, dir=temporary) as folder:
         out = Path(folder) / "model.npz"
         command = [str(blender), "--background", "--factory-startup", "--python-exit-code", "1", "--python",
                    str(script), "--", str(path.resolve()), str(out)]
+        # What Blender itself leaves there, should it be killed, is found with the folder.
+        variables = {**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)}
         try:
             try:
                 done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                                      errors="replace", check=False)
+                                      errors="replace", check=False, env=variables)
             except OSError as error:
                 raise NoReaderError(Sentence("{path} could not be read, as {blender} could not be started: {reason}",
                                              path=path, blender=blender, reason=error.strerror or error)) from error

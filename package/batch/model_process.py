@@ -21,6 +21,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
+from ..core.memory import lacks_memory
 from .records import CRASH, MEMORY, TIME, Settings, digest_of, failure
 
 LOOK = 0.5  # seconds between two looks at the memory of the process
@@ -72,7 +73,7 @@ class ModelProcess:
     def _attempt(self, job: dict[str, Any], seconds: float) -> tuple[str, str]:
         """Wait for the answer; what went wrong otherwise and why, two empty words if nothing did."""
         if self._process is None and (why := self._start_surely()):
-            return CRASH, f"The process could not start: {why}"
+            return self._crash("The process could not start: ", why)
         assert self._process is not None
         assert self._process.stdin is not None
         with suppress(BrokenPipeError):  # it has ended meanwhile, as the next message says
@@ -150,7 +151,11 @@ class ModelProcess:
         if status == -9:
             return CRASH, "The process was killed, perhaps for lack of memory."
         cause = signal.Signals(-status).name if status < 0 else f"exit status {status}"
-        return CRASH, f"The process crashed ({cause}): {self._last_words()}"
+        return self._crash(f"The process crashed ({cause}): ", self._last_words())
+
+    def _crash(self, what: str, words: str) -> tuple[str, str]:
+        """What the end of a process means that said some words."""
+        return (MEMORY, self._too_much()) if lacks_memory(words) else (CRASH, what + words)
 
     def _last_words(self) -> str:
         """The first line of what the process printed last."""

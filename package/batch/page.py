@@ -41,6 +41,7 @@ function text(tag, words, kind) {
   if (kind) element.className = kind;
   return element;
 }
+function seconds(value) { return value < 10 ? Number(value.toPrecision(2)) : Math.round(value); }
 function card(model) {
   const figure = document.createElement('figure'), caption = document.createElement('figcaption');
   const link = document.createElement('a');
@@ -52,7 +53,8 @@ function card(model) {
   } else link.append(text('div', model.status, 'none'));
   caption.append(text('b', model.name), document.createElement('br'));
   if (model.status === 'done')
-    caption.append(`${model.parts} parts, ${model.faces.toLocaleString('en')} faces, ${model.seconds} s`);
+    caption.append(`${model.parts} ${model.parts === 1 ? 'part' : 'parts'}, ` +
+                   `${model.faces.toLocaleString('en')} faces, ${seconds(model.seconds)} s`);
   else { figure.className = 'failed'; caption.append(text('span', model.status + ': ' + model.reason, 'reason')); }
   figure.append(link, caption);
   return figure;

@@ -6,16 +6,19 @@ from __future__ import annotations
 import json
 import time
 import traceback
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import ReebError
+from ..core.memory import lacks_memory
 from ..core.result.decomposition import Decomposition, Parts
+from ..core.sentence import Sentence
 from ..core.uses.descriptors import part_descriptors
 from ..meshes import decompose
 from ..model_files import Model, ModelFileError, NoReaderError, read_model
 from ..outputs import colored_bytes, json_bytes, labels_bytes, model_document, part_files, picture_bytes
-from ..whole_files import write_folder
+from ..whole_files import OutputFileError, as_output_error, write_folder
 from .records import DONE, ERROR, FORMAT, READER, RECORD, REFUSED, UNREADABLE, Settings, digest_of, failure
 
 
@@ -43,8 +46,8 @@ def do_model(job: dict[str, Any]) -> dict[str, Any]:
     path, name = Path(job["path"]), job["name"]
     digest = ""
     try:
-        digest = digest_of(path)
-        record, files = _results(path, name, settings, job["blender"], start)
+        digest = _digest(path)
+        record, files = _results(job, settings)
     except MemoryError:
         raise
     except NoReaderError as error:
@@ -54,20 +57,41 @@ def do_model(job: dict[str, Any]) -> dict[str, Any]:
     except ReebError as error:
         record, files = failure(name, REFUSED, str(error), settings.digest), {}
     except Exception as error:  # noqa: BLE001 - it costs this model only, and its record says where it happened
+        if lacks_memory(str(error)):
+            raise MemoryError from error
         place = traceback.extract_tb(error.__traceback__)[-1]
         words = f"{type(error).__name__}: {error} ({Path(place.filename).name}, line {place.lineno})"
         record, files = failure(name, ERROR, words, settings.digest), {}
     record["digest"] = digest
     seconds = round(time.perf_counter() - start, 4)
     record["model"]["seconds"] = seconds
-    write_folder(Path(job["folder"]), {**files, RECORD: json.dumps(record, allow_nan=False).encode()})
+    try:
+        with as_output_error(Path(job["folder"])):
+            _write(job, record, files)
+    except OutputFileError as error:  # such as a full disk, which may have room for the record alone
+        record = failure(name, ERROR, str(error), settings.digest, digest)
+        with suppress(OSError):
+            _write(job, record, {})
     return {"status": record["status"], "reason": record["reason"], "seconds": seconds}
 
 
-def _results(path: Path, name: str, settings: Settings, blender: str | None,
-             start: float) -> tuple[dict[str, Any], dict[str, bytes]]:
+def _digest(path: Path) -> str:
+    """The digest of a model's file; raises ModelFileError if there is none, as behind a link that leads nowhere."""
+    try:
+        return digest_of(path)
+    except OSError as error:
+        raise ModelFileError(Sentence("{path} could not be read: {reason}", path=path,
+                                      reason=error.strerror or error)) from error
+
+
+def _write(job: dict[str, Any], record: dict[str, Any], files: dict[str, bytes]) -> None:
+    """Write the folder of a model; raises OSError."""
+    write_folder(Path(job["folder"]), {**files, RECORD: json.dumps(record, allow_nan=False).encode()})
+
+
+def _results(job: dict[str, Any], settings: Settings) -> tuple[dict[str, Any], dict[str, bytes]]:
     """The record of a model, and the files of its folder by name."""
-    model = read_model(path, blender)
+    model = _model(job)
     result = decompose(model, parameters=settings.parameters)
     parts = result.parts()
     files = {"thumbnail.png": picture_bytes(model, result, parts, settings.thumbnail, graph=False)}
@@ -81,13 +105,23 @@ def _results(path: Path, name: str, settings: Settings, blender: str | None,
     if settings.json:
         files["model.json"] = json_bytes(document)
     (entry,) = document["objects"]
-    record = {"format": FORMAT, "name": name, "status": DONE, "reason": "", "settings": settings.digest,
+    record = {"format": FORMAT, "name": job["name"], "status": DONE, "reason": "", "settings": settings.digest,
               "files": {file: len(files[file]) for file in sorted(files)},
               "model": _model_row(model, result, parts), "parts": entry["parts"]}
     described = part_descriptors(model.vertices, model.faces, parts, model.polygon)
     for part, row in zip(record["parts"], described.round(6).tolist(), strict=True):
         part["descriptor"] = row
     return record, files
+
+
+def _model(job: dict[str, Any]) -> Model:
+    """The model of a job; raises ModelFileError."""
+    if job["blender"] is None:
+        return read_model(job["path"])
+    # Below the folder of the results, where what a process leaves that is killed is removed.
+    place = Path(job["folder"]).parent
+    place.mkdir(parents=True, exist_ok=True)
+    return read_model(job["path"], job["blender"], place)
 
 
 def _model_row(model: Model, result: Decomposition, parts: Parts) -> dict[str, Any]:

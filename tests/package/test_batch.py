@@ -24,6 +24,7 @@ from reeb_parts.batch.model_process import ModelProcess
 from reeb_parts.batch.records import RECORD, Settings, is_done, read_record
 from reeb_parts.batch.sources import SourceError, find_sources
 from reeb_parts.batch.work import do_model
+from reeb_parts.whole_files import remove_leftovers
 
 from core import Parameters, decompose
 from core.uses.descriptors import distances, part_descriptors
@@ -191,7 +192,13 @@ def test_what_lacked_a_reader_is_tried_again(suffix, blender, words, tmp_path):
 
 @pytest.mark.parametrize(("arguments", "status", "words"), [
     (["--out", "MODEL"], 1, "could not be written: File exists"), (["--out", "/proc/none"], 1, "could not be written"),
-    (["--out", "OUT", "--workers", "0"], 2, "0 is no whole number of one or more"),
+    (["--out", "OUT", "--workers", "0"], 2, "must be a whole number, 1 or more, not 0"),
+    (["--out", "OUT", "--memory-limit", "nan"], 2, "must be a number, 0 or more, not nan"),
+    (["--out", "OUT", "--memory-limit=-1"], 2, "must be a number, 0 or more, not -1"),
+    (["--out", "OUT", "--time-limit=-1"], 2, "must be a number, 0 or more, not -1"),
+    (["--out", "OUT", "--time-limit", "nan"], 2, "must be a number, 0 or more, not nan"),
+    (["--out", "OUT", "--dashboard", "nonsense"], 2, "nonsense is no address such as 127.0.0.1:8787"),
+    (["--out", "OUT", "--dashboard", ":99999"], 2, ":99999 is no address such as 127.0.0.1:8787"),
 ])  # fmt: skip
 def test_a_batch_that_cannot_be_is_one_sentence(arguments, status, words, models, reeb_parts_command, tmp_path):
     model = str(models / "tree.ply")
@@ -243,6 +250,55 @@ def test_a_model_that_needs_too_much_memory_costs_only_itself(large, models, tmp
         assert small.run(job(models / "tree.ply", tmp_path / "tree"), 60.0)["status"] == "done"
     finally:
         small.close()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems limit no process")
+@pytest.mark.parametrize("megabytes", [10, 60, 100, 130])
+def test_a_process_without_memory_to_start_or_to_compute_is_no_crash(megabytes, models, tmp_path):
+    """Threads get no stack then, and OpenBLAS ends the process."""
+    small = ModelProcess(megabytes * 2**20)
+    try:
+        answer = small.run(job(models / "tree.ply", tmp_path / "tree"), 60.0)
+    finally:
+        small.close()
+    assert answer["status"] == "memory", answer
+    assert answer["reason"] == f"It needed more memory than {megabytes / 1024:.3g} GiB."
+
+
+def test_a_link_that_leads_nowhere_is_unreadable(models, tmp_path):
+    (tmp_path / "link.ply").symlink_to(tmp_path / "none.ply")
+    answer = do_model(job(tmp_path / "link.ply", tmp_path / "out"))
+    assert answer["status"] == "unreadable"
+    assert answer["reason"].endswith("link.ply could not be read: No such file or directory")
+    (tmp_path / "link.ply").unlink()
+    shutil.copy(models / "tree.ply", tmp_path / "link.ply")
+    assert not is_done(tmp_path / "link.ply", tmp_path / "out", Settings(Parameters()))
+
+
+def test_results_that_cannot_be_written_are_no_crash(models):
+    answer = do_model(job(models / "tree.ply", Path("/proc/none/tree.ply")))
+    assert answer["status"] == "error"
+    assert answer["reason"] == "/proc/none/tree.ply could not be written: No such file or directory"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the script is one of a shell")
+def test_a_blender_that_takes_too_long_leaves_nothing_in_the_temporary_folder(tmp_path, monkeypatch):
+    (tmp_path / "temporary").mkdir()
+    monkeypatch.setenv("TMPDIR", str(tmp_path / "temporary"))
+    (tmp_path / "blender").write_text('#!/bin/sh\necho half > "$TMPDIR/own"\nsleep 60\n')
+    (tmp_path / "blender").chmod(0o755)
+    (tmp_path / "slow.blend").write_bytes(b"BLENDER")
+    process = ModelProcess()
+    try:
+        answer = process.run(job(tmp_path / "slow.blend", tmp_path / "out" / "slow.blend")
+                             | {"blender": str(tmp_path / "blender")}, 3.0)
+    finally:
+        process.close()
+    assert answer["status"] == "time"
+    assert list((tmp_path / "temporary").iterdir()) == []
+    assert len(list((tmp_path / "out").glob(".reeb_parts_*/own"))) == 1
+    remove_leftovers(tmp_path / "out")
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["slow.blend"]
 
 
 @pytest.mark.parametrize(("number", "words"), [

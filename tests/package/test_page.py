@@ -49,6 +49,18 @@ def test_every_word_is_looked_for_in_names_reasons_and_notes(shown):
     assert shown("camel")[:2] == ([], "0 of 4")
 
 
+def test_a_model_says_its_parts_faces_and_seconds(tmp_path):
+    path = tmp_path / "index.html"
+    path.write_text(page("1 model", [
+        {"name": f"{seconds}.obj", "parts": parts, "faces": 5804, "loops": 0, "status": "done", "reason": "",
+         "notes": [], "seconds": seconds, "image": "", "link": "x/"}
+        for parts, seconds in ((1, 0.4832), (2, 1.2345), (3, 345.6789))
+    ]), encoding="utf-8")
+    dom = after(path, "")
+    for words in ("1 part, 5,804 faces, 0.48 s", "2 parts, 5,804 faces, 1.2 s", "3 parts, 5,804 faces, 346 s"):
+        assert f"<br>{words}<" in dom
+
+
 def test_what_models_say_is_text_and_not_part_of_the_page(shown):
     names, _, main = shown("nothing")
     assert names == ["torn.ply"]

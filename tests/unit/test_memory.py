@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import core
+from core.memory import lacks_memory
 
 OWN = Path(core.__path__[0]).parent
 FAULTS = """
@@ -31,3 +32,13 @@ def test_an_array_takes_the_place_of_one_that_was_freed():
     if not kept:
         pytest.skip("another C library than GNU's")
     assert int(kept) <= 1 < 20 < int(new)  # pages that the system had to give, of 4 kB or 2 MB
+
+
+@pytest.mark.parametrize(("words", "lacks"), [
+    ("RuntimeError: can't start new thread", True), ("[Errno 12] Cannot allocate memory", True),
+    ("OpenBLAS error: Memory allocation still failed after 10 retries, giving up.", True),
+    ("numpy._core._exceptions._ArrayMemoryError: Unable to allocate 3 GiB", True),
+    ("Fatal Python error: Segmentation fault", False), ("", False),
+])  # fmt: skip
+def test_a_lack_of_memory_has_many_words(words, lacks):
+    assert lacks_memory(words) == lacks
