@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import cross, lengths, row_products, sums_by
+from .arrays import cross, lengths, row_products, sums_by, unit
 
 #: Share of a polygon's area; what is folded by less is convex but for the rounding of its corners.
 FOLD = 1e-6
@@ -35,7 +35,7 @@ def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray
         that there is no ear, keep their fans.
     """
     start = np.cumsum(sizes - 2) - (sizes - 2)  # first triangle of each polygon
-    folded = _folded(vertices, triangles, sizes, start)
+    folded = _folded(vertices, triangles, sizes)
     if not len(folded):
         return triangles
     triangles = triangles.copy()
@@ -45,13 +45,14 @@ def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray
         # Of ears that are equally good the first is clipped: whichever corner a file begins with, it is the same.
         turn = corners.argmin(axis=1)[:, None] + np.arange(size)
         corners = np.take_along_axis(corners, turn % size, axis=1)
-        order, whole = _ears(_in_plane(vertices[corners]))
-        cut = np.take_along_axis(corners[:, None], order.reshape(len(corners), 1, -1), axis=2)
-        triangles[rows[whole]] = cut.reshape(len(corners), size - 2, 3)[whole]
+        place, there = _in_plane(vertices[corners])
+        rows, corners = rows[there], corners[there]
+        order, whole = _ears(place[there])
+        triangles[rows[whole]] = corners[np.arange(len(corners))[:, None, None], order][whole]
     return triangles
 
 
-def _folded(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray, start: np.ndarray) -> np.ndarray:
+def _folded(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     """Polygons whose fans have a triangle that looks the other way than the polygon, (k,) int64."""
     several = np.flatnonzero(sizes > 3)
     if not len(several):
@@ -67,15 +68,19 @@ def _folded(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray, star
     return several[np.unique(polygon[against])]
 
 
-def _in_plane(corners: np.ndarray) -> np.ndarray:
-    """Corners of polygons, (f, k, 3), in the plane of each and in units of its extent, (f, k, 2), counterclockwise."""
+def _in_plane(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of polygons in the plane of each, counterclockwise, and whether it has one.
+
+    corners : (f, k, 3) float64. Returns (f, k, 2) float64, in units of the extent of each, and (f,) bool: where as much
+    looks one way as the other there is no plane.
+    """
     place = corners - corners[:, :1]
     place = place / np.abs(place).max(axis=(1, 2))[:, None, None]
     normal = cross(place[:, 1:-1].reshape(-1, 3), place[:, 2:].reshape(-1, 3)).reshape(len(place), -1, 3).sum(axis=1)
-    # Not along the least axis of the normal: neither can vanish.
-    across = cross(normal, np.eye(3)[np.abs(normal).argmin(axis=1)])
-    axes = np.stack([across, cross(normal / lengths(normal)[:, None], across)], axis=1)
-    return place @ (axes / lengths(across)[:, None, None]).transpose(0, 2, 1)
+    # The axis along which the normal reaches least is across it.
+    across = unit(cross(normal, np.eye(3)[np.abs(normal).argmin(axis=1)]))
+    axes = np.stack([across, cross(unit(normal), across)], axis=1)
+    return place @ axes.transpose(0, 2, 1), lengths(normal) > STRAIGHT
 
 
 def _ears(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

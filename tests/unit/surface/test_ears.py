@@ -8,6 +8,7 @@ import shapes
 from core import decompose
 from core.metrics import rand_index_error
 from core.surface.arrays import cross, lengths
+from core.surface.ears import without_folds
 from core.surface.polygons import PolygonMesh
 
 ARROW = [(0, 0), (2, 3), (0, 1.2), (-2, 3)]
@@ -90,6 +91,20 @@ def test_a_concave_quad_is_cut_along_the_other_diagonal():
 ])
 def test_degenerate_polygons_have_as_many_triangles_as_a_fan(corners):
     assert cut(outline(corners)).shape == (len(corners) - 2, 3)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_whatever_polygons_there_are_their_corners_stay(seed):
+    rng = np.random.default_rng(seed)
+    n, k = int(rng.integers(1, 30)), int(rng.integers(4, 13))
+    vertices = rng.integers(0, 2 + seed % 4, (n * k, 3)).astype(float)  # many at one place, on a line, crossing
+    vertices[:, 2] *= seed % 2
+    vertices = vertices @ shapes.rotation(rng)
+    fans = np.stack([np.zeros(k - 2, int), np.arange(1, k - 1), np.arange(2, k)], 1) + k * np.arange(n)[:, None, None]
+    with np.errstate(all="raise", under="ignore"):
+        triangles = without_folds(vertices, fans.reshape(-1, 3), np.full(n, k)).reshape(n, -1)
+    for polygon, row in enumerate(triangles):
+        assert set(row.tolist()) == set(range(k * polygon, k * polygon + k))
 
 
 def test_polygons_that_cross_themselves_keep_their_fans():
