@@ -104,7 +104,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         _write_groups(obj, numbered)
         groups = [part.group for part in obj.data.reeb_parts.parts]
     collection = piece_objects.make_collection(context, obj)
-    made.remove_untouched(collection.objects, "armature", _looks)
+    made.remove_untouched(collection.objects, "armature", _former_looks)
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
     rig = bpy.data.objects.new(data.name, data)
     rig.matrix_world = found.place
@@ -112,7 +112,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     rig[made.ROLE] = "armature"
     collection.objects.link(rig)
     _add_bones(context, rig, found.bones, groups)
-    made.mark(rig, _looks)
+    made.mark(rig)
     if own_groups:
         _write_weights(obj, groups, found.of_mesh(_weights(context, obj, rig, groups, found, weights)))
     if deform:
@@ -245,8 +245,8 @@ def _add_bones(context: bpy.types.Context, rig: bpy.types.Object, bones: Bones, 
         set_mode(rig, "OBJECT")
 
 
-def _looks(rig: bpy.types.Object) -> str:
-    """A text that differs once the user has worked on the armature."""
+def _former_looks(rig: bpy.types.Object) -> str:
+    """What earlier versions kept of such an object; see made.Former."""
     bones = [(bone.name, bone.parent.name if bone.parent else "",
               [round(x, 5) for x in (*bone.head_local, *bone.tail_local)]) for bone in rig.data.bones]
     place = [round(value, 5) for row in rig.matrix_basis for value in row]

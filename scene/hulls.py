@@ -37,7 +37,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))
     hulls = part_hulls(table, numbered.parts.labels, count)
     collection = piece_objects.make_collection(context, obj)
-    made.remove_untouched(collection.objects, "hull", _looks)
+    made.remove_untouched(collection.objects, "hull", _former_looks)
     found = []
     for number, several in zip(numbered.numbers.tolist(), hulls, strict=True):
         part = part_names.piece_name(obj, number)
@@ -50,7 +50,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
             found.append(_placed(bpy.data.objects.new(name, mesh), obj))
             collection.objects.link(found[-1])
     for hull in found:
-        made.mark(hull, _looks)
+        made.mark(hull)
     return found
 
 
@@ -68,8 +68,8 @@ def _placed(hull: bpy.types.Object, obj: bpy.types.Object) -> bpy.types.Object:
     return hull
 
 
-def _looks(hull: bpy.types.Object) -> str:
-    """A text that differs once the user has worked on the hull."""
+def _former_looks(hull: bpy.types.Object) -> str:
+    """What earlier versions kept of such an object; see made.Former."""
     place = np.round(np.array(hull.matrix_basis), 5).tolist()
     return str([hull.name, place, hull.parent is not None, hull.modifiers.keys(), hull.rigid_body is not None,
                 mesh_arrays.fingerprint(hull.data)])

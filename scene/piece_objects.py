@@ -217,7 +217,7 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     pieces = _objects(context, obj, joined.meshes, names, part, style)
     loose = [_dowel(context, obj, dowel, part, style) for dowel in joined.loose]
     for piece in (*pieces, *loose):
-        made.mark(piece, looks)
+        made.mark(piece)
     for index, piece in enumerate(pieces if close else ()):
         yield 0.8 + 0.2 * index / len(pieces)
         check_pieces([piece], stretch)
@@ -291,7 +291,12 @@ def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     pieces: dict[int, list[bpy.types.Object]] = {}
     for piece in piece_objects(obj):
         pieces.setdefault(piece[NUMBER], []).append(piece)
-    return rigid_bodies.make(context, obj, stored, pieces, make_collection(context, obj), kind)
+    untouched = [piece for some in pieces.values() for piece in some if made.is_as_made(piece, former_looks)]
+    joined = rigid_bodies.make(context, obj, stored, pieces, make_collection(context, obj), kind)
+    for piece in untouched:  # that they are bodies now is no work of the user's
+        transaction.keep_keys(piece, made.MADE)
+        made.mark(piece)
+    return joined
 
 
 def check_pieces(pieces: list[bpy.types.Object], stretch: np.ndarray | None = None) -> None:
@@ -340,7 +345,7 @@ def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
     for piece in [*piece_objects(obj), *dowels(obj)]:
         if not is_of(piece, numbers) and len(numbers) < len(obj.data.reeb_parts.parts):
             continue
-        if made.is_untouched(piece, looks):
+        if made.is_untouched(piece, former_looks):
             earlier.append(piece)
             continue
         made.hand_over(piece, NUMBER, made.MADE, DOWEL)
@@ -352,8 +357,8 @@ def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
     return kept
 
 
-def looks(piece: bpy.types.Object) -> str:
-    """A text that differs once the user has edited, moved or renamed the piece, or given it something."""
+def former_looks(piece: bpy.types.Object) -> str:
+    """What earlier versions kept of a piece; see made.Former."""
     place = [round(value, 6) for row in piece.matrix_basis for value in row]
     materials = [slot.material.name if slot.material else "" for slot in piece.material_slots]
     parent = piece.parent.name if piece.parent else ""

@@ -43,7 +43,7 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
         else:
             bpy.data.meshes.remove(candidate)
     if mesh != old:
-        ours = piece.get(made.MADE) == piece_objects.looks(piece)
+        ours = made.is_as_made(piece, piece_objects.former_looks)
         transaction.keep(piece, "data")
         piece.data = mesh
         name = old.name
@@ -51,7 +51,7 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
         mesh.name = name
         if ours:
             transaction.keep_keys(piece, made.MADE)
-            made.mark(piece, piece_objects.looks)
+            made.mark(piece)
     piece_checks.keep(piece, found[0])
     return before, found[0]
 

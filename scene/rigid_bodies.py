@@ -147,7 +147,7 @@ def _joint(physics: bpy.types.RigidBodyWorld, collection: bpy.types.Collection, 
     holds.disable_collisions = True
     holds.use_override_solver_iterations, holds.solver_iterations = True, _ITERATIONS
     joint[made.ROLE] = "joint"
-    made.mark(joint, _looks)
+    made.mark(joint)
     return joint
 
 
@@ -160,11 +160,11 @@ def remove_joints(collection: bpy.types.Collection, of: Iterable[bpy.types.Objec
     if of is not None:
         ends, held = set(of), [(joint, joint.rigid_body_constraint) for joint in joints]
         joints = [joint for joint, holds in held if holds is not None and {holds.object1, holds.object2} & ends]
-    made.remove_untouched(joints, "joint", _looks)
+    made.remove_untouched(joints, "joint", _former_looks)
 
 
-def _looks(joint: bpy.types.Object) -> str:
-    """A text that differs once the user has worked on the joint."""
+def _former_looks(joint: bpy.types.Object) -> str:
+    """What earlier versions kept of such an object; see made.Former."""
     place = np.round(np.array(joint.matrix_basis), 5).tolist()
     holds = joint.rigid_body_constraint
     values = [] if holds is None else [

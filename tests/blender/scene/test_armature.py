@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapes
 from mathutils import Euler
-from snapshot import check_undo, snapshot
+from snapshot import activate, check_undo, snapshot
 
 DEFORM = "DEF-"
 
@@ -210,6 +210,29 @@ def test_twice_is_once_and_a_used_armature_is_kept(obj):
     assert rig in bpy.data.objects[:]
     assert rig_of(obj) != rig
     assert obj.modifiers.keys() == ["Reeb Parts Armature"]
+
+
+USE = {
+    "constraint": lambda rig: rig.constraints.new("COPY_LOCATION"),
+    "bone collection": lambda rig: rig.data.collections.new("Left").assign(rig.data.bones[0]),
+    "property of a bone": lambda rig: rig.data.bones[0].__setitem__("mine", 1),
+    "setting of a bone": lambda rig: setattr(rig.data.bones[0], "use_deform", False),
+    "property of a posed bone": lambda rig: rig.pose.bones[0].__setitem__("mine", 1),
+    "pose": lambda rig: setattr(rig.pose.bones[0], "location", (0, 0, 1)),
+    "lock": lambda rig: setattr(rig.pose.bones[0], "lock_rotation", (True, True, True)),
+}
+
+
+@pytest.mark.parametrize("use", USE)
+def test_whatever_is_done_to_an_armature_it_is_kept(obj, use):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature(deform=True)
+    rig = rig_of(obj)
+    USE[use](rig)
+    activate(obj)
+    bpy.ops.reeb_parts.armature(deform=True)
+    assert rig in bpy.data.objects[:]
+    assert rig_of(obj) != rig
 
 
 def test_clear_removes_the_modifier_and_leaves_the_armature(obj):

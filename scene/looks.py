@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an object has, as a short text that differs once somebody has worked on it.
+
+Told are its settings and those of its modifiers, constraints and whatever else it has, the mesh or the bones with all
+that they carry, and custom properties. Only what differs from its default is told, so that a later Blender with more
+settings tells the same. Not told is what is merely looked at - selected, hidden in the viewport, unfolded in a panel -
+nor what an animation or a driver sets, nor our own marks.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from typing import Any
+
+import bpy
+
+from . import element_layers, mesh_arrays
+
+_OURS = "reeb_parts"  # how the names of our custom properties begin
+_DIGEST = "looks "  # how a digest begins; what earlier versions kept is a list as text
+
+# What is no work, follows from something else, or would lead elsewhere. The ends of a joint are pieces, which may be
+# made anew under other names.
+_PASSING = {
+    "rna_type", "data", "hide_viewport", "hide", "select", "select_head", "select_tail", "tag", "mode", "dimensions",
+    "matrix_world", "matrix_local", "matrix_basis", "matrix", "active", "is_active", "active_material",
+    "active_material_index", "active_shape_key_index", "show_expanded", "show_group_selector", "show_manage_panel",
+    "open_warnings_panel", "motion_path", "point_cache", "bone", "child", "object1", "object2",
+}  # fmt: skip
+# Of an object, what has settings of its own; to ask for others, such as its force field, would make them.
+_PARTS = "modifiers", "constraints", "vertex_groups", "material_slots"
+_ITEMS = {"targets", "curves", "points"}  # what there are several of, deeper inside
+_NAMED = bpy.types.ID, bpy.types.Bone, bpy.types.PoseBone, bpy.types.BoneCollection  # told by name where pointed at
+_DEEPEST = 5
+
+
+def digest(item: bpy.types.Object) -> str:
+    """A text of some 40 letters that differs once somebody has worked on an object; not in Edit Mode."""
+    moving = set(_moving_paths(item.animation_data))
+    told: list[Any] = [_told(item, "", moving)]
+    for name in _PARTS:
+        told += [_told(part, f'{name}["{bpy.utils.escape_identifier(part.name)}"].', moving)
+                 for part in getattr(item, name)]
+    told += [_told(body, "", moving) for body in (item.rigid_body, item.rigid_body_constraint) if body]
+    told += [len(_own_collections(item)), item.asset_data is not None, *_animation(item.animation_data)]
+    if item.type == "MESH":
+        told += [mesh_arrays.fingerprint(item.data), element_layers.contents(item.data)]
+    elif item.type == "ARMATURE":
+        told += _bones(item, moving)
+    if item.data is not None:
+        told += _custom(item.data)
+    return _DIGEST + hashlib.blake2b(repr(told).encode(errors="replace"), digest_size=16).hexdigest()
+
+
+def is_digest(text: object) -> bool:
+    """Whether a text is one of ``digest``, and not what earlier versions kept."""
+    return isinstance(text, str) and text.startswith(_DIGEST)
+
+
+def _told(struct: bpy.types.bpy_struct, path: str, moving: set[str], depth: int = 0) -> list[tuple[str, Any]]:
+    """Names and values of what differs from its default. path : of the struct, as in animations."""
+    found = []
+    for prop in struct.bl_rna.properties:
+        name = prop.identifier
+        if name in _PASSING or path + name in moving:
+            continue
+        if prop.type in ("POINTER", "COLLECTION"):
+            told = _told_inside(struct, prop, path, moving, depth)
+            if told:
+                found.append((name, told))
+        elif not prop.is_readonly:
+            value = _plain(getattr(struct, name))
+            if value != _default(prop):
+                found.append((name, value))
+    return [*found, *_custom(struct)]
+
+
+def _told_inside(struct: bpy.types.bpy_struct, prop: bpy.types.Property, path: str, moving: set[str],
+                 depth: int) -> Any:
+    """What is told of what a struct points at, or of what it has several of; nothing where that is not looked at."""
+    name, is_block = prop.identifier, isinstance(struct, bpy.types.ID)
+    if prop.type == "COLLECTION":
+        if name == "collections":  # of a bone
+            return sorted(item.name for item in getattr(struct, name))
+        if is_block or name not in _ITEMS:
+            return None
+        return [_told(item, f"{path}{name}[{index}].", moving, depth + 1)
+                for index, item in enumerate(getattr(struct, name))]
+    if is_block and prop.is_readonly:  # groups of extensions, and what is made when it is asked for
+        return None
+    value = getattr(struct, name)
+    if value is None or isinstance(value, _NAMED):
+        return value and value.name
+    return _told(value, f"{path}{name}.", moving, depth + 1) if depth < _DEEPEST and not is_block else None
+
+
+def _plain(value: Any) -> Any:
+    """A value of a property in types whose text is always the same."""
+    if isinstance(value, set):
+        return sorted(value)
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__iter__"):
+        return value
+    return [number for row in value for number in (row if hasattr(row, "__iter__") else [row])]
+
+
+def _default(prop: bpy.types.Property) -> Any:
+    """The default of a property, in such types."""
+    if getattr(prop, "is_array", False):
+        return list(prop.default_array)
+    return sorted(prop.default_flag) if getattr(prop, "is_enum_flag", False) else prop.default
+
+
+def _custom(struct: bpy.types.bpy_struct) -> list[tuple[str, str]]:
+    """Custom properties, but for ours and for groups, which other extensions keep there."""
+    try:
+        items = sorted(struct.items())
+    except TypeError:  # it can have none
+        return []
+    return [(key, repr(_plain(value))) for key, value in items
+            if not key.startswith(_OURS) and not hasattr(value, "to_dict") and key not in struct.bl_rna.properties]
+
+
+def _own_collections(item: bpy.types.Object) -> list[bpy.types.Collection]:
+    """The collections that an object is in, but for those of simulations."""
+    worlds = [scene.rigidbody_world for scene in bpy.data.scenes if scene.rigidbody_world]
+    physics = [used for world in worlds for used in (world.collection, world.constraints)]
+    return [collection for collection in item.users_collection if collection not in physics]
+
+
+def _animation(data: bpy.types.AnimData | None) -> list[Any]:
+    """The action, drivers and tracks of an object."""
+    if data is None:
+        return []
+    drivers = [(curve.data_path, curve.array_index, curve.driver.type, curve.driver.expression)
+               for curve in data.drivers]
+    return [data.action.name if data.action else "", drivers, data.nla_tracks.keys()]
+
+
+def _moving_paths(data: bpy.types.AnimData | None) -> Iterator[str]:
+    """The properties that an animation or a driver sets."""
+    if data is None:
+        return
+    actions = [data.action, *(strip.action for track in data.nla_tracks for strip in track.strips)]
+    for curves in (data.drivers, *map(_curves, filter(None, actions))):
+        for curve in curves:
+            yield curve.data_path
+
+
+def _curves(action: bpy.types.Action) -> list[bpy.types.FCurve]:
+    """All curves of an action, for whatever it animates."""
+    if bpy.app.version < (4, 4):
+        return list(action.fcurves)
+    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags
+            for curve in bag.fcurves]
+
+
+def _bones(rig: bpy.types.Object, moving: set[str]) -> list[Any]:
+    """The bones of an armature, their rest and their pose."""
+    told: list[Any] = [rig.data.collections.keys()]
+    for bone in rig.data.bones:
+        rest = [round(value, 5) for value in (*bone.head_local, *bone.tail_local)]
+        told.append((rest, _told(bone, "", set())))
+    for bone in rig.pose.bones if rig.pose else ():
+        path = f'pose.bones["{bpy.utils.escape_identifier(bone.name)}"].'
+        told.append(_told(bone, path, moving))
+        told += [_told(part, f'{path}constraints["{bpy.utils.escape_identifier(part.name)}"].', moving)
+                 for part in bone.constraints]
+    return told
