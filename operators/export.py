@@ -67,6 +67,8 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         folder = Path(bpy.path.abspath(self.directory))
         objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
         with object_mode(context), together() as files:
+            if not self.separated:
+                objects = [obj for obj, _ in targets.usable(objects, lambda obj: store.load(obj.data), self.report)]
             paths = export_parts(files, [(obj, wanted_numbers(obj.data, self.which)) for obj in objects], folder,
                                  self.format, self.caps, self.one_file, self.separated, self.cut)
         self.report({"INFO"}, rpt_("{n} {n:file|files} in {folder}").format(n=Count(len(paths)), folder=folder))

@@ -52,7 +52,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
         made = []
         with object_mode(context):
-            found = [(obj, store.load(obj.data)) for obj in objects]
+            found = targets.usable(objects, lambda obj: store.load(obj.data), self.report)
             for index, (obj, stored) in enumerate(found):
                 steps = piece_objects.separating(context, obj, stored, wanted_numbers(obj.data, self.which), self)
                 separated = yield from stretched(steps, index / len(found), (index + 1) / len(found))
@@ -104,6 +104,11 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         if separated.left_open:
             self.report({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "
                                           "{n:it|them}").format(n=Count(separated.left_open)))
+        if separated.by_extent:
+            self.report({"WARNING"}, rpt_(
+                "The effect of {modifiers} depends on the extent of the mesh, which differs for each part of {name}: "
+                "use Apply Modifiers to keep the shape").format(
+                    modifiers=", ".join(separated.by_extent), name=obj.name))
         if separated.n_apart:
             self.report({"WARNING"}, rpt_(
                 "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but "

@@ -21,6 +21,7 @@ from ..core.uses.colors import linear
 from . import (
     beds,
     bridge,
+    by_extent,
     cap_looks,
     cut_list,
     element_layers,
@@ -141,6 +142,8 @@ class Separated:
         Keys of pieces that do not fit the bed and could not be cut.
     n_apart : int
         Border vertices that lie on others and could not be made one with them, along which pieces stay open.
+    by_extent : list of str
+        Names of modifiers that shape the pieces otherwise than the whole.
     """
 
     pieces: list[bpy.types.Object]
@@ -154,6 +157,7 @@ class Separated:
     more: int
     too_long: list[int]
     n_apart: int
+    by_extent: list[str]
 
     def cut_name(self, cut: joints.CutJoints) -> str:
         """What a cut is called: by its two pieces."""
@@ -222,7 +226,8 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
         yield 0.8 + 0.2 * index / len(pieces)
         check_pieces([piece], stretch)
     return Separated(pieces, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part,
-                     len(fitted.part), fitted.left, found.n_apart)
+                     len(fitted.part), fitted.left, found.n_apart,
+                     by_extent.others(obj) if _keeps_modifiers(style) else [])
 
 
 def _names(obj: bpy.types.Object, origin: dict[int, int], sides: modified.BothSides) -> dict[int, str]:
@@ -245,10 +250,12 @@ def _objects(context: bpy.types.Context, obj: bpy.types.Object, meshes: dict[int
     """An object for each piece, in the collection of the pieces, with the color of its part."""
     collection = make_collection(context, obj)
     colors = {listed.number: listed.color[:] for listed in obj.data.reeb_parts.parts}
+    offsets = by_extent.array_offsets(context, obj) if _keeps_modifiers(style) else {}
     pieces = []
     for key, mesh in meshes.items():
         number = part.get(key, key)
         piece = _piece(obj, mesh, part_names.with_object(obj, names[key]), style)
+        by_extent.set_offsets(piece, offsets)
         piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER] = number
         collection.objects.link(piece)
@@ -374,7 +381,7 @@ def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: Separa
     piece.name = mesh.name = name
     piece.data = mesh
     piece.hide_viewport = piece.hide_render = False
-    if not style.modifiers or style.seen:
+    if not _keeps_modifiers(style):
         piece.modifiers.clear()
     if style.parent:
         # What moved the object moves its child already.
@@ -390,6 +397,11 @@ def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: Separa
     else:
         piece.location += piece.matrix_basis.to_3x3() @ middle
     return piece
+
+
+def _keeps_modifiers(style: SeparateProperties) -> bool:
+    """Whether pieces have the modifiers of the object."""
+    return style.modifiers and not style.seen
 
 
 def _works_anywhere(modifier: bpy.types.Modifier) -> bool:

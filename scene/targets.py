@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TypeVar
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
@@ -11,6 +12,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from .errors import SceneError
 from .modes import check_mode
+
+_Found = TypeVar("_Found")
 
 
 def chosen_objects(
@@ -49,6 +52,24 @@ def chosen_objects(
         else:
             first[obj.data] = obj
     return list(first.values())
+
+
+def usable(objects: list[bpy.types.Object], look: Callable[[bpy.types.Object], _Found],
+           report: Callable[[set[str], str], None]) -> list[tuple[bpy.types.Object, _Found]]:
+    """What is found of objects, the active one first; others of which that cannot be are left out, and it is said why.
+
+    Raises
+    ------
+    SceneError
+        By ``look``, of the first object.
+    """
+    found = [(obj, look(obj)) for obj in objects[:1]]
+    for obj in objects[1:]:
+        try:
+            found.append((obj, look(obj)))
+        except SceneError as error:
+            report({"WARNING"}, str(error))
+    return found
 
 
 def _in_another_mode(obj: bpy.types.Object) -> str:

@@ -368,6 +368,8 @@ TEXTS = {
     "Pinned": "Festgepinnt",
     "The part was changed by hand and stays whatever the detail":
         "Das Teil wurde von Hand geändert und bleibt, unabhängig vom Detail",
+    "The part is pinned by its lock alone, and was not changed by hand":
+        "Das Teil ist nur durch seine Sperre festgepinnt und wurde nicht von Hand geändert",
     "Selected": "Ausgewählt",
     "Included in what is done to the selected parts": "Gehört zu dem, was mit den ausgewählten Teilen geschieht",
     "The vertex group made for the part": "Die Punktgruppe, die für das Teil erstellt wurde",
@@ -934,6 +936,10 @@ TEXTS = {
         "und erneut zerlegen.",
     "{name} is not in this view layer. Include its collection first.":
         "{name} ist nicht in dieser Ansichtsebene. Bitte zuerst seine Sammlung einschließen.",
+    "The effect of {modifiers} depends on the extent of the mesh, which differs for each part of {name}: use Apply "
+    "Modifiers to keep the shape":
+        "Die Wirkung von {modifiers} hängt von der Ausdehnung des Meshs ab, die für jedes Teil von {name} eine andere "
+        "ist: mit „Modifikatoren anwenden“ bleibt die Form",
     "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but cannot be joined "
     "with them}: parts stay open there":
         "{n} {n:Randpunkt liegt auf einem anderen, ist aber nicht mit ihm zu verbinden|Randpunkte liegen auf anderen, "
@@ -951,7 +957,7 @@ TEXTS = {
     "Unwrapped into the UV map {name}: areas {low:.1f} to {high:.1f} times their size, {share:.0%} of the faces within "
     "0.3 to 3; angles {angle:.0f}° off on average":
         "In die UV-Map {name} abgewickelt: Flächen auf das {low:.1f}- bis {high:.1f}-Fache, {share:.0%} davon "
-        "zwischen 0,3 und 3; Winkel im Mittel um {angle:.0f}° verändert",
+        "zwischen 0.3 und 3; Winkel im Mittel um {angle:.0f}° verändert",
     "{n} {n:hull|hulls}": "{n} {n:Hülle|Hüllen}",
     "There is no folder to write to. Choose one and try again.":
         "Es ist kein Ordner angegeben. Bitte einen wählen und erneut versuchen.",

@@ -362,6 +362,7 @@ TEXTS = {
         "无论细节如何、相邻部件如何更改，该部件均保持不变",
     "Pinned": "钉住",
     "The part was changed by hand and stays whatever the detail": "该部件经过手动更改，无论细节如何都予以保留",
+    "The part is pinned by its lock alone, and was not changed by hand": "该部件仅因锁定而钉住，未经手动更改",
     "Selected": "选中项",
     "Included in what is done to the selected parts": "包含在对所选部件的操作中",
     "The vertex group made for the part": "为部件创建的顶点组",
@@ -834,6 +835,9 @@ TEXTS = {
     "The modifiers of {name} leave no faces, though perhaps instances. Apply them as a mesh and decompose again.":
         "{name} 的修改器没有留下任何面，可能只有实例。请将其应用为网格后重新分解。",
     "{name} is not in this view layer. Include its collection first.": "{name} 不在此视图层中。请先包含其集合。",
+    "The effect of {modifiers} depends on the extent of the mesh, which differs for each part of {name}: use Apply "
+    "Modifiers to keep the shape":
+        "{modifiers} 的效果取决于网格的范围，而 {name} 各部件的范围不同：请使用“应用修改器”以保持形状",
     "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but cannot be joined "
     "with them}: parts stay open there":
         "{n} 个开放边顶点与其他顶点重合，但无法相连：部件在该处保持开放",

@@ -654,6 +654,22 @@ def test_an_edited_mesh_is_refused_and_nothing_written(obj):
     assert snapshot() == before
 
 
+def test_an_edited_mesh_beside_the_active_one_is_left_out(make, capfd, tmp_path):
+    active, edited = make(shapes.tube_tree(), "Active"), make(shapes.tube_tree(), "Edited")
+    active.select_set(True)
+    bpy.ops.reeb_parts.decompose()
+    edited.data.vertices[0].co.x += 1
+    activate(active)
+    edited.select_set(True)
+    bpy.ops.reeb_parts.export(directory=str(tmp_path))
+    assert "Warning: Edited was edited since" in capfd.readouterr().out
+    assert all(path.name.startswith("Active") for path in tmp_path.iterdir())
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert "Warning: Edited was edited since" in capfd.readouterr().out
+    assert len(pieces("Active")) == len(active.data.reeb_parts.parts)
+    assert "Parts of Edited" not in bpy.data.collections
+
+
 def spot():
     bpy.ops.wm.obj_import(filepath=str(SPOT))
     activate(bpy.context.selected_objects[0])
@@ -713,6 +729,35 @@ def test_with_a_mirror_modifier_pieces_stay_where_they_were(obj, style):
     bpy.ops.reeb_parts.separate(**style, **WHOLE)
     assert same_places(seen_faces(*pieces()), before)
     assert all(bool(piece.modifiers) != style.get("seen", False) for piece in pieces())
+
+
+def test_copies_of_an_array_stay_together(obj):
+    """A relative offset is one by the extent of the mesh that the modifier gets, and pieces are smaller."""
+    mirrored(obj, use_axis=(False, True, False))
+    for name, step in (("Row", (1.1, 0.0, 0.1)), ("Column", (0.0, 1.0, 0.5))):
+        array = obj.modifiers.new(name, "ARRAY")
+        array.count, array.relative_offset_displace = 2, step
+    array.use_constant_offset, array.constant_offset_displace = True, (0.3, 0.0, 0.0)
+    seen = seen_faces(obj)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP, **WHOLE)
+    assert same_places(seen_faces(*pieces()), seen)
+    assert obj.modifiers["Row"].use_relative_offset
+
+
+@pytest.mark.parametrize(("kind", "settings", "said"), [
+    ("SIMPLE_DEFORM", {}, True), ("CAST", {}, True), ("CAST", {"radius": 1.0}, False), ("CAST", {"size": 1.0}, True),
+    ("CAST", {"size": 1.0, "use_radius_as_size": False}, False), ("BEVEL", {}, False)])
+def test_modifiers_that_work_by_the_extent_are_told(obj, capfd, kind, settings, said):
+    modifier = obj.modifiers.new("Shaper", kind)
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert ("effect of Shaper depends on the extent" in capfd.readouterr().out) == said
+    activate(obj)
+    bpy.ops.reeb_parts.separate(**KEEP, seen=True)
+    assert "depends on the extent" not in capfd.readouterr().out
 
 
 def test_about_another_object_pieces_have_origins_of_their_own(obj):
