@@ -4,7 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import graph_objects, results, store, targets
+from ..scene import graph_objects, leavings, results, store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.reporting import ReportingOperator
@@ -20,7 +20,8 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
         obj = targets.active_object(context)
-        if obj is None or obj.type != "MESH" or not (store.has_result(obj.data) or graph_objects.find(obj)):
+        if obj is None or obj.type != "MESH" or not (
+                store.has_result(obj.data) or graph_objects.find(obj) or leavings.may_be(obj.data)):
             raise SceneError(rpt_("The active object has no parts"))
 
     def run(self, context: bpy.types.Context) -> None:

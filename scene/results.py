@@ -18,6 +18,7 @@ from . import (
     explode,
     graph_objects,
     hidden,
+    leavings,
     notes,
     outputs,
     quiet,
@@ -75,6 +76,7 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
     parameters = decomposition.parameters
     transaction.keep_mesh(mesh)
     _keep_colors(mesh)
+    leavings.remove(obj)
     stored = store.succeed(mesh, decomposition)
     numbered = stored.shown_parts()
     result = mesh.reeb_parts
@@ -117,6 +119,7 @@ def _keep_colors(mesh: bpy.types.Mesh) -> None:
 def clear(obj: bpy.types.Object) -> None:
     """Remove parts, graph and stored result of an object; Object Mode."""
     transaction.keep_mesh(obj.data)
+    leavings.remove(obj)
     for user in targets.users(obj.data):
         explode.forget(user)
         armature.remove_modifier(user)

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
-from .. import transaction
+from .. import mesh_arrays, transaction
 from .kept_aside import PREFIX, add_attribute, bring_back, keep_aside, remove_attribute
 
 NAME = ".sculpt_face_set"
@@ -40,6 +40,24 @@ def remove(obj: bpy.types.Object) -> None:
         else:
             remove_attribute(mesh, NAME)
     result.has_face_sets = result.had_face_sets = False
+
+
+def take_back(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
+    """Bring the user's face sets back of faces that came with ours from another mesh, or none.
+
+    numbers : (p,) int32, of the parts of these faces, 0 for others.
+    """
+    if NAME in mesh.attributes:
+        now = mesh_arrays.read(mesh.attributes[NAME].data, "value", np.int32)
+        before = np.ones_like(now)
+        if _KEPT in mesh.attributes:
+            before = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
+        if (now == numbers)[numbers > 0].all():
+            now = np.where(numbers > 0, before, now)
+            mesh.attributes[NAME].data.foreach_set("value", now)
+        if (now <= 1).all():  # one set is none
+            remove_attribute(mesh, NAME)
+    remove_attribute(mesh, _KEPT)
 
 
 def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:

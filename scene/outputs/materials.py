@@ -15,6 +15,7 @@ from .kept_aside import PREFIX, bring_back, is_kept, keep_aside, remove_attribut
 
 _MATERIAL_INDEX = "material_index"
 _KEPT = f"{PREFIX}_material"
+_OURS = "reeb_parts_material"  # on a material: it was made for a part
 
 
 def own_slots(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -49,6 +50,26 @@ def remove(obj: bpy.types.Object) -> None:
     result.has_materials = result.had_material_index = False
 
 
+def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
+    """Remove our materials from faces that came with them from another mesh. ours : (p,) bool.
+
+    Blender has renumbered the slots, but not those kept aside: these are counted among the slots that no other face
+    uses, as the other mesh had them.
+    """
+    marked = [material for material in mesh.materials if material is not None and _OURS in material]
+    if _KEPT in mesh.attributes and marked:
+        now, before = (mesh_arrays.read(mesh.polygons, _MATERIAL_INDEX, np.int32),
+                       mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32))
+        used = set(now[~ours].tolist())
+        free = [index for index, material in enumerate(mesh.materials) if material not in marked]
+        own = np.array([index for index in free if index not in used] or free or [0], np.int32)
+        gone = np.isin(now, [index for index, material in enumerate(mesh.materials) if material in marked])
+        mesh.polygons.foreach_set(_MATERIAL_INDEX, np.where(gone, own[np.clip(before, 0, len(own) - 1)], now))
+        for material in marked:
+            remove_one(mesh, material)
+    remove_attribute(mesh, _KEPT)
+
+
 def remove_one(mesh: bpy.types.Mesh, material: bpy.types.Material | None) -> None:
     """Remove the material that was made for a part, with its slot; None is none."""
     if material is None:
@@ -78,6 +99,7 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     for label, part in enumerate(mesh.reeb_parts.parts):
         if part.material is None:
             part.material = bpy.data.materials.new(part.name)
+            part.material[_OURS] = True
             if bpy.app.version < (5, 0):  # newer ones always do
                 part.material.use_nodes = True
         _color_material(part.material, linear(part.color))

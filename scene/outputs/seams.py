@@ -43,6 +43,18 @@ def remove(obj: bpy.types.Object) -> None:
     result.has_seams = result.had_seams = False
 
 
+def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
+    """Bring the user's seams back of faces that came with ours from another mesh. ours : (p,) bool."""
+    if _KEPT not in mesh.attributes:
+        return
+    now, before = (mesh_arrays.read(mesh.edges, "use_seam", bool),
+                   mesh_arrays.read(mesh.attributes[_KEPT].data, "value", bool))
+    there = np.zeros(len(mesh.edges), bool)
+    there[mesh_arrays.corner_edges(mesh)[np.repeat(ours, mesh_arrays.face_sizes(mesh))]] = True
+    mesh.edges.foreach_set("use_seam", np.where(there, before, now))
+    remove_attribute(mesh, _KEPT)
+
+
 def _seam_name(mesh: bpy.types.Mesh) -> str | None:
     """The attribute that holds seams, None before there is one."""
     return next((name for name in (".uv_seam", "uv_seam") if name in mesh.attributes), None)

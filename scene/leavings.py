@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What of ours a mesh has without a result: that of an object that was joined into it with Blender's Join.
+
+The attributes, groups and slots come along, but not what says whose they are. So they are taken for ours only where
+they fit together: the numbers of the parts with their colors, and groups that hold the vertices of their parts.
+"""
+
+from __future__ import annotations
+
+import re
+
+import bpy
+import numpy as np
+
+from . import hidden, mesh_arrays, part_names, store, targets, transaction
+from .outputs import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
+from .outputs.kept_aside import remove_attribute
+
+_OWN_NAME = re.compile(r"Part \d\d+(\.[LR])?")  # see core/result/numbering.py
+
+
+def may_be(mesh: bpy.types.Mesh) -> bool:
+    """Whether a mesh has no result and attributes as ours: a quick look."""
+    return not store.has_result(mesh) and _has(mesh, face_attribute.NAME, "INT", "FACE") and _has(
+        mesh, colors.NAME, "BYTE_COLOR", "CORNER")
+
+
+def remove(obj: bpy.types.Object) -> bool:
+    """Remove what of ours is left on the mesh of an object, if it is certainly ours; Object Mode. Whether it was."""
+    mesh = obj.data
+    if not may_be(mesh):
+        return False
+    numbers = mesh_arrays.read(mesh.attributes[face_attribute.NAME].data, "value", np.int32)
+    if not _one_color_each(mesh, numbers):
+        return False
+    transaction.keep_mesh(mesh)
+    user = targets.users(mesh)[0]
+    for name in _groups(user, numbers):
+        vertex_groups.remove_one(user, name)
+    ours = numbers > 0
+    seams.take_back(mesh, ours)
+    face_sets.take_back(mesh, numbers)
+    materials.take_back(mesh, ours)
+    kinds = {field.NAME: ("FLOAT", "POINT"), hidden.ATTRIBUTE: ("BOOLEAN", "FACE")}
+    more = [name for name, kind in kinds.items() if _has(mesh, name, *kind)]
+    for name in (*more, colors.NAME, face_attribute.NAME):
+        remove_attribute(mesh, name)
+    mesh.update()
+    return True
+
+
+def _has(mesh: bpy.types.Mesh, name: str, kind: str, domain: str) -> bool:
+    attribute = mesh.attributes.get(name)
+    return attribute is not None and (attribute.data_type, attribute.domain) == (kind, domain)
+
+
+def _one_color_each(mesh: bpy.types.Mesh, numbers: np.ndarray) -> bool:
+    """Whether there are faces of parts, and all corners of those of one number have one color. numbers : (p,) int32."""
+    known = (numbers > 0) & (numbers <= part_names.MAX_NUMBER)
+    if not known.any():
+        return False
+    _, face = mesh_arrays.face_corners(mesh)
+    number = numbers[face][known[face]]
+    shade = mesh_arrays.read(mesh.attributes[colors.NAME].data, "color_srgb", np.float32, 4)[known[face]]
+    _, first, place = np.unique(number, return_index=True, return_inverse=True)
+    return bool((shade == shade[first][place]).all())
+
+
+def _groups(obj: bpy.types.Object, numbers: np.ndarray) -> list[str]:
+    """Vertex groups with the own names of parts that hold the vertices of a part, each wholly. numbers : (p,) int32."""
+    held: dict[int, dict[int, float]] = {
+        group.index: {} for group in obj.vertex_groups if _OWN_NAME.fullmatch(group.name)}
+    for item in obj.data.vertices if held else ():  # cannot be read in bulk
+        for entry in item.groups:
+            if entry.group in held:
+                held[entry.group][item.index] = entry.weight
+    vertex, face = mesh_arrays.face_corners(obj.data)
+    of_parts = {frozenset(vertex[numbers[face] == number].tolist()) for number in np.unique(numbers[numbers > 0])}
+    return [obj.vertex_groups[index].name for index, weights in held.items()
+            if frozenset(weights) in of_parts and set(weights.values()) == {1.0}]

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is left of ours on a mesh without a result, after a decomposed object was joined into it."""
+
+import bpy
+import numpy as np
+import pytest
+import shapes
+from mathutils import Matrix
+from snapshot import activate, snapshot
+
+
+@pytest.mark.parametrize("after", ["decompose", "clear"])
+def test_what_came_along_with_a_joined_object_is_ours(make, after):
+    """Join takes attributes, groups and slots along, but not what says whose they are; the user's own stay."""
+    tree, into = make(shapes.tube_tree(), "Tree"), make(shapes.dumbbell(24, 10), "Into")
+    gold, steel = (bpy.data.materials.new(name) for name in ("Gold", "Steel"))
+    tree.data.materials.append(gold)
+    into.data.materials.append(steel)
+    tree.data.edges[0].use_seam = into.data.edges[5].use_seam = True
+    tree.vertex_groups.new(name="Part 99").add([0, 1], 1.0, "REPLACE")
+    into.data.transform(Matrix.Translation((20, 0, 0)))
+    activate(tree)
+    bpy.ops.reeb_parts.decompose(graph=False, materials=True, seams=True, face_sets=True, field=True)
+    assert "Part 01" in tree.vertex_groups
+    activate(into)
+    tree.select_set(True)
+    bpy.ops.object.join()
+    getattr(bpy.ops.reeb_parts, after)(**({"graph": False} if after == "decompose" else {}))
+    mesh, result = into.data, into.data.reeb_parts
+    names = [part.name for part in result.parts]
+    assert into.vertex_groups.keys() == ["Part 99", *names]
+    assert [part.group for part in result.parts] == names
+    assert not any(name.startswith(".reeb") for name in mesh.attributes.keys())
+    assert ("reeb_part" in mesh.attributes) == ("Reeb Parts" in mesh.attributes) == (after == "decompose")
+    assert "reeb_part.001" not in mesh.attributes
+    assert "reeb_agd" not in mesh.attributes
+    assert [material.name for material in mesh.materials] == ["Steel", "Gold"]
+    used = np.array([polygon.material_index for polygon in mesh.polygons])
+    high = np.array([polygon.center.x > 10 for polygon in mesh.polygons])
+    assert (used == np.where(high, 0, 1)).all()
+    assert sum(edge.use_seam for edge in mesh.edges) == 2
+    bpy.ops.reeb_parts.clear() if after == "decompose" else None
+    assert into.vertex_groups.keys() == ["Part 99"]
+
+
+def test_attributes_of_the_user_that_are_called_as_ours_stay(obj):
+    mesh = obj.data
+    numbers = mesh.attributes.new("reeb_part", "INT", "FACE")
+    numbers.data.foreach_set("value", np.arange(len(mesh.polygons), dtype=np.int32) % 3 + 1)
+    shades = mesh.color_attributes.new("Reeb Parts", "BYTE_COLOR", "CORNER")
+    values = np.random.default_rng(0).random((len(mesh.loops), 4)).astype(np.float32)
+    shades.data.foreach_set("color_srgb", values.ravel())
+    obj.vertex_groups.new(name="Part 01").add([0], 0.5, "REPLACE")
+    before = snapshot()
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.clear()
+    assert snapshot() == before
