@@ -15,7 +15,7 @@ from ..scene.part_list import check_parts, wanted_numbers
 from ..scene.reporting import ReportingOperator
 from ..scene.selection import in_layer, select_objects
 from ..scene.settings import SeparateProperties
-from ..scene.stepped import LARGE, SteppedOperator
+from ..scene.stepped import SteppedOperator, is_long
 from ..viewport import shading
 from .checks import report_unsound
 
@@ -37,8 +37,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, SeparateProperties, context)
-        n_vertices = sum(len(obj.data.vertices) for obj in targets.chosen_objects(context))
-        return self.start(context) if n_vertices >= LARGE else self.execute(context)
+        return self.start(context) if is_long(targets.chosen_objects(context)) else self.execute(context)
 
     def draw(self, context: bpy.types.Context) -> None:
         """The panel after it: in the order of Use Parts, and without what does not count."""

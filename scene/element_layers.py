@@ -7,6 +7,9 @@ mesh has vertex groups. What is in no array - the displacement of Multires - is 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import bmesh
 import bpy
 import numpy as np
@@ -25,9 +28,42 @@ _ITEMS = {POINT: "vertices", EDGE: "edges", FACE: "polygons", CORNER: "loops"}
 _WEIGHT = np.dtype([("group", np.int32), ("weight", np.float32)])
 _SKIN = (("radius", np.float32, 2), ("use_root", bool, 1), ("use_loose", bool, 1))
 
+_lent: list[bpy.types.Object] = []  # objects that are given one mesh after the other
 
-def read(mesh: bpy.types.Mesh) -> Elements:
-    """The elements of a mesh in Object Mode, with all that they carry."""
+
+@contextmanager
+def one_twin() -> Iterator[None]:
+    """Read and make many meshes inside: Blender gives and takes vertex groups by an object of the mesh only, and to
+    make and remove one for each takes the longer the more there is in the file."""
+    empty = bpy.data.meshes.new("Reeb Parts")
+    twin = bpy.data.objects.new("Reeb Parts", empty)
+    with removed(bpy.data.meshes, empty), removed(bpy.data.objects, twin):
+        _lent.append(twin)
+        try:
+            yield
+        finally:
+            _lent.remove(twin)
+
+
+@contextmanager
+def _twin(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Object]:
+    """An object of a mesh, in no scene, for a moment."""
+    if _lent:
+        twin = _lent[-1]
+        own = twin.data
+        twin.data = mesh
+        try:
+            yield twin
+        finally:
+            twin.data = own  # to remove a mesh is to remove its objects
+    else:
+        twin = bpy.data.objects.new("Reeb Parts", mesh)
+        with removed(bpy.data.objects, twin):
+            yield twin
+
+
+def read(mesh: bpy.types.Mesh, n_groups: int | None = None) -> Elements:
+    """The elements of a mesh in Object Mode, with all that they carry. n_groups : of vertex groups, where known."""
     layers = {a.name: Layer(a.data_type, a.domain, mesh_arrays.attribute_values(a))
               for a in mesh.attributes if a.name not in _TOPOLOGY}
     for index, key in enumerate(mesh.shape_keys.key_blocks if mesh.shape_keys else ()):
@@ -39,20 +75,20 @@ def read(mesh: bpy.types.Mesh) -> Elements:
         marks = mesh_arrays.read(getattr(mesh, _ITEMS[domain]), "use_freestyle_mark", bool)
         if marks.any():
             layers[f"\0{FREESTYLE} {domain}"] = Layer(FREESTYLE, domain, marks)
-    if (weights := _weights(mesh)) is not None:
+    if (weights := _weights(mesh, n_groups)) is not None:
         layers[f"\0{WEIGHTS}"] = Layer(WEIGHTS, POINT, weights)
     return Elements(mesh_arrays.edge_ends(mesh), mesh_arrays.face_sizes(mesh),
                     mesh_arrays.corner_vertices(mesh), mesh_arrays.corner_edges(mesh), layers)
 
 
-def contents(mesh: bpy.types.Mesh) -> str:
+def contents(mesh: bpy.types.Mesh, n_groups: int) -> str:
     """Changes when something is done to what the elements carry: maps, colors, weights, shape keys, marks ...
 
     Not when vertices move, which mesh_arrays.fingerprint tells, when elements are selected or hidden, nor when Blender
-    makes a layer that says nothing. Not in Edit Mode.
+    makes a layer that says nothing. Not in Edit Mode. n_groups : how many vertex groups an object of the mesh has.
     """
     digests = []
-    for name, layer in sorted(read(mesh).layers.items()):
+    for name, layer in sorted(read(mesh, n_groups).layers.items()):
         values = layer.values
         says = values.count.any() if isinstance(values, Ragged) else values.any()
         if says and name != "position" and not name.startswith(PASSING):
@@ -87,12 +123,13 @@ def made(elements: Elements, like: bpy.types.Mesh) -> bpy.types.Mesh:
 def _resize(mesh: bpy.types.Mesh, elements: Elements) -> None:
     """Give a mesh so many elements, which carry nothing."""
     n, skin = len(elements.points), any(layer.kind == SKIN for layer in elements.layers.values())
-    points = bpy.data.meshes.new("Reeb Parts")
-    with removed(bpy.data.meshes, points), freed(bmesh.new()) as bm:
+    with freed(bmesh.new()) as bm:
         # Only from a BMesh shape keys take over the number of vertices, and skin comes; it leaves the names of groups.
         if mesh.shape_keys or skin:
-            points.vertices.add(n)
-            bm.from_mesh(points)
+            points = bpy.data.meshes.new("Reeb Parts")
+            with removed(bpy.data.meshes, points):
+                points.vertices.add(n)
+                bm.from_mesh(points)
         if skin:
             bm.verts.layers.skin.verify()
         bm.to_mesh(mesh)
@@ -121,11 +158,11 @@ def _set_layers(mesh: bpy.types.Mesh, elements: Elements) -> None:
             mesh_arrays.set_attribute_values(mesh.attributes[name], values)
 
 
-def _weights(mesh: bpy.types.Mesh) -> Ragged | None:
-    """Groups and weights of each vertex; None without vertex groups."""
-    twin = bpy.data.objects.new("Reeb Parts", mesh)
-    with removed(bpy.data.objects, twin):
-        n_groups = len(twin.vertex_groups)
+def _weights(mesh: bpy.types.Mesh, n_groups: int | None) -> Ragged | None:
+    """Groups and weights of each vertex; None without vertex groups. n_groups : as for ``read``."""
+    if n_groups is None:
+        with _twin(mesh) as twin:
+            n_groups = len(twin.vertex_groups)
     if not n_groups:
         return None
     lists = [[(entry.group, entry.weight) for entry in vertex.groups if entry.group < n_groups]
@@ -143,8 +180,7 @@ def _set_weights(mesh: bpy.types.Mesh, weights: Ragged) -> None:
     new = np.append(True, (group[1:] != group[:-1]) | (weight[1:] != weight[:-1]))[: len(group)]
     first = np.flatnonzero(new)
     end = np.append(first, len(vertices))[1:]  # none where no vertex has a weight
-    twin = bpy.data.objects.new("Reeb Parts", mesh)
-    with removed(bpy.data.objects, twin):
+    with _twin(mesh) as twin:
         groups = list(twin.vertex_groups)
         runs = zip(group[first].tolist(), weight[first].tolist(), first.tolist(), end.tolist(), strict=True)
         for index, value, here, there in runs:

@@ -45,7 +45,7 @@ def digest(item: bpy.types.Object) -> str:
     told += [_told(body, "", moving) for body in (item.rigid_body, item.rigid_body_constraint) if body]
     told += [len(_own_collections(item)), item.asset_data is not None, *_animation(item.animation_data)]
     if item.type == "MESH":
-        told += [mesh_arrays.fingerprint(item.data), element_layers.contents(item.data)]
+        told += [mesh_arrays.fingerprint(item.data), element_layers.contents(item.data, len(item.vertex_groups))]
     elif item.type == "ARMATURE":
         told += _bones(item, moving)
     if item.data is not None:

@@ -112,7 +112,7 @@ def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterab
     plain = plain_copy(mesh)
     others = [(part.number, part.material) for part in mesh.reeb_parts.parts if part.material is not None]
     wanted = [number for number in wanted if (face_numbers == number).any()]
-    with removed(bpy.data.meshes, plain):
+    with removed(bpy.data.meshes, plain), element_layers.one_twin():
         _keep_normals(plain)
         whole, n_apart, sculpted = element_layers.read(plain), 0, is_sculpted(mesh)
         if close:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Container
 
 import bpy
@@ -14,11 +15,20 @@ from . import transaction
 #: The largest number that a part has: colours are looked up in a table of all numbers.
 MAX_NUMBER = 1_000_000
 
+_LONGEST, _ROOM = 63, 8  # bytes of a name in Blender, and of the longest number behind it
+
 
 def part_name(mesh: bpy.types.Mesh, number: int) -> str:
     """The name that the user gave to a part, or else its default name."""
     entry = _kept(mesh, number)
     return entry.name if entry is not None and entry.name else own_name(mesh, number)
+
+
+def all_names(mesh: bpy.types.Mesh) -> dict[int, str]:
+    """What ``part_name`` says of each part of the list."""
+    kept = kept_names(mesh)
+    return {part.number: kept.get(part.number) or part.own_name or default_name(part.number)
+            for part in mesh.reeb_parts.parts}
 
 
 def own_name(mesh: bpy.types.Mesh, number: int) -> str:
@@ -34,14 +44,75 @@ def free_name(mesh: bpy.types.Mesh, number: int, name: str) -> str:
     return distinct(name, others)
 
 
+class Naming:
+    """Gives names to several parts of a mesh, one after the other: what is asked for each is looked up once for all.
+
+    ``free`` and ``keep`` say and do what ``free_name`` and ``keep_name`` do, for a part after the other.
+    """
+
+    def __init__(self, mesh: bpy.types.Mesh) -> None:
+        transaction.keep_result(mesh)
+        self._names, parts = mesh.reeb_parts.names, mesh.reeb_parts.parts
+        self._own = {part.number: part.own_name or default_name(part.number) for part in reversed(parts)}
+        self._known: dict[int, list[str]] = {}  # all names that belong to a number
+        self._places: dict[int, int] = {}  # in the list of names, whose items move when it grows
+        for part in parts:
+            self._known.setdefault(part.number, []).append(part.name)
+        for index, entry in enumerate(self._names):
+            self._places.setdefault(entry.number, index)
+            self._known.setdefault(entry.number, []).append(entry.name)
+        self._taken = Counter(name for names in self._known.values() for name in names)
+        self._full: Counter[str] = Counter()  # how many endings of a name are taken for sure, the first ones
+
+    def free(self, number: int, name: str) -> str:
+        """A name for a part that no other one has; ``keep`` comes next."""
+        for own in self._known[number]:
+            self._taken[own] -= 1
+            if not self._taken[own]:
+                self._released(own)
+        while self._taken[found := with_ending(name, self._full[name])]:
+            self._full[name] += 1
+        return found
+
+    def keep(self, number: int, name: str) -> None:
+        """Remember the name that a part has now; ``end`` comes after all."""
+        kept = "" if name == self._own[number] else name
+        if number not in self._places and kept:
+            self._places[number] = len(self._names)
+            self._names.add().number = number
+        if number in self._places:
+            self._names[self._places[number]].name = kept
+        self._known[number] = [name, kept]
+        self._taken.update(self._known[number])
+
+    def end(self) -> None:
+        """Forget what says nothing any more."""
+        _drop_empty(self._names)
+
+    def _released(self, name: str) -> None:
+        """A name is free, so that fewer endings of what it begins with are taken for sure."""
+        self._full.pop(name, None)
+        stem, dot, number = name.rpartition(".")
+        if dot and number.isdecimal():
+            self._full[stem] = min(self._full[stem], int(number))
+        if len(name.encode()) > _LONGEST - _ROOM:  # its stem was cut, and may be that of any long name
+            self._full.clear()
+
+
 def distinct(name: str, others: Container[str]) -> str:
     """A name that is none of some others, with .001 and so on behind it if needed; at most 63 bytes, as in Blender."""
-    count, free = 0, name
-    while free in others:
+    count = 0
+    while (free := with_ending(name, count)) in others:
         count += 1
-        ending = f".{count:03d}"
-        free = name.encode()[: 63 - len(ending)].decode(errors="ignore") + ending
     return free
+
+
+def with_ending(name: str, count: int) -> str:
+    """A name with a number behind it, none for 0; at most 63 bytes then, as in Blender."""
+    if not count:
+        return name
+    ending = f".{count:03d}"
+    return name.encode()[: _LONGEST - len(ending)].decode(errors="ignore") + ending
 
 
 def of_side(name: str, side: int, is_image: bool) -> str:
@@ -73,7 +144,7 @@ def keep_name(mesh: bpy.types.Mesh, number: int, name: str) -> None:
     own = own_name(mesh, number)
     if entry := _keep(mesh, number, name != own):
         entry.name = "" if name == own else name
-        _drop_empty(mesh)
+        _drop_empty(mesh.reeb_parts.names)
 
 
 def kept_names(mesh: bpy.types.Mesh) -> dict[int, str]:
@@ -95,7 +166,7 @@ def keep_color(mesh: bpy.types.Mesh, number: int, color: tuple[float, float, flo
     """Remember a color, also while its part is not shown. color : three values, sRGB; None for the palette's."""
     if entry := _keep(mesh, number, color is not None):
         entry.color, entry.has_color = color or (0.0, 0.0, 0.0), color is not None
-        _drop_empty(mesh)
+        _drop_empty(mesh.reeb_parts.names)
 
 
 def kept_colors(mesh: bpy.types.Mesh) -> dict:
@@ -127,8 +198,7 @@ def _keep(mesh: bpy.types.Mesh, number: int, make: bool) -> bpy.types.PropertyGr
     return entry
 
 
-def _drop_empty(mesh: bpy.types.Mesh) -> None:
-    names = mesh.reeb_parts.names
+def _drop_empty(names: bpy.types.bpy_prop_collection) -> None:
     for index in reversed(range(len(names))):
         if not names[index].name and not names[index].has_color:
             names.remove(index)

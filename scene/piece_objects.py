@@ -190,7 +190,7 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
 def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: list[int],
                style: SeparateProperties) -> Steps[Separated]:
     """What ``separate`` does, in steps."""
-    kept = _remove_earlier(obj, numbers)
+    kept = yield from stretched(_removing_earlier(obj, numbers), 0.0, 0.1)
     face_numbers = stored.shown_parts().face_numbers
     seen = modified.seen_mesh(context, obj, face_numbers) if style.seen and modified.has_modifiers(obj) else None
     mesh, face_numbers = seen or (obj.data, face_numbers)
@@ -201,7 +201,7 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     with removed(bpy.data.meshes, *([mesh] if seen else [])):
         found = yield from stretched(
             making_pieces(mesh, sides.face_numbers, wanted, close, None if style.cut == "FACES" else stretch,
-                          style.cut == "PLANAR"), 0.0, 0.7)
+                          style.cut == "PLANAR"), 0.1, 0.7)
     fitted = beds.Fitted(found.meshes, {}, [])
     if style.fit_bed:
         fitted = beds.fitted(found.meshes, stretch, np.array(style.bed[:]) / millimeters())
@@ -220,10 +220,11 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
         cut_list.write(obj, joined.cuts, part, numbers)
     pieces = _objects(context, obj, joined.meshes, names, part, style)
     loose = [_dowel(context, obj, dowel, part, style) for dowel in joined.loose]
-    for piece in (*pieces, *loose):
+    for index, piece in enumerate((*pieces, *loose)):
+        yield 0.8 + 0.1 * index / (len(pieces) + len(loose))
         made.mark(piece)
     for index, piece in enumerate(pieces if close else ()):
-        yield 0.8 + 0.2 * index / len(pieces)
+        yield 0.9 + 0.1 * index / len(pieces)
         check_pieces([piece], stretch)
     return Separated(pieces, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part,
                      len(fitted.part), fitted.left, found.n_apart,
@@ -237,10 +238,10 @@ def _names(obj: bpy.types.Object, origin: dict[int, int], sides: modified.BothSi
     its own, and its name the other side's ending.
     """
     count, names, place = Counter(origin.values()), {}, Counter()
+    called = part_names.all_names(obj.data)
     for key, own in origin.items():
         place[own] += 1
-        name = part_names.of_side(part_names.part_name(obj.data, sides.part.get(own, own)), sides.side.get(own, 0),
-                                  own in sides.part)
+        name = part_names.of_side(called[sides.part.get(own, own)], sides.side.get(own, 0), own in sides.part)
         names[key] = name if count[own] == 1 else f"{name} {place[own]}"
     return names
 
@@ -346,10 +347,11 @@ def _include(context: bpy.types.Context, collection: bpy.types.Collection) -> No
         open_ += layer.children
 
 
-def _remove_earlier(obj: bpy.types.Object, numbers: list[int]) -> int:
+def _removing_earlier(obj: bpy.types.Object, numbers: list[int]) -> Steps[int]:
     """Remove pieces of these parts, and dowels in them, unless the user has worked on them; how many stay."""
-    kept, earlier = 0, []
-    for piece in [*piece_objects(obj), *dowels(obj)]:
+    kept, earlier, there = 0, [], [*piece_objects(obj), *dowels(obj)]
+    for index, piece in enumerate(there):
+        yield index / len(there)
         if not is_of(piece, numbers) and len(numbers) < len(obj.data.reeb_parts.parts):
             continue
         if made.is_untouched(piece, former_looks):
@@ -369,8 +371,9 @@ def former_looks(piece: bpy.types.Object) -> str:
     place = [round(value, 6) for row in piece.matrix_basis for value in row]
     materials = [slot.material.name if slot.material else "" for slot in piece.material_slots]
     parent = piece.parent.name if piece.parent else ""
-    return str([piece.name, mesh_arrays.fingerprint(piece.data), element_layers.contents(piece.data), place, parent,
-                piece.modifiers.keys(), piece.vertex_groups.keys(), materials])
+    contents = element_layers.contents(piece.data, len(piece.vertex_groups))
+    return str([piece.name, mesh_arrays.fingerprint(piece.data), contents, place, parent, piece.modifiers.keys(),
+                piece.vertex_groups.keys(), materials])
 
 
 def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: SeparateProperties) -> bpy.types.Object:

@@ -89,12 +89,15 @@ def give_names(mesh: bpy.types.Mesh, names: dict[int, str]) -> int:
     """
     listed = {part.number: part for part in mesh.reeb_parts.parts}
     parts = [listed[number] for number in names if number in listed]
-    transaction.keep_result(mesh)
+    naming, users = part_names.Naming(mesh), targets.users(mesh)
     with quiet.quiet():
         for part in parts:
-            part.name = part_names.free_name(mesh, part.number, names[part.number])
-            _take_name(part)
-    for obj in targets.users(mesh):
+            part.name = naming.free(part.number, names[part.number])
+            for obj in users[:1]:
+                vertex_groups.rename(obj, part)
+            naming.keep(part.number, part.name)
+    naming.end()
+    for obj in users:
         graph_objects.update_names(obj)
     return len(parts)
 

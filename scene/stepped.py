@@ -10,7 +10,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
 from ..core.steps import Steps, finished
-from . import jobs, redraw
+from . import jobs, redraw, store
 from .errors import SceneError, translated
 from .reporting import ReportingOperator
 from .transaction import transaction
@@ -18,8 +18,17 @@ from .transaction import transaction
 #: With so many vertices it can take a second or more: then there is progress, and Esc.
 LARGE = 40_000
 
+# What becomes an object of its own takes as long as so many vertices more.
+_OF_A_PART = 40
+
 # Steps are taken for so many seconds before the window is drawn again.
 _BREATH = 0.1
+
+
+def is_long(objects: list[bpy.types.Object]) -> bool:
+    """Whether to make objects of the parts of some objects can take a second or more."""
+    return sum(len(obj.data.vertices) + _OF_A_PART * len(obj.data.reeb_parts.parts)
+               for obj in objects if store.has_result(obj.data)) >= LARGE
 
 
 class SteppedOperator(ReportingOperator):

@@ -6,6 +6,7 @@ import importlib
 import bpy
 import numpy as np
 import pytest
+import shapes
 from mathutils import Euler
 
 
@@ -157,3 +158,31 @@ def test_suggested_names_are_taken_by_parts_that_have_none(obj, result):
     assert sorted(part.name for part in result.parts) == sorted(names)
     bpy.ops.reeb_parts.decompose()
     assert sorted(part.name for part in result.parts) == sorted(names)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_names_given_at_once_are_those_given_one_by_one(make, package, seed):
+    """Names that others have, or had a moment ago, with and without numbers, long ones, and the parts' own."""
+    part_names = importlib.import_module(f"{package}.scene.part_names")
+    reactions = importlib.import_module(f"{package}.scene.reactions")
+    found = []
+    for at_once in (False, True):
+        obj = make(shapes.tube_tree())
+        bpy.ops.reeb_parts.decompose(detail=1.0, graph=False)
+        mesh, draw = obj.data, np.random.default_rng(seed)
+        words = ["leg", "leg.001", "leg.002", "leg.001.001", "x" * 63, "x" * 59 + ".001", "Part 02", "Part 03"]
+        for _ in range(4):
+            names = {part.number: str(draw.choice(words)) for part in mesh.reeb_parts.parts if draw.random() < 0.8}
+            if at_once:
+                reactions.give_names(mesh, names)
+                continue
+            quiet = importlib.import_module(f"{package}.scene.quiet")
+            with quiet.quiet():
+                for part in mesh.reeb_parts.parts:
+                    if part.number in names:
+                        part.name = part_names.free_name(mesh, part.number, names[part.number])
+                        part_names.keep_name(mesh, part.number, part.name)
+        found.append(([part.name for part in mesh.reeb_parts.parts], part_names.kept_names(mesh)))
+        assert [part_names.part_name(mesh, part.number) for part in mesh.reeb_parts.parts] == list(
+            part_names.all_names(mesh).values())
+    assert found[0] == found[1]

@@ -2,10 +2,13 @@
 
 from collections import Counter
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import shapes
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from core import decompose
 from core.uses.naming import Shapes, Suggestion, suggestions
@@ -151,3 +154,24 @@ def test_legs_are_legs_down_to_the_shoes_however_far_the_arms_are_stretched():
         shapes.box(size), np.subtract(middle, np.divide(size, 2))))) for middle, size in boxes]
     names = named(*shapes.together(*pieces), n_parts=8)
     assert words(names) == {"body": 1, "head": 1, "arm": 2, "leg": 4}
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_the_body_is_what_leaves_the_smallest_remainders(seed):
+    """Any parts that touch in any way: each is taken away, and what hangs together then is added up."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 20))
+    cuts = np.array([pair for pair in rng.integers(0, count, (int(rng.integers(0, 2 * count)), 2)).tolist()
+                     if pair[0] != pair[1]], np.int64).reshape(-1, 2)
+    share = np.ones(count) if seed % 3 == 0 else rng.random(count)
+    parts, axes = SimpleNamespace(count=count, share=share, cuts=cuts), np.zeros((count, 3))
+    remainders = []
+    for part in range(count):
+        left = cuts[(cuts != part).all(axis=1)]
+        graph = coo_array((np.ones(len(left)), left.T), (count, count))
+        labels = connected_components(graph, directed=False)[1]
+        beside = np.unique(cuts[(cuts == part).any(axis=1)])
+        total = np.bincount(labels, share)
+        remainders.append(max((total[labels[other]] for other in beside.tolist() if other != part), default=0.0))
+    body = Shapes(parts, axes, axes, axes, axes, 0).body
+    assert remainders[body] == pytest.approx(min(remainders))
