@@ -46,22 +46,23 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         self.stroke.clear()
         self.brush = Brush(obj, self.model, self.number)
         self.painting = False
+        self.last: tuple[bpy.types.Region, np.ndarray, Target] | None = None  # where the stroke was seen last
         # Not as bright as the part, which has light and shade.
         self.color = (*part_names.number_colors(obj.data)[self.number, :3].tolist(), 0.7)
         self.told = rpt_("Into {name}").format(name=part_names.part_name(obj.data, self.number))
 
     def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
         self._show_brush(target)
-        if self.painting and target is not None:
-            self._dab(context, target)
+        if self.painting:
+            self._stroke_to(context, target, event)
 
     def press(self, context: bpy.types.Context, target: Target, event: bpy.types.Event) -> None:
-        self.painting = True
-        self._dab(context, target)
+        self.painting, self.last = True, None
+        self._stroke_to(context, target, event)
 
     def other(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> bool:
         if event.type == "LEFTMOUSE":
-            self.painting = False
+            self.painting, self.last = False, None
             return True
         larger = {"RIGHT_BRACKET": True, "LEFT_BRACKET": False}
         if event.ctrl:
@@ -76,11 +77,36 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
         self.report({"INFO"}, paint(context, obj, self.brush))
         return {"FINISHED"}
 
-    def _dab(self, context: bpy.types.Context, target: Target) -> None:
+    def _stroke_to(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
+        """Go on with the stroke: a fast pointer is seen in places far apart, and there are dabs between them, too."""
+        place = pointing.viewport_region(context.window.screen, event.mouse_x, event.mouse_y)
+        if target is None or place is None:
+            self.last = None
+            return
+        region, mouse = place[0], np.array(place[1])
+        if self.last is not None and self.last[0] == region:
+            self._dabs_between(context, self.last[2], target, region, self.last[1], mouse)
+        self.last = region, mouse, target
+        self._dab(target)
+        self.show(context.view_layer.objects.active, self.brush.numbers())
+
+    def _dabs_between(self, context: bpy.types.Context, before: Target, after: Target, region: bpy.types.Region,
+                      start: np.ndarray, end: np.ndarray) -> None:
+        """Dabs at steps of half a radius, under the line from one (2,) place of a region to another; never denser than
+        its pixels."""
+        length = np.linalg.norm(after.location - before.location) / (0.5 * self.radius)
+        count = int(min(np.ceil(length), np.ceil(np.abs(end - start).max())))
+        obj = context.view_layer.objects.active
+        for share in np.arange(1, count) / max(count, 1):
+            mouse = tuple((start + share * (end - start)).tolist())
+            target = self.model.under(context, obj, region, mouse, graph=False)
+            if target is not None:
+                self._dab(target)
+
+    def _dab(self, target: Target) -> None:
         self.brush.dab(target.location, self.radius)
         dab = self.stroke.add()
         dab.location, dab.radius = target.location.tolist(), self.radius
-        self.show(context.view_layer.objects.active, self.brush.numbers())
 
     def _show_brush(self, target: Target | None) -> None:
         """A disc as large as the brush, lying on the surface, in the color that it gives."""

@@ -278,7 +278,7 @@ def assign_face_sets(context: bpy.types.Context, obj: bpy.types.Object, stored: 
 
 
 def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, face_numbers: np.ndarray,
-                 mesh_tables: tuple[FaceGraph, CornerTable] | None = None) -> None:
+                 mesh_tables: tuple[FaceGraph, CornerTable] | None = None) -> np.ndarray:
     """Give faces to parts, and pin all parts concerned; what falls apart becomes several parts.
 
     Parameters
@@ -290,6 +290,11 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         The part of each face from now on.
     mesh_tables : optional
         What ``bridge.face_graph`` gives for the object, if it is known already.
+
+    Returns
+    -------
+    wanted : (p,) int64
+        The part that each face was to be in, with the mirror image of the change; pieces have other numbers then.
     """
     from ..core.result.editing import split_candidates
 
@@ -297,7 +302,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     face_numbers, _ = _mirrored(obj.data, stored, before, face_numbers, stored.decomposition.face_twin)
     moved = face_numbers != before
     if not moved.any():
-        return
+        return face_numbers
     concerned = set(np.unique(np.concatenate([face_numbers[moved], before[moved]])).tolist())
     mesh_tables = mesh_tables or bridge.face_graph(obj)
     # Faces of different parts differ in a bit: of a thousand face sets, ten cuts tell all.
@@ -314,6 +319,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         if (numbers == number).any():
             concerned |= _part_pieces(obj.data, stored, numbers, number)
     write(context, obj.data, stored, _pinned(obj.data, stored, numbers, concerned))
+    return face_numbers
 
 
 def _finer(stored: Stored, decomposition: Decomposition) -> Stored:

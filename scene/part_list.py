@@ -4,15 +4,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Container, Sequence
-from typing import Any
+from collections.abc import Container
+from functools import lru_cache
 
 import bmesh
 import bpy
+import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
-from mathutils import Matrix, Vector
+from mathutils import Matrix
 
-from . import quiet, store, targets, transaction
+from . import mesh_arrays, quiet, store, targets, transaction
 from .errors import SceneError
 from .settled import reaction
 
@@ -109,21 +110,37 @@ def folded(mesh: bpy.types.Mesh) -> set[int]:
     return {part.number for part in small_parts(mesh) if not part.selected} - shown
 
 
-def ordered(parts: Sequence[bpy.types.PropertyGroup], by: str, matrix: Matrix) -> list[int]:
-    """The places of parts in another order.
+def ordered(parts: bpy.types.bpy_prop_collection, by: str, matrix: Matrix) -> list[int]:
+    """The places of parts in another order; asked for at each redraw.
 
     by : "NUMBER", "SIZE", "NAME" or "PLACE". matrix : of the object, in the world. Returns the place that each part,
     in the order given, has in the list.
     """
-    keys: dict[str, Callable[[int], Any]] = {
-        "NUMBER": lambda index: index, "SIZE": lambda index: -parts[index].share,
-        "NAME": lambda index: _natural(parts[index].name),
-        "PLACE": lambda index: -(matrix @ Vector(parts[index].middle)).z,
-    }
-    places = [0] * len(parts)
-    for place, index in enumerate(sorted(range(len(parts)), key=keys[by])):
+    if by == "NUMBER":
+        return list(range(len(parts)))
+    if by == "NAME":
+        return list(_by_name(tuple(part.name for part in parts)))
+    if by == "SIZE":
+        return _places(-mesh_arrays.read(parts, "share", np.float32))
+    middles = mesh_arrays.read(parts, "middle", np.float32, 3).astype(np.float64)
+    height = middles @ np.array(matrix[2][:3]) + matrix[2][3]
+    return _places(-height.astype(np.float32))
+
+
+def _places(keys: np.ndarray) -> list[int]:
+    """The place of each key among all, (k,); equal ones stay in their order."""
+    places = np.empty(len(keys), np.int64)
+    places[np.argsort(keys, kind="stable")] = np.arange(len(keys))
+    return places.tolist()
+
+
+@lru_cache(1)
+def _by_name(names: tuple[str, ...]) -> tuple[int, ...]:
+    """The place of each name among all."""
+    places = [0] * len(names)
+    for place, index in enumerate(sorted(range(len(names)), key=lambda index: _natural(names[index]))):
         places[index] = place
-    return places
+    return tuple(places)
 
 
 def _natural(name: str) -> list[tuple[int, str]]:

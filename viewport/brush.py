@@ -75,15 +75,19 @@ def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> st
         raise SceneError(_why_nothing(brush).format(name=name))
     before = brush.model.numbers
     givers = ", ".join(part_names.part_name(obj.data, number) for number in np.unique(before[moved]).tolist())
-    edits.assign_faces(context, obj, brush.model.stored, brush.numbers())
+    stays = edits.assign_faces(context, obj, brush.model.stored, brush.numbers()) == before  # on both sides
     after = store.load(obj.data).face_numbers
     joined = int((after[moved] == brush.number).sum())
-    told = [rpt_("{n} {n:face|faces} of {givers} {n:is|are} {name} now").format(
-        n=Count(joined), givers=givers, name=name)]
+    told = []
+    if joined:
+        told.append(rpt_("{n} {n:face|faces} of {givers} {n:is|are} {name} now").format(
+            n=Count(joined), givers=givers, name=name))
+        apart = rpt_("{n} {n:does not touch it and is a part of its own|do not touch it and are parts of their own}")
+    else:
+        apart = rpt_("{n} {n:face|faces} of {givers} {n:does|do} not touch {name}: a part apart")
     if joined < moved.sum():
-        told.append(rpt_("{n} {n:does not touch it and is a part of its own|do not touch it and are parts of their "
-                         "own}").format(n=Count(int(moved.sum()) - joined)))
-    left = len(np.setdiff1d(after[~moved], before))
+        told.append(apart.format(n=Count(int(moved.sum()) - joined), givers=givers, name=name))
+    left = len(np.setdiff1d(after[stays], before))
     if left:
         told.append(rpt_("what is left is in {n} {n:part|parts} more").format(n=Count(left)))
     if brush.n_locked:

@@ -1019,6 +1019,8 @@ TEXTS = {
     "{n} {n:is locked and stays|are locked and stay}": "{n} {n:ist gesperrt und bleibt|sind gesperrt und bleiben}",
     "{n} {n:does not touch it and is a part of its own|do not touch it and are parts of their own}":
         "{n} {n:berührt es nicht und ist ein eigenes Teil|berühren es nicht und sind eigene Teile}",
+    "{n} {n:face|faces} of {givers} {n:does|do} not touch {name}: a part apart":
+        "{n} {n:Fläche|Flächen} von {givers} {n:berührt|berühren} {name} nicht: ein Teil für sich",
     "{n} {n:face|faces} of {givers} {n:is|are} {name} now":
         "{n} {n:Fläche|Flächen} von {givers} {n:gehört|gehören} jetzt zu {name}",
     "{rings} {rings:ring|rings}, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm  "

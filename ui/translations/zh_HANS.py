@@ -907,6 +907,8 @@ TEXTS = {
     "{n} {n:is locked and stays|are locked and stay}": "{n} 个已锁定，保持不变",
     "{n} {n:does not touch it and is a part of its own|do not touch it and are parts of their own}":
         "{n} 个与其不相接，成为单独的部件",
+    "{n} {n:face|faces} of {givers} {n:does|do} not touch {name}: a part apart":
+        "{givers} 的 {n} 个面与 {name} 不相接：成为单独的部件",
     "{n} {n:face|faces} of {givers} {n:is|are} {name} now": "{givers} 的 {n} 个面现属于 {name}",
     "{rings} {rings:ring|rings}, {low} to {high}    Wheel or a number: rings, minus inwards    Click, Enter: confirm  "
     "  "

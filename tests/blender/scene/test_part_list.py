@@ -2,12 +2,13 @@
 """The list: its order, what is folded in it, names that differ, and small parts merged."""
 
 import importlib
+import time
 
 import bpy
 import numpy as np
 import pytest
 import shapes
-from mathutils import Euler
+from mathutils import Euler, Vector
 
 
 @pytest.fixture
@@ -186,3 +187,28 @@ def test_names_given_at_once_are_those_given_one_by_one(make, package, seed):
         assert [part_names.part_name(mesh, part.number) for part in mesh.reeb_parts.parts] == list(
             part_names.all_names(mesh).values())
     assert found[0] == found[1]
+
+
+@pytest.mark.parametrize("by", ["NUMBER", "SIZE", "NAME", "PLACE"])
+def test_the_order_of_a_long_list_is_that_of_its_keys_and_costs_a_redraw_little(obj, listed, by):
+    bpy.ops.reeb_parts.decompose(detail=1.0, graph=False)
+    parts, rng = obj.data.reeb_parts.parts, np.random.default_rng(3)
+    while len(parts) < 1500:
+        parts.add()
+    with listed.quiet.quiet():
+        for index, part in enumerate(parts):
+            part.name, part.share = f"Part {rng.integers(400)} {index % 3}", float(rng.integers(40)) / 40
+            part.middle = rng.integers(-9, 9, 3).astype(float).tolist()
+    obj.rotation_euler, obj.location = (0.3, 0.2, 0.1), (1, 2, 3)
+    bpy.context.view_layer.update()
+    keys = {"NUMBER": lambda index: index, "SIZE": lambda index: -parts[index].share,
+            "NAME": lambda index: [int(word) if word.isdecimal() else word for word in parts[index].name.split()],
+            "PLACE": lambda index: -(obj.matrix_world @ Vector(parts[index].middle)).z}
+    wanted = sorted(range(1500), key=keys[by])
+    times = []
+    for _ in range(5):
+        start = time.perf_counter()
+        found = listed.ordered(parts, by, obj.matrix_world)
+        times.append(time.perf_counter() - start)
+    assert [found[index] for index in wanted] == list(range(1500))
+    assert min(times) < 0.005

@@ -139,3 +139,21 @@ def test_parts_that_grow_stay_on_their_side(name):
             assert abs(now @ np.where(left, 1, -1)) >= 0.8 * now.sum()
             assert (now @ np.where(left, 1, -1)) * beside > 0
     assert done > 6
+
+
+def test_the_report_of_paint_does_not_count_the_mirror_image_as_what_is_left(mesh, capfd):
+    """A dab on one of two limbs, into the other: a part of its own on each side, and nothing else."""
+    bpy.context.scene.reeb_parts.symmetry = True
+    left, right = part(mesh, ".L"), part(mesh, ".R")
+    choose(mesh, left)
+    faces = np.flatnonzero(face_numbers(mesh) == right.number)
+    center = np.array([polygon.center for polygon in mesh.polygons])
+    tip = faces[np.linalg.norm(center[faces], axis=1).argmax()]
+    name, count = right.name, len(mesh.reeb_parts.parts)
+    capfd.readouterr()
+    bpy.ops.reeb_parts.paint(stroke=[{"name": "", "location": center[tip], "radius": 1e-4}])
+    said = capfd.readouterr().out
+    assert len(mesh.reeb_parts.parts) == count + 2
+    assert f"1 face of {name} does not touch" in said
+    assert "what is left" not in said
+    assert "0 faces" not in said
