@@ -210,5 +210,7 @@ def _with_result(mesh: bpy.types.Mesh, context: bpy.types.Context, work: Callabl
             # cannot be read says itself what is wrong with it, once something is done with it.
             if not isinstance(error, store.UnreadableError):
                 mesh.reeb_parts.edited = True
+            with quiet.quiet():  # what cannot be shown is not said either
+                mesh.reeb_parts.take_back()
         else:
             work(stored)

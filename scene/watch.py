@@ -8,21 +8,36 @@ from __future__ import annotations
 
 import time
 
+import bmesh
 import bpy
 from bpy.app.handlers import persistent
 
 from . import graph_follow, graph_objects, mesh_arrays, piece_objects, redraw, seen_points, store, transaction
+from .temporary import removed
 
 REST = 0.3  # seconds
+MOST_EDITED = 200_000  # vertices of a mesh that is looked at in Edit Mode: less than a tenth of a second
 
 _waiting: set[int] = set()  # meshes by session_uid
 _last = 0.0
 
 
 def check(mesh: bpy.types.Mesh) -> None:
-    """Set or take back the mark that a mesh differs from the one its result belongs to."""
+    """Set or take back the mark that a mesh differs from the one its result belongs to.
+
+    In Edit Mode a large mesh is not looked at, nor one with shape keys, of which that mode shows one: once it is left.
+    """
     result = mesh.reeb_parts
-    edited = mesh_arrays.fingerprint(mesh) != result.fingerprint
+    if not mesh.is_editmode:
+        edited = mesh_arrays.fingerprint(mesh) != result.fingerprint
+    elif mesh.shape_keys or len(bmesh.from_edit_mesh(mesh).verts) > MOST_EDITED:
+        return
+    else:
+        # To write the edits to the mesh itself would be a change of it, after which we would look again, and so on.
+        copy = bpy.data.meshes.new("Reeb Parts")
+        with removed(bpy.data.meshes, copy):
+            bmesh.from_edit_mesh(mesh).to_mesh(copy)
+            edited = mesh_arrays.fingerprint(copy) != result.fingerprint
     if result.edited != edited:
         result.edited = edited
         redraw.viewports()
@@ -78,8 +93,7 @@ def _look() -> float | None:
     if rested < REST:
         return REST - rested
     for mesh in bpy.data.meshes:
-        # In Edit Mode it is looked at when that is left.
-        if mesh.session_uid in _waiting and mesh.is_editable and not mesh.is_editmode and store.has_result(mesh):
+        if mesh.session_uid in _waiting and mesh.is_editable and store.has_result(mesh):
             check(mesh)
     _waiting.clear()
     return None

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The result that stays with the mesh: detail, numbers and names, saving, editing."""
 
+import importlib
+
+import bmesh
 import bpy
 import numpy as np
 import pytest
+from mathutils import Vector
 from results import numbers
 from snapshot import snapshot
 
@@ -294,3 +298,43 @@ def test_select_and_isolate(obj, result):
     assert [not p.hide for p in obj.data.polygons] == wanted.tolist()
     bpy.ops.reeb_parts.isolate(show_all=True)
     assert not any(p.hide for p in obj.data.polygons)
+
+
+def test_an_edit_in_edit_mode_is_noticed_and_what_is_refused_goes_back(obj, package):
+    """A timer looks once the mesh rests; a large mesh is looked at when Edit Mode is left."""
+    watch = importlib.import_module(f"{package}.scene.watch")
+    bpy.ops.reeb_parts.decompose()
+    result, count = obj.data.reeb_parts, len(obj.data.reeb_parts.parts)
+    place = obj.data.vertices[0].co.copy()
+
+    def look():
+        watch._waiting.add(obj.data.session_uid)
+        watch._last = 0.0
+        watch._look()
+        return result.edited
+
+    def move(height):
+        edit = bmesh.from_edit_mesh(obj.data)
+        edit.verts.ensure_lookup_table()
+        edit.verts[0].co = place + Vector((0, 0, height))
+        bmesh.update_edit_mesh(obj.data)
+
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert not look()
+    move(64)
+    assert look()
+    result.detail = 0.9
+    assert (result.detail, len(result.parts)) == (0.5, count)
+    move(0)
+    assert not look()
+    result.detail = 0.9
+    assert result.detail == pytest.approx(0.9)
+    assert len(result.parts) > count
+    watch.MOST_EDITED, most = 10, watch.MOST_EDITED
+    move(64)
+    assert not look()
+    watch.MOST_EDITED = most
+    assert look()
+    bpy.ops.mesh.delete(type="VERT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert look()
