@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from . import compute, defaults, mesh_arrays, part_places, schema, store, watch
+from . import compute, defaults, mesh_arrays, part_places, schema, sculpt_undo, store, watch
 from .outputs import vertex_groups
 
 
@@ -11,9 +11,11 @@ def register() -> None:
     schema.register()
     defaults.register()
     watch.register()
+    sculpt_undo.register()
 
 
 def unregister() -> None:
+    sculpt_undo.unregister()
     watch.unregister()
     defaults.unregister()
     schema.unregister()

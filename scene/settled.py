@@ -15,7 +15,7 @@ from typing import Any
 import bpy
 from bpy.props import StringProperty
 
-from . import quiet, transaction
+from . import quiet, sculpt_undo, transaction
 
 #: The group on each kind of data block that remembers.
 _GROUPS = {bpy.types.Mesh: "reeb_parts", bpy.types.Object: "reeb_parts_made", bpy.types.Scene: "reeb_parts"}
@@ -68,5 +68,6 @@ def reaction(work: Callable) -> Callable:
                 transaction.on_failure(getattr(block, name).take_back)
                 transaction.keep_group(block, name)
             work(group, context)
+        sculpt_undo.soon(context)
 
     return update
