@@ -42,6 +42,8 @@ def steps():
         yield from all_undone(seen, scene.__name__, before)
         if scene in PANELS:
             yield from pointer.fold(PANELS[scene])
+    yield from painted_fast(seen)
+    yield from sculpted(seen)
     (pointer.OUT / "seen.json").write_text(json.dumps(seen, indent=2))
 
 
@@ -259,6 +261,87 @@ def all_undone(seen, name, before):
             yield 0.2
             bpy.context.view_layer.update()
     seen[f"{name}, undone"] = [str(change)[:300] for change in changes(before, snapshot())]
+
+
+def painted_fast(seen):
+    """A stroke of which Blender sees places that are further apart than the brush is wide."""
+    result, before, settings = mesh().reeb_parts, face_numbers(), bpy.context.scene.reeb_parts
+    symmetry, settings.symmetry = settings.symmetry, False  # the mirror image would be another piece
+    result.active = 5  # the head, which is larger than the stroke and stays what it is
+    yield from pointer.search("Paint into")
+    yield 0.3
+    x, y = pointer.in_view(0.43)
+    yield from pointer.rest(x, y)
+    pointer.xdo("mousedown", 1)
+    for step in (0, 100, 200):
+        pointer.xdo("mousemove", x + step, y)
+        yield 0.05
+    pointer.xdo("mouseup", 1)
+    yield 0.2
+    yield from pointer.tap("Return")
+    yield from pointer.until(lambda: face_numbers() != before)
+    after = face_numbers()
+    painted = {index for index in range(len(after)) if after[index] != before[index]}
+    seen["fast stroke"] = pieces(painted)
+    pointer.shot("17_fast_stroke.png")
+    yield from pointer.tap("ctrl+z")
+    yield from pointer.until(lambda: face_numbers() == before)
+    bpy.context.scene.reeb_parts.symmetry = symmetry
+
+
+def face_numbers():
+    return [item.value for item in mesh().attributes["reeb_part"].data]
+
+
+def pieces(faces):
+    """How many pieces some faces are in, by their edges."""
+    beside = {}
+    for index in faces:
+        for key in mesh().polygons[index].edge_keys:
+            beside.setdefault(key, []).append(index)
+    count, waiting = 0, set(faces)
+    while waiting:
+        count, at = count + 1, [waiting.pop()]
+        while at:
+            new = {other for key in mesh().polygons[at.pop()].edge_keys for other in beside[key]} & waiting
+            waiting -= new
+            at += new
+    return count
+
+
+def sculpted(seen):
+    """In Sculpt Mode: a name and a number typed, Detail dragged; each is undone by itself, and done again."""
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        bpy.ops.object.mode_set("INVOKE_DEFAULT", True, mode="SCULPT")
+    yield 1.0
+    pointer.PLACES.clear()
+    states = [shown()]
+    place = yield from pointer.entry(1, "name")
+    yield from pointer.type_over(*place, "Hoof")
+    yield 0.8
+    states.append(shown())
+    yield from pointer.type_into("n_parts", "4")
+    yield 0.8
+    states.append(shown())
+    x, y = yield from pointer.find("detail")
+    yield from pointer.drag([(x + 4 * step, y) for step in range(9)])
+    yield 0.8
+    states.append(shown())
+    seen["sculpted"] = states
+    yield from pointer.rest(*pointer.in_view(0.1, 0.2))
+    for key in ("ctrl+z", "ctrl+shift+z"):
+        seen[f"sculpted, {key}"] = []
+        for _ in states[1:]:
+            yield from pointer.tap(key)
+            yield 0.8
+            seen[f"sculpted, {key}"].append(shown())
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        bpy.ops.object.mode_set("INVOKE_DEFAULT", True, mode="OBJECT")
+    yield 0.3
+
+
+def shown():
+    return [spot().mode, [part.name for part in mesh().reeb_parts.parts]]
 
 
 def corner_colors():

@@ -114,3 +114,15 @@ def test_another_palette_recolours_at_once(seen):
                                    "exploded", "graph_hidden", "palette_chosen"])
 def test_undo_takes_it_back(seen, scene):
     assert seen[f"{scene}, undone"] == []
+
+
+def test_a_fast_stroke_has_no_gaps(seen):
+    assert seen["fast stroke"] == 1
+
+
+def test_in_sculpt_mode_each_change_is_one_step_of_undo(seen):
+    states = seen["sculpted"]
+    assert len({str(state) for state in states}) == 4
+    assert {mode for mode, _ in states} == {"SCULPT"}
+    assert seen["sculpted, ctrl+z"] == states[-2::-1]
+    assert seen["sculpted, ctrl+shift+z"] == states[1:]
