@@ -50,7 +50,8 @@ def test_a_mirrored_object_looks_outwards(tmp_path):
     make = """
 import bpy, sys
 bpy.ops.wm.read_homefile(use_empty=True)
-bpy.ops.mesh.primitive_cube_add(size=2, location=(5, 0, 0), scale=(-1, 1, 1))
+bpy.ops.mesh.primitive_cube_add(size=2, location=(5, 0, 0))
+bpy.context.object.scale = (-1, 1, 1)
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
     subprocess.run([os.environ["BLENDER"], "--background", "--factory-startup", "--python-expr", make, "--", str(path)],

@@ -86,7 +86,7 @@ def test_the_distance_is_the_mean_of_scaled_differences():
 
 
 def test_depth_is_the_way_from_the_cuts_of_the_own_part():
-    """A strip of eight squares, the last three of which are another part; a square is as wide as the way to the next."""
+    """A strip of eight squares, the last three of which are another part."""
     vertices, quads = shapes.flat_cells([(x, 0) for x in range(8)])
     mesh = TriMesh(vertices, quads)
     part = (mesh.face_centroids[:, 0] > 5).astype(int)
