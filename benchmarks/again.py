@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The same models again: how much of a model has another part when it is moved, scaled, turned, shuffled or mirrored.
 
-    python3 benchmarks/again.py MESHES [MESHES ...] [--most FACES] [--jobs N]
+    python3 benchmarks/again.py MESHES [MESHES ...] [--most FACES] [--jobs N] [--single]
 
 MESHES are .npz with `vertices` and `faces`, .obj, .ply or .stl. Prints, for each change, how many models have
-another part on more than 1 % of their area, and the mean of that area; then the models that do.
+another part on more than 1 % of their area, and the mean of that area; then the models that do. With --single all
+coordinates have single precision, before and after, as Blender and most files keep them.
 """
 
 from __future__ import annotations
@@ -72,10 +73,11 @@ def apart(one: np.ndarray, other: np.ndarray, area: np.ndarray) -> float:
     return 1.0 - common[linear_sum_assignment(-common)].sum() / area.sum()
 
 
-def differences(path: Path, most: int) -> list[float] | None:
+def differences(path: Path, most: int, single: bool) -> list[float] | None:
     """What each change does to the parts of a model; None for one that has more faces, or cannot be cut."""
+    kept = np.float32 if single else float
     vertices, faces = load_mesh(path)
-    vertices = vertices.astype(float)
+    vertices = vertices.astype(kept).astype(float)
     if len(faces) > most:
         return None
     try:
@@ -85,7 +87,8 @@ def differences(path: Path, most: int) -> list[float] | None:
     area = TriMesh(vertices, faces).face_area + 1e-300
     found = {}
     for name, change in CHANGES.items():
-        other = decompose(*change(vertices, faces, np.random.default_rng(0))).parts().labels
+        places, corners = change(vertices, faces, np.random.default_rng(0))
+        other = decompose(places.astype(kept).astype(float), corners).parts().labels
         found[name] = apart(labels, other[::-1] if name == "shuffled" else other, area)
     return list(found.values())
 
@@ -96,10 +99,11 @@ def main() -> int:
     parser.add_argument("meshes", nargs="+", type=Path, metavar="MESHES")
     parser.add_argument("--most", type=int, default=10_000, metavar="FACES", help="larger models are left out")
     parser.add_argument("--jobs", type=int, default=1, metavar="N")
+    parser.add_argument("--single", action="store_true", help="round coordinates to single precision")
     arguments = parser.parse_args()
     found = list(tqdm(
         Parallel(arguments.jobs, return_as="generator")(
-            delayed(differences)(path, arguments.most) for path in arguments.meshes),
+            delayed(differences)(path, arguments.most, arguments.single) for path in arguments.meshes),
         total=len(arguments.meshes), unit="mesh", disable=None))
     known = {path: row for path, row in zip(arguments.meshes, found, strict=True) if row is not None}
     table = np.reshape(list(known.values()), (-1, len(CHANGES)))

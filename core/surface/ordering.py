@@ -15,10 +15,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .arrays import (
+    DENSE,
+    TIE,
     components,
     frozen,
     inner_products,
     inverse,
+    ranks,
     renumbered,
     second_moments,
     stable_order,
@@ -28,16 +31,17 @@ from .arrays import (
 from .mesh import TriMesh
 from .polygons import PolygonMesh
 
-# Places are compared by whole steps, the largest coordinate being so many, so that rounding does not decide; only what
-# is at one place by COARSE is compared by FINE.
-COARSE, FINE = 2**19, 2**40
+# The largest coordinate is so many cells, and the middle, where symmetric shapes have vertices, so far within its cell:
+# rounding is not to decide in which cell a point lies. Points of one cell are compared one by one. Of a dense mesh, on
+# whose irregular vertices nothing depends, cells are so small that few points share one.
+CELLS, SMALL_CELLS, OFF = 2**9, 2**19, 0.45
+FINE = 2**40  # steps of the largest coordinate by which points are compared that are alike in all else
 # Shifts and masks that put two zeros before each of 21 binary digits.
 _SPREAD = ((32, 0x1F00000000FFFF), (16, 0x1F0000FF0000FF), (8, 0x100F00F00F00F00F), (4, 0x10C30C30C30C30C3),
            (2, 0x1249249249249249))
-EQUAL = 1e-6  # relative difference below which two moments are equal
+EQUAL = 4 * TIE  # relative difference below which two moments are equal
 LEAST_PIECE = 0.05  # share of the faces from which a piece is sorted in a frame of its own
 NEAR = 0.02  # share of the diagonal; pieces farther from each other are hardly one body
-EVEN = 1e-9  # relative size of a third moment below which both sides are alike
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,7 +246,7 @@ def _own_axes(position: np.ndarray, weight: np.ndarray, points: np.ndarray) -> n
         along = inner_products(position, axis)
         cubes = along * along * along  # powers of NumPy take twenty times as long
         lean = (weight * cubes).sum() / max((weight * np.abs(cubes)).sum(), 1e-300)
-        if abs(lean) < EVEN:
+        if abs(lean) < TIE:
             height = inner_products(points, axis)
             lean = height[(np.abs(height) >= 0.5 * np.abs(height).max()).argmax()]
         axis *= -1.0 if lean < 0 else 1.0
@@ -255,25 +259,27 @@ def _order(place: np.ndarray, beside: Callable[[], np.ndarray]) -> np.ndarray:
 
     place, and what ``beside`` returns : (n, 3), between -1 and 1.
     """
-    cell = _cell(place)
+    cells = CELLS if len(place) <= DENSE else SMALL_CELLS
+    cell = _cell(place, cells)
     order = stable_order(cell)
-    same = cell[order[1:]] == cell[order[:-1]]
-    tied = np.flatnonzero(np.append(same, False) | np.append(False, same))
+    equal = cell[order[1:]] == cell[order[:-1]]
+    tied = np.flatnonzero(np.append(equal, False) | np.append(False, equal))
     if len(tied):
         some = order[tied]
-        x, y, z = np.rint(place[some] * FINE).astype(np.int64).T
-        order[tied] = some[np.lexsort((_cell(beside()[some]), z, y, x, cell[some]))]
+        x, y, z = (ranks(values, 1.0)[some] for values in place.T)
+        fine = np.rint(place[some] * FINE).astype(np.int64)
+        order[tied] = some[np.lexsort((*fine.T, _cell(beside()[some], cells), z, y, x, cell[some]))]
     return order
 
 
-def _cell(place: np.ndarray) -> np.ndarray:
+def _cell(place: np.ndarray, cells: int) -> np.ndarray:
     """Number of the cell of space in which each point lies, (n,) int64, along the curve of [Morton1966].
 
     The curve stays long in one region of space before it goes on to the next. Sorted along an axis, the first of equals
     would lie on one side of the shape always, and neighbors far apart in memory.
     """
     number = np.zeros(len(place), np.int64)
-    for axis, column in enumerate((np.rint(place * COARSE).astype(np.int64) + COARSE).T):
+    for axis, column in enumerate(np.floor(place * cells + OFF).astype(np.int64).T + cells):
         for shift, mask in _SPREAD:
             column = (column | column << shift) & mask
         number |= column << axis

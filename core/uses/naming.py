@@ -313,7 +313,10 @@ def _suggestion(shapes: Shapes, part: int, word: str, has_head: bool) -> Suggest
     if shapes.paired[part]:
         offset[shapes.across] = 0.0  # the side says that
     axis = int(np.abs(offset).argmax())
-    place = _PLACES[axis][int(offset[axis] > 0)] if abs(offset[axis]) > _ASIDE else ""
+    places: tuple[str, ...] = _PLACES[axis]
+    if has_head and axis == 1 - shapes.across and shapes.ahead:  # a creature's front is where its head is
+        places = ("back", "front")[:: shapes.ahead]
+    place = places[int(offset[axis] > 0)] if abs(offset[axis]) > _ASIDE else ""
     return Suggestion(kind, place, int(shapes.parts.side[part]))
 
 

@@ -197,3 +197,12 @@ def build(case):
         new = np.random.default_rng(case["seed"]).random(len(faces)) < 0.6
         polygon = np.cumsum(new) - new[0]
     return vertices, faces, polygon
+
+
+def hints_of(case, faces, polygon):
+    """A label for each face, or polygon, some below 0: at random, or alike along the list; None for most cases."""
+    kind, count = case.get("hints", ""), len(faces) if polygon is None else int(polygon.max(initial=-1)) + 1
+    if not kind:
+        return None
+    labels = np.random.default_rng(case["seed"]).integers(-2, 3, count)
+    return labels if kind == "grains" else labels[np.arange(count) // 7 * 7]

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 from fuzz import budget
-from fuzz.core.meshes import DAMAGES, REFUSED, SHAPES, build
+from fuzz.core.meshes import DAMAGES, REFUSED, SHAPES, build, hints_of
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
@@ -32,8 +32,9 @@ cases = st.fixed_dictionaries({
     "damages": st.lists(damages, max_size=4),
     "polygons": st.booleans(),
     "dense": st.booleans(),
+    "hints": st.sampled_from(["", "", "grains", "stripes"]),
     "parameters": st.fixed_dictionaries({}, optional={
-        "method": st.sampled_from(["perceptual", "berretti"]),
+        "method": st.sampled_from(["perceptual", "berretti", "lavoue"]),
         "pieces": st.sampled_from(["together", "separate"]),
         "base_spacing": st.sampled_from([0.005, 0.02, 0.05]),
         "equalize": st.booleans(),
@@ -69,7 +70,8 @@ def check_as_it_is(case):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            result = decompose(vertices, faces, Parameters(**case["parameters"]), polygon)
+            result = decompose(vertices, faces, Parameters(**case["parameters"]), polygon,
+                               hints=hints_of(case, faces, polygon))
         except ReebError as error:
             sentence = str(error)
             result = None
@@ -181,7 +183,8 @@ def assert_same_again(case, result, vertices, faces, polygon):
         return
     fine = bodies(repair(PolygonMesh.of(vertices, faces, polygon)), True, 0.0)
     larger = 2 if max((body.mesh.n_vertices for body in fine), default=0) <= agd.FIELD_VERTICES else 1
-    again = decompose(larger * vertices, faces, Parameters(**case["parameters"]), polygon)
+    again = decompose(larger * vertices, faces, Parameters(**case["parameters"]), polygon,
+                      hints=hints_of(case, faces, polygon))
     np.testing.assert_array_equal(again.candidates, result.candidates)
     np.testing.assert_array_equal(again.hierarchy.merges, result.hierarchy.merges)
 

@@ -91,9 +91,10 @@ def test_depth_is_the_way_from_the_cuts_of_the_own_part():
     mesh = TriMesh(vertices, quads)
     part = (mesh.face_centroids[:, 0] > 5).astype(int)
     depth = _Surface(mesh, part, np.zeros(mesh.n_vertices), 2).depth()
-    nearest = [mesh.face_centroids[(part == own) & (np.abs(mesh.face_centroids[:, 0] - 5) < 1)] for own in (0, 1)]
+    beside = mesh.edges.pairs[part[mesh.edges.pairs[:, 0]] != part[mesh.edges.pairs[:, 1]]].ravel()
     for face, own in enumerate(part):
-        straight = np.linalg.norm(mesh.face_centroids[face] - nearest[own], axis=1).min()
+        (first,) = beside[part[beside] == own]
+        straight = np.linalg.norm(mesh.face_centroids[face] - mesh.face_centroids[first])
         assert straight - 1e-9 <= depth[face] <= 1.7 * straight + 1e-9
     assert depth.max() > 4
     assert (_Surface(mesh, np.zeros(mesh.n_faces, int), np.zeros(mesh.n_vertices), 1).depth() == 0).all()
