@@ -40,6 +40,7 @@ FINE = 2**40  # steps of the largest coordinate by which points are compared tha
 _SPREAD = ((32, 0x1F00000000FFFF), (16, 0x1F0000FF0000FF), (8, 0x100F00F00F00F00F), (4, 0x10C30C30C30C30C3),
            (2, 0x1249249249249249))
 EQUAL = 4 * TIE  # relative difference below which two moments are equal
+_MIX = 0x9E3779B97F4A7C1, 0x2545F4914F6CDD1D, 0x5851F42D4C957F2D  # odd factors that mix the bits of three coordinates
 LEAST_PIECE = 0.05  # share of the faces from which a piece is sorted in a frame of its own
 NEAR = 0.02  # share of the diagonal; pieces farther from each other are hardly one body
 
@@ -129,8 +130,8 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
     """
     mesh = given.triangles
     ordering = Ordering.of(mesh, given.polygon, given.n_polygons)
-    a, b, c = mesh.faces.T
-    count, piece = components(mesh.n_vertices, np.concatenate([a, b]), np.concatenate([b, c]))
+    a = mesh.faces[:, 0]
+    count, piece = _pieces(mesh)
     size = np.bincount(piece[a])
     in_whole, in_given = inverse(ordering.vertex), np.arange(mesh.n_vertices)
     large = np.flatnonzero((size >= LEAST_PIECE * mesh.n_faces) & (size < mesh.n_faces))
@@ -145,6 +146,19 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
     number = inverse(ordering.polygon)[given.polygon[triangle]]
     return replace(given, triangles=triangles, polygon=frozen(number, np.int64),
                    vertex_rank=frozen(ordering.vertex, np.int64)), ordering
+
+
+def _pieces(mesh: TriMesh) -> tuple[int, np.ndarray]:
+    """How many pieces there are, and that of each vertex, (n,) int64; where files split vertices, no piece ends."""
+    a, b, c = mesh.faces.T
+    first, second = np.concatenate([a, b]), np.concatenate([b, c])
+    count, piece = components(mesh.n_vertices, first, second)
+    if count == 1:
+        return count, piece
+    x, y, z = ((column + 0.0).view(np.int64) for column in mesh.vertices.T)  # -0.0 is 0.0
+    place = np.unique(x * _MIX[0] ^ y * _MIX[1] ^ z * _MIX[2], return_inverse=True)[1]
+    count, piece = components(int(place.max()) + 1, place[first], place[second])
+    return count, piece[place]
 
 
 def _beside_another(points: np.ndarray, piece: np.ndarray, count: int, chosen: np.ndarray) -> np.ndarray:
