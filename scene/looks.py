@@ -99,6 +99,8 @@ def _plain(value: Any) -> Any:
     """A value of a property in types whose text is always the same."""
     if isinstance(value, set):
         return sorted(value)
+    if isinstance(value, bool):  # which Blender 4.2 reads from files as 0 or 1
+        return int(value)
     if isinstance(value, (str, bytes)) or not hasattr(value, "__iter__"):
         return value
     return [number for row in value for number in (row if hasattr(row, "__iter__") else [row])]
