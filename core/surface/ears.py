@@ -11,6 +11,8 @@ from .arrays import cross, lengths, row_products, sums_by, unit
 FOLD = 1e-6
 #: Times the square of a polygon's extent: a corner whose ear has less area is straight.
 STRAIGHT = 1e-12
+#: Corners of the largest polygon that is cut ear by ear, which takes time as their square: a quarter of a second.
+MOST_CORNERS = 1_000
 
 
 def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray) -> np.ndarray:
@@ -31,11 +33,12 @@ def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray
     Returns
     -------
     triangles : (m, 3) int64
-        As many of each polygon, in the same rows. Polygons that are not folded, and those that cross themselves so
-        that there is no ear, keep their fans.
+        As many of each polygon, in the same rows. Polygons that are not folded, those that cross themselves so that
+        there is no ear, and those of more than MOST_CORNERS keep their fans.
     """
     start = np.cumsum(sizes - 2) - (sizes - 2)  # first triangle of each polygon
     folded = _folded(vertices, triangles, sizes)
+    folded = folded[sizes[folded] <= MOST_CORNERS]
     if not len(folded):
         return triangles
     triangles = triangles.copy()

@@ -137,3 +137,12 @@ def test_some_concave_polygons_among_others_leave_these_as_they_are():
         triangle for a, b, c, d in faces[2:] for triangle in ([a, b, c], [a, c, d])]
     normal = cross(*(np.diff(vertices[mesh.triangles.faces], axis=1)).transpose(1, 0, 2))
     assert lengths(normal)[~sides].sum() / 2 == pytest.approx(2 * 12)
+
+
+def test_polygons_of_thousands_of_corners_keep_their_fans():
+    """A star of 3,000 rays, of which ears would be clipped for seconds."""
+    angle = np.linspace(0, 2 * np.pi, 6_000, endpoint=False)
+    radius = np.where(np.arange(6_000) % 2, 1.0, 0.5)
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0 * angle], axis=1)
+    fan = np.stack([np.zeros(5_998, np.int64), np.arange(1, 5_999), np.arange(2, 6_000)], axis=1)
+    assert without_folds(points, fan, np.array([6_000])) is fan
