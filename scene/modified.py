@@ -119,7 +119,7 @@ def both_sides(obj: bpy.types.Object, seen: bpy.types.Mesh, face_numbers: np.nda
     shape = bridge.read_shape(obj)
     if not len(shape.mirror):
         return BothSides(face_numbers, {}, {})
-    plane = MirrorPlane(shape.mirror[:3], float(shape.mirror[3]))
+    plane = MirrorPlane.of(shape.mirror)
     own = 1 if plane.heights(shape.vertices).sum() > 0 else -1
     centers = mesh_arrays.read(seen.polygons, "center", np.float32, 3) @ shape.stretch.T
     image = plane.heights(centers) * own < 0

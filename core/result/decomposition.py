@@ -226,7 +226,7 @@ class Decomposition:
     @property
     def plane(self) -> MirrorPlane | None:
         """The plane of symmetry, or None."""
-        return MirrorPlane(self.mirror[:3], float(self.mirror[3])) if len(self.mirror) else None
+        return MirrorPlane.of(self.mirror) if len(self.mirror) else None
 
     @cached_property
     def candidate_twin(self) -> np.ndarray:

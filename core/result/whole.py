@@ -68,7 +68,7 @@ def whole_of(parts: Parts, table: CornerTable, area: np.ndarray, plane: np.ndarr
         Its parts are of one level of detail: they do not merge.
     """
     plane = plane if plane[np.abs(plane[:3]).argmax()] > 0 else -plane
-    mirror = MirrorPlane(plane[:3], float(plane[3]))
+    mirror = MirrorPlane.of(plane)
     both, image = completed_table(table, mirror)
     meets = _meeting(table, image, parts.labels, parts.count)
     size = np.bincount(parts.labels, area, parts.count)

@@ -69,7 +69,7 @@ def completed(half: PolygonMesh, plane: np.ndarray) -> Completed:
     """
     mesh = half.triangles
     border = mesh.edges.vertices[np.bincount(mesh.edges.face_edges.ravel()) == 1]
-    vertices, image = _with_images(mesh.vertices, mesh.used, border, MirrorPlane(plane[:3], float(plane[3])))
+    vertices, image = _with_images(mesh.vertices, mesh.used, border, MirrorPlane.of(plane))
     return Completed(vertices, np.concatenate([mesh.faces, image[mesh.faces[:, ::-1]]]),
                      np.concatenate([half.polygon, half.polygon + half.n_polygons]))
 
@@ -127,5 +127,5 @@ def is_one_side(vertices: np.ndarray, plane: np.ndarray) -> bool:
     """
     if not len(vertices):
         return False
-    height = MirrorPlane(plane[:3], float(plane[3])).heights(vertices)
+    height = MirrorPlane.of(plane).heights(vertices)
     return bool(min(height.max(), -height.min()) <= WELD * np.linalg.norm(np.ptp(vertices, axis=0)))

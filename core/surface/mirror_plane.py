@@ -27,6 +27,11 @@ class MirrorPlane:
     offset: float
     share: float = 0.0
 
+    @classmethod
+    def of(cls, plane: np.ndarray) -> MirrorPlane:
+        """The plane that is stored as its normal and its distance from the origin along it, (4,) float64."""
+        return cls(plane[:3], float(plane[3]))
+
     def heights(self, points: np.ndarray) -> np.ndarray:
         """Signed distance of points, (k, 3), from the plane, (k,) float64."""
         return inner_products(points, self.normal) - self.offset

@@ -75,8 +75,8 @@ class Shapes:
         turn : (3, 3) float64
             Takes directions of the decomposition to those of the world.
         """
-        mirror = parts.decomposition.mirror
-        normal = turn @ mirror[:3] if len(mirror) else np.zeros(3)
+        plane = parts.decomposition.plane
+        normal = np.zeros(3) if plane is None else turn @ plane.normal
         known = np.linalg.norm(normal[:2]) > _LEVEL * np.linalg.norm(normal)
         weight = area + 1e-12 * area.sum() + 1e-300
         faces = parts, center, weight, points, point_face
