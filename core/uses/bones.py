@@ -91,7 +91,7 @@ class Images:
         images : Images or None
             None if no part is its own image: one of two sides, on which nothing is between them, is the root.
         """
-        middle, mean = _middles(table, labels, area)
+        middle, mean = _middles(table, labels, _weights(area))
         size, there = float(np.linalg.norm(np.ptp(mean, axis=0))), np.maximum(twin, 0)
         off = np.linalg.norm(mirror.mirrored(middle) - middle[there], axis=1)
         even = (twin >= 0) & (np.maximum(off, off[there]) <= _ALMOST * size)
@@ -152,8 +152,8 @@ def part_bones(
     bones : Bones
     """
     table, count = table.joined()[0], int(labels.max()) + 1
-    middle, center = _middles(table, labels, area)
     weight = _weights(area)
+    middle, center = _middles(table, labels, weight)
     size = np.bincount(labels, weight, count)
     joints = _Joints.between(table, labels, images)
     of_part = np.bincount(labels, weight * table.face_means(height), count) / size
@@ -234,9 +234,9 @@ def _weights(area: np.ndarray) -> np.ndarray:
     return np.maximum(area, 1e-12 * max(area.sum(), 1e-300))
 
 
-def _middles(table: CornerTable, labels: np.ndarray, area: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _middles(table: CornerTable, labels: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The center of each part's surface, (count, 3), and the means of the faces' corners, (p, 3)."""
-    center, weight = table.face_means(table.vertices), _weights(area)
+    center = table.face_means(table.vertices)
     share = np.bincount(labels, weight)
     return sums_by(labels, weight[:, None] * center, len(share)) / share[:, None], center
 
