@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import first_largest, frozen, weighted_sum
+from ..surface.arrays import TIE, first_largest, frozen, weighted_sum
 from ..surface.coarsening import Pyramid, prolong
 from ..surface.mesh import TriMesh
 from .geodesic import GeodesicSolver
@@ -110,7 +110,7 @@ def spread_base_vertices(
     while True:
         row = solver.distances(chosen[-1])
         rows.append(row)
-        closer = row < (1 - 1e-9) * nearest  # of equally near base vertices the first, despite rounding
+        closer = row < (1 - TIE) * nearest  # of equally near base vertices the first, despite rounding
         nearest[closer] = row[closer]
         owner[closer] = len(chosen) - 1
         if progress:

@@ -25,10 +25,12 @@ def frozen(array: ArrayLike, dtype: DTypeLike) -> np.ndarray:
     return copy
 
 
-# Numbers whose difference is less, in units of the larger, are equal but for rounding. They are compared with the
-# largest, or the least, and not rounded one by one: models come with six or eight digits, and two lengths that differ
-# in the eighth would be equal at one scale and not at another.
-TIE = 2.0**-26
+# Numbers whose difference is less, in units of the larger, are equal but for rounding: models come in single precision,
+# or with six digits, and a model that is moved or scaled comes with others. They are compared with the largest, or the
+# least, and not rounded one by one: two lengths that differ in the last digit would be equal at one scale and not at
+# another.
+TIE = 2.0**-17
+DENSE = 30_000  # number of values from which on it takes too long to find out which are equal
 
 
 def first_largest(values: np.ndarray) -> int:
@@ -46,7 +48,7 @@ def first_largest(values: np.ndarray) -> int:
     -------
     index : int
     """
-    return int((values >= (1 - 1e-9) * values.max()).argmax())
+    return int((values >= (1 - TIE) * values.max()).argmax())
 
 
 def first_least(rows: np.ndarray) -> np.ndarray:
@@ -57,13 +59,41 @@ def first_least(rows: np.ndarray) -> np.ndarray:
     return (rows <= (1 + TIE) * rows.min(axis=1)[:, None]).argmax(axis=1)
 
 
-def rounded(values: np.ndarray) -> np.ndarray:
+def rounded(values: np.ndarray, digits: int = 18) -> np.ndarray:
     """Numbers without their last digits, so that rounding errors do not decide which of two equal ones is larger.
 
-    values : array of float64. Returns float64 of 26 binary digits, about eight decimal ones.
+    values : array of float64. digits : int, binary ones that stay; 18 are TIE. Returns float64.
     """
     mantissa, exponent = np.frexp(values)
-    return np.ldexp(np.rint(mantissa * 2.0**26), exponent - 26)
+    return np.ldexp(np.rint(mantissa * 2.0**digits), exponent - digits)
+
+
+def ranks(values: np.ndarray, unit: float) -> np.ndarray:
+    """Number values in their order, those that differ by rounding only alike.
+
+    Parameters
+    ----------
+    values : (n,) float64
+    unit : float
+        Values are equal if none between them is farther from the next than TIE of this. A long row of such, as a dense
+        mesh has them, is divided evenly.
+
+    Returns
+    -------
+    rank : (n,) int64
+    """
+    same = TIE * max(unit, 1e-300)
+    if len(values) > DENSE:
+        return np.rint(values / same).astype(np.int64)
+    order = np.argsort(values, kind="stable")
+    ranked = values[order]
+    begins = np.append(True, np.diff(ranked) > same)[: len(values)]
+    row = np.cumsum(begins) - 1
+    part = ((ranked - ranked[begins][row]) / (8 * same)).astype(np.int64)
+    begins[1:] |= part[1:] != part[:-1]
+    rank = np.empty(len(values), np.int64)
+    rank[order] = np.cumsum(begins) - 1
+    return rank
 
 
 def rounded_order(values: np.ndarray) -> np.ndarray:
@@ -71,14 +101,17 @@ def rounded_order(values: np.ndarray) -> np.ndarray:
 
     Returns (n,) int64.
     """
-    # Bits of numbers that are not negative are in the order of the numbers, and the last 26 are 0 here.
-    return stable_order((rounded(values) + 0.0).view(np.int64) >> 26) if (values >= 0).all() else np.argsort(
-        rounded(values), kind="stable")
+    return stable_order(ranks(values, float(np.abs(values).max(initial=0.0))))
 
 
 def on_grid(values: np.ndarray) -> np.ndarray:
     """Numbers of about 1 in whole steps of 2**-40: logarithms and such, whose last digits differ between versions."""
     return np.rint(values * 2.0**40) / 2.0**40
+
+
+def in_steps(values: np.ndarray) -> np.ndarray:
+    """Features in whole steps of 2**-14: what is 0 or 1, or equal, but for rounding, is exactly that."""
+    return np.rint(values * 2.0**14) / 2.0**14
 
 
 def square_roots(values: np.ndarray, scale: np.ndarray) -> np.ndarray:
@@ -90,13 +123,13 @@ def square_roots(values: np.ndarray, scale: np.ndarray) -> np.ndarray:
     return np.sqrt(np.where(values > 1e-12 * scale, values, 0.0))
 
 
-def whole_steps(length: np.ndarray) -> np.ndarray:
-    """Lengths of ways in whole steps of 2**-22, one or more: their sums are exact.
+def whole_steps(length: np.ndarray, step: float = 2.0**-22) -> np.ndarray:
+    """Lengths of ways in whole steps, one or more: their sums are exact.
 
     Of two ways that are equally long, rounding must not choose. SciPy takes a length of 0 for "no way".
     length : array of float64, in units of about the size of the surface.
     """
-    return np.maximum(np.rint(length * 2.0**22), 1.0)
+    return np.maximum(np.rint(length / step), 1.0)
 
 
 def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
@@ -395,7 +428,7 @@ def even_steps(area: np.ndarray, count: int) -> np.ndarray:
     """Places at equal steps of area, (count,) int64 or fewer, among faces in some order. area : (m,) float64."""
     total = np.cumsum(area)
     # Where a face ends at a step, as many do on a regular grid, the step is in this face.
-    steps = (np.arange(count) + 0.5) / count * total[-1] * (1 - 1e-9)
+    steps = (np.arange(count) + 0.5) / count * total[-1] * (1 - TIE)
     return np.unique(np.searchsorted(total, steps).clip(max=len(area) - 1))
 
 

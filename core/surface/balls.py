@@ -12,7 +12,7 @@ STEPS = 12  # upper bound of the number of times that a ball shrinks
 # Cosine of the smallest angle between the two points that a ball touches, seen from its center. A ball stops shrinking
 # before the angle falls below this one: it would only fit into the roughness of the surface.
 SEPARATION = np.cos(np.deg2rad(50.0))
-BEFORE = 1.0 - 1e-6
+BEFORE = 1.0 - 1e-4
 
 
 def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest: float) -> np.ndarray:

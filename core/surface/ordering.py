@@ -15,10 +15,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .arrays import (
+    DENSE,
+    TIE,
     components,
     frozen,
     inner_products,
     inverse,
+    ranks,
     renumbered,
     second_moments,
     stable_order,
@@ -28,16 +31,18 @@ from .arrays import (
 from .mesh import TriMesh
 from .polygons import PolygonMesh
 
-# Places are compared by whole steps, the largest coordinate being so many, so that rounding does not decide; only what
-# is at one place by COARSE is compared by FINE.
-COARSE, FINE = 2**19, 2**40
+# The largest coordinate is so many cells, and the middle, where symmetric shapes have vertices, so far within its cell:
+# rounding is not to decide in which cell a point lies. Points of one cell are compared one by one. Of a dense mesh, on
+# whose irregular vertices nothing depends, cells are so small that few points share one.
+CELLS, SMALL_CELLS, OFF = 2**9, 2**19, 0.45
+FINE = 2**40  # steps of the largest coordinate by which points are compared that are alike in all else
 # Shifts and masks that put two zeros before each of 21 binary digits.
 _SPREAD = ((32, 0x1F00000000FFFF), (16, 0x1F0000FF0000FF), (8, 0x100F00F00F00F00F), (4, 0x10C30C30C30C30C3),
            (2, 0x1249249249249249))
-EQUAL = 1e-6  # relative difference below which two moments are equal
+EQUAL = 4 * TIE  # relative difference below which two moments are equal
+_MIX = 0x9E3779B97F4A7C1, 0x2545F4914F6CDD1D, 0x5851F42D4C957F2D  # odd factors that mix the bits of three coordinates
 LEAST_PIECE = 0.05  # share of the faces from which a piece is sorted in a frame of its own
 NEAR = 0.02  # share of the diagonal; pieces farther from each other are hardly one body
-EVEN = 1e-9  # relative size of a third moment below which both sides are alike
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,8 +130,8 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
     """
     mesh = given.triangles
     ordering = Ordering.of(mesh, given.polygon, given.n_polygons)
-    a, b, c = mesh.faces.T
-    count, piece = components(mesh.n_vertices, np.concatenate([a, b]), np.concatenate([b, c]))
+    a = mesh.faces[:, 0]
+    count, piece = _pieces(mesh)
     size = np.bincount(piece[a])
     in_whole, in_given = inverse(ordering.vertex), np.arange(mesh.n_vertices)
     large = np.flatnonzero((size >= LEAST_PIECE * mesh.n_faces) & (size < mesh.n_faces))
@@ -141,6 +146,19 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
     number = inverse(ordering.polygon)[given.polygon[triangle]]
     return replace(given, triangles=triangles, polygon=frozen(number, np.int64),
                    vertex_rank=frozen(ordering.vertex, np.int64)), ordering
+
+
+def _pieces(mesh: TriMesh) -> tuple[int, np.ndarray]:
+    """How many pieces there are, and that of each vertex, (n,) int64; where files split vertices, no piece ends."""
+    a, b, c = mesh.faces.T
+    first, second = np.concatenate([a, b]), np.concatenate([b, c])
+    count, piece = components(mesh.n_vertices, first, second)
+    if count == 1:
+        return count, piece
+    x, y, z = ((column + 0.0).view(np.int64) for column in mesh.vertices.T)  # -0.0 is 0.0
+    place = np.unique(x * _MIX[0] ^ y * _MIX[1] ^ z * _MIX[2], return_inverse=True)[1]
+    count, piece = components(int(place.max()) + 1, place[first], place[second])
+    return count, piece[place]
 
 
 def _beside_another(points: np.ndarray, piece: np.ndarray, count: int, chosen: np.ndarray) -> np.ndarray:
@@ -242,7 +260,7 @@ def _own_axes(position: np.ndarray, weight: np.ndarray, points: np.ndarray) -> n
         along = inner_products(position, axis)
         cubes = along * along * along  # powers of NumPy take twenty times as long
         lean = (weight * cubes).sum() / max((weight * np.abs(cubes)).sum(), 1e-300)
-        if abs(lean) < EVEN:
+        if abs(lean) < TIE:
             height = inner_products(points, axis)
             lean = height[(np.abs(height) >= 0.5 * np.abs(height).max()).argmax()]
         axis *= -1.0 if lean < 0 else 1.0
@@ -255,25 +273,27 @@ def _order(place: np.ndarray, beside: Callable[[], np.ndarray]) -> np.ndarray:
 
     place, and what ``beside`` returns : (n, 3), between -1 and 1.
     """
-    cell = _cell(place)
+    cells = CELLS if len(place) <= DENSE else SMALL_CELLS
+    cell = _cell(place, cells)
     order = stable_order(cell)
-    same = cell[order[1:]] == cell[order[:-1]]
-    tied = np.flatnonzero(np.append(same, False) | np.append(False, same))
+    equal = cell[order[1:]] == cell[order[:-1]]
+    tied = np.flatnonzero(np.append(equal, False) | np.append(False, equal))
     if len(tied):
         some = order[tied]
-        x, y, z = np.rint(place[some] * FINE).astype(np.int64).T
-        order[tied] = some[np.lexsort((_cell(beside()[some]), z, y, x, cell[some]))]
+        x, y, z = (ranks(values, 1.0)[some] for values in place.T)
+        fine = np.rint(place[some] * FINE).astype(np.int64)
+        order[tied] = some[np.lexsort((*fine.T, _cell(beside()[some], cells), z, y, x, cell[some]))]
     return order
 
 
-def _cell(place: np.ndarray) -> np.ndarray:
+def _cell(place: np.ndarray, cells: int) -> np.ndarray:
     """Number of the cell of space in which each point lies, (n,) int64, along the curve of [Morton1966].
 
     The curve stays long in one region of space before it goes on to the next. Sorted along an axis, the first of equals
     would lie on one side of the shape always, and neighbors far apart in memory.
     """
     number = np.zeros(len(place), np.int64)
-    for axis, column in enumerate((np.rint(place * COARSE).astype(np.int64) + COARSE).T):
+    for axis, column in enumerate(np.floor(place * cells + OFF).astype(np.int64).T + cells):
         for shift, mask in _SPREAD:
             column = (column | column << shift) & mask
         number |= column << axis

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..sentence import Sentence
-from .arrays import components, distinct_pairs, frozen, inverse, renumbered, stable_order
+from .arrays import TIE, components, distinct_pairs, frozen, inverse, renumbered, stable_order
 from .borders import joined_borders
 from .contact import Bridges, bridges
 from .mesh import TriMesh
@@ -33,8 +33,6 @@ ALL_BUDGETS = 25_000  # number of faces that several bodies share for that
 # are decomposed: this number of bodies, and one more for so many faces of the whole.
 MANY_BODIES, FACES_PER_BODY = 20, 300
 MOST_AROUND = 32  # number of faces around a vertex that are walked along; of more, all are looked at together
-# Relative difference below which two lengths are equal: rounding errors must not decide how a box is divided.
-ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,13 +243,14 @@ def split_long_edges(mesh: TriMesh, max_length: float, least_budget: int = MIN_B
 
 def _longest(mesh: TriMesh, max_length: float, most: int) -> np.ndarray:
     """Edges longer than a limit, (e,) bool: the longest, as many as add no more faces than allowed."""
-    long = mesh.edge_length > (1 + ROUNDING) * max_length
+    long = mesh.edge_length > (1 + TIE) * max_length
     if mesh.edges.n_faces[long].sum() <= most:
         return long
     order = np.argsort(-mesh.edge_length, kind="stable")
     fits = np.searchsorted(np.cumsum(mesh.edges.n_faces[order]), most, side="right")
     # Edges of one length are split all, or none.
-    return mesh.edge_length > (1 + ROUNDING) * max(max_length, mesh.edge_length[order[min(fits, len(order) - 1)]])
+    limit = max(max_length, mesh.edge_length[order[min(fits, len(order) - 1)]])
+    return mesh.edge_length > (1 + TIE) * limit
 
 
 def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]:
@@ -287,7 +286,7 @@ def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]
     # for the order of what a face becomes, numbers of vertices decide, not the way round the face: the mirror image of
     # a mesh is to become its mirror image.
     from_a, from_b = (np.linalg.norm(vertices[p] - vertices[q], axis=1) for p, q in ((a, bc), (b, ca)))
-    at_a = (from_a < (1 - ROUNDING) * from_b) | ((from_a <= (1 + ROUNDING) * from_b) & (a < b))
+    at_a = (from_a < (1 - TIE) * from_b) | ((from_a <= (1 + TIE) * from_b) & (a < b))
     patterns = (
         (n_split == 0, ((a, b, c),)),
         (n_split == 1, (_either(a < b, (a, ab, c), (ab, b, c)), _either(a > b, (a, ab, c), (ab, b, c)))),

@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 import pytest
 import shapes
+from results import same_partition
 
 from core.errors import EmptyMeshError, MeshError
 from core.parameters import PRESETS, Parameters
@@ -65,6 +66,38 @@ def test_every_scale_has_the_parts_of_one(scale):
     np.testing.assert_allclose(other.share, one.share, atol=0.01)
     assert np.mean(other.labels == one.labels) > 0.99
     assert other.area.sum() / scale**2 == pytest.approx(one.area.sum())
+
+
+def furniture(name):
+    """Vertices and quads of a piece of furniture, or a letter, made of cuboids: no two sides have one length."""
+    solid = np.zeros((9, 4, 8), bool)
+    if name == "bench":
+        solid[:, :3, 3] = solid[[1, 7], :3, :3] = True
+    elif name == "chair":
+        solid[:4, :, 3] = solid[:4, 3, 4:] = True
+        solid[np.ix_([0, 3], [0, 3], range(3))] = True
+    elif name == "sofa":
+        solid[:8, :, 0] = solid[:8, 3, :4] = solid[[0, 7], :, :3] = True
+    elif name == "E":
+        solid[0, 0, :7] = True
+        solid[:4, 0, [0, 3, 6]] = True
+    else:
+        solid[2, 0, :6] = solid[:5, 0, 6] = True
+    vertices, quads = shapes.blocks(solid)
+    return vertices * (0.31, 0.4, 0.37), quads
+
+
+def single(vertices):
+    """Coordinates as Blender and most files keep them."""
+    return vertices.astype(np.float32).astype(float)
+
+
+@pytest.mark.parametrize("name", ["bench", "chair", "sofa", "E", "T"])
+def test_in_single_precision_neither_unit_nor_place_change_the_parts(name):
+    vertices, quads = furniture(name)
+    parts = decompose(single(vertices), quads).parts()
+    for other in (1.37 * vertices, 25.4 * vertices, vertices + (3.3, 7.1, -2.9)):
+        assert same_partition(decompose(single(other), quads).parts().labels, parts.labels)
 
 
 def test_a_vertex_of_no_face_can_be_anywhere():

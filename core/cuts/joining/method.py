@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...surface.arrays import on_grid, renumbered
+from ...surface.arrays import in_steps, on_grid, renumbered
 from ...surface.contact import TOUCH
 from ...surface.mesh import TriMesh
 from ..boosted_trees import BoostedTrees
@@ -228,7 +228,7 @@ def _pair_weight(parts: FineParts, pairs: np.ndarray) -> np.ndarray:
 
 
 def _judged(model: BoostedTrees, features: np.ndarray) -> np.ndarray:
-    return _log_odds(np.clip(model.predict(features), *SURE))
+    return _log_odds(np.clip(model.predict(in_steps(features)), *SURE))
 
 
 def _log_odds(share: np.ndarray) -> np.ndarray:

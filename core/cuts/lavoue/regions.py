@@ -89,7 +89,7 @@ class CurvatureGraph:
         apart = sum(float(np.linalg.norm(self.sums[r] / self.area[r] - border)) for r in (a, b))
         nesting = max(min(self.perimeter[a], self.perimeter[b]) / length, 1.0)
         distance = apart * nesting * (SLIVER if min(self.area[a], self.area[b]) < self.small else 1.0)
-        return float(rounded(np.array(distance)))  # rounding must not order equal distances
+        return float(rounded(np.array(distance), 26))  # rounding must not order equal distances
 
     def merge_(self, a: int, b: int) -> None:
         """Let region b become part of region a."""

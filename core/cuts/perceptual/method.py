@@ -14,6 +14,7 @@ import numpy as np
 from ...field.agd import ScalarField
 from ...graph.level_sets import LevelSets, cut_at_levels
 from ...parameters import Parameters
+from ...surface.arrays import in_steps
 from ...surface.coarsening import Coarsening, Pyramid, coarsen
 from ...surface.curvature import MAX_CURVATURE
 from ...surface.labels import FaceGraph, connect, fill_unlabeled, majority
@@ -299,7 +300,7 @@ def judge_by(model: BoostedTrees) -> Judge:
     model : BoostedTrees. Returns a callable that estimates, for each border, the share of people who would separate the
     regions on both sides, 0..1.
     """
-    return lambda graph, borders: model.predict(graph.features(borders))
+    return lambda graph, borders: model.predict(in_steps(graph.features(borders)))
 
 
 def salience_of(share: np.ndarray, decision: float = DECISION) -> np.ndarray:

@@ -37,6 +37,7 @@ ROUNDS = 3  # number of rounds in which two thirds of the seeds are added; the f
 # the shared edge, plus TURN per radian of a convex turn, or TURN * CONCAVE per radian of a concave turn.
 TURN = 0.1
 CONCAVE = 20.0
+STEP = 2.0**-14  # of that unit, in which ways are measured: a hundredth of most, and more than turns differ by rounding
 SLABS = 24  # number of slabs whose pieces are the patches of ``level_set_patches``
 SMALLEST = 0.0004  # share of the area of the surface below which a patch joins a neighbor
 
@@ -132,7 +133,7 @@ def _crease_graph(mesh: TriMesh) -> csr_array:
     """Symmetric (m, m) matrix of the lengths of the ways between neighboring faces; TURN has the formula."""
     turn = mesh.dihedral
     length = mesh.pair_distance / np.sqrt(mesh.area) + TURN * np.where(turn < 0, -CONCAVE * turn, turn)
-    return symmetric_matrix(mesh.edges.pairs, whole_steps(length), mesh.n_faces)
+    return symmetric_matrix(mesh.edges.pairs, whole_steps(length, STEP), mesh.n_faces)
 
 
 def _first_seeds(mesh: TriMesh, count: int) -> np.ndarray:

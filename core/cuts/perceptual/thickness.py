@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import rounded, spread_evenly
+from ...surface.arrays import TIE, spread_evenly
 from ...surface.balls import ball_radius
 from ...surface.mesh import TriMesh
 from ...surface.nearest import search_tree
@@ -56,7 +56,7 @@ def _nearest(tree: cKDTree, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     The first three count, and others as near as the third: on a regular grid, rounding must not choose.
     """
     distance, near = tree.query(place, k=list(range(1, min(AMONG, tree.n) + 1)))
-    return near, rounded(distance) <= rounded(distance[:, min(2, tree.n - 1), None])
+    return near, distance <= (1 + TIE) * distance[:, min(2, tree.n - 1), None] + TIE
 
 
 def _radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray) -> np.ndarray:

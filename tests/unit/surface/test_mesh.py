@@ -134,7 +134,8 @@ def test_components_are_numbered_by_their_lowest_element():
 
 def test_the_first_of_values_that_differ_by_rounding_only():
     assert first_largest(np.array([1.0, 3 * (1 - 1e-15), 3.0, 3 * (1 - 1e-13)])) == 1
-    assert first_largest(np.array([1.0, 3 * (1 - 1e-6), 3.0])) == 2
+    assert first_largest(np.array([1.0, 3 * (1 - 1e-6), 3.0])) == 1  # as far as single precision goes
+    assert first_largest(np.array([1.0, 3 * (1 - 1e-5), 3.0])) == 2
     assert first_largest(np.zeros(4)) == 0
 
 
