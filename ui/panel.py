@@ -15,7 +15,7 @@ from . import toolbar
 from .fitting import Room
 
 MODELS = 8  # so many selected models are listed
-ROWS, MOST_ROWS = 7, 10  # of the list, if it has so many parts and the sidebar is high enough
+ROWS, MOST_ROWS = 7, 12  # of the list, if it has so many parts and the sidebar is high enough
 ROW, OTHER_ROWS = 20, 320  # heights of a row and of all but the list, in pixels of a screen without scaling
 
 # Widths of panels, in pixels of a screen without scaling, below which something is left out or moves.

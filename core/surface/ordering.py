@@ -228,7 +228,7 @@ def rank_by_place(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
         Place of each in the order, which depends on order, pose and scale as ``Ordering`` does.
     """
     position = points - weighted_sum(weight, points) / weight.sum()
-    place = inner_products(position, _own_axes(position, weight, position))
+    place = inner_products(position, _own_axes(position, weight, position, weight))
     return inverse(_order(place / max(np.abs(place).max(), 1e-300), lambda: np.zeros_like(place)))
 
 
@@ -244,28 +244,36 @@ def _in_own_frame(mesh: TriMesh, vertex_rank: np.ndarray | None) -> tuple[np.nda
         used = used[stable_order(vertex_rank[used])]
     corner = np.zeros((mesh.n_vertices, 3))
     corner[used] = mesh.vertices[used] - middle
-    axes = _own_axes(mesh.face_centroids - middle, weight, corner[used])
+    around = np.bincount(mesh.faces.ravel(), minlength=mesh.n_vertices)[used]
+    axes = _own_axes(mesh.face_centroids - middle, weight, corner[used], around * around)
     corner = inner_products(corner, axes)
     return corner / max(np.abs(corner).max(), 1e-300), axes
 
 
-def _own_axes(position: np.ndarray, weight: np.ndarray, points: np.ndarray) -> np.ndarray:
+def _own_axes(position: np.ndarray, weight: np.ndarray, points: np.ndarray, point_weight: np.ndarray) -> np.ndarray:
     """Axes of a surface, (3, 3), a row each: the principal axes of positions, (m, 3), from their middle.
 
-    Each points to where the farther positions are, or away from there; where both sides are alike, the first of some
-    points, (k, 3), that is clearly on one side decides.
+    Each points to where the farther positions are, or away from there; where both sides of the shape are alike, to
+    where the points, (k, 3), have more weight, (k,), as the triangles of symmetric shapes often differ; where these
+    are alike, too, the first point that is clearly on one side decides.
     """
     axes = principal_axes(second_moments(position, weight), points)
     for axis in axes:
-        along = inner_products(position, axis)
-        cubes = along * along * along  # powers of NumPy take twenty times as long
-        lean = (weight * cubes).sum() / max((weight * np.abs(cubes)).sum(), 1e-300)
+        lean = _lean(inner_products(position, axis), weight)
         if abs(lean) < TIE:
             height = inner_products(points, axis)
-            lean = height[(np.abs(height) >= 0.5 * np.abs(height).max()).argmax()]
+            lean = _lean(height, point_weight)
+            if abs(lean) < TIE:
+                lean = height[(np.abs(height) >= 0.5 * np.abs(height).max()).argmax()]
         axis *= -1.0 if lean < 0 else 1.0
     axes[[0, 2]] *= -1.0  # which end comes first is a convention
     return axes
+
+
+def _lean(height: np.ndarray, weight: np.ndarray) -> float:
+    """Third moment of heights, (k,), by weight, (k,), from -1, all below the middle, to 1."""
+    cubes = height * height * height  # powers of NumPy take twenty times as long
+    return float((weight * cubes).sum() / max((weight * np.abs(cubes)).sum(), 1e-300))
 
 
 def _order(place: np.ndarray, beside: Callable[[], np.ndarray]) -> np.ndarray:

@@ -161,11 +161,11 @@ def over(point, window=None):
     return from_top(window.x + x, window.y + y)
 
 
-def surface_places(obj, away=14, window=None):
+def surface_places(obj, away=14, window=None, step=8):
     """Where each part can be clicked, by its number: the place nearest to the middle of what is seen of it.
 
     Beside the graph by some pixels, and not under the sidebar. window : a region of four views, or of another
-    viewport that has no sidebar.
+    viewport that has no sidebar. step : pixels between the places that are looked at.
     """
     edge = (80, 120) if window is None else (20, 20)
     sidebar = region("UI").x - 60 if window is None and view_area().spaces.active.show_region_ui else None
@@ -173,8 +173,8 @@ def surface_places(obj, away=14, window=None):
     right = min(window.width - edge[0], sidebar - window.x if sidebar else window.width)
     graph = [Vector(point) for point in graph_places(obj, window).values()]
     found = {}
-    for x in range(edge[0], right, 8):
-        for y in range(edge[0], window.height - edge[1], 8):
+    for x in range(edge[0], right, step):
+        for y in range(edge[0], window.height - edge[1], step):
             item, _, face = seen_at(window, (x, y))
             if item == obj.name:
                 number = obj.data.attributes["reeb_part"].data[face].value

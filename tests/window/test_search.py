@@ -82,4 +82,4 @@ def test_it_says_why_not_and_changes_nothing(seen, name):
 
 
 def test_export_writes_a_file_for_each_part(seen):
-    assert any(line.startswith("INFO: 10 files in ") for line in seen[FILES]["said"])
+    assert any(line.startswith("INFO: 11 files in ") for line in seen[FILES]["said"])

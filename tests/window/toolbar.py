@@ -68,7 +68,7 @@ def clicked():
 
 def boxed():
     """A box around the head; Ctrl takes parts away."""
-    places = pointer.surface_places(spot())
+    places = pointer.surface_places(spot(), step=2)
     before = snapshot()
     left, right = min(x for x, _ in places.values()), max(x for x, _ in places.values())
     top, bottom = min(y for _, y in places.values()), max(y for _, y in places.values())
