@@ -295,9 +295,8 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def lengths(vectors: np.ndarray) -> np.ndarray:
-    """Lengths of vectors, (n, 3): those of ``np.linalg.norm``, several times as fast. Returns (n,) float64."""
-    x, y, z = vectors.T
-    return np.sqrt(x * x + y * y + z * z)
+    """Lengths of vectors, (n, 2 or 3): those of ``np.linalg.norm``, several times as fast. Returns (n,) float64."""
+    return np.sqrt(row_products(vectors, vectors))
 
 
 def unit(vectors: np.ndarray) -> np.ndarray:
@@ -335,9 +334,9 @@ def inner_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def row_products(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Inner product of each point and that of the same row, (n, 3) each: (n,) float64, the same everywhere."""
-    (ax, ay, az), (bx, by, bz) = a.T, b.T
-    return ax * bx + ay * by + az * bz
+    """Inner product of each vector and that of the same row, (n, 2 or 3) each: (n,) float64, the same everywhere."""
+    first, *others = (p * q for p, q in zip(a.T, b.T, strict=True))
+    return sum(others, first)
 
 
 def second_moments(points: np.ndarray, weights: np.ndarray) -> np.ndarray:

@@ -16,6 +16,7 @@ from .arrays import TIE, both_ways, first_of_rows, inverse, lengths, row_product
 from .mesh import TriMesh
 from .ordering import rank_by_place
 
+SLIM = 3.0  # ratio of two lengths of links from which on cells grow along the shorter ones only
 MOST_RISE = 4.0  # upper bound of what a value rises within a cell, in units of its largest rise to a neighbor
 SMOOTHING_STEPS = 3  # rounds in which ``prolong`` averages neighbors, to close the seams between cells
 _MIX = np.uint64(0x9E3779B97F4A7C15)  # 2**64 over the golden ratio, made odd: the multiplier of the hash splitmix64
@@ -77,7 +78,7 @@ def coarsen(
     links = mesh.edges.vertices if links is None else links
     a, b = both_ways(links).T
     order = stable_order(a)
-    a, b = a[order], b[order]
+    a, b = _near(mesh.vertices, a[order], b[order])
     seed = _independent_set(a, b, _priority(mesh.vertices, vertex_area), kept)
     name = np.where(seed, np.cumsum(seed) - 1, -1)
     owner = name.copy()
@@ -205,6 +206,18 @@ def _gradients(mesh: TriMesh, links: np.ndarray, values: np.ndarray) -> np.ndarr
     # Neighbors in one plane do not determine the gradient across that plane; the damping makes it 0.
     damping = 1e-3 * np.trace(normal, axis1=1, axis2=2) + np.finfo(float).tiny
     return np.linalg.solve(normal + damping[:, None, None] * np.eye(3), right[:, :, None])[:, :, 0]
+
+
+def _near(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The links that are short for one of their ends; a, b : (k,) int64, in both directions, sorted by ``a``.
+
+    Across needles vertices are much nearer to each other than along them. As in algebraic multigrid, cells grow across
+    only, until they are about as wide as long; else the way around a cylinder of many sides would zigzag.
+    """
+    length = lengths(points[a] - points[b])
+    shortest = np.minimum.reduceat(length, np.searchsorted(a, np.arange(len(points))))
+    short = length <= SLIM * np.maximum(shortest[a], shortest[b])
+    return a[short], b[short]
 
 
 def _priority(points: np.ndarray, weight: np.ndarray) -> np.ndarray:

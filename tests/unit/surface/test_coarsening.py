@@ -7,7 +7,7 @@ import shapes
 
 from core.field.geodesic import GeodesicSolver
 from core.surface.arrays import components
-from core.surface.coarsening import coarsen, prolong
+from core.surface.coarsening import SLIM, coarsen, prolong
 from core.surface.mesh import TriMesh
 
 SURFACES = {"sphere": lambda: shapes.icosphere(3), "genus 2": lambda: shapes.surface_of_genus(2),
@@ -26,12 +26,20 @@ def seeds(mesh, coarsening):
     return np.array([place[tuple(p)] for p in coarsening.mesh.vertices.tolist()])
 
 
+def short_edges(mesh):
+    """Ends of the edges along which cells grow: short ones, compared with the shortest at one of their ends."""
+    shortest = np.full(mesh.n_vertices, np.inf)
+    for end in mesh.edges.vertices.T:
+        np.minimum.at(shortest, end, mesh.edge_length)
+    return mesh.edges.vertices[mesh.edge_length <= SLIM * shortest[mesh.edges.vertices].max(axis=1)].T
+
+
 @pytest.mark.parametrize("name", SURFACES)
 def test_seeds_are_independent_and_every_vertex_has_one_beside_it(name):
     mesh, coarsening = made(name)
     seed = np.zeros(mesh.n_vertices, bool)
     seed[seeds(mesh, coarsening)] = True
-    a, b = mesh.edges.vertices.T
+    a, b = short_edges(mesh)
     assert not (seed[a] & seed[b]).any()
     covered = seed.copy()
     covered[a[seed[b]]] = covered[b[seed[a]]] = True
@@ -45,7 +53,8 @@ def test_each_vertex_belongs_to_its_nearest_seed_of_those_it_touches(name):
     owner = fine[coarsening.owner]
     np.testing.assert_array_equal(owner[fine], fine)
     is_seed = np.isin(np.arange(mesh.n_vertices), fine)
-    edges = np.concatenate([mesh.edges.vertices, mesh.edges.vertices[:, ::-1]])
+    short = short_edges(mesh).T
+    edges = np.concatenate([short, short[:, ::-1]])
     edges = edges[is_seed[edges[:, 1]]]
     nearest = np.full(mesh.n_vertices, np.inf)
     length = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
@@ -64,6 +73,19 @@ def test_area_is_kept_and_links_keep_the_surface_in_one_piece(name):
     touching = {tuple(sorted(e)) for e in coarsening.owner[mesh.edges.vertices].tolist() if e[0] != e[1]}
     assert touching == {tuple(e) for e in coarsening.links.tolist()}
     assert {tuple(e) for e in coarsening.mesh.edges.vertices.tolist()} <= touching
+
+
+def test_needles_are_coarsened_across_only_until_they_are_even():
+    # Ten rows of which each is 40 times as far from the next as its vertices are from each other.
+    vertices, faces = shapes.flat_grid(200, 10)
+    rows = vertices[:, 1].round()
+    mesh = TriMesh(vertices * (1.0, 40.0, 1.0), faces)
+    for left in (100, 50, 25):
+        step = coarsen(mesh, mesh.vertex_area)
+        kept = np.unique((step.mesh.vertices[:, 1] / 40).round(), return_counts=True)[1]
+        assert len(kept) == len(np.unique(rows))  # no row is lost
+        assert (kept <= left + 1).all()
+        mesh = step.mesh
 
 
 def test_about_one_vertex_in_four_is_left():

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lines over chains of unfolded triangles: distances over needles, and that lines stay on the surface."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core.field.agd import protrusion_field
+from core.field.geodesic import GeodesicSolver
+from core.field.sight import lines_in_sight
+from core.surface.coarsening import Pyramid
+from core.surface.mesh import TriMesh
+from core.surface.ordering import sorted_by_place
+from core.surface.polygons import PolygonMesh
+from core.surface.preparation import bodies, repair
+
+WORST = 1 / np.cos(np.deg2rad(37.5))  # directions of paths are 75 degrees apart at most
+
+
+def stretched(n_x, n_y, by):
+    vertices, faces = shapes.flat_grid(n_x, n_y)
+    return TriMesh(vertices * (1.0, by, 1.0), faces)
+
+
+@pytest.mark.parametrize("by", [1.0, 4.0, 15.0, 40.0])
+def test_over_needles_distances_are_as_good_as_directions_allow(by):
+    mesh = stretched(90, 6, by)
+    source = 45 * 7 + 3
+    straight = np.linalg.norm(mesh.vertices - mesh.vertices[source], axis=1)
+    ratio = GeodesicSolver(mesh).distances(source)[straight > 0] / straight[straight > 0]
+    assert ratio.min() > 1 - 1e-12
+    assert ratio.max() <= WORST + 1e-9
+
+
+def test_a_line_is_as_long_as_the_plane_says():
+    mesh = stretched(30, 2, 10.0)
+    source, target, length = lines_in_sight(mesh)
+    assert len(length) > 100
+    np.testing.assert_allclose(length, np.linalg.norm(mesh.vertices[source] - mesh.vertices[target], axis=1))
+
+
+def test_folding_changes_no_distance():
+    flat = stretched(30, 2, 10.0)
+    x, y, _ = flat.vertices.T
+    turn = np.deg2rad(70) * (np.arange(31) % 2)  # an accordion: each strip rises or falls
+    rise = np.append(0.0, np.cumsum(np.sin(turn[1:])))[x.round().astype(int)]
+    run = np.append(0.0, np.cumsum(np.cos(turn[1:])))[x.round().astype(int)]
+    folded = TriMesh(np.stack([run, y, rise], axis=1), flat.faces)
+    for source in (0, 46, 92):
+        np.testing.assert_allclose(*(GeodesicSolver(mesh).distances(source) for mesh in (folded, flat)))
+
+
+def test_even_triangles_need_no_more_lines():
+    vertices, faces = shapes.flat_grid(8, 8)
+    x, y, z = vertices.T
+    assert not len(lines_in_sight(TriMesh(np.stack([x - y / 2, np.sqrt(3) / 2 * y, z], axis=1), faces))[0])
+    assert not len(lines_in_sight(TriMesh(*shapes.octahedron()))[0])
+
+
+def test_no_line_leaves_the_surface():
+    # A strip of needles with a slit across half of it: from one side to the other the way is around its end.
+    mesh = stretched(40, 4, 8.0)
+    x, y, _ = mesh.vertices[mesh.faces].mean(axis=1).T
+    slit = TriMesh(mesh.vertices, mesh.faces[~((x > 20) & (x < 21) & (y < 24))])
+    before, behind = np.flatnonzero((slit.vertices[:, :2] == (19, 0)).all(axis=1)), (22, 0)
+    distance = GeodesicSolver(slit).distances(int(before[0]))
+    behind = np.flatnonzero((slit.vertices[:, :2] == behind).all(axis=1))[0]
+    shortest = np.hypot(1, 24) + 1 + np.hypot(1, 24)
+    assert shortest - 1e-9 <= distance[behind] <= WORST * shortest
+    around = distance >= np.linalg.norm(slit.vertices - slit.vertices[before], axis=1) - 1e-9
+    assert around[slit.used].all()
+
+
+def test_no_line_runs_over_an_edge_of_three_faces():
+    mesh = stretched(20, 1, 10.0)
+    edge = np.flatnonzero(np.isin(mesh.vertices[:, 0], (10.0,)))
+    fin = np.append(mesh.vertices, [(10.0, 5.0, 5.0)], axis=0)
+    with_fin = TriMesh(fin, np.append(mesh.faces, [[*edge, len(fin) - 1]], axis=0))
+    source, target, _ = lines_in_sight(with_fin)
+    sides = np.sign(fin[:, 0] - 10.0)
+    assert (sides[source] * sides[target] >= 0).all()
+    assert (np.sign(fin[lines_in_sight(mesh)[0], 0] - 10) * np.sign(fin[lines_in_sight(mesh)[1], 0] - 10) < 0).any()
+
+
+@pytest.mark.parametrize("sides", [16, 48, 96, 200])
+def test_the_field_of_a_cylinder_does_not_depend_on_its_sides(sides):
+    angle = np.arange(sides) / sides * 2 * np.pi
+    ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    low, high = np.insert(ring, 2, -2.0, axis=1), np.insert(ring, 2, 2.0, axis=1)
+    k, after = np.arange(sides), (np.arange(sides) + 1) % sides
+    wall = np.concatenate([np.stack([k, after, after + sides], axis=1), np.stack([k, after + sides, k + sides], axis=1)])
+    caps = np.concatenate([np.stack([after, k, np.full(sides, 2 * sides)], axis=1),
+                           np.stack([k + sides, after + sides, np.full(sides, 2 * sides + 1)], axis=1)])
+    vertices = np.concatenate([low, high, [(0, 0, -2.0), (0, 0, 2.0)]])
+    given = sorted_by_place(PolygonMesh.of(vertices, np.concatenate([wall, caps])))[0]
+    (body,) = bodies(repair(given), True, 0.01)
+    field = protrusion_field(Pyramid(body.mesh), 0.005, True).normalized
+    x, y, z = (body.mesh.vertices - (body.mesh.vertices.max(axis=0) + body.mesh.vertices.min(axis=0)) / 2).T
+    high, out = np.abs(z) / np.abs(z).max(), np.hypot(x, y) / np.hypot(x, y).max()
+    assert field[(high < 0.05) & (out > 0.99)].max() < 0.05
+    assert field[(high > 0.999) & (out < 0.1)].min() > 0.9
