@@ -483,6 +483,19 @@ def mirrored_figure(step: float = 0.13) -> Shape:
     return _with_mirror_image(np.where(np.abs(vertices) < 1e-3 * step, 0.0, vertices), half)
 
 
+def prism_of_rays(n_rays):
+    """A star, 1 thick, in quads: a plane through each ray and its middle, and one between its two faces."""
+    n = 2 * n_rays
+    angle, far = np.arange(n) * np.pi / n_rays, np.where(np.arange(n) % 2, 0.7, 2.0)
+    outline = np.append(far[:, None] * np.stack([np.sin(angle), np.cos(angle)], axis=1), np.zeros((1, 2)), axis=0)
+    vertices = np.concatenate([np.column_stack([outline, np.full(n + 1, z)]) for z in (-0.5, 0.5)])
+    low, tip = np.arange(n), np.arange(0, n, 2)
+    sides = np.stack([low, np.roll(low, -1), np.roll(low, -1) + n + 1, low + n + 1], axis=1)
+    kites = np.stack([np.full(n_rays, n), tip - 1, tip, tip + 1], axis=1)
+    kites[0, 1] = n - 1
+    return vertices, np.concatenate([sides[:, ::-1], kites, kites[:, ::-1] + n + 1])
+
+
 def half_of(shape: Shape) -> Shape:
     """The faces of a shape on the positive side of the plane x = 0, with their vertices only."""
     kept = shape.faces[(shape.vertices[shape.faces, 0] >= -1e-9).all(axis=1)]

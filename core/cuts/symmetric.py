@@ -6,8 +6,8 @@ where both of their halves agree. What parts two of them is what the hierarchy f
 both sides; average linkage, each merge with its mirror image, makes a hierarchy of that. Any method of cutting can be
 made symmetric in this way, because only labels and a hierarchy are asked for.
 
-Planes across each other divide a shape in quarters, or in eighths, one of which leads. Every way of mirroring in some
-of them is a number, whose bits say in which; one after the other is the exclusive or of both.
+Planes across each other divide a shape in quarters, or in eighths, one of which leads. Where exact planes meet at other
+angles, as those of a star or a gear do, a wedge leads, and the shape is turned, too (``ways``).
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ from __future__ import annotations
 import heapq
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
 from itertools import product
 
 import numpy as np
@@ -25,6 +24,7 @@ from ..surface.arrays import components, renumbered, rounded
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
 from .hierarchy import Hierarchy
 from .joining.method import LAST
+from .ways import Ways
 
 # Shares of the area of the pieces that the plane mirrors: below SMALL, what little of a candidate is left on the
 # leading side joins a neighbor, and so does what lies across the plane below CROSSING; a region without an image is one
@@ -34,12 +34,13 @@ OVERHANG = 0.25  # share of a candidate below which what lies beyond the plane i
 # At these details the parts of both sides are compared with those found. Where more pairs of points than WORST come
 # together or apart, the faces are too large to be mirrored, or what was found speaks against the plane.
 DETAILS, WORST = (0.3, 0.4, 0.5, 0.6, 0.7), 0.05
+MOST_LEADS = 8  # upper bound of the number of wedges of which each is tried as the one that leads
 MOST_CANDIDATES = 2_000  # every pair of them is compared; of more, such as the blades of a lawn, all stay as they are
 
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """The candidates of the leading side, and their mirror images, in g ways of mirroring, the first of which is none.
+    """The candidates of the leading side, and their images, in g ways of mirroring, the first of which is none.
 
     Attributes
     ----------
@@ -54,6 +55,7 @@ class Cells:
     image : (c, g) int64
         The images of each cell; -1 for none.
     area : (c,) float64
+    ways : Ways
     """
 
     label: np.ndarray
@@ -62,6 +64,7 @@ class Cells:
     leads: np.ndarray
     image: np.ndarray
     area: np.ndarray
+    ways: Ways
 
 
 def symmetric_candidates(
@@ -104,35 +107,63 @@ def symmetric_candidates(
     """
     if hierarchy.n_candidates > MOST_CANDIDATES:
         return label, hierarchy
+    twin, height, first = np.atleast_2d(twin), np.atleast_2d(height), np.atleast_1d(first)
+    ways, beside = Ways.of_planes(twin), height * first[:, None]
+    leads = [(beside * np.reshape(sides, (-1, 1)) >= 0).all(axis=0) for sides in product((1, -1), repeat=len(beside))]
+    best = _best(graph, contacts, label, hierarchy, ways, leads, np.inf if exact else WORST)
+    if best is None and len(twin) > 1:
+        return symmetric_candidates(graph, contacts, label, hierarchy, twin[:-1], height[:-1], first[:-1], exact)
+    return best or (label, hierarchy)
+
+
+def turned_candidates(
+    graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, ways: Ways, height: np.ndarray
+) -> tuple[np.ndarray, Hierarchy]:
+    """Make candidates and their hierarchy alike in all wedges of a shape whose planes of symmetry meet in an axis.
+
+    Parameters
+    ----------
+    graph, contacts, label, hierarchy
+        As ``symmetric_candidates`` has them, of p faces.
+    ways : Ways
+        All exact.
+    height : (p,) float64
+        Signed distance of each face from a plane through the middle that is in no way of symmetry.
+
+    Returns
+    -------
+    label, hierarchy
+        What ``symmetric_candidates`` returns.
+    """
+    if hierarchy.n_candidates > MOST_CANDIDATES:
+        return label, hierarchy
+    # Of all images of a face the one farthest from the plane leads: those that do form a wedge.
+    lead = height >= height[ways.image].max(axis=0) - 1e-6 * np.abs(height).max()
+    leads = [lead[ways.image[way]] for way in ways.every[:: -(-len(ways.every) // MOST_LEADS)]]
+    return _best(graph, contacts, label, hierarchy, ways, leads, np.inf) or (label, hierarchy)
+
+
+def _best(
+    graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, ways: Ways,
+    leads: list[np.ndarray], least: float,
+) -> tuple[np.ndarray, Hierarchy] | None:
+    """The candidates and the hierarchy that are most like those found, of those that some wedges make if they lead.
+
+    leads : of (p,) bool, which faces lie in each wedge. least : upper bound of how unlike they may be; None if all are.
+    """
     salience = hierarchy.salience_table(np.arange(int(label.max()) + 1))
     found = [hierarchy.parts(hierarchy.n_parts(detail))[label] for detail in DETAILS]
-    twin, height, first = np.atleast_2d(twin), np.atleast_2d(height), np.atleast_1d(first)
-    image = _images(twin)
-    concerned = _mirrored_area(graph, image)
-    whole = float(concerned.sum())
-    best, least = (label, hierarchy), np.inf if exact else WORST
-    beside = height * first[:, None]
-    for sides in product((1, -1), repeat=len(beside)):
-        leads = (beside * np.reshape(sides, (-1, 1)) >= 0).all(axis=0)
-        cells = _cells(graph, label, image, leads, whole)
+    concerned = _mirrored_area(graph, ways.image)
+    whole, best = float(concerned.sum()), None
+    for lead in leads:
+        cells = _cells(graph, label, ways, lead, whole)
         merges, strength = _linkage(cells, _touching(cells, graph.with_contacts(contacts)), _means(cells, salience))
         tree = Hierarchy.of(len(cells.area), merges, strength)
         error = np.mean([_disagreement(tree.parts(tree.n_parts(detail))[cells.label], parts, concerned)
                          for detail, parts in zip(DETAILS, found, strict=True)])
         if error < least - 1e-9:
             best, least = (cells.label, tree), error
-    if best[0] is label and len(twin) > 1:
-        return symmetric_candidates(graph, contacts, label, hierarchy, twin[:-1], height[:-1], first[:-1], exact)
     return best
-
-
-def _images(twin: np.ndarray) -> np.ndarray:
-    """The images of each face in all ways of mirroring, (2^k, p) int64, -1 for none; twin : (k, p), in each plane."""
-    image = np.arange(twin.shape[1])[None]
-    for mirrored in twin:
-        again = np.append(mirrored, -1)[image]
-        image = np.concatenate([image, again])
-    return image
 
 
 def _mirrored_area(graph: FaceGraph, image: np.ndarray) -> np.ndarray:
@@ -141,14 +172,14 @@ def _mirrored_area(graph: FaceGraph, image: np.ndarray) -> np.ndarray:
     return np.where((np.bincount(piece, (image[1:] >= 0).any(axis=0), count) > 0)[piece], graph.area, 0.0)
 
 
-def _cells(graph: FaceGraph, label: np.ndarray, image: np.ndarray, leads: np.ndarray, whole: float) -> Cells:
+def _cells(graph: FaceGraph, label: np.ndarray, ways: Ways, leads: np.ndarray, whole: float) -> Cells:
     """The candidates of the leading side and their images, and the candidates of what has no image.
 
-    image : (g, p), of the faces. whole : area of the pieces that the planes mirror.
+    whole : area of the pieces that the planes mirror.
     """
-    n_ways, faces = len(image), np.arange(len(label))
-    has = image >= 0
-    image = np.where(has, image, faces)
+    n_ways, faces = len(ways.image), np.arange(len(label))
+    has = ways.image >= 0
+    image = np.where(has, ways.image, faces)
     # The cell of a face that does not lead itself is the mirror image of the cell of that image of it which leads: a
     # left arm's face, if the right side leads, gets the mirrored right arm. ``heard``: by which ways of mirroring a
     # face has such an image. ``lone``: small regions without any, which get the cell around them.
@@ -158,29 +189,29 @@ def _cells(graph: FaceGraph, label: np.ndarray, image: np.ndarray, leads: np.nda
     lone = unseen & ~_large(graph, unseen, LONE * whole)
     leader = image[way, faces]
     asked = (way == 0) & ~lone
-    cell, crosses, seen = _lead_cells(graph, label, np.where(has, label[image], -1), leader, asked, whole)
-    kind = _kinds(crosses)
+    cell, own, seen = _lead_cells(graph, label, np.where(has, label[image], -1), leader, asked, whole, ways)
+    kind = _kinds(own, ways)
     full = np.where(lone, -1, n_ways * cell[leader] + kind[cell[leader], way])
     full = connect(graph, fill_unlabeled(graph, full))
-    full = connect(graph, fill_unlabeled(graph, _without_lone(graph, full, kind, seen, LONE * whole)))
+    full = connect(graph, fill_unlabeled(graph, _without_lone(graph, full, kind, seen, LONE * whole, ways)))
     names, full = renumbered(full)
     lead, way = np.divmod(names, n_ways)
-    every = np.arange(n_ways)
-    partner = _places(names, n_ways * lead[:, None] + kind[lead[:, None], way[:, None] ^ every])
+    partner = _places(names, n_ways * lead[:, None] + kind[lead[:, None], ways.after[way][:, ways.back]])
     weight = graph.area + 1e-12 * graph.area.sum()
     # A cell that follows takes over all that is known of its leading image, instead of its own, nearly the same
     # numbers: so that rounding cannot make the two sides differ. ``asked``: of which cell, in which way, it is read.
     leading = np.where(way > 0, partner[np.arange(len(names)), way], -1)
     leader, way_there = np.where(leading < 0, (np.arange(len(names)), 0 * way), (leading, way))
-    asked = leader[:, None], way_there[:, None] ^ every
+    from_there = ways.after[:, ways.back[way_there]].T
+    asked = leader[:, None], from_there
     shown = np.where(has, label[image], label)
     found = np.stack([majority(full, of_way, weight, len(names)) for of_way in shown], axis=1)
     found = np.where(partner >= 0, found, -1)[asked]
     shares = _shares(full, shown, weight)
-    shares = tuple(shares[leader + len(names) * (way_there ^ w)] for w in every)
+    shares = tuple(shares[leader + len(names) * of_way] for of_way in from_there.T)
     speaks = (partner >= 0) & (way[partner] == 0)
     speaks[~speaks.any(axis=1), 0] = True
-    return Cells(full, found, shares, speaks, partner, np.bincount(full, graph.area))
+    return Cells(full, found, shares, speaks, partner, np.bincount(full, graph.area), ways)
 
 
 def _shares(cell: np.ndarray, shown: np.ndarray, weight: np.ndarray) -> csr_array:
@@ -192,15 +223,14 @@ def _shares(cell: np.ndarray, shown: np.ndarray, weight: np.ndarray) -> csr_arra
     return csr_array((np.tile(weight / area[cell], n_ways), (row.ravel(), shown.ravel())), size)
 
 
-def _kinds(crosses: np.ndarray) -> np.ndarray:
-    """The first of the ways of mirroring that make the same image of each leading cell, (c, g) int64.
+def _kinds(crosses: np.ndarray, ways: Ways) -> np.ndarray:
+    """The first of the ways that lead from the same image to each leading cell, (c, g) int64.
 
     crosses : (c, g) bool, which images of a cell are the cell itself.
     """
-    every = np.arange(crosses.shape[1])
-    kind = np.tile(every, (len(crosses), 1))
-    for way in every[1:]:
-        kind = np.where(crosses[:, way, None], np.minimum(kind, kind[:, every ^ way]), kind)
+    kind = np.tile(ways.every, (len(crosses), 1))
+    for way in ways.every[1:]:
+        kind = np.where(crosses[:, way, None], np.minimum(kind, ways.after[way]), kind)
     return kind
 
 
@@ -210,7 +240,9 @@ def _places(names: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     return np.where(names[place] == wanted, place, -1)
 
 
-def _without_lone(graph: FaceGraph, full: np.ndarray, kind: np.ndarray, seen: np.ndarray, least: float) -> np.ndarray:
+def _without_lone(
+    graph: FaceGraph, full: np.ndarray, kind: np.ndarray, seen: np.ndarray, least: float, ways: Ways
+) -> np.ndarray:
     """Cell of each face, (p,): -1 for small cells whose image is not there, or not among the images of their neighbors.
 
     full : (p,), g times the leading cell of each face, and the way in which it is mirrored. kind, seen : (c, g), see
@@ -223,7 +255,7 @@ def _without_lone(graph: FaceGraph, full: np.ndarray, kind: np.ndarray, seen: np
     here = np.sort(pairs, axis=1) @ (len(names), 1)
     alone = np.zeros(len(names), bool)
     for mirrored in range(1, n_ways):
-        image = _places(names, n_ways * lead + kind[lead, way ^ mirrored])
+        image = _places(names, n_ways * lead + kind[lead, ways.after[way, ways.back[mirrored]]])
         there = image >= 0
         of_pairs = np.sort(image[pairs], axis=1) @ (len(names), 1)
         held = np.zeros(len(names), bool)
@@ -251,7 +283,8 @@ def _large(graph: FaceGraph, chosen: np.ndarray, least: float) -> np.ndarray:
 
 
 def _lead_cells(
-    graph: FaceGraph, label: np.ndarray, mirrored: np.ndarray, leader: np.ndarray, asked: np.ndarray, whole: float
+    graph: FaceGraph, label: np.ndarray, mirrored: np.ndarray, leader: np.ndarray, asked: np.ndarray, whole: float,
+    ways: Ways,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The candidates on the leading side, in connected pieces.
 
@@ -276,7 +309,7 @@ def _lead_cells(
     area = rounded(np.bincount(cell[leader][spoken_for], share, count))
     largest = np.zeros(int(own.max()) + 1)
     np.maximum.at(largest, own, area)
-    crosses = _closed(own[:, None] == other)
+    crosses = ways.closed(own[:, None] == other)
     # What little of a candidate reaches over the plane from the side that follows is cut off there.
     little = (np.bincount(mine, graph.area[asked], count)
               < OVERHANG * 2 / len(mirrored) * np.bincount(label, graph.area)[own])
@@ -285,15 +318,6 @@ def _lead_cells(
     joins = _joined(FaceGraph(len(label), np.stack([a, b], axis=1), length, graph.area), cell, own, area, small)
     left, cell[asked] = renumbered(joins[mine])
     return cell, crosses[left], other[left] >= 0
-
-
-def _closed(crosses: np.ndarray) -> np.ndarray:
-    """Which images of each cell are the cell itself, (c, g) bool: of two such ways of mirroring, both in turn, too."""
-    crosses = crosses.copy()
-    every = np.arange(crosses.shape[1])
-    for way in every[1:]:
-        crosses |= crosses[:, way, None] & crosses[:, every ^ way]
-    return crosses
 
 
 def _joined(
@@ -347,44 +371,31 @@ def _means(cells: Cells, salience: np.ndarray) -> np.ndarray:
     return np.where(here >= LAST, here, np.where(np.isnan(told), total / n_seen, told))
 
 
-@dataclass(frozen=True, eq=False)
 class _Groups:
-    """Sets of ways of mirroring that hold with two ways also both in turn: what leaves a cluster as it is.
+    """Sets of ways that hold with two ways also one after the other: those that leave a cluster as it is.
 
-    Attributes
-    ----------
-    number : list of int
-        The smallest set that holds some ways, by these as bits.
-    joined : list of list of int
-        The smallest set that holds all ways of two sets.
-    copies, pairs : list of list of int
-        How many images the joined set makes of what the first of two sets leaves as it is, and pairs of them.
-    beyond : list of list of tuple of int
-        The ways that the second of two sets holds and the first does not.
+    A set is a number whose bits are its ways.
     """
 
-    number: list[int]
-    joined: list[list[int]]
-    copies: list[list[int]]
-    pairs: list[list[int]]
-    beyond: list[list[tuple[int, ...]]]
+    def __init__(self, ways: Ways) -> None:
+        self._ways = ways
+        self._closed: dict[int, int] = {}
+        self._joined: dict[tuple[int, int], tuple[int, int, int]] = {}
 
-    @classmethod
-    @cache
-    def of(cls, n_ways: int) -> _Groups:
-        """The sets of n_ways ways, from the one that holds only the first."""
-        some = (np.arange(1 << n_ways)[:, None] >> np.arange(n_ways)) & 1 == 1
-        some[:, 0] = True
-        closed = _closed(some)
-        while (closed != (further := _closed(closed))).any():
-            closed = further
-        holds, number = np.unique(closed, axis=0, return_inverse=True)
-        number = number.reshape(-1)
-        size, bits = holds.sum(axis=1), 1 << np.arange(n_ways)
-        joined = number[(holds[:, None] | holds) @ bits]
-        copies = size[joined] // size[:, None]
-        beyond = [[tuple(np.flatnonzero(further & ~one).tolist()) for further in holds] for one in holds]
-        return cls(number.tolist(), joined.tolist(), copies.tolist(), (copies * (copies - 1) // 2).tolist(), beyond)
+    def closed(self, chosen: int) -> int:
+        """The smallest set that holds some ways."""
+        if chosen not in self._closed:
+            bits = [[chosen >> way & 1 == 1 for way in self._ways.every.tolist()]]
+            self._closed[chosen] = sum(1 << way for way in np.flatnonzero(self._ways.closed(np.array(bits))).tolist())
+        return self._closed[chosen]
+
+    def joined(self, one: int, other: int) -> tuple[int, int, int]:
+        """The smallest set that holds two, and how many images it makes of what each of them leaves as it is."""
+        found = self._joined.get((one, other))
+        if found is None:
+            both = self.closed(one | other)
+            found = self._joined[one, other] = both, *(both.bit_count() // alone.bit_count() for alone in (one, other))
+        return found
 
 
 class _Clusters:
@@ -398,8 +409,10 @@ class _Clusters:
         self.area, self.image = (cells.area + 1e-12 * cells.area.sum()).tolist(), cells.image.tolist()
         self.mean, self.of = mean.copy(), np.arange(len(cells.area))
         self.touching = [set(np.flatnonzero(row).tolist()) - {k} for k, row in enumerate(touching)]
-        self.groups = _Groups.of(cells.image.shape[1])
-        self.own, self.spread = [0 for _ in every], [[] for _ in every]
+        self.groups, self.after = _Groups(cells.ways), cells.ways.after.tolist()
+        #: Of each cluster, the ways that leave it as it is, and what parts it from its image in each way.
+        self.own, self.apart = [1 for _ in every], [[] for _ in every]
+        self.spread: list[dict[int, float]] = [{} for _ in every]
         #: Of each cluster, by neighbor: what it costs to merge, rounded, the neighbor, and the cost.
         self.costs: list[dict[int, tuple[float, int, float]]] = [{} for _ in every]
         self.know_(every)
@@ -429,25 +442,33 @@ class _Clusters:
 
         A cluster that is its own image takes in another together with that one's image, which may be far from it.
         """
-        mean, groups, mine, its = self.mean.item(a, b), self.groups, self.own[a], self.own[b]
-        copies, its_copies = groups.copies[mine][its], groups.copies[its][mine]
+        mean = self.mean.item(a, b)
+        both, copies, its_copies = self.groups.joined(self.own[a], self.own[b])
         if copies == its_copies == 1:
             return mean
-        both, area, its_area = groups.joined[mine][its], self.area[a], self.area[b]
+        area, its_area = self.area[a], self.area[b]
         between = copies * its_copies * area * its_area
-        inside = groups.pairs[its][mine] * (its_area * its_area)
-        weight, total = between + inside, between * mean + inside * self.spread[b][both]
-        inside = groups.pairs[mine][its] * (area * area)
-        value = (total + inside * self.spread[a][both]) / (weight + inside)
+        inside = its_copies * (its_copies - 1) // 2 * (its_area * its_area)
+        weight, total = between + inside, between * mean + inside * self.spread_in(b, both)
+        inside = copies * (copies - 1) // 2 * (area * area)
+        value = (total + inside * self.spread_in(a, both)) / (weight + inside)
         return value if value > mean else mean  # nothing is known of some images: the value is nan
+
+    def spread_in(self, cluster: int, both: int) -> float:
+        """What parts a cluster from its images in the ways of a set, the mean; 0 if all leave it as it is."""
+        known = self.spread[cluster]
+        if both not in known:
+            beyond = both & ~self.own[cluster]
+            known[both] = _mean(self.apart[cluster], tuple(way for way in range(beyond.bit_length()) if beyond >> way & 1))
+        return known[both]
 
     def know_(self, clusters: Iterable[int]) -> None:
         """Find anew in which ways some clusters are their own images, what parts them from others, and the costs."""
         for k in clusters:
             image = self.image[k]
-            self.own[k] = own = self.groups.number[sum(1 << way for way, other in enumerate(image) if other == k)]
-            apart = [self.mean.item(k, other) if other >= 0 else np.nan for other in image]
-            self.spread[k] = [_mean(apart, ways) for ways in self.groups.beyond[own]]
+            self.own[k] = self.groups.closed(sum(1 << way for way, other in enumerate(image) if other == k))
+            self.apart[k] = [self.mean.item(k, other) if other >= 0 else np.nan for other in image]
+            self.spread[k] = {}
         pairs = [pair for k in clusters for other in self.touching[k] for pair in ((k, other), (other, k))]
         costs = [self.cost(a, b) for a, b in pairs]
         for (a, b), cost, about in zip(pairs, costs, rounded(np.array(costs)).tolist(), strict=True):
@@ -513,5 +534,5 @@ def _merge_with_images_(clusters: _Clusters, a: int, b: int, strength: float) ->
     union = [int(clusters.of[k]) if k >= 0 else -1 for k in union]
     for way, mirrored in enumerate(union):
         if mirrored >= 0:
-            image[mirrored] = [union[way ^ other] for other in range(len(union))]
+            image[mirrored] = [union[further[way]] for further in clusters.after]
     clusters.know_({a, *(int(clusters.of[k]) for k in (*images_a, *images_b) if k >= 0)})

@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.hinted import hinted_candidates
 from ..cuts.settling import settle
-from ..cuts.symmetric import symmetric_candidates
+from ..cuts.symmetric import symmetric_candidates, turned_candidates
 from ..cuts.symmetric_regions import MANY, symmetric_on_regions
 from ..field.agd import ScalarField
 from ..graph.reeb import ReebGraph
@@ -103,6 +103,8 @@ def _symmetric(
     """Candidate of each face, (p,) int64, and hierarchy, after both are made symmetric."""
     if graph.n_faces > MANY and not mirror.exact:
         return symmetric_on_regions(graph, contacts, label, hierarchy, mirror.twin, mirror.height, mirror.first)
+    if mirror.ways is not None:
+        return turned_candidates(graph, contacts, label, hierarchy, mirror.ways, mirror.beside)
     planes = (mirror, *mirror.across)
     return symmetric_candidates(
         graph, contacts, label, hierarchy, np.array([plane.twin for plane in planes]),

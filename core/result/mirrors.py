@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ..cuts.ways import Ways
 from ..surface.mesh import TriMesh
 from ..surface.mirror_images import Images
 from ..surface.mirror_plane import MirrorPlane
@@ -15,6 +16,7 @@ from ..surface.small_faces import SmallFaces
 from ..surface.symmetry import EXACT, LEAST, mirror_plane
 
 LEAST_BODY = 0.1  # share of the area below which a body has no plane of its own
+MOST_WAYS = 64  # upper bound of the number of ways in which a shape is its own image
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +40,11 @@ class Mirror:
     within : tuple of Images
         If the faces are too large to be mirrored, what the planes in which smaller ones are to be do, this one first;
         then a twin is the face that most of an image lies in.
+    ways : Ways or None
+        Of an exact one, if other exact planes meet it or each other at less than a right angle, as those of a star do:
+        all ways in which the faces are their own images.
+    beside : (p,) float64
+        Signed distance of each face from a plane that is in none of these ways of symmetry; empty without them.
     """
 
     plane: np.ndarray
@@ -47,6 +54,8 @@ class Mirror:
     exact: bool = False
     across: tuple[Mirror, ...] = ()
     within: tuple[Images, ...] = ()
+    ways: Ways | None = None
+    beside: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     @classmethod
     def of(cls, mesh: TriMesh, polygon: np.ndarray, n_polygons: int) -> Mirror | None:
@@ -59,8 +68,22 @@ class Mirror:
         if (images.twins < 0).all():
             return None
         across = tuple(cls._in(other.plane, other.exact_twins, mesh, polygon) for other in images.exact[1:])
-        return replace(cls._in(plane, images.twins, mesh, polygon), exact=bool(images.exact), across=across,
-                       within=tuple(images.within))
+        mirror = replace(cls._in(plane, images.twins, mesh, polygon), exact=bool(images.exact), across=across,
+                         within=tuple(images.within))
+        return mirror._turned([cls._in(other.plane, other.exact_twins, mesh, polygon) for other in images.meeting])
+
+    def _turned(self, meeting: list[Mirror]) -> Mirror:
+        """This one with all ways that it and some that meet at other angles make."""
+        if not meeting:
+            return self
+        planes = (self, *self.across, *meeting)
+        twins = np.array([plane.twin for plane in planes])
+        ways = Ways.generated(np.where(twins < 0, np.arange(len(self.twin)), twins), MOST_WAYS)
+        if ways is None:
+            return self
+        # Steps that no two planes have in common lead away from all of them.
+        steps = np.modf(np.arange(1, len(planes) + 1) * np.sqrt(2.0))[0] + 0.5
+        return replace(self, ways=ways, beside=sum(step * plane.height for step, plane in zip(steps, planes, strict=True)))
 
     @classmethod
     def of_faces(cls, images: Images, mesh: TriMesh) -> Mirror:

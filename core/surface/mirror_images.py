@@ -8,11 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import inner_products, row_products
+from .arrays import inner_products, second_moments
 from .labels import majority
 from .mirror_plane import MirrorPlane
 from .small_faces import DENSE, Elements, SmallFaces
-from .symmetry import EXACT, judged, oriented
+from .symmetry import EXACT, is_exact, judged, oriented
 
 # How far a mirrored face may lie beside the surface where twins are found, on a model bent to one side a little; in
 # units of the size.
@@ -20,13 +20,12 @@ BENT = 0.03
 # Number of faces from which on they are small enough to be mirrored where the tessellation is not; share of the area
 # that must have exact twins on a mesh of fewer, if its faces are to be.
 MANY_FACES, MOSTLY = 3_000, 0.5
-# A face is the exact twin of another if their centers, mirrored, are nearer than this, in units of its area's root, and
-# their areas differ by less, in units of its area.
-NEAR = 0.02
 # Upper bounds of the points that stand for the surface, and that are mirrored, where a plane across another is judged.
 ACROSS = 2_000, 200
 # Planes across another are looked for by moments of z^m, m to MOST_RAYS; one is 0 if below UNEVEN of what it can be.
-MOST_RAYS, UNEVEN = 6, 0.01
+MOST_RAYS, UNEVEN = 12, 0.01
+MOST_TURNED = 20_000  # number of polygons up to which planes that meet at other angles are looked for
+ROUND = 0.01  # relative difference of two principal moments below which a shape may be its own image when turned
 SQUARE = 0.01  # cosine of the angle from which on planes are not across each other
 
 
@@ -94,14 +93,32 @@ class Images:
             return []
         found: list[Images] = []
         for other in (self, *self._likely_across):
-            image, same = other._polygons
+            image = other._polygons[0]
             known = [images._polygons[0] for images in found]
             commutes = all(np.array_equal(image[before], before[image]) for before in known)
-            if same.all() and commutes and np.array_equal(image[image], np.arange(len(image))):
+            if other._permutes and commutes:
                 found.append(other)
             elif other is self:
                 break
         return found
+
+    @cached_property
+    def meeting(self) -> list[Images]:
+        """Two planes, next to each other, of three or more that meet in an axis, in which all polygons are exact.
+
+        What these two and those of ``exact`` do, one after the other, makes all ways in which a star or a gear is its
+        own image. Empty if there are no such planes; meshes of more than MOST_TURNED polygons are not looked at.
+        """
+        polygons = self.faces.polygons
+        if not self.exact or self.faces.n_polygons > MOST_TURNED:
+            return []
+        for axis in (self.plane.normal, *_round_axes(polygons)):
+            lines = [oriented(normal, 0.0) for normal in _across(polygons, axis)]
+            lines = [plane for plane in lines if is_exact(polygons, plane)] if len(lines) > 2 else []
+            two = [Images(self.faces, self.faces.outwards(plane)) for plane in lines[:2]]
+            if len(lines) > 2 and all(images._permutes for images in two):
+                return two
+        return []
 
     @property
     def exact_twins(self) -> np.ndarray:
@@ -117,6 +134,12 @@ class Images:
         few, probes = elements.some(ACROSS[0]), elements.some(ACROSS[1])
         tried = [judged(oriented(normal, 0.0), few, probes) for normal in _across(faces.polygons, self.plane.normal)]
         return [Images(faces, faces.outwards(plane)) for plane in tried if plane.share >= 1 - EXACT]
+
+    @property
+    def _permutes(self) -> bool:
+        """Whether all polygons are exact mirror images, and the image of each image is the polygon itself."""
+        image, same = self._polygons
+        return bool(same.all()) and np.array_equal(image[image], np.arange(len(image)))
 
     @cached_property
     def _local(self) -> MirrorPlane:
@@ -139,11 +162,14 @@ class Images:
         image = self._image if whole is self.faces.elements else whole.mirrored(self._local)
         # Normals count as much as a polygon is wide: the two sides of a thin wall have the same center.
         nearest = self._nearest if whole is self.faces.elements else whole.nearest(image)[1]
-        apart = np.linalg.norm(image.position - whole.position[nearest], axis=1)
-        same = apart <= NEAR * np.sqrt(whole.area)
-        same &= row_products(image.normal, whole.normal[nearest]) > 0.99 * row_products(whole.normal, whole.normal)
-        same &= np.abs(whole.area - whole.area[nearest]) <= NEAR * whole.area
-        return nearest, same
+        return nearest, whole.same(image, nearest)
+
+
+def _round_axes(elements: Elements) -> list[np.ndarray]:
+    """Unit vector along the axis about which a shape may be its own image when turned; none if moments tell of none."""
+    value, vector = np.linalg.eigh(second_moments(elements.position, elements.area))
+    alike = np.diff(value) <= ROUND * value[-1]
+    return [vector[:, 2 * int(alike[0])]] if alike[0] != alike[1] else []
 
 
 def _across(elements: Elements, normal: np.ndarray) -> np.ndarray:

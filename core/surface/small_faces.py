@@ -19,6 +19,9 @@ from .nearest import search_tree
 # wall are told apart.
 TURNED = 0.02
 SAME = 1e-6  # difference of distances, in units of the size, that is a rounding error
+# A face is the exact image of another if their centers are nearer than this, in units of its area's root, and their
+# areas differ by less, in units of its area.
+NEAR = 0.02
 # Number of faces from which on their centers alone are compared: faces are then much smaller than walls are thick.
 DENSE = 100_000
 # Number of points from which on it takes longer to search for their nearest than to start threads for it.
@@ -91,6 +94,17 @@ class Elements:
         aligned = row_products(image.normal, self.normal[nearest]) > 0.5
         within = lengths(offset) <= most + spacing
         return (beside <= most) & within & aligned
+
+    def same(self, image: Elements, nearest: np.ndarray) -> np.ndarray:
+        """Whether images are exactly the elements nearest to each, but for rounding, (k,) bool."""
+        there = self.chosen(nearest)
+        same = lengths(image.position - there.position) <= NEAR * np.sqrt(image.area)
+        same &= row_products(image.normal, there.normal) > 0.99 * row_products(image.normal, image.normal)
+        return same & (np.abs(image.area - there.area) <= NEAR * image.area)
+
+    def chosen(self, which: np.ndarray) -> Elements:
+        """Some elements."""
+        return Elements(self.position[which], self.normal[which], self.area[which])
 
     @classmethod
     def joined(cls, several: list[Elements]) -> Elements:

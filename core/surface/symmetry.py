@@ -21,6 +21,7 @@ LEAST = 0.85  # share of the area that must be matched for a plane to be one of 
 # place of one.
 COARSE, FINE = (1_000, 100), (12_000, 500)
 EQUAL = 0.05  # planes whose shares differ by less are equal: the first of them is taken, in all poses the same
+SOME = 300  # number of polygons by which it is seen whether a plane is exact; the first that is comes before all others
 LIKELY = 0.5  # share of the area that the best plane must match already when few points are looked at
 # By how little a plane moves in a step, in its normal and its offset, when it is found, and when it is only to be told
 # from others.
@@ -51,6 +52,9 @@ def mirror_plane(faces: SmallFaces) -> MirrorPlane | None:
     if share < LIKELY:
         return None
     chosen = next(k for k, plane in enumerate(tried) if plane.share >= share - EQUAL)
+    likely = [k for k, plane in enumerate(tried) if plane.share >= LIKELY]
+    if len(likely) > 1:
+        chosen = next((k for k in likely if is_exact(faces.polygons, start[k])), chosen)
     many, probes = elements.some(FINE[0]), elements.some(FINE[1])
     best, = _improved([tried[chosen]], many, probes)
     if best.share < LEAST:
@@ -61,6 +65,12 @@ def mirror_plane(faces: SmallFaces) -> MirrorPlane | None:
     if (exact := judged(start[chosen], many, probes)).share >= best.share - EXACT:
         best = exact
     return faces.outwards(best)
+
+
+def is_exact(polygons: Elements, plane: MirrorPlane) -> bool:
+    """Whether some polygons, at equal steps of their number, all have exact images in a plane of their own frame."""
+    image = polygons.chosen(np.arange(0, len(polygons.area), max(len(polygons.area) // SOME, 1))).mirrored(plane)
+    return bool(polygons.same(image, polygons.nearest(image)[1]).all())
 
 
 def _directions(elements: Elements) -> np.ndarray:

@@ -72,22 +72,9 @@ def test_another_tessellation_of_one_side_has_twins_within_a_face():
     assert np.linalg.norm(apart[twin >= 0], axis=1).max() < both.edge_length.max()
 
 
-def prism_of_rays(n_rays):
-    """A star, 1 thick, in quads: a plane through each ray and its middle, and one between its two faces."""
-    n = 2 * n_rays
-    angle, far = np.arange(n) * np.pi / n_rays, np.where(np.arange(n) % 2, 0.7, 2.0)
-    outline = np.append(far[:, None] * np.stack([np.sin(angle), np.cos(angle)], axis=1), np.zeros((1, 2)), axis=0)
-    vertices = np.concatenate([np.column_stack([outline, np.full(n + 1, z)]) for z in (-0.5, 0.5)])
-    low, tip = np.arange(n), np.arange(0, n, 2)
-    sides = np.stack([low, np.roll(low, -1), np.roll(low, -1) + n + 1, low + n + 1], axis=1)
-    kites = np.stack([np.full(n_rays, n), tip - 1, tip, tip + 1], axis=1)
-    kites[0, 1] = n - 1
-    return vertices, np.concatenate([sides[:, ::-1], kites, kites[:, ::-1] + n + 1])
-
-
 @pytest.mark.parametrize(("shape", "count"), [
     (shapes.table_of_blocks(), 2), (shapes.cross_of_blocks(8, 6), 3), (shapes.cross_of_blocks(7, 7), 3),
-    (prism_of_rays(3), 2), (prism_of_rays(4), 3), (prism_of_rays(5), 2), (shapes.mirrored_figure(), 1)])
+    (shapes.prism_of_rays(3), 2), (shapes.prism_of_rays(4), 3), (shapes.prism_of_rays(5), 2), (shapes.mirrored_figure(), 1)])
 def test_planes_across_each_other(shape, count):
     for seed in range(3):
         rng = np.random.default_rng(seed)
@@ -102,6 +89,30 @@ def test_planes_across_each_other(shape, count):
             apart = centers[twin] - centers
             assert np.allclose(apart, (apart @ plane.normal)[:, None] * plane.normal, atol=1e-6)
             assert all(np.array_equal(twin[other], other[twin]) for _, other in planes)
+
+
+@pytest.mark.parametrize("rays", [3, 4, 5, 8, 12])
+def test_two_planes_of_a_star_are_next_to_each_other(rays):
+    vertices, faces = shapes.prism_of_rays(rays)
+    found = small_faces(vertices @ shapes.rotation(np.random.default_rng(rays)).T + 3, faces)
+    one, other = Images(found, mirror_plane(found)).meeting
+    assert abs(one.plane.normal @ other.plane.normal) == pytest.approx(np.cos(np.pi / rays), abs=1e-6)
+
+
+@pytest.mark.parametrize("shape", [shapes.table_of_blocks(), shapes.mirrored_figure(), shapes.icosphere(2)])
+def test_nothing_else_has_planes_that_meet_at_other_angles(shape):
+    found = small_faces(*shape)
+    assert Images(found, mirror_plane(found)).meeting == []
+
+
+def test_an_exact_plane_comes_before_one_that_is_nearly_as_good():
+    # Front and back of a flat figure are more alike than its sides are to a few points, but only the sides exactly.
+    vertices, faces = shapes.mirrored_figure()
+    bump = np.exp(-((vertices - (0.0, vertices[:, 1].max(), 0.0)) ** 2).sum(axis=1) / 0.02)
+    vertices = vertices * (1.0, 0.3, 1.0) + 0.02 * bump[:, None] * (0.0, 1.0, 0.0)
+    for turn in (np.eye(3), np.eye(3)[[1, 2, 0]], np.eye(3)[[2, 0, 1]]):
+        plane = plane_of(TriMesh(vertices @ turn.T, faces))
+        assert abs(plane.normal @ turn[:, 0]) == pytest.approx(1.0, abs=1e-6)
 
 
 def test_a_dent_on_one_side_leaves_no_exact_plane():

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The group of the ways in which a shape is its own image, and parts that are alike in all of them."""
+
+import numpy as np
+import pytest
+import shapes
+from scipy.spatial import cKDTree
+
+from core import decompose
+from core.cuts.ways import Ways
+from core.metrics import rand_index_error
+
+
+def rays(count):
+    """The star's polygons cut so finely that its rays can be parts; and all ways that map it onto itself."""
+    vertices, faces = shapes.prism_of_rays(count)
+    quads = faces
+    for _ in range(4):
+        vertices, quads = quartered(vertices, quads)
+    vertices = vertices[:, [1, 0, 2]] / (1, 1, 2)  # a ray along x
+    turns = np.arange(count) * 2 * np.pi / count
+    maps = [np.array([(np.cos(t), -np.sin(t) * side, 0), (np.sin(t), np.cos(t) * side, 0), (0, 0, flip)])
+            for t in turns for side in (1, -1) for flip in (1, -1)]
+    return vertices, quads, maps
+
+
+def quartered(vertices, quads):
+    """Each quad as four: its corners, the middles of its sides, and its own middle."""
+    sides = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=2), axis=2)
+    known, place = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
+    n, middle = len(vertices), place.reshape(-1, 4) + len(vertices)
+    center = n + len(known) + np.arange(len(quads))
+    vertices = np.concatenate([vertices, vertices[known].mean(axis=1), vertices[quads].mean(axis=1)])
+    four = [np.stack([quads[:, k], middle[:, k], center, middle[:, k - 1]], axis=1) for k in range(4)]
+    return vertices, np.concatenate(four)
+
+
+def moved_faces(vertices, faces, linear):
+    """The face at the place of each face's image."""
+    centers = vertices[faces].mean(axis=1)
+    distance, image = cKDTree(centers).query(centers @ linear.T)
+    assert distance.max() < 1e-9
+    return image
+
+
+@pytest.mark.parametrize("count", [3, 5, 8])
+def test_two_mirrors_make_the_group_of_a_star(count):
+    vertices, faces, maps = rays(count)
+    images = [moved_faces(vertices, faces, linear) for linear in maps]
+    ways = Ways.generated(np.array([images[2], images[6], images[1]]), 64)  # two next to each other, and front and back
+    assert {way.tobytes() for way in ways.image} == {image.tobytes() for image in images}
+    assert (ways.image[0] == np.arange(len(faces))).all()
+    for u in range(len(maps)):
+        for v in range(len(maps)):
+            assert (ways.image[ways.after[u, v]] == ways.image[u][ways.image[v]]).all()
+        assert ways.after[u, ways.back[u]] == ways.after[ways.back[u], u] == 0
+
+
+def test_planes_across_each_other():
+    vertices, faces, maps = rays(4)
+    twins = np.array([moved_faces(vertices, faces, np.diag(signs)) for signs in ((-1, 1, 1), (1, -1, 1), (1, 1, -1))])
+    planes, made = Ways.of_planes(twins), Ways.generated(twins, 64)
+    assert {way.tobytes() for way in planes.image} == {way.tobytes() for way in made.image}
+    for u in range(8):
+        for v in range(8):
+            assert (planes.image[planes.after[u, v]] == planes.image[u][planes.image[v]]).all()
+
+
+def test_too_many_ways_are_none():
+    vertices, faces, maps = rays(5)
+    images = np.array([moved_faces(vertices, faces, linear) for linear in maps])
+    assert Ways.generated(images, 19) is None
+    assert len(Ways.generated(images, 20).image) == 20
+
+
+def test_closed_sets_are_the_subgroups():
+    vertices, faces, maps = rays(3)
+    images = [moved_faces(vertices, faces, linear) for linear in maps]
+    ways = Ways.generated(np.array([images[2], images[6]]), 64)
+    every = np.arange(len(ways.image))
+    closed = ways.closed((np.arange(1 << len(every))[:, None] >> every & 1) == 1)
+    assert sorted({int(row.sum()) for row in closed}) == [1, 2, 3, 6]  # of the triangle's six ways
+    assert len(np.unique(closed, axis=0)) == 6
+
+
+@pytest.mark.parametrize("count", [3, 5, 7, 12])
+def test_rays_of_a_star_are_cut_alike(count):
+    vertices, faces, maps = rays(count)
+    rng = np.random.default_rng(count)
+    found = decompose(vertices @ shapes.rotation(rng).T + rng.normal(size=3), faces)
+    images = [moved_faces(vertices, faces, linear) for linear in maps]
+    several = 0
+    for detail in np.linspace(0.1, 1.0, 10):
+        labels = found.parts(float(detail)).labels
+        several += labels.max() > 0
+        unlike = max(rand_index_error(labels, labels[image]) for image in images)
+        assert unlike == 0.0 if detail < 0.75 else unlike < 0.001  # slivers that fall to one side or the other
+    assert several
