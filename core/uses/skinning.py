@@ -151,13 +151,12 @@ def _tries(table: CornerTable, labels: np.ndarray, bones: Bones) -> Iterator[tup
     laplacian = ConformalFactor.of(table).laplacian
     for reach, fifth in _WAYS:
         joints, stiffness = _joints(table, labels, bones, reach), np.zeros(table.n_faces)
-        odds, changed = np.zeros((len(table.vertices), len(bones.parent))), np.ones(len(table.vertices), bool)
+        odds, stale = np.zeros((len(table.vertices), len(bones.parent))), joints
         fewest, since = np.inf, 0
         while since < _PATIENCE:
             stiff = _stiffened(laplacian, table, stiffness)
-            for joint in joints:
-                if changed[joint.near].any():
-                    odds[:, joint.bone] = joint.odds(stiff)
+            for joint in stale:
+                odds[:, joint.bone] = joint.odds(stiff)
             found = limited(_of_odds(table, labels, bones, odds), fifth)
             turned = _turned(table, found, bones)
             count = int(turned.sum())
@@ -166,6 +165,7 @@ def _tries(table: CornerTable, labels: np.ndarray, bones: Bones) -> Iterator[tup
             around = table.faces_at(table.vertices_of(turned))
             stiffness[around] = np.maximum(_STIFFER * stiffness[around], 1.0)
             changed = table.vertices_of(around)
+            stale = [joint for joint in joints if changed[joint.near].any()]
 
 
 def _stiffened(laplacian: csr_array, table: CornerTable, stiffness: np.ndarray) -> csr_array:

@@ -64,6 +64,15 @@ def test_a_part_that_ends_just_within_reach_has_weights(length):
     assert (beyond[np.isclose(x, 6)] > 0.7).all()
 
 
+def test_a_part_that_only_touches_its_parent_goes_with_its_own_bone():
+    """A hand, a hat: where pieces have no edge in common there is no border, and no bone but the root's moved anything."""
+    row = shapes.together(*(shapes.moved(shapes.box(), (x, 0, 0)) for x in (-2, -1, 0)))
+    labels = np.repeat([0, 1, 2], len(row[1]) // 3)
+    table = CornerTable.of(*row)
+    found = dense(smooth_weights(table, labels, chain(-2, -1, 0, 1)), 3)
+    assert (found[table.corner_vertex] == np.eye(3)[labels[table.corner_face]]).all()
+
+
 def test_no_face_is_turned_over_by_60_degrees():
     table, labels = rod()
     bones = chain(-6, -2, 2, 6)
