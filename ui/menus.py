@@ -63,6 +63,8 @@ class REEB_PARTS_MT_main(bpy.types.Menu):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
+        # A menu that a shortcut opens would execute: commands would ignore the panel, and no tool would start.
+        layout.operator_context = "INVOKE_REGION_WIN"
         _draw_operators(layout, ("reeb_parts.decompose", "MOD_EXPLODE"), ("reeb_parts.clear", "TRASH"))
         _draw_operators(layout, ("reeb_parts.show_colors", "SHADING_SOLID"), ("reeb_parts.show_graph", "NONE"))
         layout.operator("reeb_parts.step_detail", text="Fewer Parts").more = False

@@ -16,6 +16,12 @@ def seen(drive):
     return drive("tools.py", "tools", seconds=240)
 
 
+def test_the_menu_of_the_shortcut_does_what_the_panel_says(seen):
+    """It executed: all commands ran with their defaults, and tools did not start."""
+    assert seen["by menu"] == 0.1
+    assert seen["by menu undone"] is False
+
+
 def test_a_click_on_the_model_or_the_graph_picks_a_part(seen):
     assert seen["picked one"] == ["Part 06", []]
     assert seen["picked on an arc"] == ["Part 02", []]

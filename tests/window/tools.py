@@ -25,12 +25,31 @@ BUTTONS = {"Cut": None, "Slide": "reeb_parts.paint", "Paint": None}
 def steps():
     """One step after the other; yields the seconds to wait."""
     yield from pointer.spot_alone()
+    yield from by_menu()
     yield from pointer.search("Decompose into Parts")
     yield from pointer.until(lambda: "reeb_part" in spot().data.attributes, pointer.PATIENCE)
     yield 0.5
     for scene in (picked, cut, painted, escaped, by_graph, disturbed, elsewhere, next_door, deleted):
         yield from scene()
         (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
+
+
+def by_menu():
+    """Ctrl+Alt+P over the view and the letter of Decompose, for fewer parts than usual; undo."""
+    bpy.context.scene.reeb_parts.detail = 0.1
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        bpy.ops.ed.undo_push(message="Detail")
+    yield from pointer.rest(*pointer.in_view())
+    yield from pointer.tap("ctrl+alt+p")
+    yield 0.4
+    yield from pointer.tap("d")
+    yield from pointer.until(lambda: "reeb_part" in spot().data.attributes, pointer.PATIENCE)
+    yield 0.5
+    note("by menu", round(spot().data.reeb_parts.detail, 3))
+    yield from pointer.rest(*pointer.in_view())
+    yield from pointer.tap("ctrl+z", "ctrl+z")
+    yield 0.5
+    note("by menu undone", "reeb_part" in spot().data.attributes)
 
 
 def picked():
