@@ -83,8 +83,8 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, joined: np.ndarray, way
             return 0, left
         count, layer = len(holes), cap_layer(bm)
         made = []
-        for ring in rings:
-            rims = [[bm.verts[i] for i in rim.tolist()] for rim in ring]
+        # By their places in the table of vertices, which does not outlive the first new vertex.
+        for rims in [[[bm.verts[i] for i in rim.tolist()] for rim in ring] for ring in rings]:
             found = _between_rims(bm, holes, rims, discs)
             if found is not None:
                 polygons, used = found

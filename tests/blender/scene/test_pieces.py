@@ -791,6 +791,14 @@ def test_what_is_seen_is_cut_with_all_that_modifiers_make(obj, materials):
     assert same_places(seen_faces(*pieces()), before)
 
 
+def test_walls_that_a_modifier_makes_are_closed_between_their_rims(obj):
+    """Each cut goes through the outer and the inner side; with the first cap made, the others ended in an error."""
+    obj.modifiers.new("Solidify", "SOLIDIFY").thickness = 0.05
+    bpy.ops.reeb_parts.decompose()
+    assert bpy.ops.reeb_parts.separate(seen=True, caps=True, hide=False, **WHOLE) == {"FINISHED"}
+    assert [borders(piece.data) for piece in pieces()] == [(set(), 0)] * len(pieces())
+
+
 def test_faces_of_no_part_are_refused_and_nothing_written(obj):
     obj.modifiers.new("Remesh", "REMESH").voxel_size = 0.5
     bpy.ops.reeb_parts.decompose()
