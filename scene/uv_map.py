@@ -157,14 +157,16 @@ def _unwrap_all(context: bpy.types.Context, twin: bpy.types.Object, method: str)
 
 
 def _prepare(twin: bpy.types.Object, points: np.ndarray, seams: np.ndarray, left_out: np.ndarray) -> None:
-    """Give a copy the shape that is seen, our seams, one UV map, and all selected but some faces, (p,) bool."""
+    """Give a copy the shape that is seen, at size 1, our seams, one UV map, and all selected but some faces, (p,) bool."""
     mesh = twin.data
     if mesh.shape_keys:
         name = mesh.shape_keys.name
         twin.shape_key_clear()
         if left := bpy.data.shape_keys.get(name):  # before Blender 5, those of a copy stay, with a user too many
             bpy.data.batch_remove([left])
-    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    # At size 1: Blender's unwrapping has limits that are lengths and areas, below which models of millimeters are.
+    low, size = points.min(axis=0), np.ptp(points, axis=0).max()
+    mesh.vertices.foreach_set("co", ((points - low) / (size or 1.0)).astype(np.float32).ravel())
     mesh.edges.foreach_set("use_seam", seams)
     for items in (mesh.vertices, mesh.edges, mesh.polygons):
         items.foreach_set("hide", np.zeros(len(items), bool))

@@ -56,6 +56,17 @@ def test_the_map_is_torn_along_the_cuts(obj):
     assert obj.data.uv_layers.active.name == MAP
 
 
+def test_a_model_of_millimeters_has_the_map_of_one_of_meters(make, tree):
+    """Blender's unwrapping has limits that are lengths: on a model of 2 mm it found no solution."""
+    maps = []
+    for size in (1.0, 2.0**-10):
+        obj = make((tree.vertices * size, tree.faces))
+        bpy.ops.reeb_parts.decompose()
+        bpy.ops.reeb_parts.unwrap()
+        maps.append(read(obj.data.uv_layers[MAP].uv, "vector", np.float32, 2))
+    assert (maps[0] == maps[1]).all()
+
+
 @pytest.mark.parametrize("name", ["tree", "torus", "genus two", "sphere"])
 def test_every_face_lies_flat_and_no_face_is_turned_over(make, name):
     shape = {"tree": shapes.tube_tree, "torus": shapes.torus, "genus two": lambda: shapes.genus_two(0.09),
