@@ -65,7 +65,8 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         if not self.directory:
             raise SceneError(rpt_("There is no folder to write to. Choose one and try again."))
         folder = Path(bpy.path.abspath(self.directory))
-        objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
+        chosen = targets.chosen_objects(context, self.report, one_per_mesh=False)
+        objects = [obj for obj in chosen if store.has_result(obj.data)]
         with object_mode(context), together() as files:
             if not self.separated:
                 objects = [obj for obj, _ in targets.usable(objects, lambda obj: store.load(obj.data), self.report)]

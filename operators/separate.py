@@ -37,7 +37,8 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         use_panel_settings(self, SeparateProperties, context)
-        return self.start(context) if is_long(targets.chosen_objects(context)) else self.execute(context)
+        objects = targets.chosen_objects(context, one_per_mesh=False)
+        return self.start(context) if is_long(objects) else self.execute(context)
 
     def draw(self, context: bpy.types.Context) -> None:
         """The panel after it: in the order of Use Parts, and without what does not count."""
@@ -48,7 +49,8 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
 
     def steps(self, context: bpy.types.Context) -> Steps[None]:
         check_parts(targets.active_object(context))
-        objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
+        chosen = targets.chosen_objects(context, self.report, one_per_mesh=False)
+        objects = [obj for obj in chosen if store.has_result(obj.data)]
         made = []
         with object_mode(context):
             found = targets.usable(objects, lambda obj: store.load(obj.data), self.report)

@@ -91,8 +91,9 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     Raises
     ------
     SceneError
-        Blender finds no weights.
+        Blender finds no weights, or an armature of ours moves another object of the same mesh.
     """
+    _check_alone(obj)
     numbered = stored.shown_parts()
     found = skeleton(obj, numbered, limbs=weights != "PARTS")
     # The parts' own groups have no sides, by which the mirrored half of a half model would follow other bones.
@@ -122,6 +123,16 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     else:
         remove_modifier(obj)
     return Made(rig, found.n_stiff)
+
+
+def _check_alone(obj: bpy.types.Object) -> None:
+    """Raise SceneError where new weights, which belong to the mesh, would take those of another object's armature."""
+    for other in targets.users(obj.data):
+        if other != obj and _modifier(other) is not None:
+            raise SceneError(rpt_(
+                "{name} shares its mesh, and so its weights, with {other}, which has an armature of its parts. Give "
+                "{name} a mesh of its own (Object > Relations > Make Single User > Object & Data) and try "
+                "again.").format(name=obj.name, other=other.name))
 
 
 def _new_groups(obj: bpy.types.Object, found: Skeleton) -> list[str]:

@@ -17,15 +17,17 @@ _Found = TypeVar("_Found")
 
 
 def chosen_objects(
-    context: bpy.types.Context, report: Callable[[set[str], str], None] | None = None
+    context: bpy.types.Context, report: Callable[[set[str], str], None] | None = None, one_per_mesh: bool = True
 ) -> list[bpy.types.Object]:
-    """The objects to work on: the active mesh, then other selected meshes; one per mesh.
+    """The objects to work on: the active mesh, then other selected meshes.
 
     Parameters
     ----------
     context : bpy.types.Context
     report : callable, optional
         Told of each selected mesh that is left out, such as one that is linked from another file, and why.
+    one_per_mesh : bool
+        Of objects that share a mesh take only one: what is written to the mesh is written to all.
 
     Raises
     ------
@@ -38,9 +40,10 @@ def chosen_objects(
     # A script may override the active object; the mode that is left for writing is that of the view layer's.
     if active != context.view_layer.objects.active and active.mode != "OBJECT":
         raise SceneError(_in_another_mode(active))
-    first: dict[bpy.types.Mesh, bpy.types.Object] = {active.data: active}
+    found, known = [active], {active.data if one_per_mesh else active}
     for obj in selected_objects(context):
-        if obj.type != "MESH" or obj.data in first:
+        own = obj.data if one_per_mesh else obj
+        if obj.type != "MESH" or own in known:
             continue
         try:
             check_object(obj)
@@ -50,8 +53,9 @@ def chosen_objects(
             if report:
                 report({"WARNING"}, str(error))
         else:
-            first[obj.data] = obj
-    return list(first.values())
+            found.append(obj)
+            known.add(own)
+    return found
 
 
 def usable(objects: list[bpy.types.Object], look: Callable[[bpy.types.Object], _Found],

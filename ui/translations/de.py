@@ -614,6 +614,10 @@ TEXTS = {
         "Jedes Teil bewegt sich als Ganzes, durch seine eigene Punktgruppe",
     "Blender finds no automatic weights for {name}. Choose smooth weights.":
         "Blender findet keine automatischen Gewichte für {name}. Bitte weiche Gewichte wählen.",
+    "{name} shares its mesh, and so its weights, with {other}, which has an armature of its parts. Give {name} a mesh "
+    "of its own (Object > Relations > Make Single User > Object & Data) and try again.":
+        "{name} teilt das Mesh und damit die Gewichte mit {other}, das eine Armature seiner Teile hat. Bitte {name} "
+        "ein eigenes Mesh geben (Objekt > Beziehungen > Einzelbenutzer erstellen > Objekt & Daten) und erneut versuchen.",
     "{n} {n:part moves with the one it hangs|parts move with the ones they hang} on: no neck to bend at":
         "{n} {n:Teil bewegt sich mit dem, an dem es|Teile bewegen sich mit denen, an denen sie} {n:hängt|hängen}: "
         "kein Hals zum Biegen",

@@ -579,6 +579,10 @@ TEXTS = {
     "Each part moves as a whole, by its own vertex group": "每个部件以其自己的顶点组整体移动",
     "Blender finds no automatic weights for {name}. Choose smooth weights.":
         "Blender 无法为 {name} 找到自动权重。请选择平滑权重。",
+    "{name} shares its mesh, and so its weights, with {other}, which has an armature of its parts. Give {name} a mesh "
+    "of its own (Object > Relations > Make Single User > Object & Data) and try again.":
+        "{name} 与 {other} 共用网格及其权重，后者已有由部件生成的骨架。请让 {name} 使用单独的网格"
+        "（物体 > 关系 > 创建单一用户 > 物体和数据）并重试。",
     "{n} {n:part moves with the one it hangs|parts move with the ones they hang} on: no neck to bend at":
         "{n} 个部件随其所连的部件一起移动：没有可弯折的颈部",
     "Move the Mesh": "移动网格",

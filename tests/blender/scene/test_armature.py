@@ -198,6 +198,36 @@ def test_a_symmetric_model_has_symmetric_bones(make, kind):
         assert (np.where(parent < 0, -1, image[parent]) == parent[image])[even].all()
 
 
+def test_a_linked_duplicate_does_not_take_the_weights_of_the_first(obj):
+    """Weights belong to the mesh, which both have: bones of the first moved nothing from then on."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature()
+    bpy.ops.object.duplicate(linked=True)
+    copy = bpy.context.object
+    copy.modifiers.clear()
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="shares its mesh"):
+        bpy.ops.reeb_parts.armature()
+    assert snapshot() == before
+    copy.data = obj.data.copy()
+    assert bpy.ops.reeb_parts.armature() == {"FINISHED"}
+    assert [modifier.object for modifier in copy.modifiers] != [modifier.object for modifier in obj.modifiers]
+
+
+def test_pieces_that_only_touch_have_a_bone_that_moves_each(make):
+    """A robot of boxes: all bones but the root's moved nothing, since no edge is between two of its parts."""
+    obj = make(shapes.together(*(shapes.moved(shapes.box(size), place) for size, place in (
+        ((2, 1, 3), (0, 0, 0)), ((1, 1, 1), (0.5, 0, 3)), ((3, 0.4, 0.4), (2, 0.3, 2)), ((3, 0.4, 0.4), (-3, 0.3, 2)),
+        ((0.5, 0.5, 3), (0, 0, -3)), ((0.5, 0.5, 3), (1.5, 0, -3))))))
+    bpy.ops.reeb_parts.decompose(n_parts=6)
+    bpy.ops.reeb_parts.armature()
+    numbers = numbers_of(obj)
+    for part in obj.data.reeb_parts.parts:
+        group = obj.vertex_groups[DEFORM + part.name]
+        mine = {v for p in obj.data.polygons if numbers[p.index] == part.number for v in p.vertices}
+        assert {v.index for v in obj.data.vertices for g in v.groups if g.group == group.index and g.weight > 0} == mine
+
+
 def test_twice_is_once_and_a_used_armature_is_kept(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature(deform=True)

@@ -791,6 +791,23 @@ def test_what_is_seen_is_cut_with_all_that_modifiers_make(obj, materials):
     assert same_places(seen_faces(*pieces()), before)
 
 
+def test_linked_duplicates_have_pieces_of_their_own(obj, tmp_path):
+    """One of the two was left out without a word."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.object.duplicate(linked=True)
+    copy = bpy.context.object
+    copy.location.x = 5.0
+    obj.select_set(True)
+    n = len(obj.data.reeb_parts.parts)
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format="stl")
+    assert len(list(tmp_path.iterdir())) == 2 * n
+    bpy.ops.reeb_parts.separate(center=False, **WHOLE)
+    assert obj.hide_get()
+    assert copy.hide_get()
+    for item in (obj, copy):
+        assert [round(piece.location.x, 5) for piece in item.reeb_parts_made.pieces.objects] == [item.location.x] * n
+
+
 def test_walls_that_a_modifier_makes_are_closed_between_their_rims(obj):
     """Each cut goes through the outer and the inner side; with the first cap made, the others ended in an error."""
     obj.modifiers.new("Solidify", "SOLIDIFY").thickness = 0.05
