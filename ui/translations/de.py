@@ -616,8 +616,8 @@ TEXTS = {
         "Blender findet keine automatischen Gewichte für {name}. Bitte weiche Gewichte wählen.",
     "{name} shares its mesh, and so its weights, with {other}, which has an armature of its parts. Give {name} a mesh "
     "of its own (Object > Relations > Make Single User > Object & Data) and try again.":
-        "{name} teilt das Mesh und damit die Gewichte mit {other}, das eine Armature seiner Teile hat. Bitte {name} "
-        "ein eigenes Mesh geben (Objekt > Beziehungen > Einzelbenutzer erstellen > Objekt & Daten) und erneut versuchen.",
+        "{name} teilt das Mesh und damit die Gewichte mit {other}, das ein Skelett seiner Teile hat. Bitte {name} ein "
+        "eigenes Mesh geben (Objekt > Beziehungen > Einzelbenutzer erstellen > Objekt & Daten) und erneut versuchen.",
     "{n} {n:part moves with the one it hangs|parts move with the ones they hang} on: no neck to bend at":
         "{n} {n:Teil bewegt sich mit dem, an dem es|Teile bewegen sich mit denen, an denen sie} {n:hängt|hängen}: "
         "kein Hals zum Biegen",

@@ -65,7 +65,7 @@ def test_a_part_that_ends_just_within_reach_has_weights(length):
 
 
 def test_a_part_that_only_touches_its_parent_goes_with_its_own_bone():
-    """A hand, a hat: where pieces have no edge in common there is no border, and no bone but the root's moved anything."""
+    """A hand, a hat: between pieces there is no border, and no bone but the root's moved anything."""
     row = shapes.together(*(shapes.moved(shapes.box(), (x, 0, 0)) for x in (-2, -1, 0)))
     labels = np.repeat([0, 1, 2], len(row[1]) // 3)
     table = CornerTable.of(*row)
