@@ -157,7 +157,7 @@ def _unwrap_all(context: bpy.types.Context, twin: bpy.types.Object, method: str)
 
 
 def _prepare(twin: bpy.types.Object, points: np.ndarray, seams: np.ndarray, left_out: np.ndarray) -> None:
-    """Give a copy the shape that is seen, at size 1, our seams, one UV map, and all selected but some faces, (p,) bool."""
+    """Give a copy the shape that is seen, at size 1, our seams and one UV map; select all but some faces, (p,) bool."""
     mesh = twin.data
     if mesh.shape_keys:
         name = mesh.shape_keys.name
