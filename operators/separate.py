@@ -131,8 +131,34 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
                 self.report({"WARNING"}, sentence.format(cuts=", ".join(names)))
 
 
+class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):
+    """Show and select the pieces that were separated from this object, and hide the object"""
+
+    bl_idname = "reeb_parts.show_pieces"
+    bl_label = "Show Separated Parts"
+
+    @classmethod
+    def check_context(cls, context: bpy.types.Context) -> None:
+        obj = targets.active_object(context)
+        targets.check_object(obj)
+        assert obj is not None
+        if not piece_objects.piece_objects(obj):
+            raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(
+                name=obj.name))
+        if context.mode != "OBJECT":
+            raise SceneError(rpt_("Go to Object Mode first"))
+
+    def run(self, context: bpy.types.Context) -> None:
+        obj = targets.active_object(context)
+        pieces = [piece for piece in piece_objects.piece_objects(obj) if in_layer(context, piece)]
+        piece_objects.hide_original(context, obj)
+        piece_objects.show_pieces(context, obj, True)
+        shading.show_pieces(context)
+        select_objects(context, pieces, active=pieces[0] if pieces else None)
+
+
 class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
-    """Show and select the object that this piece was separated from"""
+    """Show and select the object that this piece was separated from, and hide the pieces"""
 
     bl_idname = "reeb_parts.show_original"
     bl_label = "Show Original of Part"

@@ -190,6 +190,7 @@ def separate(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, 
 def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: list[int],
                style: SeparateProperties) -> Steps[Separated]:
     """What ``separate`` does, in steps."""
+    show_pieces(context, obj, True)  # those that stay, too
     kept = yield from stretched(_removing_earlier(obj, numbers), 0.0, 0.1)
     face_numbers = stored.shown_parts().face_numbers
     seen = modified.seen_mesh(context, obj, face_numbers) if style.seen and modified.has_modifiers(obj) else None
@@ -424,7 +425,11 @@ def _center(mesh: bpy.types.Mesh) -> Vector:
 
 
 def show_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
-    """Show the object that pieces come from, with its graph if the scene shows graphs."""
+    """Show the object that pieces come from, with its graph if the scene shows graphs, and hide its pieces in the view.
+
+    They are in the same place, where both at once would be speckled.
+    """
+    show_pieces(context, obj, False)
     _set_hidden(context, obj, False)
     graph_objects.set_hidden(context, obj, not context.scene.reeb_parts.graph)
 
@@ -433,6 +438,19 @@ def hide_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Hide the object that pieces come from, with its graph, in the viewport and in renders."""
     _set_hidden(context, obj, True)
     graph_objects.set_hidden(context, obj, True)
+
+
+def hides_pieces(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
+    """Whether a piece of an object is hidden in the viewport."""
+    return any(piece.hide_get(view_layer=context.view_layer) for piece in piece_objects(obj))
+
+
+def show_pieces(context: bpy.types.Context, obj: bpy.types.Object, shown: bool) -> None:
+    """Show the pieces and dowels of an object in the viewport, or hide them."""
+    for piece in (*piece_objects(obj), *dowels(obj)):
+        if in_layer(context, piece) and piece.hide_get() == shown:
+            transaction.on_failure(piece.hide_set, shown)
+            piece.hide_set(not shown)
 
 
 def _set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> None:

@@ -79,6 +79,7 @@ class REEB_PARTS_MT_main(bpy.types.Menu):
         layout.separator()
         _draw_operators(
             layout, ("reeb_parts.separate", "OUTLINER_OB_GROUP_INSTANCE"), ("reeb_parts.show_original", "NONE"),
+            ("reeb_parts.show_pieces", "NONE"),
             ("reeb_parts.check_pieces", "NONE"), ("reeb_parts.select_faults", "NONE"),
             ("reeb_parts.repair_piece", "NONE"), ("reeb_parts.seams", "NONE"), ("reeb_parts.face_sets", "NONE"),
             ("reeb_parts.materials", "NONE"),

@@ -10,7 +10,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from mathutils import Matrix
 
 from ..core.sentence import Count
-from ..scene import graph_objects, jobs, notes, part_list, part_names, store
+from ..scene import graph_objects, jobs, notes, part_list, part_names, piece_objects, store
 from . import toolbar
 from .fitting import Room
 
@@ -268,6 +268,8 @@ def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, room: Ro
     row.scale_y = 1.2
     room.operator(row, "reeb_parts.suggest_names", spare="SORTALPHA")
     room.operator(row, "reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
+    if piece_objects.hides_pieces(context, context.object):
+        room.operator(layout, "reeb_parts.show_pieces", icon="HIDE_OFF")
 
 
 def _draw_list(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,

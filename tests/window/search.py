@@ -98,6 +98,11 @@ def separated(obj):
     bpy.ops.reeb_parts.separate()
 
 
+def separated_and_back(obj):
+    bpy.ops.reeb_parts.separate()
+    bpy.ops.reeb_parts.show_original()
+
+
 def other_parameters(obj):
     bpy.context.scene.reeb_parts.band_ratio = 0.9
 
@@ -194,6 +199,7 @@ COMMANDS = (
     Command("Make Collision Hulls of Parts"),
     Command("Separate Parts into Objects"),
     Command("Show Original of Part", separated),
+    Command("Show Separated Parts", separated_and_back),
     Command("Use Preferences in This Scene", other_overlay),
     Command("Reset Parameters to Preset", other_parameters),
     Command("More Parts"),

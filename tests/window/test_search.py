@@ -36,6 +36,7 @@ DOES = {
     "Make Collision Hulls of Parts, OBJECT": "INFO: [0-9]+ hulls",
     "Separate Parts into Objects, OBJECT": "INFO: spot: [0-9]+ parts are objects now",
     "Show Original of Part, OBJECT": "/objects/spot/hidden",
+    "Show Separated Parts, OBJECT": "/objects/spot/hidden",
     "Use Preferences in This Scene, OBJECT": "/settings",
     "Reset Parameters to Preset, OBJECT": "/settings",
     "More Parts, OBJECT": "/attributes/reeb_part",

@@ -211,10 +211,7 @@ def boned():
     yield from say("Make Armature: a bone for each part, to pose it")
     head = next(obj for obj in bpy.data.objects if obj.name.endswith(" head"))
     head.location.z -= 0.4
-    pieces = [obj for obj in bpy.data.objects if obj.name.startswith("spot ")]
     bpy.ops.reeb_parts.show_original()
-    for obj in pieces:
-        obj.hide_set(True)
     yield 0.5
     bpy.ops.reeb_parts.armature()
     pointer.view_area().spaces.active.shading.color_type = "VERTEX"

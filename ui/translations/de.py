@@ -66,6 +66,7 @@ OPERATORS = {
     "Separate": "Trennen",
     "Separate Parts into Objects": "Teile in Objekte trennen",
     "Show Original of Part": "Original des Teils zeigen",
+    "Show Separated Parts": "Abgetrennte Teile zeigen",
     "Seams": "Nähte",
     "Mark Seams between Parts": "Nähte zwischen Teilen markieren",
     "Face Sets": "Face Sets",
@@ -548,8 +549,10 @@ TEXTS = {
         "Das Teil mit dem ausgewählten Knoten am besten Schnitt entlang der Bögen des Knotens teilen",
     "Make separate objects of the parts, with all that the mesh carries; the original stays as it is":
         "Aus den Teilen eigene Objekte machen, mit allem, was das Mesh trägt; das Original bleibt, wie es ist",
-    "Show and select the object that this piece was separated from":
-        "Das Objekt zeigen und auswählen, von dem dieses Stück abgetrennt wurde",
+    "Show and select the object that this piece was separated from, and hide the pieces":
+        "Das Objekt zeigen und auswählen, von dem dieses Stück abgetrennt wurde, und die Stücke ausblenden",
+    "Show and select the pieces that were separated from this object, and hide the object":
+        "Die Stücke zeigen und auswählen, die von diesem Objekt abgetrennt wurden, und das Objekt ausblenden",
     "Take Back": "Zurücknehmen",
     "Take them away again; what was there before is back":
         "Sie wieder wegnehmen; was vorher da war, ist wieder da",

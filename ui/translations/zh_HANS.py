@@ -67,6 +67,7 @@ OPERATORS = {
     "Separate": "分离",
     "Separate Parts into Objects": "将部件分离为物体",
     "Show Original of Part": "显示部件的原物体",
+    "Show Separated Parts": "显示分离出的部件",
     "Seams": "缝合边",
     "Mark Seams between Parts": "在部件之间标记缝合边",
     "Face Sets": "面组",
@@ -521,7 +522,10 @@ TEXTS = {
         "沿节点的弧在最佳切口处拆分所选节点所在的部件",
     "Make separate objects of the parts, with all that the mesh carries; the original stays as it is":
         "由部件创建单独的物体，并带有网格的全部数据；原物体保持不变",
-    "Show and select the object that this piece was separated from": "显示并选择此块所分离自的物体",
+    "Show and select the object that this piece was separated from, and hide the pieces":
+        "显示并选择此块所分离自的物体，并隐藏各块",
+    "Show and select the pieces that were separated from this object, and hide the object":
+        "显示并选择从此物体分离出的各块，并隐藏此物体",
     "Take Back": "撤回",
     "Take them away again; what was there before is back": "将其移除；恢复之前的内容",
     "Mark UV seams where parts meet, beside your own; they follow the parts":

@@ -111,6 +111,12 @@ def separated(obj):
     bpy.ops.reeb_parts.separate()
 
 
+def separated_and_back(obj):
+    """The original is seen again, its pieces are hidden."""
+    separated(obj)
+    bpy.ops.reeb_parts.show_original()
+
+
 def one_part(obj):
     """All of it is one part, which can be cut."""
     obj.data.reeb_parts.n_parts = 1
@@ -186,6 +192,8 @@ CASES = {
     "split_at_node": Case(active="node", refuses=NO_NODE),
     "separate": Case({"caps": True}, changes=("/active", "/selected", "/Tree.*/hidden", "/Tree.*/mode",
                                             "/data/shape_keys")),
+    "show_pieces": Case(prepare=separated_and_back, changes=("/active", "/selected", "/Tree.*/hidden"),
+                        refuses={**LINKED, **OUTSIDE}),
     "show_original": Case(prepare=separated, active="piece", changes=("/active", "/selected", "/Tree.*/hidden"),
                           refuses={**LINKED, **OUTSIDE}),
     "check_pieces": Case(prepare=separated, active="piece", refuses={**LINKED, **OUTSIDE}),

@@ -325,6 +325,42 @@ def test_the_original_is_hidden_and_comes_back(obj):
     assert bpy.context.view_layer.objects.active == obj
 
 
+def test_the_original_or_its_pieces_are_seen(obj):
+    """Both in the same place were speckled. Pieces are hidden in the view alone, which is no work on them."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(joints="DOWEL")
+    dowels = [item for item in bpy.data.collections["Parts of Tree"].objects if "reeb_parts_dowel" in item]
+    assert dowels
+    bpy.ops.reeb_parts.show_original()
+    assert all(piece.hide_get() for piece in (*pieces(), *dowels))
+    bpy.ops.reeb_parts.show_pieces()
+    assert not any(piece.hide_get() for piece in (*pieces(), *dowels))
+    assert obj.hide_get()
+    assert bpy.context.view_layer.objects.active == pieces()[0]
+    assert set(bpy.context.selected_objects) == set(pieces())
+    pieces()[1].location.x += 1.0
+    kept = pieces()[1]
+    bpy.ops.reeb_parts.show_original()
+    count = len(pieces())
+    bpy.ops.reeb_parts.separate()
+    assert len(pieces()) == count
+    assert not any(piece.hide_get() for piece in (*pieces(), kept))
+    assert kept not in pieces()
+
+
+def test_showing_the_original_is_undone(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    check_undo(lambda: bpy.ops.reeb_parts.show_original())
+
+
+def test_showing_pieces_is_undone(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    bpy.ops.reeb_parts.show_original()
+    check_undo(lambda: bpy.ops.reeb_parts.show_pieces())
+
+
 def test_pieces_know_an_original_that_was_renamed(obj):
     """Nothing hangs on its name: it can be shown again, and what is separated again takes the place of the pieces."""
     bpy.ops.reeb_parts.decompose(n_parts=3)
