@@ -12,7 +12,17 @@ import bmesh
 import bpy
 from bpy.app.handlers import persistent
 
-from . import graph_follow, graph_objects, mesh_arrays, piece_objects, redraw, seen_points, store, transaction
+from . import (
+    graph_follow,
+    graph_objects,
+    graph_visibility,
+    mesh_arrays,
+    piece_objects,
+    redraw,
+    seen_points,
+    store,
+    transaction,
+)
 from .temporary import removed
 
 REST = 0.3  # seconds
@@ -50,6 +60,8 @@ def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if deleted and _is_untidy() and not bpy.app.timers.is_registered(_tidy):
         # Not within Blender's own deletion, which has yet to become a step of undo.
         bpy.app.timers.register(_tidy, first_interval=0.0)
+    elif deleted and graph_visibility.is_due(bpy.context) and not bpy.app.timers.is_registered(_hide_graphs):
+        bpy.app.timers.register(_hide_graphs, first_interval=0.0)
     found = _changed_objects(depsgraph)
     if not found:
         return
@@ -82,6 +94,7 @@ def _opened(*_: object) -> None:
     """A file was opened: where graphs are seen is not stored."""
     graph_follow.forget()
     seen_points.forget()
+    graph_visibility.opened(bpy.context)
     for collection in bpy.data.collections:
         source = collection.get(graph_objects.SOURCE)
         if source is not None and any(modifier.show_viewport for modifier in source.modifiers):
@@ -102,6 +115,12 @@ def _look() -> float | None:
 def _is_untidy() -> bool:
     """Whether anything is left of objects that were deleted."""
     return any(graph_objects.left_behind()) or any(piece_objects.left_behind())
+
+
+def _hide_graphs() -> None:
+    """Graphs are hidden or shown with their models."""
+    with transaction.transaction():
+        graph_visibility.follow(bpy.context)
 
 
 def _tidy() -> None:
@@ -134,8 +153,8 @@ def unregister() -> None:
     bpy.app.handlers.depsgraph_update_post.remove(_changed)
     graph_follow.stop()
     seen_points.forget()
-    if bpy.app.timers.is_registered(_look):
-        bpy.app.timers.unregister(_look)
-    if bpy.app.timers.is_registered(_tidy):
-        bpy.app.timers.unregister(_tidy)
+    graph_visibility.forget()
+    for timer in (_look, _tidy, _hide_graphs):
+        if bpy.app.timers.is_registered(timer):
+            bpy.app.timers.unregister(timer)
     _waiting.clear()

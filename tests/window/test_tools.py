@@ -22,6 +22,11 @@ def test_the_menu_of_the_shortcut_does_what_the_panel_says(seen):
     assert seen["by menu undone"] is False
 
 
+def test_the_graph_is_hidden_with_its_model(seen):
+    assert seen["graph after h"] is False
+    assert seen["graph after alt+h"] is True
+
+
 def test_a_click_on_the_model_or_the_graph_picks_a_part(seen):
     assert seen["picked one"] == ["Part 06", []]
     assert seen["picked on an arc"] == ["Part 02", []]

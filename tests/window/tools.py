@@ -29,6 +29,7 @@ def steps():
     yield from pointer.search("Decompose into Parts")
     yield from pointer.until(lambda: "reeb_part" in spot().data.attributes, pointer.PATIENCE)
     yield 0.5
+    yield from hidden()
     for scene in (picked, cut, painted, escaped, by_graph, disturbed, elsewhere, next_door, deleted):
         yield from scene()
         (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
@@ -50,6 +51,16 @@ def by_menu():
     yield from pointer.tap("ctrl+z", "ctrl+z")
     yield 0.5
     note("by menu undone", "reeb_part" in spot().data.attributes)
+
+
+def hidden():
+    """H over the view with the model alone selected, then Alt+H: whether anything of the graph is seen after each."""
+    for key in ("h", "alt+h"):
+        yield from pointer.rest(*pointer.in_view())
+        yield from pointer.tap(key)
+        yield 0.5
+        note(f"graph after {key}", any(item.visible_get() for item in spot().children))
+        pointer.shot(f"0_{key}.png")
 
 
 def picked():

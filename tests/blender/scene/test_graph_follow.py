@@ -48,6 +48,44 @@ def shifts(obj):
             - middle for number in set(numbers.tolist())}
 
 
+@pytest.fixture
+def visibility(package):
+    return sys.modules[f"{package}.scene.graph_visibility"]
+
+
+def test_it_is_hidden_with_its_model_and_comes_back(obj, follow, visibility):
+    """Hidden by H, or with the model's collection; the graph was left floating in the view."""
+    assert arcs().visible_get()
+    for hide in (obj.hide_set, lambda hidden: setattr(obj, "hide_viewport", hidden)):
+        for hidden in (True, False):
+            hide(hidden)
+            bpy.context.view_layer.update()
+            assert visibility.is_due(bpy.context)
+            visibility.follow(bpy.context)
+            assert not visibility.is_due(bpy.context)
+            assert [item.visible_get() for item in (arcs(), *nodes().values())] == [not hidden] * (1 + len(nodes()))
+
+
+def test_a_graph_is_shown_without_its_model_and_stays_hidden_beside_it(obj, follow, visibility):
+    """As whoever looks at it has chosen."""
+    def look(hidden):
+        obj.hide_set(hidden)
+        bpy.context.view_layer.update()
+        visibility.follow(bpy.context)
+
+    look(True)
+    bpy.context.scene.reeb_parts.graph = False
+    bpy.context.scene.reeb_parts.graph = True
+    bpy.context.view_layer.update()
+    visibility.follow(bpy.context)
+    assert arcs().visible_get()
+    look(False)
+    bpy.ops.reeb_parts.show_graph()
+    look(True)
+    look(False)
+    assert not arcs().visible_get()
+
+
 def test_it_drifts_apart_with_the_parts_and_comes_back_whole(obj, follow):
     before, arcs_before = seen()
     everything = snapshot()

@@ -23,8 +23,8 @@ TIMES = 8  # that a walk is taken on which something goes wrong
 
 SIMPLE = ("release", "merge", "merge_neighbour", "merge_small", "split", "grow", "shrink", "from_face_sets", "to_nodes",
           "from_nodes", "split_at_node", "show_original", "show_pieces", "cancel", "use_preferences",
-          "reset_parameters", "frame", "hide", "no_key", "choose", "check_pieces", "repair_piece", "show_colors", "suggest_names",
-          "show_graph", "find_similar")
+          "reset_parameters", "frame", "hide", "no_key", "choose", "check_pieces", "repair_piece", "show_colors",
+          "suggest_names", "show_graph", "find_similar")
 #: Commands whose settings are all tried, each one time in three another value than the one that it has.
 SETTINGS = ("decompose", "separate", "unwrap", "armature", "hulls", "rigid_bodies", "step_detail", "select_faults",
             "names_from_active")
