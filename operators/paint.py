@@ -6,7 +6,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import part_names
+from ..scene import edits, part_names
 from ..scene.part_list import active_number
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
@@ -30,7 +30,9 @@ class REEB_PARTS_OT_paint(ColoredTool, PartOperator, bpy.types.Operator):
     )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
-        brush = Brush(obj, pointing.Model(obj), active_number(obj.data))
+        number = active_number(obj.data)
+        edits.check_unlocked(obj.data, [number])
+        brush = Brush(obj, pointing.Model(obj), number)
         for dab in self.stroke:
             brush.dab(dab.location[:], dab.radius)
         return paint(context, obj, brush)

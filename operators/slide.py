@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import part_names
+from ..scene import edits, part_names
 from ..scene.errors import SceneError
 from ..scene.part_list import active_number
 from ..scene.reporting import PartOperator
@@ -37,7 +37,9 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
     )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
-        boundary = Boundary(obj, stored, active_number(obj.data), self.neighbor)
+        number = active_number(obj.data)
+        edits.check_unlocked(obj.data, [number])
+        boundary = Boundary(obj, stored, number, self.neighbor)
         numbers = boundary.slid(self.offset)
         if (numbers == boundary.number).sum() == 0:
             raise SceneError(rpt_("Nothing would be left of the part. Slide the boundary less far."))

@@ -192,6 +192,26 @@ def test_locked_parts_are_not_merged_or_split(obj, result):
         bpy.ops.reeb_parts.split()
 
 
+@pytest.mark.parametrize("outwards", [True, False])
+def test_the_boundary_of_a_locked_part_does_not_slide(obj, result, outwards):
+    choose(result, 1)
+    part(result, 1).locked = True
+    before = numbers(obj.data)
+    with pytest.raises(RuntimeError, match="is locked"):
+        bpy.ops.reeb_parts.slide(offset=0.1 if outwards else -0.1)
+    assert (numbers(obj.data) == before).all()
+
+
+def test_nothing_is_painted_into_a_locked_part(obj, result):
+    choose(result, 1)
+    other = next(p for p in obj.data.polygons if numbers(obj.data)[p.index] != 1)
+    part(result, 1).locked = True
+    before = numbers(obj.data)
+    with pytest.raises(RuntimeError, match="is locked"):
+        bpy.ops.reeb_parts.paint(stroke=[{"name": "", "location": other.center[:], "radius": 0.2}])
+    assert (numbers(obj.data) == before).all()
+
+
 def test_release_gives_back_to_the_detail(obj, result):
     before = numbers(obj.data)
     choose(result, 1, neighbours(obj.data, 1)[0])
