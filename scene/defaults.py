@@ -14,7 +14,7 @@ from bpy.app.handlers import persistent
 
 from .. import __package__ as base_package
 from ..core.parameters import PRESETS, RENAMED
-from . import quiet
+from . import handlers, quiet
 from .settings import OUTPUTS, OVERLAY, PARAMETERS, take_over_former_names
 from .transaction import keep_group, transaction
 
@@ -94,5 +94,5 @@ def register() -> None:
 def unregister() -> None:
     if bpy.app.timers.is_registered(_adopt_all):
         bpy.app.timers.unregister(_adopt_all)
-    bpy.app.handlers.depsgraph_update_post.remove(_adopt_one)
-    bpy.app.handlers.load_post.remove(_adopt_all)
+    handlers.remove(bpy.app.handlers.depsgraph_update_post, _adopt_one)
+    handlers.remove(bpy.app.handlers.load_post, _adopt_all)

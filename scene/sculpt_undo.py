@@ -11,6 +11,8 @@ import time
 import bpy
 from bpy.app.handlers import persistent
 
+from . import handlers
+
 REST = 0.3  # seconds
 
 _changed = 0.0  # when a property was changed last
@@ -51,5 +53,5 @@ def register() -> None:
 
 
 def unregister() -> None:
-    bpy.app.handlers.undo_pre.remove(_undone)
+    handlers.remove(bpy.app.handlers.undo_pre, _undone)
     _undone()

@@ -16,6 +16,7 @@ from . import (
     graph_follow,
     graph_objects,
     graph_visibility,
+    handlers,
     mesh_arrays,
     piece_objects,
     redraw,
@@ -147,10 +148,10 @@ def register() -> None:
 
 
 def unregister() -> None:
-    bpy.app.handlers.save_pre.remove(_saving)
-    bpy.app.handlers.load_post.remove(_opened)
-    bpy.app.handlers.frame_change_post.remove(_animated)
-    bpy.app.handlers.depsgraph_update_post.remove(_changed)
+    handlers.remove(bpy.app.handlers.save_pre, _saving)
+    handlers.remove(bpy.app.handlers.load_post, _opened)
+    handlers.remove(bpy.app.handlers.frame_change_post, _animated)
+    handlers.remove(bpy.app.handlers.depsgraph_update_post, _changed)
     graph_follow.stop()
     seen_points.forget()
     graph_visibility.forget()

@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
-from ..scene import graph_objects
+from ..scene import graph_objects, handlers
 from ..scene.part_list import choose
 
 _owner = object()
@@ -52,7 +52,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    bpy.app.handlers.load_post.remove(_subscribe)
+    handlers.remove(bpy.app.handlers.load_post, _subscribe)
     bpy.msgbus.clear_by_owner(_owner)
     if bpy.app.timers.is_registered(_ask_pointer):
         bpy.app.timers.unregister(_ask_pointer)

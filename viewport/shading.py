@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import bpy
 from bpy.app.handlers import persistent
 
-from ..scene import piece_objects, redraw, transaction
+from ..scene import handlers, piece_objects, redraw, transaction
 
 
 @dataclass
@@ -91,13 +91,13 @@ def _undone(*_: object) -> None:
 
 
 def register() -> None:
-    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        handlers.append(_undone)
+    for those in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        those.append(_undone)
 
 
 def unregister() -> None:
-    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
-        handlers.remove(_undone)
+    for those in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        handlers.remove(those, _undone)
     _of_pieces.clear()
 
 

@@ -68,6 +68,21 @@ def test_switched_off_leaves_nothing_and_on_again_works(package, obj):
     assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
 
 
+def test_switched_off_after_a_script_has_cleared_the_handlers(package):
+    """As scripts of pipelines and rigs do; then it could not be switched off, updated, or switched on again."""
+    before = _ours()
+    lists = [those for name in dir(bpy.app.handlers) if isinstance(those := getattr(bpy.app.handlers, name), list)]
+    own = [[function for function in those if function.__module__.startswith(package)] for those in lists]
+    assert sum(map(len, own)) > 5
+    for those in lists:
+        those.clear()
+    addon_utils.disable(package)
+    assert _ours() == {"types": [], "operators": [], "properties": []}
+    addon_utils.enable(package)
+    assert _ours() == before
+    assert [len(those) for those in lists] == [len(functions) for functions in own]
+
+
 def drawn_names():
     """Every string in the code of the panels' draw functions, and in the lists of names that these draw."""
     found = set()
