@@ -17,6 +17,9 @@ from ..scene.reporting import ReportingOperator
 from ..scene.settings import SeparateProperties, WhichProperties
 from ..scene.whole_files import together
 
+# Since Blender 4.5 a path may only begin with "//" where that is said.
+_FROM_FILE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5) else set()
+
 
 class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichProperties):
     """Write each part to a file of its own, or all to one, in a folder; files of the same names are replaced"""
@@ -26,7 +29,8 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
     bl_options = {"REGISTER"}
 
     directory: bpy.props.StringProperty(
-        name="Folder", subtype="DIR_PATH", description="Where the files go; made if it is not there"
+        name="Folder", subtype="DIR_PATH", description="Where the files go; made if it is not there",
+        options={"ANIMATABLE", *_FROM_FILE},
     )
     filter_folder: bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
     format: bpy.props.EnumProperty(

@@ -6,7 +6,18 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import graph_objects, hidden, naming, part_list, part_names, part_places, reactions, selection, store
+from ..scene import (
+    graph_objects,
+    hidden,
+    naming,
+    part_list,
+    part_names,
+    part_places,
+    reactions,
+    selection,
+    store,
+    targets,
+)
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.part_list import chosen_numbers
@@ -95,16 +106,24 @@ class REEB_PARTS_OT_frame(PartOperator, bpy.types.Operator):
         framing.look_at(context, *part_places.box(obj, mask))
 
 
-class REEB_PARTS_OT_suggest_names(PartOperator, bpy.types.Operator):
+class REEB_PARTS_OT_suggest_names(ReportingOperator, bpy.types.Operator):
     """Name the parts that you have not named by what they are: head, leg, handle; else by their place and kind"""
 
     bl_idname = "reeb_parts.suggest_names"
     bl_label = "Suggest Names"
 
-    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
+    def run(self, context: bpy.types.Context) -> None:
+        objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
+        with object_mode(context):
+            found = targets.usable(objects, lambda obj: store.load(obj.data), self.report)
+            count = sum(self._named(obj, stored) for obj, stored in found)
+        self.report({"INFO"}, rpt_("{n} {n:part is|parts are} named").format(n=Count(count)))
+
+    def _named(self, obj: bpy.types.Object, stored: Stored) -> int:
+        """How many parts of an object were named."""
         named = part_names.kept_names(obj.data)
         names = {number: name for number, name in naming.suggested(obj, stored).items() if number not in named}
-        return rpt_("{n} {n:part is|parts are} named").format(n=Count(reactions.give_names(obj.data, names)))
+        return reactions.give_names(obj.data, names)
 
 
 class REEB_PARTS_OT_show_colors(PartOperator, bpy.types.Operator):

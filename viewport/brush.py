@@ -11,7 +11,7 @@ from ..core.sentence import Count
 from ..core.surface.arrays import both_ways, components
 from ..scene import edits, mesh_arrays, part_names, store
 from ..scene.errors import SceneError
-from .pointing import Model
+from .pointing import Model, check_place
 
 START_SIZE = 0.04  # radius of the brush, as a share of the object's size
 
@@ -42,7 +42,11 @@ class Brush:
         self.free = ~np.isin(model.numbers, edits.locked_others(obj.data, number))
 
     def dab(self, location: Sequence[float], radius: float) -> None:
-        """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there."""
+        """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there.
+
+        Raises SceneError if the location is none.
+        """
+        check_place(location)
         _, first = self.model.tree.query(location)
         near = np.array(self.model.tree.query_ball_point(location, radius), np.int64)
         if first not in near:  # faces larger than the brush are painted one by one

@@ -9,17 +9,25 @@ from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy_extras import view3d_utils
 from mathutils import Matrix, Vector
 from mathutils.bvhtree import BVHTree
 
 from ..scene import graph_follow, graph_objects, mesh_arrays, store
+from ..scene.errors import SceneError
 from .graph_lines import GraphLines, nearest
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
 
 REACH = 10.0  # pixels around an arc, of a screen without scaling
+
+
+def check_place(location: Sequence[float]) -> None:
+    """Raise SceneError unless a (3,) location, as a script may give it, is a place."""
+    if not np.isfinite(location).all():
+        raise SceneError(rpt_("The location is not finite. Give one on or beside the model."))
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +96,9 @@ class Model:
         return int(self.stored.shown[target.candidate])
 
     def at(self, obj: bpy.types.Object, location: Sequence[float], on_graph: bool) -> Target:
-        """The place of the graph, or of the surface, nearest to a location in the world."""
+        """The place of the graph, or of the surface, nearest to a location in the world; SceneError if it is none."""
         location = np.array(obj.matrix_world.inverted_safe() @ Vector(location), np.float64)
+        check_place(location)
         if not on_graph:
             return self._on_face(int(self.tree.query(location)[1]), location)
         segment, share, _ = nearest(self.lines.position, self.lines.segments, location)

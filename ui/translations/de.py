@@ -959,6 +959,8 @@ TEXTS = {
     "The face sets are yours alone again": "Es sind wieder nur die eigenen Face Sets da",
     "{n} {n:part has a material|parts have materials}": "{n} {n:Teil hat ein Material|Teile haben Materialien}",
     "The materials are yours alone again": "Es sind wieder nur die eigenen Materialien da",
+    "The location is not finite. Give one on or beside the model.":
+        "Der Ort ist nicht endlich. Bitte einen auf oder neben dem Modell angeben.",
     "{name} has as many UV maps as Blender allows. Remove one and try again.":
         "{name} hat so viele UV-Maps, wie Blender erlaubt. Bitte eine entfernen und erneut versuchen.",
     "Unwrapped into the UV map {name}: areas {low:.1f} to {high:.1f} times their size, {share:.0%} of the faces within "

@@ -856,6 +856,8 @@ TEXTS = {
     "The face sets are yours alone again": "现在只剩您自己的面组",
     "{n} {n:part has a material|parts have materials}": "{n} 个部件有材质",
     "The materials are yours alone again": "现在只剩您自己的材质",
+    "The location is not finite. Give one on or beside the model.":
+        "位置不是有限数值。请给出模型上或模型旁的位置。",
     "{name} has as many UV maps as Blender allows. Remove one and try again.":
         "{name} 的 UV 贴图数量已达 Blender 上限。请移除一个并重试。",
     "Unwrapped into the UV map {name}: areas {low:.1f} to {high:.1f} times their size, {share:.0%} of the faces "

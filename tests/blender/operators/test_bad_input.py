@@ -55,6 +55,18 @@ def test_no_area(make):
     refused("area")
 
 
+@pytest.mark.parametrize("operator", ["pick", "cut", "paint"])
+def test_a_place_that_is_none(obj, operator):
+    """As a script may give it; it ended in a traceback."""
+    bpy.ops.reeb_parts.decompose()
+    place = (float("nan"), 0.0, 0.0)
+    stroke = {"stroke": [{"name": "", "location": place, "radius": 0.1}]}
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="not finite"):
+        getattr(bpy.ops.reeb_parts, operator)(**(stroke if operator == "paint" else {"location": place}))
+    assert snapshot() == before
+
+
 def test_scaled_to_nothing(obj):
     obj.scale = (0, 0, 0)
     bpy.context.view_layer.update()

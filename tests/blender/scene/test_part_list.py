@@ -161,6 +161,15 @@ def test_suggested_names_are_taken_by_parts_that_have_none(obj, result):
     assert sorted(part.name for part in result.parts) == sorted(names)
 
 
+def test_names_are_suggested_for_all_selected_models(obj, result, make, tree):
+    other = make(tree, "Other")
+    bpy.ops.reeb_parts.decompose(n_parts=5)
+    obj.select_set(True)
+    assert bpy.ops.reeb_parts.suggest_names() == {"FINISHED"}
+    for item in (obj, other):
+        assert sum(part.name.endswith("limb") for part in item.data.reeb_parts.parts) == 4
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_names_given_at_once_are_those_given_one_by_one(make, package, seed):
     """Names that others have, or had a moment ago, with and without numbers, long ones, and the parts' own."""
