@@ -8,7 +8,8 @@ import numpy as np
 from ..surface.arrays import components, renumbered
 from .cap_surfaces import over_a_plane
 
-# A rim within another one may be so far off its plane, as a share of its size.
+# A rim within another one may be so far off its plane, or off what is nearest of it where that is bent, too, as a share
+# of its size.
 _OFF = 0.25
 
 
@@ -27,7 +28,7 @@ def nested_rims(points: np.ndarray, ends: np.ndarray, pairs: np.ndarray) -> list
     -------
     nested : list of lists of (j,) int64
         Vertices round a rim, then those round each rim within it, which go round the other way when they are seen along
-        the normal of the first, and lie near its plane. Only rims that meet no other.
+        the normal of the first, and lie near its plane or are bent as it is. Only rims that meet no other.
     """
     used, place = renumbered(ends)
     count, rim = components(len(used), *place.T)
@@ -71,15 +72,19 @@ def _nested(points: np.ndarray, rims: list[np.ndarray]) -> list[list[np.ndarray]
 
 
 def _is_within(outer: np.ndarray, inner: np.ndarray) -> bool:
-    """Whether a closed curve lies within another one near its plane, and goes round the other way."""
+    """Whether a closed curve lies within another one, near its plane or bent as it is, and goes round the other way."""
+    from scipy.spatial import cKDTree
+
     flat = over_a_plane(outer, inner)
     if flat is None:
         return False
     around, own = flat[: len(outer)], flat[len(outer) :]
     middle = outer.mean(axis=0)
     normal = np.cross(outer - middle, np.roll(outer, -1, axis=0) - middle).sum(axis=0)
-    height = (inner - middle) @ (normal / np.linalg.norm(normal))
-    if np.abs(height).max() > _OFF * np.linalg.norm(outer - middle, axis=1).max():
+    height = (np.concatenate([outer, inner]) - middle) @ (normal / np.linalg.norm(normal))
+    inside = height[len(outer) :]
+    apart = inside - height[cKDTree(around).query(own)[1]]
+    if min(np.abs(inside).max(), np.abs(apart).max()) > _OFF * np.linalg.norm(outer - middle, axis=1).max():
         return False
     x, y = own.T
     turn = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
