@@ -179,7 +179,10 @@ def mark_numbers(mesh: bpy.types.Mesh, numbers: Container[int]) -> None:
 
 @reaction
 def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """The user has clicked a part in the list: only it is chosen, and in Edit Mode its faces are selected."""
+    """The user has clicked a part in the list: only it is chosen.
+
+    In Edit Mode its faces are selected, in Weight Paint its vertex group is the one that is seen.
+    """
     mesh = result.id_data
     if not len(result.parts):
         return
@@ -189,6 +192,10 @@ def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -
     mark(mesh, "NONE")
     if mesh.is_editmode:
         _select_in_edit_mode(mesh, active_number(mesh))
+    elif (obj := context.object) is not None and obj.mode == "WEIGHT_PAINT" and obj.data == mesh:
+        group = obj.vertex_groups.get(result.parts[result.active].group)
+        if group is not None:
+            obj.vertex_groups.active_index = group.index
 
 
 def _select_in_edit_mode(mesh: bpy.types.Mesh, number: int) -> None:

@@ -161,6 +161,17 @@ def test_suggested_names_are_taken_by_parts_that_have_none(obj, result):
     assert sorted(part.name for part in result.parts) == sorted(names)
 
 
+def test_in_weight_paint_a_part_shows_its_group(obj, result):
+    own = obj.vertex_groups.new(name="own")
+    obj.vertex_groups.active_index = own.index
+    result.active = 2
+    assert obj.vertex_groups.active == own
+    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
+    result.active = 3
+    assert obj.vertex_groups.active.name == result.parts[3].group
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
 def test_names_are_suggested_for_all_selected_models(obj, result, make, tree):
     other = make(tree, "Other")
     bpy.ops.reeb_parts.decompose(n_parts=5)

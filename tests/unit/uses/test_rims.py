@@ -16,7 +16,7 @@ def rim(radius, bent, height=0.0, count=40):
 def nested(outer, inner):
     """How many vertices the rims have that are found to lie within each other; the inner one goes round backwards."""
     first, second = np.arange(len(outer)), len(outer) + np.arange(len(inner))
-    ends = np.concatenate([np.stack([first, np.roll(first, -1)], axis=1), np.stack([second, np.roll(second, 1)], axis=1)])
+    ends = np.stack([np.append(first, second), np.append(np.roll(first, -1), np.roll(second, 1))], axis=1)
     found = nested_rims(np.concatenate([outer, inner]), ends, np.tile([1, 2], (len(ends), 1)))
     return [[len(own) for own in ring] for ring in found]
 
