@@ -18,11 +18,12 @@ from ..core.graph.fold import unfolded
 from ..core.graph.reeb import ReebGraph
 from ..core.result.numbering import NumberedParts
 from ..core.uses.colors import linear
-from . import bridge, mesh_arrays, part_names, store, transaction
+from . import bridge, made, mesh_arrays, part_names, store, transaction
 from .made import ROLE
 from .temporary import remove_object
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
+SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
 KINDS = ("minimum", "saddle", "maximum")
 _DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
 _WORDS = {"minimum": "middle", "saddle": "joint", "maximum": "tip"}  # behind the name of the part
@@ -326,8 +327,7 @@ def remove(obj: bpy.types.Object) -> None:
         theirs = [item for item in collection.all_objects if item not in ours]
         for item in ours:
             remove_object(item)
-        transaction.keep_keys(collection, SOURCE)
-        del collection[SOURCE]
+        made.hand_over(collection, SOURCE, SHOWN_BEFORE)
         if not theirs and not len(collection.children):  # else it is the user's now, who put something in it
             transaction.discard(collection)
 

@@ -33,8 +33,8 @@ def is_untouched(item: bpy.types.Object, former: Former) -> bool:
     return not item.children and item.mode in ("OBJECT", "POSE") and is_as_made(item, former)
 
 
-def hand_over(item: bpy.types.Object, *keys: str) -> None:
-    """Take custom properties with which we know an object off it: it is the user's from now on."""
+def hand_over(item: bpy.types.ID, *keys: str) -> None:
+    """Take custom properties with which we know an object, or a collection, off it: it is the user's from now on."""
     own = [key for key in keys if key in item]
     transaction.keep_keys(item, *own)
     for key in own:

@@ -61,8 +61,8 @@ def _changed(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if deleted and _is_untidy() and not bpy.app.timers.is_registered(_tidy):
         # Not within Blender's own deletion, which has yet to become a step of undo.
         bpy.app.timers.register(_tidy, first_interval=0.0)
-    elif deleted and graph_visibility.is_due(bpy.context) and not bpy.app.timers.is_registered(_hide_graphs):
-        bpy.app.timers.register(_hide_graphs, first_interval=0.0)
+    elif deleted:
+        _hide_graphs_soon()
     found = _changed_objects(depsgraph)
     if not found:
         return
@@ -95,7 +95,6 @@ def _opened(*_: object) -> None:
     """A file was opened: where graphs are seen is not stored."""
     graph_follow.forget()
     seen_points.forget()
-    graph_visibility.opened(bpy.context)
     for collection in bpy.data.collections:
         source = collection.get(graph_objects.SOURCE)
         if source is not None and any(modifier.show_viewport for modifier in source.modifiers):
@@ -116,6 +115,13 @@ def _look() -> float | None:
 def _is_untidy() -> bool:
     """Whether anything is left of objects that were deleted."""
     return any(graph_objects.left_behind()) or any(piece_objects.left_behind())
+
+
+@persistent
+def _hide_graphs_soon(*_: object) -> None:
+    """Models may have been hidden or shown, also by undo."""
+    if graph_visibility.is_due(bpy.context) and not bpy.app.timers.is_registered(_hide_graphs):
+        bpy.app.timers.register(_hide_graphs, first_interval=0.0)
 
 
 def _hide_graphs() -> None:
@@ -145,16 +151,19 @@ def register() -> None:
     bpy.app.handlers.frame_change_post.append(_animated)
     bpy.app.handlers.load_post.append(_opened)
     bpy.app.handlers.save_pre.append(_saving)
+    bpy.app.handlers.undo_post.append(_hide_graphs_soon)
+    bpy.app.handlers.redo_post.append(_hide_graphs_soon)
 
 
 def unregister() -> None:
+    handlers.remove(bpy.app.handlers.redo_post, _hide_graphs_soon)
+    handlers.remove(bpy.app.handlers.undo_post, _hide_graphs_soon)
     handlers.remove(bpy.app.handlers.save_pre, _saving)
     handlers.remove(bpy.app.handlers.load_post, _opened)
     handlers.remove(bpy.app.handlers.frame_change_post, _animated)
     handlers.remove(bpy.app.handlers.depsgraph_update_post, _changed)
     graph_follow.stop()
     seen_points.forget()
-    graph_visibility.forget()
     for timer in (_look, _tidy, _hide_graphs):
         if bpy.app.timers.is_registered(timer):
             bpy.app.timers.unregister(timer)
