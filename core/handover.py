@@ -21,6 +21,8 @@ from .parameters import Parameters
 from .result.decomposition import Decomposition
 from .sentence import Sentence
 
+#: What errors carry besides their sentence, each as an attribute and as an argument of its class.
+_CARRIED = ("vertices", "faces", "name")
 #: Names of the arrays of a shape.
 _SHAPE = ("vertices", "triangles", "polygon", "mirror", "hints")
 
@@ -97,14 +99,16 @@ def _arrays(path: Path) -> dict[str, np.ndarray]:
 
 
 def plain_error(error: ReebError) -> dict[str, Any]:
-    """An error as what JSON can hold: its class and its sentence."""
-    return {"kind": type(error).__name__, "sentence": plain_sentence(error.args[0])}
+    """An error as what JSON can hold: its class, its sentence, and what else it carries."""
+    carried = {name: np.asarray(getattr(error, name)).tolist() for name in _CARRIED if hasattr(error, name)}
+    return {"kind": type(error).__name__, "sentence": plain_sentence(error.args[0]), "carried": carried}
 
 
 def error_of(plain: dict[str, Any]) -> ReebError:
-    """The error of ``plain_error``; one of a class that is not in ``errors`` comes back as a ReebError."""
-    kind = getattr(errors, plain["kind"], ReebError)
-    return kind(sentence_of(plain["sentence"]))
+    """The error of ``plain_error``; one of a class that is not in ``errors`` comes back as a bare ReebError."""
+    kind = getattr(errors, plain["kind"], None)
+    sentence = sentence_of(plain["sentence"])
+    return ReebError(sentence) if kind is None else kind(sentence, **plain["carried"])
 
 
 def plain_sentence(text: str) -> dict[str, Any]:

@@ -58,6 +58,8 @@ def test_errors(error):
     read = handover.error_of(json.loads(json.dumps(handover.plain_error(error))))
     assert type(read) is type(error)
     assert str(read) == str(error)
+    for name in ("vertices", "faces", "name"):
+        assert content(getattr(read, name, None)) == content(getattr(error, name, None))
     assert getattr(read.args[0], "message", None) == getattr(error.args[0], "message", None)
 
 
