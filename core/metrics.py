@@ -67,7 +67,7 @@ class Overlap:
         ------
         ParameterError
             Labels are not whole numbers, there are none, ``first``, ``second`` and ``weight`` are not equally long, a
-            weight is negative, or all weights are 0.
+            weight is negative, no number or infinite, or all weights are 0.
         """
         first, second = _numbered(first), _numbered(second)
         _check_count(len(second), len(first), "second")
@@ -79,8 +79,8 @@ class Overlap:
             return cls(pair, count, count)
         weight = np.asarray(weight, np.float64).ravel()
         _check_count(len(weight), len(first), "weight")
-        if not ((weight >= 0).all() and weight.sum() > 0):
-            raise ParameterError(Sentence("Weights must be 0 or more, and not all of them 0."), "weight")
+        if not ((weight >= 0).all() and 0 < weight.sum() < np.inf):
+            raise ParameterError(Sentence("Weights must be 0 or more, finite, and not all of them 0."), "weight")
         return cls(pair, count, np.bincount(where.reshape(-1), weight, len(cell)))
 
     @property

@@ -174,7 +174,7 @@ def test_as_many_labels_of_each(measure):
 def test_weights_are_checked(measure):
     with pytest.raises(ParameterError, match="There are 4 values for 5 elements"):
         measure(A, B, AREA[:4])
-    for wrong in (-AREA, 0 * AREA, AREA * np.nan):
+    for wrong in (-AREA, 0 * AREA, AREA * np.nan, np.append(AREA[:-1], np.inf)):
         with pytest.raises(ParameterError, match="Weights must be 0 or more"):
             measure(A, B, wrong)
 

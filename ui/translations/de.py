@@ -801,7 +801,8 @@ TEXTS = {
         "Kennzahlen müssen eine Reihe ganzer Zahlen sein, mindestens eine, nicht {type} der Form {shape}.",
     "There are {n} values for {total} elements: each needs one.":
         "Es gibt {n} Werte für {total} Elemente: Jedes braucht einen.",
-    "Weights must be 0 or more, and not all of them 0.": "Gewichte müssen 0 oder mehr sein, und nicht alle 0.",
+    "Weights must be 0 or more, finite, and not all of them 0.":
+        "Gewichte müssen 0 oder mehr und endlich sein, und nicht alle 0.",
     "Faces must have shape (m, corners), not {shape}.": "Flächen müssen die Form (m, Ecken) haben, nicht {shape}.",
     "Face indices must be whole numbers, not {type}.": "Flächenindizes müssen ganze Zahlen sein, nicht {type}.",
     "Groups must be {n} whole numbers, one for each candidate.":
