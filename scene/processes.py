@@ -17,6 +17,7 @@ from typing import Any
 import bpy
 
 from ..core import handover
+from ..core.memory import lacks_memory
 from ..core.parameters import Parameters
 from .bridge import Shape
 from .errors import load_core
@@ -34,7 +35,6 @@ run(pathlib.Path(folder))
 _FLAGS = getattr(subprocess, "CREATE_NO_WINDOW", 0) | getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)
 # Exit statuses of Windows where there is no memory left: STATUS_NO_MEMORY, STATUS_COMMITMENT_LIMIT.
 _NO_MEMORY = {0xC0000017, 0xC000012D}
-_SAYS_NO_MEMORY = ("MemoryError", "bad_alloc", "Memory allocation")  # of Python, C++ and OpenBLAS
 
 
 def interpreter() -> str | None:
@@ -123,7 +123,7 @@ class Worker:
         """Whether it has ended because there was no memory left, as far as that can be told."""
         status = self._process.poll()
         # Where memory runs out, Linux and macOS end a process by this signal.
-        return status == -9 or status in _NO_MEMORY or any(word in self.complaints() for word in _SAYS_NO_MEMORY)
+        return status == -9 or status in _NO_MEMORY or lacks_memory(self.complaints())
 
     def reason(self) -> str:
         """Why it has ended, in a few words."""

@@ -234,6 +234,20 @@ def test_out_of_memory_costs_one_sentence(jobs, read, parameters, capfd):
     assert "MemoryError" in capfd.readouterr().err
 
 
+@pytest.mark.parametrize("words", some("RuntimeError: can't start new thread", "[Errno 12] Cannot allocate memory"))
+def test_whatever_words_say_so_a_lack_of_memory_is_one(package, jobs, read, parameters, words):
+    processes = importlib.import_module(f"{package}.scene.processes")
+    worker = processes.Worker([read(shapes.tube_tree())[0][1]], parameters())
+    try:
+        os.kill(worker.pid, signal.SIGTERM)
+        until(lambda: not alive(worker.pid))
+        assert not worker.lacked_memory()
+        (worker.folder / "errors").write_text(words)
+        assert worker.lacked_memory()
+    finally:
+        worker.close()
+
+
 def test_a_result_that_cannot_be_written_costs_one_sentence(jobs, read, parameters, capfd):
     job = started(jobs, read(shapes.subdivide(shapes.tube_tree())), parameters())
     resource.prlimit(job.pid, resource.RLIMIT_FSIZE, (30_000, 30_000))
