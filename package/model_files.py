@@ -18,7 +18,7 @@ from .core.errors import ReebError
 from .core.memory import lacks_memory
 from .core.sentence import Sentence
 from .core.surface.ears import without_folds
-from .whole_files import HIDDEN, readable
+from .core.whole_files import HIDDEN, readable
 
 #: Files that Blender alone can read, see ``blender_export``.
 BY_BLENDER = (".blend", ".fbx")

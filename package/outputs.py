@@ -5,8 +5,6 @@ from __future__ import annotations
 
 import io
 import json
-import re
-import unicodedata
 from typing import Any
 
 import numpy as np
@@ -16,6 +14,7 @@ from .core.surface.mesh import TriMesh
 from .core.uses.colors import linear, part_colors
 from .core.uses.pictures import picture, png
 from .core.uses.report import bounding_boxes, document, report
+from .core.whole_files import file_name
 from .meshes import face_colors
 from .model_files import Model
 
@@ -108,10 +107,10 @@ def part_files(model: Model, parts: Parts, kind: str) -> dict[str, bytes]:
     """
     import trimesh
 
-    files = {}
+    files, stem = {}, file_name(model.name, "model")
     for name, (vertices, faces) in zip(parts.names, part_arrays(model, parts), strict=True):
         data = trimesh.Trimesh(vertices, faces, process=False).export(file_type=kind)
-        files[f"{file_name(model.name)} {name}.{kind}"] = data.encode() if isinstance(data, str) else data
+        files[f"{stem} {name}.{kind}"] = data.encode() if isinstance(data, str) else data
     return files
 
 
@@ -123,9 +122,3 @@ def picture_bytes(model: Model, result: Decomposition, parts: Parts, size: int, 
     colors = part_colors(parts.count, parts.cuts)[parts.labels[model.polygon]]
     mesh = TriMesh(model.vertices, model.faces)
     return png(picture(mesh, colors, size, model.up, result.graph if graph else None, fine=2))
-
-
-def file_name(text: str) -> str:
-    """A text without what a file system might not like."""
-    plain = re.sub(r"[^\w .()+-]", "_", unicodedata.normalize("NFC", text))
-    return plain.encode()[:200].decode(errors="ignore").strip(" .") or "model"

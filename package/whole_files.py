@@ -5,15 +5,13 @@ from __future__ import annotations
 
 import os
 import shutil
-import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 
 from .core.errors import ReebError
 from .core.sentence import Sentence
-
-HIDDEN = ".reeb_parts_"  # how names begin under which files and folders are written
+from .core.whole_files import FORMER, HIDDEN, hidden_place, put_in_place, restore_former
 
 
 class OutputFileError(ReebError, OSError):
@@ -32,48 +30,34 @@ def as_output_error(path: Path) -> Iterator[None]:
                                        reason=error.strerror or error)) from error
 
 
-def readable(name: str | Path) -> str:
-    """A name of a file as a text for JSON and tables: the same if it can be, else with its strange bytes as \\xdf.
-
-    Systems other than Windows allow names that are no UTF-8, such as those that old archives bring along.
-    """
-    text = str(name)
-    try:
-        text.encode()
-    except UnicodeEncodeError:
-        return os.fsencode(text).decode(errors="backslashreplace")
-    return text
-
-
 def write_files(files: dict[Path, bytes], read: Path) -> None:
     """Write files beside their places, all of them, then put each in its place.
 
     Parameters
     ----------
     files : dict of Path -> bytes
-        Folders are made where they are missing.
+        Folders are made where they are missing. Where a name is a link, the file that it leads to is replaced.
     read : Path
         What the run reads; it is not written over.
 
     Raises
     ------
     OutputFileError
-        A file is what the run reads, a folder, or cannot be written. Then none is put in place; only if a file that is
-        written cannot be moved, those before it are.
+        A file is what the run reads, a folder, or cannot be written. Then none is put in place.
     """
+    names: dict[Path, Path] = {}  # of the user for what is written
     moves: dict[Path, Path] = {}
     try:
         for path, data in files.items():
             with as_output_error(path):
-                if path.exists() and (not path.is_file() or path.samefile(read)):
+                if path.exists() and (not path.is_file() or _is_same(path, read)):
                     raise OutputFileError(Sentence("{path} is read, or is no file. Choose another name.", path=path))
-                path.parent.mkdir(parents=True, exist_ok=True)
-                place = path.with_name(f"{HIDDEN}{os.getpid()}_{len(moves)}")
-                moves[place] = path
+                target = Path(os.path.realpath(path))
+                target.parent.mkdir(parents=True, exist_ok=True)
+                place = hidden_place(target)
+                moves[place], names[target] = target, path
                 _write(place, data)
-        for place, path in moves.items():
-            with as_output_error(path):
-                place.replace(path)
+        put_in_place(moves, lambda target: as_output_error(names[target]))
     finally:
         for place in moves:
             with suppress(OSError):
@@ -86,37 +70,36 @@ def write_folder(folder: Path, files: dict[str, bytes]) -> None:
     Parameters
     ----------
     folder : Path
+        Where it is a link, the folder that it leads to is replaced.
     files : dict of str -> bytes
         By names in the folder, which may have folders in them.
 
     Raises
     ------
     OSError
-        The folder cannot be written; what was there is there still, unless its place was taken meanwhile.
+        The folder cannot be written; what was there is there still.
     """
+    folder = Path(os.path.realpath(folder))
     folder.parent.mkdir(parents=True, exist_ok=True)
-    place = Path(tempfile.mkdtemp(prefix=HIDDEN, dir=folder.parent))
+    place = hidden_place(folder)
+    place.mkdir()
     try:
-        place.chmod(0o777 & ~_UMASK)
         for name, data in files.items():
             (place / name).parent.mkdir(parents=True, exist_ok=True)
-            (place / name).write_bytes(data)
-        if folder.exists():
-            former = Path(tempfile.mkdtemp(prefix=HIDDEN, dir=folder.parent))
-            folder.replace(former / folder.name)
-            place.replace(folder)
-            shutil.rmtree(former, ignore_errors=True)
-        else:
-            place.replace(folder)
+            _write(place / name, data)
+        put_in_place({place: folder}, nullcontext)
     finally:
         shutil.rmtree(place, ignore_errors=True)
 
 
 def remove_leftovers(folder: Path) -> None:
-    """Remove what runs that were killed have left below a folder under hidden names."""
+    """Remove what runs that were killed have left below a folder under hidden names, and bring back what they moved."""
     for base, folders, files in os.walk(folder):
         for name in [name for name in folders if name.startswith(HIDDEN)]:
-            shutil.rmtree(Path(base) / name, ignore_errors=True)
+            if name.startswith(FORMER):
+                restore_former(Path(base) / name)
+            else:
+                shutil.rmtree(Path(base) / name, ignore_errors=True)
             folders.remove(name)
         for name in files:
             if name.startswith(HIDDEN):
@@ -125,18 +108,15 @@ def remove_leftovers(folder: Path) -> None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Write a file through to the disk."""
-    with path.open("wb") as file:
+    """Write a new file through to the disk."""
+    with path.open("xb") as file:
         file.write(data)
         file.flush()
         os.fsync(file.fileno())
 
 
-def _umask() -> int:
-    """The mask of permissions that the process has."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
-_UMASK = _umask()
+def _is_same(path: Path, other: Path) -> bool:
+    """Whether two names are those of one file, which is there."""
+    with suppress(OSError):
+        return path.samefile(other)
+    return False

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import re
 import unicodedata
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -14,6 +13,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.uses.threemf import Assembly, Body, write_3mf
+from ..core.whole_files import file_name
 from . import bridge, complete, mesh_arrays, part_names, piece_objects, placing, store
 from .errors import SceneError
 from .part_meshes import piece_meshes
@@ -218,7 +218,7 @@ class FileNames:
     def free(self, text: str) -> str:
         """The text without what a file system might not like, and with a number if that is taken already."""
         # Blender cuts its own names at 255 bytes, and a file has a suffix, too.
-        plain = re.sub(r"[^\w .()+-]", "_", text).encode()[:200].decode(errors="ignore").strip(" .") or "part"
+        plain = file_name(text, "part")
         name = next(name for name in (plain, *(f"{plain} ({n})" for n in range(2, len(self._taken) + 3)))
                     if unicodedata.normalize("NFKC", name).casefold() not in self._taken)
         self._taken.add(unicodedata.normalize("NFKC", name).casefold())

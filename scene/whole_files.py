@@ -10,7 +10,6 @@ from __future__ import annotations
 import errno
 import os
 import re
-import secrets
 import shutil
 import stat
 from collections.abc import Callable, Iterable, Iterator
@@ -20,9 +19,8 @@ from pathlib import Path
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.whole_files import HIDDEN, hidden_place, put_in_place, sync
 from .errors import SceneError
-
-_HIDDEN = ".reeb_parts_"  # how names begin under which files are written
 
 
 class WholeFiles:
@@ -140,7 +138,7 @@ class WholeFiles:
             place = self._place(target, alone)
             yield place
             for file in sorted(place.parent.iterdir()) if alone else [place]:
-                _sync(file)
+                sync(file)
                 if file != place:
                     self.claim(path.with_name(file.name))
                 self._moves[file] = target.with_name(target.name if file == place else file.name)
@@ -152,26 +150,27 @@ class WholeFiles:
     def _place(self, target: Path, alone: bool) -> Path:
         """Where to write what belongs to a target."""
         if alone:
-            made = target.with_name(f"{_HIDDEN}{secrets.token_hex(8)}")
+            made = hidden_place(target)
             self._made.append(made)  # before it is there: an interruption may come between
             made.mkdir(mode=0o700)
             return made / target.name
         # In the same folder: a scene's paths to its pictures are relative to where it is saved.
-        place = target.with_name(f"{_HIDDEN}{os.getpid()}_{len(self._made)}{target.suffix[:20]}")
+        place = hidden_place(target, target.suffix[:20])
         self._made.append(place)
         return place
 
     def move(self) -> None:
-        """Put all files in their places."""
-        for place, target in self._moves.items():
-            try:
-                os.replace(place, target)
-            except OSError as error:
-                raise _unwritten(self._claimed.get(target, target), error) from error
-        self._made = [path for path in self._made if path.name.startswith(_HIDDEN)]
-        for folder in {target.parent for target in self._moves.values()}:
-            with suppress(OSError):  # not every system can write a folder through to the disk
-                _sync(folder)
+        """Put all files in their places, or none: raises SceneError."""
+        put_in_place(self._moves, self._moving)
+        self._made = [path for path in self._made if path.name.startswith(HIDDEN)]
+
+    @contextmanager
+    def _moving(self, target: Path) -> Iterator[None]:
+        """Raise SceneError, by the user's name for a file, in place of any OSError."""
+        try:
+            yield
+        except OSError as error:
+            raise _unwritten(self._claimed.get(target, target), error) from error
 
     def withdraw(self) -> None:
         """Remove the files of ``withdraw_on_failure``, unless the run reads them."""
@@ -183,7 +182,7 @@ class WholeFiles:
     def clean(self) -> None:
         """Remove what is left: files that were not put in place, and folders made for them."""
         for path in reversed(self._made):
-            if path.name.startswith(_HIDDEN):
+            if path.name.startswith(HIDDEN):
                 shutil.rmtree(path, ignore_errors=True)
                 with suppress(OSError):
                     path.unlink(missing_ok=True)
@@ -221,15 +220,6 @@ def _identity(path: Path | int) -> set[object]:
         if stat.S_ISREG(found.st_mode) and found.st_ino:
             known.add((found.st_dev, found.st_ino))
     return known
-
-
-def _sync(path: Path) -> None:
-    """Have a file or a folder written to the disk; raises OSError if there is no room."""
-    handle = os.open(path, os.O_RDONLY if os.name == "posix" else os.O_RDWR)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
 
 
 def _unwritten(path: Path, error: Exception) -> SceneError:

@@ -195,11 +195,15 @@ def _write_failure(job: dict[str, Any], status: str, reason: str) -> None:
 
 
 def _listen(pipe: IO[bytes], messages: queue.SimpleQueue[dict[str, Any]]) -> None:
-    """Put each line of JSON of a pipe into a queue, and in the end ENDED."""
-    with pipe:
-        for line in pipe:
-            messages.put(json.loads(line))
-    messages.put(ENDED)
+    """Put each message of a pipe, a line with an object of JSON, into a queue, and in the end ENDED."""
+    try:
+        with pipe:
+            for line in pipe:
+                with suppress(ValueError):  # what a Python prints when it starts
+                    if isinstance(message := json.loads(line), dict):
+                        messages.put(message)
+    finally:
+        messages.put(ENDED)
 
 
 # In the process itself -----------------------------------------------------------------------

@@ -16,7 +16,7 @@ from urllib.parse import unquote
 
 from ..core.parameters import Parameters
 from ..core.result.decomposition import VERSION
-from ..whole_files import readable
+from ..core.whole_files import readable
 
 FORMAT = 1  # version of what a record holds
 RECORD = "record.json"

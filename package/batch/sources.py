@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ..core.errors import ReebError
 from ..core.sentence import Sentence
-from ..whole_files import readable
+from ..core.whole_files import readable
 from .records import RECORD, read_record
 
 

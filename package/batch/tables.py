@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
@@ -12,7 +11,8 @@ from typing import Any
 import pyarrow as pa
 from pyarrow import parquet
 
-from ..whole_files import HIDDEN, readable
+from ..core.whole_files import hidden_place, put_in_place, readable
+from ..whole_files import as_output_error
 from .records import RECORD
 
 ROWS = 5_000  # rows that are kept in memory before they are written
@@ -45,9 +45,14 @@ def write_tables(out: Path, rows: Iterable[tuple[dict[str, Any], Path, Path]]) -
     Returns
     -------
     models, parts : Path
+
+    Raises
+    ------
+    OSError
+        One of them cannot be written; both are then as they were.
     """
     targets = [out / "models.parquet", out / "parts.parquet"]
-    places = [path.with_name(f"{HIDDEN}{os.getpid()}_{path.name}") for path in targets]
+    places = [hidden_place(path) for path in targets]
     with ExitStack() as stack:
         for place in places:
             stack.callback(place.unlink, missing_ok=True)
@@ -56,8 +61,7 @@ def write_tables(out: Path, rows: Iterable[tuple[dict[str, Any], Path, Path]]) -
                 models.add(_model_row(record, path, folder))
                 for part in record["parts"]:
                     parts.add({"model": record["name"], **part})
-        for place, target in zip(places, targets, strict=True):
-            place.replace(target)
+        put_in_place(dict(zip(places, targets, strict=True)), as_output_error)
     return targets[0], targets[1]
 
 

@@ -18,7 +18,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -28,9 +28,10 @@ from ..batch.sources import Source, find_sources, read_list
 from ..core.errors import ReebError
 from ..core.sentence import Sentence
 from ..core.uses.options import add_parameters, chosen_parameters, number
+from ..core.whole_files import readable
 from ..model_files import BY_BLENDER, formats
 from ..outputs import COLORED, LABELS, PARTS
-from ..whole_files import as_output_error, readable, remove_leftovers, write_folder
+from ..whole_files import as_output_error, remove_leftovers, write_folder
 
 NEEDED = ("distributed", "pyarrow", "tqdm", "psutil")
 INTERRUPTED = 130
@@ -165,7 +166,8 @@ class _Batch:
         """Record a model whose workers ended one after the other."""
         reason = f"The workers that had it ended: {error}"
         record = failure(job["name"], CRASH, reason, self.settings.digest)
-        write_folder(Path(job["folder"]), {RECORD: json.dumps(record).encode()})
+        with suppress(OSError):  # such as a full disk: it is open then, and will be tried again
+            write_folder(Path(job["folder"]), {RECORD: json.dumps(record).encode()})
         return {"status": CRASH, "reason": reason}
 
     def finish(self) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from pathlib import Path
 from ..core.memory import keep_freed_memory
 from ..core.sentence import Sentence
 from ..core.uses.options import add_parameters, chosen_parameters, number
+from ..core.whole_files import readable
 from ..meshes import decompose
 from ..model_files import read_model
 from ..outputs import (
@@ -32,7 +33,7 @@ from ..outputs import (
     part_files,
     picture_bytes,
 )
-from ..whole_files import OutputFileError, readable, write_files
+from ..whole_files import OutputFileError, write_files
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -84,7 +85,7 @@ def _run(options: argparse.Namespace) -> int:
     places: set[str] = set()
 
     def add(path: Path, data: bytes) -> str:
-        place = os.path.abspath(path)
+        place = os.path.realpath(path)
         if place in places:
             raise OutputFileError(
                 Sentence("{path} would be written twice. Give each file a name of its own.", path=path))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """``reeb-parts batch``: what it writes, what one bad model costs, and what is lost when something is killed."""
 
+import argparse
 import json
 import os
 import shutil
@@ -24,6 +25,7 @@ from reeb_parts.batch.model_process import ModelProcess
 from reeb_parts.batch.records import RECORD, Settings, is_done, read_record
 from reeb_parts.batch.sources import SourceError, find_sources
 from reeb_parts.batch.work import do_model
+from reeb_parts.command import batch as command
 from reeb_parts.whole_files import remove_leftovers
 
 from core import Parameters, decompose
@@ -337,6 +339,25 @@ def test_a_process_that_is_killed_while_it_starts_costs_no_model(models, tmp_pat
     finally:
         thread.join()
         process.close()
+
+
+def test_what_a_python_prints_when_it_starts_is_no_message(models, tmp_path, monkeypatch):
+    (tmp_path / "sitecustomize.py").write_text("print('hello')\nprint(1)\nprint('[]', flush=True)\n")
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(tmp_path), os.environ["PYTHONPATH"]]))
+    process = ModelProcess()
+    try:
+        assert process.run(job(models / "tree.ply", tmp_path / "tree"), 60.0)["status"] == "done"
+    finally:
+        process.close()
+
+
+def test_a_lost_model_whose_record_cannot_be_written_costs_only_itself(models, tmp_path):
+    parser = argparse.ArgumentParser()
+    command.add_options(parser)
+    run = command._Batch(parser.parse_args([str(models / "tree.ply"), "--out", str(tmp_path / "out")]))
+    (tmp_path / "file").touch()
+    answer = run._lost(job(models / "tree.ply", tmp_path / "file" / "tree.ply"), RuntimeError("killed"))
+    assert answer == {"status": "crash", "reason": "The workers that had it ended: killed"}
 
 
 def test_nothing_is_left_of_a_process_when_the_one_that_asked_is_killed(large, tmp_path):

@@ -109,3 +109,25 @@ def test_an_interruption_just_when_a_folder_is_made_leaves_none(package, tmp_pat
         with files.writing(tmp_path / "x.stl", lambda place: True, alone=True):
             pass
     assert list(tmp_path.iterdir()) == []
+
+
+def test_none_of_several_files_is_in_place_if_one_cannot_be_moved(package, tmp_path):
+    """Such as one that another program has open on Windows; here a folder took its place meanwhile."""
+    whole_files = import_module(f"{package}.scene.whole_files")
+    first, second = tmp_path / "a.json", tmp_path / "b.json"
+    for path in (first, second):
+        path.write_text("old")
+
+    def write():
+        with whole_files.together() as files:
+            for path in (first, second):
+                with files.writing(path, lambda place: True) as place:
+                    place.write_text("new")
+            second.unlink()
+            second.mkdir()
+
+    with pytest.raises(Exception, match="b.json could not be written: Is a directory"):
+        write()
+    assert first.read_text() == "old"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.json", "b.json"]
+    second.rmdir()

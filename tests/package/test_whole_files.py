@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files of the package appear whole or not at all, wherever they are written."""
+
+import os
+
+import pytest
+from reeb_parts.batch.tables import write_tables
+from reeb_parts.core.whole_files import FORMER, HIDDEN
+from reeb_parts.whole_files import OutputFileError, remove_leftovers, write_files, write_folder
+
+
+def content(folder):
+    """All files in a folder and below, with their bytes."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+@pytest.fixture
+def full_at(monkeypatch):
+    """A function that has the disk be full at one of the next moves."""
+
+    def set_full(number):
+        replace, calls = os.replace, []
+
+        def fails(*names):
+            calls.append(names)
+            if len(calls) == number:
+                raise OSError(28, "No space left on device")
+            return replace(*names)
+
+        monkeypatch.setattr(os, "replace", fails)
+
+    return set_full
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_folder_that_cannot_be_replaced_is_as_it_was(number, full_at, tmp_path):
+    """The former results were left under a hidden name, and the next run removed them."""
+    folder = tmp_path / "models" / "cow"
+    write_folder(folder, {"record.json": b"old", "parts/1.ply": b"old"})
+    before = content(tmp_path)
+    full_at(number)
+    with pytest.raises(OSError, match="No space left"):
+        write_folder(folder, {"record.json": b"new"})
+    assert content(tmp_path) == before
+    remove_leftovers(tmp_path)
+    assert content(tmp_path) == before
+    write_folder(folder, {"record.json": b"new"})
+    assert content(tmp_path) == {"models/cow/record.json": b"new"}
+
+
+def test_results_that_a_killed_run_moved_away_are_brought_back(tmp_path):
+    write_folder(tmp_path / "models" / "cow", {"record.json": b"old"})
+    former = tmp_path / "models" / f"{FORMER}0123"
+    former.mkdir()
+    (tmp_path / "models" / "cow").rename(former / "cow")
+    write_folder(tmp_path / "models" / f"{HIDDEN}4567", {"record.json": b"new"})
+    remove_leftovers(tmp_path)
+    assert content(tmp_path) == {"models/cow/record.json": b"old"}
+    assert [path.name for path in (tmp_path / "models").iterdir()] == ["cow"]
+
+
+def test_tables_are_both_new_or_both_old(tmp_path):
+    (tmp_path / "models.parquet").write_bytes(b"old")
+    (tmp_path / "parts.parquet").mkdir()
+    (tmp_path / "parts.parquet" / "mine").write_bytes(b"mine")
+    with pytest.raises(OutputFileError, match="parts.parquet could not be written"):
+        write_tables(tmp_path, [])
+    assert content(tmp_path) == {"models.parquet": b"old", "parts.parquet/mine": b"mine"}
+
+
+def test_files_are_all_new_or_all_old(full_at, tmp_path):
+    (tmp_path / "a").write_bytes(b"old")
+    full_at(2)
+    with pytest.raises(OutputFileError, match="b could not be written: No space left"):
+        write_files({tmp_path / "a": b"new", tmp_path / "b": b"new"}, tmp_path / "model")
+    assert content(tmp_path) == {"a": b"old"}
+
+
+def test_a_link_stays_one_and_its_file_is_written(tmp_path):
+    (tmp_path / "file").write_bytes(b"old")
+    (tmp_path / "link").symlink_to("file")
+    write_files({tmp_path / "link": b"new"}, tmp_path / "model")
+    assert (tmp_path / "link").is_symlink()
+    assert content(tmp_path) == {"file": b"new", "link": b"new"}
+
+
+def test_a_model_that_is_gone_keeps_no_file_from_being_written(tmp_path):
+    (tmp_path / "page").write_bytes(b"old")
+    write_files({tmp_path / "page": b"new"}, tmp_path / "gone")
+    assert content(tmp_path) == {"page": b"new"}

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Names of files, and files that get to their places all together or not at all."""
+
+import os
+import unicodedata
+from contextlib import nullcontext
+from pathlib import Path
+
+import pytest
+
+from core.whole_files import FORMER, HIDDEN, file_name, hidden_place, put_in_place, readable, restore_former
+
+
+def content(folder):
+    """All that is in a folder: files with their text, folders with None."""
+    return {str(path.relative_to(folder)): path.read_text() if path.is_file() else None
+            for path in sorted(folder.rglob("*"))}
+
+
+def fill(folder, **files):
+    """Files with their texts; the folder."""
+    folder.mkdir(exist_ok=True)
+    for name, text in files.items():
+        (folder / name).write_text(text)
+    return folder
+
+
+@pytest.fixture
+def moves(tmp_path):
+    """Three new files and where they belong, the middle one a new name."""
+    fill(tmp_path, a="old a", c="old c", new_a="new a", new_b="new b", new_c="new c")
+    return {tmp_path / f"new_{name}": tmp_path / name for name in "abc"}
+
+
+def failing(function, after):
+    """A function that does as another does, so many times, and then finds no room."""
+    calls = []
+
+    def fails(*arguments):
+        calls.append(arguments)
+        if len(calls) == after + 1:
+            raise OSError(28, "No space left on device")
+        return function(*arguments)
+
+    return fails
+
+
+def unsupported(*arguments):
+    """What a system call does that a file system has not."""
+    raise OSError(95, "Operation not supported")
+
+
+def test_files_are_all_put_in_place(moves, tmp_path):
+    put_in_place(moves, nullcontext)
+    assert content(tmp_path) == {"a": "new a", "b": "new b", "c": "new c"}
+
+
+@pytest.mark.parametrize("links", [True, False], ids=["two names", "one name"])
+@pytest.mark.parametrize("after", range(5))
+def test_none_is_put_in_place_if_one_cannot_be(moves, tmp_path, monkeypatch, links, after):
+    """Whichever move fails, those before are taken back, on file systems with and without second names."""
+    before = content(tmp_path)
+    n_moves = 3 if links else 5
+    if not links:
+        monkeypatch.setattr(os, "link", unsupported)
+    monkeypatch.setattr(os, "replace", failing(os.replace, after))
+    if after >= n_moves:
+        put_in_place(moves, nullcontext)
+        return
+    with pytest.raises(OSError, match="No space left"):
+        put_in_place(moves, nullcontext)
+    assert content(tmp_path) == before
+
+
+def test_a_folder_in_the_place_of_a_file_stays(moves, tmp_path):
+    (tmp_path / "c").unlink()
+    fill(tmp_path / "c", precious="mine")
+    before = content(tmp_path)
+    with pytest.raises(OSError, match="c"):
+        put_in_place(moves, nullcontext)
+    assert content(tmp_path) == before
+
+
+def test_the_error_is_about_the_file_that_could_not_be_moved(moves, tmp_path):
+    (tmp_path / "c").unlink()
+    (tmp_path / "c").mkdir()
+    asked = []
+
+    def about(target):
+        asked.append(target.name)
+        return nullcontext()
+
+    with pytest.raises(OSError, match="c"):
+        put_in_place(moves, about)
+    assert asked[-1] == "c"
+
+
+@pytest.mark.parametrize("after", range(2))
+def test_a_folder_is_replaced_or_as_it_was(tmp_path, monkeypatch, after):
+    fill(tmp_path / "cow", record="old", gone="gone")
+    fill(tmp_path / "new", record="new")
+    before = content(tmp_path)
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "replace", failing(os.replace, after))
+        with pytest.raises(OSError, match="No space left"):
+            put_in_place({tmp_path / "new": tmp_path / "cow"}, nullcontext)
+    assert content(tmp_path) == before
+    put_in_place({tmp_path / "new": tmp_path / "cow"}, nullcontext)
+    assert content(tmp_path) == {"cow": None, "cow/record": "new"}
+
+
+def test_what_a_killed_process_moved_away_is_brought_back_unless_something_took_its_place(tmp_path):
+    former = hidden_place(tmp_path / "cow", beginning=FORMER)
+    former.mkdir()
+    fill(former / "cow", record="old")
+    restore_former(former)
+    assert content(tmp_path) == {"cow": None, "cow/record": "old"}
+    former.mkdir()
+    fill(former / "cow", record="older")
+    restore_former(former)
+    assert content(tmp_path) == {"cow": None, "cow/record": "old"}
+
+
+def test_hidden_places_cannot_be_guessed():
+    target = Path("folder") / "x.json"
+    first, second = hidden_place(target, ".json"), hidden_place(target, ".json")
+    assert first != second
+    assert first.parent == target.parent
+    assert first.name.startswith(HIDDEN)
+    assert first.suffix == ".json"
+
+
+@pytest.mark.parametrize(("text", "name"), [
+    ("Spot", "Spot"), ("a/b:c*d", "a_b_c_d"), (" .. ", "part"), ("trailing. ", "trailing"), ("x" * 300, "x" * 200),
+    ("CON", "_CON"), ("nul", "_nul"), ("Aux.L", "_Aux.L"), ("com1", "_com1"), ("LPT9 .x", "_LPT9 .x"),
+    ("Console", "Console"), ("com", "com"), ("com10", "com10"), (unicodedata.normalize("NFD", "ähre"), "ähre"),
+])  # fmt: skip
+def test_names_are_such_as_every_file_system_takes(text, name):
+    assert file_name(text, "part") == name
+
+
+def test_names_that_are_no_utf8_are_readable():
+    assert readable("plain ä") == "plain ä"
+    assert readable(os.fsdecode(b"stra\xdfe.obj")) == "stra\\xdfe.obj"
