@@ -7,6 +7,7 @@ Meshes are those of the objects themselves, without their modifiers, in the plac
 """
 
 import sys
+from pathlib import Path
 
 import bpy
 import numpy as np
@@ -25,7 +26,19 @@ def _include_all(layer: bpy.types.LayerCollection) -> None:
 
 
 def export(path: str, out: str) -> None:
-    """Read the model and write vertices (n, 3), triangles (m, 3) and the polygon (m,) of each triangle."""
+    """Read the model and write vertices (n, 3), triangles (m, 3) and the polygon (m,) of each triangle.
+
+    What is raised is written as well, to a file of the same name that ends in .txt.
+    """
+    try:
+        _export(path, out)
+    except Exception as error:
+        Path(out).with_suffix(".txt").write_text(str(error) or type(error).__name__, encoding="utf-8")
+        raise
+
+
+def _export(path: str, out: str) -> None:
+    """Read and write."""
     if path.lower().endswith(".blend"):
         bpy.ops.wm.open_mainfile(filepath=path, load_ui=False, use_scripts=False)
     else:
@@ -52,8 +65,6 @@ def export(path: str, out: str) -> None:
         polygons.append(polygon.astype(np.int64) + n_polygons)
         n_vertices += len(mesh.vertices)
         n_polygons += len(mesh.polygons)
-    if not n_polygons:
-        raise RuntimeError("there is no mesh in it")
     np.savez(out, vertices=np.concatenate(vertices), triangles=np.concatenate(triangles),
              polygon=np.concatenate(polygons))
 

@@ -8,6 +8,7 @@ import os
 import re
 import subprocess
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -95,25 +96,37 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
     kind = path.suffix.lower()
     if path.is_dir():
         raise ModelFileError(Sentence("{path} is a folder, not a model.", path=path))
-    if not path.is_file():
+    if not path.exists():
         raise ModelFileError(Sentence("There is no file {path}.", path=path))
+    if not path.is_file():
+        raise ModelFileError(Sentence("{path} is no file but a pipe or a device: write the model to a file first.",
+                                      path=path))
     if kind in BY_BLENDER:
-        return _read_by_blender(path, blender, temporary)
-    if kind not in formats():
+        vertices, faces, polygon = _read_by_blender(path, blender, temporary)
+    elif kind in formats():
+        vertices, faces, polygon = _read_itself(path)
+    else:
         known = ", ".join((*formats(), *BY_BLENDER))
         raise NoReaderError(Sentence("{path} is none of {known}.", path=path, known=known))
-    reader = {ARRAYS: _read_arrays, ".obj": _read_obj}.get(kind, _read_by_trimesh)
-    try:
-        vertices, faces, polygon = reader(path)
-    except MemoryError:
-        raise
-    except Exception as error:  # noqa: BLE001 - whatever a reader of damaged files raises
-        if lacks_memory(str(error)):
-            raise MemoryError from error
-        raise _unreadable(path, error) from error
     if not len(faces):
         raise ModelFileError(Sentence("There is no mesh in {path}.", path=path))
     return Model(readable(path.stem), vertices, faces, polygon, "z" if kind in Z_UP else "y")
+
+
+def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and their polygons of a file that needs no Blender; raises ModelFileError."""
+    reader = {ARRAYS: _read_arrays, ".obj": _read_obj}.get(path.suffix.lower(), _read_by_trimesh)
+    try:
+        return reader(path)
+    except MemoryError:
+        raise
+    except ImportError as error:
+        raise NoReaderError(Sentence("{path} needs a package that is not there ({reason}). What most files need comes "
+                                     'with pip install "reeb-parts[formats]".', path=path, reason=error)) from error
+    except Exception as error:  # noqa: BLE001 - whatever a reader of damaged files raises
+        if lacks_memory(str(error)):
+            raise MemoryError from error
+        raise _unreadable(path, f"{type(error).__name__}: {error}") from error
 
 
 def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -140,13 +153,43 @@ def _read_obj(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         return b"\n".join(b"f %b %b %b" % (first, *two) for two in pairwise(others))
 
     # Lines that go on in the next one are one; materials and groups would sort the faces.
-    text = re.sub(rb"\\\r?\n", b"", path.read_bytes())
+    text = re.sub(rb"\\\r?\n", b"", _plain(path))
     text = re.sub(rb"(?m)^[ \t]*(usemtl|mtllib|g|o|s)\b.*$", b"", text)
     if not re.search(rb"(?m)^f(?:[ \t]+[^\s]+){4}", text):
         return _read_by_trimesh(path, text)
     vertices, faces, _ = _read_by_trimesh(path, re.sub(rb"(?m)^f[ \t](.*)$", fan, text))
     corners = np.array(sizes)
     return vertices, without_folds(vertices, faces, corners), np.repeat(np.arange(len(corners)), corners - 2)
+
+
+def _plain(path: Path) -> bytes:
+    """The bytes of a file; if its text is not UTF-8, with question marks for all of it that is not ASCII.
+
+    Names and comments in the encoding of some country do not matter, but trimesh would not read on.
+    """
+    data = path.read_bytes()
+    n_text = _TEXT[path.suffix.lower()](data)
+    try:
+        data[:n_text].decode()
+    except UnicodeDecodeError:
+        return data[:n_text].translate(_ASCII) + data[n_text:]
+    return data
+
+
+def _text_of_stl(data: bytes) -> int:
+    """How many bytes of an .stl are text: its header if what it says of its length is true, else all."""
+    return 80 if len(data) == 84 + 50 * int.from_bytes(data[80:84], "little") else len(data)
+
+
+def _text_of_ply(data: bytes) -> int:
+    """How many bytes of a .ply are text: its header if the second line says that the rest is binary, else all."""
+    end = data.find(b"end_header")
+    return end if end > 0 and re.match(rb"[^\n]*\n[^\n]*binary", data) else len(data)
+
+
+#: How many bytes at the beginning of files are text, by the kinds of files that may have text in them that is no UTF-8.
+_TEXT: dict[str, Callable[[bytes], int]] = {".obj": len, ".off": len, ".stl": _text_of_stl, ".ply": _text_of_ply}
+_ASCII = bytes(range(128)) + b"?" * 128
 
 
 def _read_by_trimesh(path: Path, data: bytes | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -156,7 +199,9 @@ def _read_by_trimesh(path: Path, data: bytes | None = None) -> tuple[np.ndarray,
     # It takes names of meshes from that of the file, and not every one is UTF-8.
     resolver = trimesh.resolvers.FilePathResolver(path)
     resolver.file_name = readable(path.name)
-    with path.open("rb") if data is None else io.BytesIO(data) as stream:
+    if data is None:
+        data = _plain(path) if path.suffix.lower() in _TEXT else path.read_bytes()
+    with io.BytesIO(data) as stream:
         # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
         scene = trimesh.load_scene(stream, path.suffix[1:].lower(), resolver, process=False, maintain_order=True)
     meshes = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]
@@ -167,8 +212,9 @@ def _read_by_trimesh(path: Path, data: bytes | None = None) -> tuple[np.ndarray,
             np.arange(len(triangles)))
 
 
-def _read_by_blender(path: Path, blender: str | Path | None, temporary: str | Path | None) -> Model:
-    """Model of a file that a Blender reads; z is up then."""
+def _read_by_blender(path: Path, blender: str | Path | None,
+                     temporary: str | Path | None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and their polygons of a file that a Blender reads; raises ModelFileError."""
     if blender is None:
         raise NoReaderError(Sentence("{path} can be read by Blender only. Say where it is with --blender.", path=path))
     script = Path(__file__).with_name("blender_export.py")
@@ -179,23 +225,32 @@ def _read_by_blender(path: Path, blender: str | Path | None, temporary: str | Pa
         # What Blender itself leaves there, should it be killed, is found with the folder.
         variables = {**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)}
         try:
-            try:
-                done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                                      errors="replace", check=False, env=variables)
-            except OSError as error:
-                raise NoReaderError(Sentence("{path} could not be read, as {blender} could not be started: {reason}",
-                                             path=path, blender=blender, reason=error.strerror or error)) from error
-            if done.returncode or not out.is_file():
-                raise RuntimeError((done.stderr.strip() or done.stdout.strip()).splitlines()[-1:])
+            done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                  errors="replace", check=False, env=variables)
+        except OSError as error:
+            raise NoReaderError(Sentence("{path} could not be read, as {blender} could not be started: {reason}",
+                                         path=path, blender=blender, reason=error.strerror or error)) from error
+        if done.returncode or not out.is_file():
+            raise _unreadable(path, _complaint(out, done, blender))
+        try:
             with np.load(out, allow_pickle=False) as data:
-                return Model(readable(path.stem), data["vertices"], data["triangles"], data["polygon"], "z")
-        except NoReaderError:
-            raise
-        except (OSError, RuntimeError, ValueError, KeyError) as error:
-            raise _unreadable(path, error) from error
+                return data["vertices"], data["triangles"], data["polygon"]
+        except (OSError, ValueError, KeyError) as error:
+            raise _unreadable(path, f"{type(error).__name__}: {error}") from error
 
 
-def _unreadable(path: Path, error: Exception) -> ModelFileError:
+def _complaint(out: Path, done: subprocess.CompletedProcess[str], blender: str | Path) -> str:
+    """Why a Blender has written nothing: what its script says, else its last words."""
+    said = out.with_suffix(".txt")
+    words = said.read_text(encoding="utf-8") if said.is_file() else done.stderr.strip() or done.stdout.strip()
+    lines = [line.strip() for line in words.splitlines() if line.strip() and not line.startswith("Location: ")]
+    if not lines:
+        return f"{blender} ended with status {done.returncode} and said nothing"
+    # What its operators in Python report ends with the error itself.
+    return lines[-1].removeprefix("Error: ")
+
+
+def _unreadable(path: Path, reason: str) -> ModelFileError:
     """The sentence that a file could not be read."""
-    reason = " ".join(f"{type(error).__name__}: {error}".split())[:300]
-    return ModelFileError(Sentence("{path} could not be read: {reason}", path=path, reason=reason))
+    return ModelFileError(Sentence("{path} could not be read: {reason}", path=path,
+                                   reason=" ".join(reason.split())[:300]))

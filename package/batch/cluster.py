@@ -27,6 +27,8 @@ from .model_process import ModelProcess
 AHEAD = 4
 PATIENCE = 20.0  # seconds that a scheduler may take to answer
 LOOK = 5.0  # seconds between two looks at how many workers there are
+#: What a terminal sends to all processes that run in it: Ctrl+C, and that it was closed.
+OWN_SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGHUP") if hasattr(signal, name))
 
 #: Dask's own bookkeeping, on a cluster of our own. Its workers only wait for the processes of the models: a profile of
 #: them would show nothing, and many looks at them take processor time from the models. The history of jobs that the
@@ -77,8 +79,8 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
         with client:
             yield client
         return
-    # The workers inherit that they do not hear Ctrl+C: it is for this process, which ends them.
-    former = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # The workers inherit that they do not hear these: they are for this process, which ends them.
+    former = [signal.signal(number, signal.SIG_IGN) for number in OWN_SIGNALS]
     try:
         # What needs memory are the processes of the models, which have limits of their own.
         with dask.config.set(QUIET):
@@ -86,7 +88,8 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
                                    dashboard_address=dashboard, silence_logs=logging.CRITICAL)
             client = Client(cluster)
     finally:
-        signal.signal(signal.SIGINT, former)
+        for number, handler in zip(OWN_SIGNALS, former, strict=True):
+            signal.signal(number, handler)
     with cluster, client:
         yield client
 

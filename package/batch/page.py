@@ -13,6 +13,7 @@ from urllib.parse import quote
 
 from ..whole_files import write_files
 
+PAGE = "index.html"
 #: Models whose pictures are in the page itself; a page of more shows them from their folders, or it would not open.
 EMBEDDED = 5_000
 STYLE = """
@@ -112,7 +113,7 @@ def write_page(out: Path, title: str, rows: Iterable[tuple[dict[str, Any], Path,
     path : Path
     """
     models = [_entry(out, record, folder, total <= EMBEDDED) for record, _, folder in rows]
-    path = out / "index.html"
+    path = out / PAGE
     write_files({path: page(title, models).encode()}, read)
     return path
 

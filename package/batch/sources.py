@@ -107,6 +107,9 @@ def read_list(path: Path) -> list[str]:
     """Places of a list, one a line; empty lines and those that begin with # are none. Raises SourceError."""
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
+    except OSError as error:
+        raise SourceError(Sentence("{path} could not be read: {reason}", path=path,
+                                   reason=error.strerror or error)) from error
+    except UnicodeDecodeError as error:
         raise SourceError(Sentence("{path} could not be read: {reason}", path=path, reason=error)) from error
     return [line.strip() for line in lines if line.strip() and not line.startswith("#")]

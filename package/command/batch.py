@@ -32,6 +32,7 @@ from ..core.whole_files import readable
 from ..model_files import BY_BLENDER, formats
 from ..outputs import COLORED, LABELS, PARTS
 from ..whole_files import as_output_error, remove_leftovers, write_folder
+from .words import print_answer, say
 
 NEEDED = ("distributed", "pyarrow", "tqdm", "psutil")
 INTERRUPTED = 130
@@ -90,12 +91,11 @@ def run(options: argparse.Namespace) -> int:
         batch.run()
     except KeyboardInterrupt:
         interrupted = True
-        _say("Interrupted; what is done is kept.")
+        say("Interrupted; what is done is kept.")
     with as_output_error(batch.out):
         answer = batch.finish()
     answer["seconds"] = round(time.perf_counter() - start, 3)
-    sys.stdout.write(json.dumps(answer, indent=2) + "\n")
-    sys.stdout.flush()
+    print_answer(json.dumps(answer, indent=2) + "\n")
     return INTERRUPTED if interrupted else int(any(status != DONE for status in answer["models"]))
 
 
@@ -108,7 +108,7 @@ class _Batch:
     def __init__(self, options: argparse.Namespace) -> None:
         parameters, notes = chosen_parameters(options)
         for note in notes:
-            _say(note)
+            say(note)
         self.options = options
         self.out = Path(os.path.abspath(options.out))
         places = [*options.models, *(place for path in options.list for place in read_list(path))]
@@ -131,14 +131,14 @@ class _Batch:
                        if not is_done(source.path, self.folder(source), self.settings, self.options.retry)]
         self.kept = len(self.sources) - len(waiting)
         if self.kept:
-            _say(f"{self.kept} of {_models(len(self.sources))} {'is' if self.kept == 1 else 'are'} done already.")
+            say(f"{self.kept} of {_models(len(self.sources))} {'is' if self.kept == 1 else 'are'} done already.")
         if not waiting:
             return
         # Dask takes long to import, and a look at what is done needs none of it.
         from ..batch import cluster
 
         with cluster.connected(self.options.scheduler, self.options.workers, self.options.dashboard) as client:
-            _say(f"Dask's dashboard: {client.dashboard_link}")
+            say(f"Dask's dashboard: {client.dashboard_link}")
             failed: Counter[str] = Counter()
             with (tqdm(total=len(waiting), desc="models", unit="model", smoothing=0.1, mininterval=0.5) as progress,
                   closing(cluster.spread(client, cluster.do_job, map(self._job, waiting))) as answers):
@@ -220,7 +220,3 @@ def _kinds(suffixes: tuple[str, ...]) -> tuple[str, ...]:
 
 def _suffix(kind: str | None) -> str:
     return f".{kind}" if kind else ""
-
-
-def _say(text: str) -> None:
-    print(f"reeb-parts: {text}", file=sys.stderr, flush=True)

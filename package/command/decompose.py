@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -34,6 +33,7 @@ from ..outputs import (
     picture_bytes,
 )
 from ..whole_files import OutputFileError, write_files
+from .words import print_answer, say
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -42,15 +42,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                         "trimesh reads; .blend and .fbx with --blender")
     parser.add_argument("--blender", metavar="PATH", help="the Blender that reads .blend and .fbx")
     files = parser.add_argument_group("files to write")
-    files.add_argument("--json", type=Path, metavar="OUT.json", help="the JSON that also goes to standard output")
-    files.add_argument("--labels", type=_file_of(LABELS), metavar="OUT.npy",
+    files.add_argument("--json", type=_named_file, metavar="OUT.json",
+                       help="the JSON that also goes to standard output")
+    files.add_argument("--labels", type=file_of(LABELS), metavar="OUT.npy",
                        help=f"the part of each face, from 0 ({', '.join(LABELS)})")
-    files.add_argument("--colored", type=_file_of(COLORED), metavar="OUT.ply",
+    files.add_argument("--colored", type=file_of(COLORED), metavar="OUT.ply",
                        help=f"the model in the colors of its parts ({', '.join(COLORED)})")
     files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
     files.add_argument("--parts-format", choices=PARTS, default="obj",
                        help="format of those files (default: %(default)s)")
-    files.add_argument("--picture", type=_file_of((".png",)), metavar="OUT.png",
+    files.add_argument("--picture", type=file_of((".png",)), metavar="OUT.png",
                        help="a picture of the parts with the graph")
     files.add_argument("--picture-size", type=number(16, 4096, int), default=640, metavar="N",
                        help="its width and height in pixels, 16 to 4096 (default: %(default)s)")
@@ -60,10 +61,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Do what the options ask for; returns the exit status. Raises ReebError."""
     try:
-        return _run(options)
+        answer = _run(options)
     except BaseException:
         _withdraw(options)
         raise
+    print_answer(answer)
+    return 0
 
 
 def _withdraw(options: argparse.Namespace) -> None:
@@ -73,10 +76,11 @@ def _withdraw(options: argparse.Namespace) -> None:
             options.json.unlink()
 
 
-def _run(options: argparse.Namespace) -> int:
+def _run(options: argparse.Namespace) -> str:
+    """Decompose the model and write the files; returns the JSON."""
     parameters, notes = chosen_parameters(options)
     for note in notes:
-        _say(note)
+        say(note)
     keep_freed_memory()
     model = read_model(options.model, options.blender)
     result = decompose(model, parameters=parameters, progress=_Progress())
@@ -110,9 +114,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.json:
         add(options.json, answer)
     write_files(files, options.model)
-    sys.stdout.write(answer.decode())
-    sys.stdout.flush()
-    return 0
+    return answer.decode()
 
 
 class _Progress:
@@ -124,10 +126,17 @@ class _Progress:
     def __call__(self, stage: str, share: float) -> None:
         if round(20 * share) > self._last:
             self._last = round(20 * share)
-            _say(f"{stage} {share:.0%}")
+            say(f"{stage} {share:.0%}")
 
 
-def _file_of(kinds: tuple[str, ...]) -> Callable[[str], Path]:
+def _named_file(text: str) -> Path:
+    """Read the name of a file; argparse turns the error into a sentence."""
+    if text == "-":
+        raise argparse.ArgumentTypeError("- is no file; standard output has the JSON in any case")
+    return Path(text)
+
+
+def file_of(kinds: tuple[str, ...]) -> Callable[[str], Path]:
     """What reads the name of a file of some kinds; argparse turns the error into a sentence."""
 
     def file(text: str) -> Path:
@@ -136,7 +145,3 @@ def _file_of(kinds: tuple[str, ...]) -> Callable[[str], Path]:
         return Path(text)
 
     return file
-
-
-def _say(text: str) -> None:
-    print(f"reeb-parts: {text}", file=sys.stderr, flush=True)

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import argparse
 import signal
-import sys
 
 from ..core.errors import ReebError
 from ..core.result.decomposition import VERSION
 from . import batch, decompose, similar
+from .words import say
 
 COMMANDS = {"decompose": decompose, "batch": batch, "similar": similar}
 FAILED, INTERRUPTED = 1, 130
@@ -29,8 +29,7 @@ def main(arguments: list[str] | None = None) -> int:
         module.add_options(commands.add_parser(name, help=summary, description=module.__doc__,
                                                formatter_class=argparse.RawDescriptionHelpFormatter))
     options = parser.parse_args(arguments)
-    # The request of the system to end is heard as Ctrl+C is.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    _hear_signals()
     try:
         return COMMANDS[options.command].run(options)
     except KeyboardInterrupt:
@@ -44,6 +43,8 @@ def main(arguments: list[str] | None = None) -> int:
         return FAILED
 
 
-def say(text: str) -> None:
-    """A line on standard error."""
-    print(f"reeb-parts: {text}", file=sys.stderr, flush=True)
+def _hear_signals() -> None:
+    """Hear the request of the system to end, and the end of the terminal, as Ctrl+C is heard."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as it is after nohup
+        signal.signal(signal.SIGHUP, signal.default_int_handler)

@@ -11,14 +11,15 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from importlib.util import find_spec
 from pathlib import Path
 
 from ..core.sentence import Sentence
 from ..core.uses.options import number as number_option
-from ..whole_files import write_files
+from ..whole_files import OutputFileError, write_files
 from .batch import MissingPackageError
+from .decompose import file_of
+from .words import print_answer
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -28,21 +29,25 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--count", type=number_option(1, kind=int), default=20, metavar="N",
                         help="how many (default: %(default)s)")
     parser.add_argument("--other-models", action="store_true", help="leave out the parts of the same model")
-    parser.add_argument("--page", type=Path, metavar="OUT.html", help="a page with a picture of each")
+    parser.add_argument("--page", type=file_of((".html", ".htm")), metavar="OUT.html",
+                        help="a page with a picture of each")
 
 
 def run(options: argparse.Namespace) -> int:
     """Do what the options ask for; returns the exit status. Raises ReebError."""
     if find_spec("pyarrow") is None:
         raise MissingPackageError(Sentence('Install {names} first: pip install "reeb-parts[batch]".', names="pyarrow"))
+    from ..batch.page import PAGE
     from ..batch.similar import page, similar_parts
 
     model, number = options.part
     parts = similar_parts(options.results, model, number, options.count, options.other_models)
     if options.page:
+        if options.page.resolve() == (options.results / PAGE).resolve():
+            raise OutputFileError(Sentence("{path} shows all models of the batch. Choose another name.",
+                                           path=options.page))
         write_files({options.page: page(options.results, parts).encode()}, options.results / "parts.parquet")
-    sys.stdout.write(json.dumps({"part": parts[0], "similar": parts[1:]}, indent=2) + "\n")
-    sys.stdout.flush()
+    print_answer(json.dumps({"part": parts[0], "similar": parts[1:]}, indent=2) + "\n")
     return 0
 
 

@@ -128,6 +128,18 @@ def test_a_part_that_is_not_there_is_said_not_to_be(part, status, words, batch, 
     assert words in done.stderr
 
 
+@pytest.mark.parametrize(("page", "status", "words"), [
+    ("parts.parquet", 2, "must end in .html or .htm"), ("index.html", 1, "index.html shows all models of the batch."),
+    ("models/../index.html", 1, "index.html shows all models of the batch. Choose another name."),
+])  # fmt: skip
+def test_a_page_is_not_written_over_the_results(page, status, words, batch, reeb_parts_command):
+    before = {path: path.read_bytes() for path in batch[0].glob("*.*")}
+    done = reeb_parts_command("similar", batch[0], "tree.ply:2", "--page", batch[0] / page)
+    assert (done.returncode, done.stdout) == (status, "")
+    assert words in done.stderr.splitlines()[-1]
+    assert {path: path.read_bytes() for path in batch[0].glob("*.*")} == before
+
+
 def test_the_table_of_models_has_each_with_its_reason(batch, models):
     table = {row["name"]: row for row in rows(batch[0] / "models.parquet")}
     assert {name: row["status"] for name, row in table.items()} == {
@@ -200,6 +212,7 @@ def test_what_lacked_a_reader_is_tried_again(suffix, blender, words, tmp_path):
     (["--out", "OUT", "--time-limit=-1"], 2, "must be a number, 0 or more, not -1"),
     (["--out", "OUT", "--time-limit", "nan"], 2, "must be a number, 0 or more, not nan"),
     (["--out", "OUT", "--dashboard", "nonsense"], 2, "nonsense is no address such as 127.0.0.1:8787"),
+    (["--out", "OUT", "--list", "-"], 1, "- could not be read: No such file or directory"),
     (["--out", "OUT", "--dashboard", ":99999"], 2, ":99999 is no address such as 127.0.0.1:8787"),
 ])  # fmt: skip
 def test_a_batch_that_cannot_be_is_one_sentence(arguments, status, words, models, reeb_parts_command, tmp_path):
@@ -281,6 +294,14 @@ def test_results_that_cannot_be_written_are_no_crash(models):
     answer = do_model(job(models / "tree.ply", Path("/proc/none/tree.ply")))
     assert answer["status"] == "error"
     assert answer["reason"] == "/proc/none/tree.ply could not be written: No such file or directory"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the program is one of Unix")
+def test_what_says_nothing_is_named_with_its_status(tmp_path):
+    (tmp_path / "model.blend").write_bytes(b"BLENDER")
+    answer = do_model(job(tmp_path / "model.blend", tmp_path / "out") | {"blender": "/bin/true"})
+    assert answer["status"] == "unreadable"
+    assert answer["reason"].endswith("model.blend could not be read: /bin/true ended with status 0 and said nothing")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the script is one of a shell")

@@ -21,6 +21,13 @@ bpy.ops.export_scene.fbx(filepath=sys.argv[-1])
 """
 
 
+EMPTY = """
+import bpy, sys
+bpy.ops.wm.read_homefile(use_empty=True)
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
+"""
+
+
 def test_a_blend_file_has_the_faces_of_blender(reeb_parts_command, tmp_path):
     done = reeb_parts_command("decompose", DATA / "saved_by_0_1_0.blend", "--blender", os.environ["BLENDER"],
                               "--labels", tmp_path / "labels.npy")
@@ -59,3 +66,20 @@ bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
     model = reeb_parts.read_model(path, os.environ["BLENDER"])
     a, b, c = model.vertices[model.faces].transpose(1, 0, 2)
     assert (np.cross(a, b) * c).sum() / 6 == pytest.approx(8)
+
+
+@pytest.mark.parametrize(("name", "make", "words"), [
+    ("broken.blend", None, "broken.blend could not be read: File format is not supported in file"),
+    ("broken.fbx", None, "broken.fbx could not be read: "),
+    ("empty.blend", EMPTY, "There is no mesh in "),
+])  # fmt: skip
+def test_why_blender_could_not_read_is_said(name, make, words, tmp_path):
+    path = tmp_path / name
+    path.write_bytes(b"no model")
+    if make:
+        subprocess.run([os.environ["BLENDER"], "--background", "--factory-startup", "--python-expr", make, "--",
+                        str(path)], check=True, capture_output=True)
+    with pytest.raises(reeb_parts.ModelFileError, match=words) as raised:
+        reeb_parts.read_model(path, os.environ["BLENDER"])
+    for strange in ("script failed", "RuntimeError", "[", "Traceback"):
+        assert strange not in str(raised.value)

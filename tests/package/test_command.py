@@ -2,6 +2,7 @@
 """The command ``reeb-parts decompose``, as it is installed."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -111,6 +112,7 @@ def test_the_picture_shows_three_colors_on_white(everything):
     (["MODEL", "--labels", "OUT/x.npy", "--json", "OUT/x.npy"], "would be written twice"),
     (["MODEL", "--labels", "OUT/x.npy", "--json", "OUT/x/../x.npy"], "would be written twice"),
     (["MODEL", "--json", "/proc/none/x.json"], "could not be written"),
+    (["/dev/null"], "/dev/null is no file but a pipe or a device: write the model to a file first."),
 ])  # fmt: skip
 def test_what_is_wrong_is_one_sentence_and_nothing_is_written(arguments, words, model, reeb_parts_command, tmp_path):
     before = model.read_bytes()
@@ -138,6 +140,46 @@ def test_ctrl_c_ends_it_with_130_and_nothing_is_written(request, model, tmp_path
     out, err = process.communicate(timeout=60)
     assert (process.returncode, out, list(tmp_path.iterdir())) == (130, "", [])
     assert err.splitlines()[-1] == "reeb-parts: Interrupted."
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="other systems close terminals in another way")
+@pytest.mark.parametrize("kept", [False, True], ids=["closed", "nohup"])
+def test_a_terminal_that_is_closed_ends_it_unless_the_signal_is_ignored(request, model, tmp_path, kept):
+    words = [sys.executable, request.config.command, "decompose", model, "--json", tmp_path / "x.json"]
+    ignored = (lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)) if kept else None
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          preexec_fn=ignored) as process:
+        process.stderr.readline()  # it has begun
+        process.send_signal(signal.SIGHUP)
+        _, err = process.communicate(timeout=60)
+    assert process.returncode == (0 if kept else 130), err
+    assert (tmp_path / "x.json").exists() == kept
+    assert "Traceback" not in err
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no device that is full")
+@pytest.mark.parametrize("reader", ["full", "gone"])
+def test_an_answer_that_cannot_be_written_is_one_sentence(request, model, tmp_path, reader):
+    """Files that were asked for are there all the same."""
+    words = [sys.executable, request.config.command, "decompose", model, "--json", tmp_path / "x.json"]
+    if reader == "full":
+        out = os.open("/dev/full", os.O_WRONLY)
+    else:
+        own, out = os.pipe()
+        os.close(own)
+    done = subprocess.run(words, stdout=out, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(out)
+    reason = "No space left on device" if reader == "full" else "Broken pipe"
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1] == f"reeb-parts: Standard output could not be written: {reason}"
+    assert "Traceback" not in done.stderr
+    assert json.loads((tmp_path / "x.json").read_text())["objects"]
+
+
+def test_standard_output_is_no_file(model, reeb_parts_command, tmp_path):
+    done = reeb_parts_command("decompose", model, "--json", "-", cwd=tmp_path)
+    assert (done.returncode, list(tmp_path.iterdir())) == (2, [])
+    assert done.stderr.endswith("--json: - is no file; standard output has the JSON in any case\n")
 
 
 @pytest.mark.parametrize("size", ["15", "4097", "-1", "nan", "640x480"])
