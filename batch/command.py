@@ -20,7 +20,8 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout, suppress
+from contextlib import AbstractContextManager, contextmanager, redirect_stdout, suppress
+from itertools import takewhile
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -29,6 +30,7 @@ import bpy
 from ..core.errors import ReebError
 from ..core.parameters import Parameters
 from ..core.uses.options import chosen_parameters
+from ..core.whole_files import readable
 from ..scene import (
     armature,
     bridge,
@@ -98,17 +100,27 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
             objects, problems, sources = find_objects(options)
         files.protect(scene_files())
         reports, done = [], []
-        with interrupts.allowed():
-            for obj in objects:
-                try:
-                    reports.append(decompose_object(obj, parameters, options) | sources.get(obj, {}))
-                    done.append(obj)
-                except (SceneError, ReebError, MemoryError) as error:
-                    problems.append(_problem(getattr(obj, "name", ""), error))
-        if not done:
-            raise SceneError("Nothing was decomposed.")
-        with interrupts.allowed():
-            return write_files(options, files, done, reports, problems)
+        with _in_a_window():
+            with interrupts.allowed():
+                for obj in objects:
+                    try:
+                        reports.append(decompose_object(obj, parameters, options) | sources.get(obj, {}))
+                        done.append(obj)
+                    except (SceneError, ReebError, MemoryError) as error:
+                        problems.append(_problem(getattr(obj, "name", ""), error))
+            if not done:
+                raise SceneError("Nothing was decomposed.")
+            with interrupts.allowed():
+                return write_files(options, files, done, reports, problems)
+
+
+def _in_a_window() -> AbstractContextManager:
+    """A context with a window, without which Blender exports nothing.
+
+    None is at hand while the command runs on the scene that Blender's own command line names, though there is one.
+    """
+    window = bpy.context.window or next(iter(bpy.context.window_manager.windows), None)
+    return bpy.context.temp_override(window=window)
 
 
 def _claim(options: argparse.Namespace, files: WholeFiles) -> None:
@@ -147,7 +159,7 @@ def _as_text(result: dict) -> str:
 
 def _problem(name: str, error: Exception) -> dict:
     """What the JSON says of an object that could not be decomposed; said at once, too."""
-    words = str(error) or "There is not enough memory."
+    words = readable(str(error) or "There is not enough memory.")
     _say(words if name in words else f"{name}: {words}")
     return {"name": name, "problem": words}
 
@@ -177,6 +189,7 @@ def _open(models: list[Path], unit: str | None) -> tuple[list, list[dict], dict]
     if unit and (own := [path for path in models if path.suffix.lower() not in WITHOUT_UNIT]):
         raise SceneError(f"--unit is for {', '.join(WITHOUT_UNIT)}; {own[0]} has its own.")
     if not models:
+        _check_opened(sys.argv)
         return [], [], {}
     if is_scene:
         try:
@@ -195,19 +208,32 @@ def _open(models: list[Path], unit: str | None) -> tuple[list, list[dict], dict]
         except SceneError as error:
             if len(models) == 1:
                 raise
-            problems.append(_problem(str(path), error))
+            problems.append(_problem(readable(path), error))
             continue
         meshes += found
-        sources |= {obj: {"model": str(path)} for obj in found if len(models) > 1}
+        sources |= {obj: {"model": readable(path)} for obj in found if len(models) > 1}
     return meshes, problems, sources
+
+
+def _check_opened(words: list[str]) -> None:
+    """Raise SceneError if Blender's own command line names a scene that it could not open: another one is open then."""
+    before = list(takewhile(lambda word: word not in ("-c", "--command"), words))
+    named = [Path(word) for word in before[1:] if word.lower().endswith(".blend")]
+    if len(before) == len(words) or not named:
+        return
+    _check_model(named[-1], (".blend",))
+    if not bpy.data.filepath:
+        raise SceneError(f"{named[-1]} could not be read.")
 
 
 def _check_model(path: Path, kinds: tuple[str, ...]) -> None:
     """Raise SceneError if there is no file of that kind there."""
     if path.is_dir():
         raise SceneError(f"{path} is a folder, not a model.")
-    if not path.is_file():
+    if not path.exists():
         raise SceneError(f"There is no file {path}.")
+    if not path.is_file():
+        raise SceneError(f"{path} is no file but a pipe or a device: write the model to a file first.")
     if path.suffix.lower() not in kinds:
         raise SceneError(f"{path} is none of {', '.join(kinds)}.")
 
@@ -304,23 +330,23 @@ def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bp
     if options.parts:
         paths = export.export_parts(files, [(obj, None) for obj in objects], options.parts, options.parts_format,
                                     separated=separated, cut=cut)
-        written["parts"] = [str(path) for path in paths]
+        written["parts"] = [readable(path) for path in paths]
     if options.threemf:
         export.write_assemblies(files, objects, options.threemf, separated, cut)
-        written["threemf"] = str(options.threemf)
+        written["threemf"] = readable(options.threemf)
     if options.save:
         with files.writing(options.save, complete.blend) as path:
             bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)
-        written["save"] = str(options.save)
+        written["save"] = readable(options.save)
     if options.picture:
         from .picture import render_parts, view_from
 
         with files.writing(options.picture, complete.png) as path:
             shown = [(obj, graph_objects.find(obj)) for obj in objects]
             render_parts(shown, path, view=view_from(options.picture_turn), size=options.picture_size)
-        written["picture"] = str(options.picture)
+        written["picture"] = readable(options.picture)
     if options.json:
-        written["json"] = str(options.json)
+        written["json"] = readable(options.json)
     result = document(reports, blender=bpy.app.version_string, files=written, problems=problems)
     if options.json:
         text = _as_text(result)
@@ -348,4 +374,5 @@ def _standard_output() -> Iterator[TextIO]:
 
 
 def _say(text: str) -> None:
-    print(f"reeb_parts: {text}", file=sys.stderr, flush=True)
+    with suppress(OSError):  # such as a terminal that was closed
+        print(f"reeb_parts: {text}", file=sys.stderr, flush=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ctrl+C, and the request of the system to end: what is being written is taken back first."""
+"""Ctrl+C, the request of the system to end and the end of the terminal: what is being written is taken back first."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ class Interrupts:
     @contextmanager
     def heard(self) -> Iterator[None]:
         """Listen to signals meanwhile."""
-        former = [signal.signal(number, self._on_signal) for number in SIGNALS]
+        former = {number: signal.signal(number, self._on_signal) for number in _signals()}
         try:
             yield
         finally:
-            for number, handler in zip(SIGNALS, former, strict=True):
+            for number, handler in former.items():
                 # None stands for a handler that is not Python's and cannot be set again.
                 signal.signal(number, signal.SIG_DFL if handler is None else handler)
 
@@ -61,3 +61,9 @@ class Interrupts:
             self._allowed = False
             # Whatever came of it: the signal was the cause, or will be reason enough.
             self.check()
+
+
+def _signals() -> tuple[signal.Signals, ...]:
+    """What is listened to: the end of the terminal only where there is that signal, and nohup has it not ignored."""
+    hangup = getattr(signal, "SIGHUP", None)
+    return SIGNALS if hangup is None or signal.getsignal(hangup) is signal.SIG_IGN else (*SIGNALS, hangup)

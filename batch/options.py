@@ -46,7 +46,8 @@ def parser(description: str | None) -> argparse.ArgumentParser:
 
 def _add_files(files: argparse._ArgumentGroup) -> None:
     files.add_argument("--save", type=Path, metavar="OUT.blend", help="the scene with the parts in it")
-    files.add_argument("--json", type=Path, metavar="OUT.json", help="the JSON that also goes to standard output")
+    files.add_argument("--json", type=_named_file, metavar="OUT.json",
+                       help="the JSON that also goes to standard output")
     files.add_argument("--labels", action="store_true", help="also list the part of every face in the JSON")
     files.add_argument("--check", action="store_true",
                        help="also say of each part in the JSON whether its piece, with holes closed, is sound")
@@ -102,6 +103,7 @@ def _add_outputs(outputs: argparse._ArgumentGroup) -> None:
         words = {"default": prop.keywords.get("default"), "help": prop.keywords["description"].replace("%", "%%")}
         if isinstance(words["default"], bool):
             words["action"] = argparse.BooleanOptionalAction
+            words["help"] += f" (default: {'on' if words['default'] else 'off'})"
         elif "items" in prop.keywords:
             words["choices"] = [item[0] for item in prop.keywords["items"]]
             words["default"] = words["choices"][0]
@@ -129,6 +131,13 @@ def _default(name: str) -> object:
     prop = next(cls.__annotations__[name] for cls in SeparateProperties.__mro__
                 if name in getattr(cls, "__annotations__", {}))
     return prop.keywords["default"]
+
+
+def _named_file(text: str) -> Path:
+    """Read the name of a file; argparse turns the error into a sentence."""
+    if text == "-":
+        raise argparse.ArgumentTypeError("- is no file; standard output has the JSON in any case")
+    return Path(text)
 
 
 def _size(text: str) -> tuple[int, int]:

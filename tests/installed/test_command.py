@@ -15,6 +15,20 @@ ROOT = Path(__file__).resolve().parents[2]
 SPOT = ROOT / "models" / "spot.obj"
 
 
+#: A command that runs ours with every format of parts.
+EACH = """
+import bpy, sys
+from pathlib import Path
+
+def each(arguments):
+    name = next(name for name in sys.modules if name.endswith(".reeb_parts.batch.command"))
+    return max(sys.modules[name].main(["--parts", str(Path({folder!r}) / kind), "--parts-format", kind])
+               for kind in ("obj", "ply", "stl", "glb", "3mf"))
+
+keep = bpy.utils.register_cli_command("each", each)
+"""
+
+
 def blender(*arguments):
     """Run Blender without a window; returns the finished process."""
     command = [os.environ["BLENDER"], "--background", *map(str, arguments)]
@@ -84,3 +98,25 @@ def test_help_lists_the_parameters():
     assert done.returncode == 0
     for option in ("--detail", "--n-parts", "--preset", "--picture", "--save"):
         assert option in done.stdout
+
+
+def test_a_scene_that_blender_opened_is_exported_in_all_formats(run, tmp_path):
+    """There is a window, but it is not at hand while the command runs."""
+    _, folder = run
+    script = tmp_path / "each.py"
+    script.write_text(EACH.format(folder=str(tmp_path)))
+    done = blender(folder / "spot.blend", "--python", script, "--command", "each")
+    assert done.returncode == 0, done.stderr
+    for kind in ("obj", "ply", "stl", "glb", "3mf"):
+        assert (tmp_path / kind / "spot.3mf").is_file() if kind == "3mf" else len(list((tmp_path / kind).iterdir())) > 1
+
+
+def test_a_scene_that_could_not_be_opened_is_not_taken_for_another(tmp_path):
+    """Blender has its own cube open then."""
+    (tmp_path / "broken.blend").write_bytes(b"no scene")
+    for name, words in (("none.blend", "There is no file"), ("broken.blend", "broken.blend could not be read.")):
+        done = blender(tmp_path / name, "--command", "reeb_parts", "--json", tmp_path / "out.json")
+        assert done.returncode == 1
+        assert words in done.stderr
+        assert "{" not in done.stdout
+        assert not (tmp_path / "out.json").exists()

@@ -3,8 +3,10 @@
 
 import json
 import os
+import re
 import signal
 import time
+from importlib import import_module
 from pathlib import Path
 
 import bmesh
@@ -199,7 +201,7 @@ def test_a_picture_has_a_size_in_its_range(run, model, tmp_path, size):
 
 
 @pytest.mark.parametrize(("moment", "number"), [
-    ("mesh 0%", signal.SIGINT), ("cuts", signal.SIGTERM), ("files", signal.SIGINT)])
+    ("mesh 0%", signal.SIGINT), ("cuts", signal.SIGTERM), ("files", signal.SIGINT), ("cuts", signal.SIGHUP)])
 def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, moment, number):
     said = tmp_path_factory.mktemp("said")  # files, not pipes: nobody reads while the process writes
     before = process.content(tmp_path)
@@ -222,6 +224,43 @@ def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, m
     assert "Interrupted; nothing was written." in err
     assert process.content(tmp_path) == before
     assert list((tmp_path / "parts").iterdir()) == []
+
+
+def test_nohup_has_it_go_on(model, tmp_path, tmp_path_factory):
+    said = tmp_path_factory.mktemp("said") / "err"
+    nohup = "import signal; signal.signal(signal.SIGHUP, signal.SIG_IGN)"
+    with (open(said, "w") as err,
+          process.start(model, "--json", tmp_path / "out.json", before=nohup, stderr=err) as running):
+        while running.poll() is None and "mesh 0%" not in said.read_text():
+            time.sleep(0.01)
+        os.kill(running.pid, signal.SIGHUP)
+        running.communicate(timeout=120)
+    assert running.returncode == 0
+    assert json.loads((tmp_path / "out.json").read_text())["objects"]
+
+
+def test_standard_output_and_pipes_are_no_files(run, model, tmp_path):
+    assert run(model, "--json", "-").status == 2
+    ended = run("/dev/null", "--json", tmp_path / "x.json")
+    assert (ended.status, ended.out) == (1, "")
+    assert "/dev/null is no file but a pipe or a device: write the model to a file first." in ended.err
+
+
+def test_names_that_are_no_utf8_are_readable_in_the_answer(run, model):
+    odd = Path(os.fsdecode(os.fsencode(model.parent) + b"/Stra\xdfe.json"))
+    ended = run(model, model.with_name(odd.name).with_suffix(".obj"), "--json", odd)
+    assert ended.answer["files"]["json"].endswith(r"Stra\xdfe.json")
+    assert ended.answer["problems"][0]["name"].endswith(r"Stra\xdfe.obj")
+    assert odd.is_file()
+
+
+def test_the_help_says_what_is_on(package):
+    parser = import_module(f"{package}.batch.options").parser("")
+    words, defaults = " ".join(parser.format_help().split()), vars(parser.parse_args([]))
+    shown = dict(re.findall(r"--([a-z-]+), --no-\1 (?:(?!--).)*\(default: (on|off)\)", words))
+    assert len(shown) > 3
+    assert {name: value == "on" for name, value in shown.items()} == {
+        name: defaults[name.replace("-", "_")] for name in shown}
 
 
 def test_a_rigged_glb_has_no_object_for_its_bones(run, obj, tmp_path):
