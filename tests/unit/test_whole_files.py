@@ -2,6 +2,7 @@
 """Names of files, and files that get to their places all together or not at all."""
 
 import os
+import sys
 import unicodedata
 from contextlib import nullcontext
 from pathlib import Path
@@ -107,6 +108,54 @@ def test_a_folder_is_replaced_or_as_it_was(tmp_path, monkeypatch, after):
     assert content(tmp_path) == before
     put_in_place({tmp_path / "new": tmp_path / "cow"}, nullcontext)
     assert content(tmp_path) == {"cow": None, "cow/record": "new"}
+
+
+def interrupted_before(line, work):
+    """Do something that Ctrl+C interrupts before one of the lines of the module; whether it came to that."""
+    lines = 0
+
+    def trace(frame, event, argument):
+        nonlocal lines
+        if frame.f_code.co_filename != put_in_place.__code__.co_filename:
+            return None
+        lines += event == "line"
+        if event == "line" and lines == line:
+            raise KeyboardInterrupt
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        work()
+    except KeyboardInterrupt:
+        return True
+    finally:
+        sys.settrace(before)
+    return False
+
+
+@pytest.mark.parametrize("kind", ["files", "folder"])
+def test_an_interruption_at_any_time_leaves_all_old_or_all_new(tmp_path, kind):
+    """Should it come when all is in place already, former files may be left under their hidden names."""
+    interruptions, outcomes = 0, set()
+    while True:
+        work = fill(tmp_path / str(interruptions))
+        if kind == "files":
+            fill(work, a="old", b="old", new_a="new", new_b="new")
+            moves = {work / "new_a": work / "a", work / "new_b": work / "b"}
+        else:
+            fill(work / "a", record="old")
+            fill(work / "new_a", record="new")
+            moves = {work / "new_a": work / "a"}
+        if not interrupted_before(interruptions + 1, lambda moves=moves: put_in_place(moves, nullcontext)):
+            break
+        shown = {name: text for name, text in content(work).items() if text and not name.startswith((HIDDEN, "new"))}
+        assert len(set(shown.values())) == 1
+        assert len(shown) == len(moves)
+        outcomes |= set(shown.values())
+        interruptions += 1
+    assert interruptions > 30
+    assert outcomes == {"old", "new"}
 
 
 def test_what_a_killed_process_moved_away_is_brought_back_unless_something_took_its_place(tmp_path):
