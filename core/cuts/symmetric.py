@@ -391,11 +391,11 @@ class _Groups:
 
     def joined(self, one: int, other: int) -> tuple[int, int, int]:
         """The smallest set that holds two, and how many images it makes of what each of them leaves as it is."""
-        found = self._joined.get((one, other))
-        if found is None:
+        if (one, other) not in self._joined:
             both = self.closed(one | other)
-            found = self._joined[one, other] = both, *(both.bit_count() // alone.bit_count() for alone in (one, other))
-        return found
+            size = both.bit_count()
+            self._joined[one, other] = both, size // one.bit_count(), size // other.bit_count()
+        return self._joined[one, other]
 
 
 class _Clusters:

@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 
 
-
 @dataclass(frozen=True, eq=False)
 class Ways:
     """A group of g ways of mapping a shape of p faces onto itself; the first leaves all as it is.

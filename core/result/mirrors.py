@@ -83,7 +83,8 @@ class Mirror:
             return self
         # Steps that no two planes have in common lead away from all of them.
         steps = np.modf(np.arange(1, len(planes) + 1) * np.sqrt(2.0))[0] + 0.5
-        return replace(self, ways=ways, beside=sum(step * plane.height for step, plane in zip(steps, planes, strict=True)))
+        beside = sum(step * plane.height for step, plane in zip(steps, planes, strict=True))
+        return replace(self, ways=ways, beside=beside)
 
     @classmethod
     def of_faces(cls, images: Images, mesh: TriMesh) -> Mirror:

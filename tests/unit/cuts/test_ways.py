@@ -57,7 +57,7 @@ def test_two_mirrors_make_the_group_of_a_star(count):
 
 
 def test_planes_across_each_other():
-    vertices, faces, maps = rays(4)
+    vertices, faces, _ = rays(4)
     twins = np.array([moved_faces(vertices, faces, np.diag(signs)) for signs in ((-1, 1, 1), (1, -1, 1), (1, 1, -1))])
     planes, made = Ways.of_planes(twins), Ways.generated(twins, 64)
     assert {way.tobytes() for way in planes.image} == {way.tobytes() for way in made.image}

@@ -88,7 +88,8 @@ def test_the_field_of_a_cylinder_does_not_depend_on_its_sides(sides):
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     low, high = np.insert(ring, 2, -2.0, axis=1), np.insert(ring, 2, 2.0, axis=1)
     k, after = np.arange(sides), (np.arange(sides) + 1) % sides
-    wall = np.concatenate([np.stack([k, after, after + sides], axis=1), np.stack([k, after + sides, k + sides], axis=1)])
+    wall = np.concatenate([np.stack([k, after, after + sides], axis=1),
+                           np.stack([k, after + sides, k + sides], axis=1)])
     caps = np.concatenate([np.stack([after, k, np.full(sides, 2 * sides)], axis=1),
                            np.stack([k + sides, after + sides, np.full(sides, 2 * sides + 1)], axis=1)])
     vertices = np.concatenate([low, high, [(0, 0, -2.0), (0, 0, 2.0)]])

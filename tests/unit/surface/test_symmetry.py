@@ -74,7 +74,8 @@ def test_another_tessellation_of_one_side_has_twins_within_a_face():
 
 @pytest.mark.parametrize(("shape", "count"), [
     (shapes.table_of_blocks(), 2), (shapes.cross_of_blocks(8, 6), 3), (shapes.cross_of_blocks(7, 7), 3),
-    (shapes.prism_of_rays(3), 2), (shapes.prism_of_rays(4), 3), (shapes.prism_of_rays(5), 2), (shapes.mirrored_figure(), 1)])
+    (shapes.prism_of_rays(3), 2), (shapes.prism_of_rays(4), 3), (shapes.prism_of_rays(5), 2),
+    (shapes.mirrored_figure(), 1)])
 def test_planes_across_each_other(shape, count):
     for seed in range(3):
         rng = np.random.default_rng(seed)
