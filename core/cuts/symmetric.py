@@ -459,7 +459,8 @@ class _Clusters:
         known = self.spread[cluster]
         if both not in known:
             beyond = both & ~self.own[cluster]
-            known[both] = _mean(self.apart[cluster], tuple(way for way in range(beyond.bit_length()) if beyond >> way & 1))
+            chosen = tuple(way for way in range(beyond.bit_length()) if beyond >> way & 1)
+            known[both] = _mean(self.apart[cluster], chosen)
         return known[both]
 
     def know_(self, clusters: Iterable[int]) -> None:

@@ -94,5 +94,5 @@ def test_rays_of_a_star_are_cut_alike(count):
         labels = found.parts(float(detail)).labels
         several += labels.max() > 0
         unlike = max(rand_index_error(labels, labels[image]) for image in images)
-        assert unlike == 0.0 if detail < 0.75 else unlike < 0.001  # slivers that fall to one side or the other
+        assert unlike < 0.001  # a few faces between two images go to one of them
     assert several
