@@ -7,6 +7,7 @@ import shapes
 from results import same_partition
 
 from core import Decomposition, MeshError, decompose
+from core.graph.critical import SADDLE
 from core.surface.halves import completed, is_one_side, plane_of
 from core.surface.mesh import TriMesh
 from core.surface.polygons import PolygonMesh
@@ -98,3 +99,17 @@ def test_one_side():
     assert is_one_side(shapes.half_of(shape).vertices, X)
     assert is_one_side(shapes.half_of(shape).vertices - (1e-3, 0, 0), X)
     assert is_one_side(-shapes.half_of(shape).vertices, X)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_tip_lies_in_the_part_that_it_or_its_image_is_on(side):
+    half = shapes.half_of(shapes.mirrored_figure())
+    vertices = half.vertices * (side, 1, 1)
+    found = decompose(vertices, half.faces[:, ::side], mirror=X)
+    parts, tips = found.parts(), np.flatnonzero(found.graph.node_kind != SADDLE)
+    position = found.graph.node_position[tips]
+    same_side = vertices[:, 0].mean() * position[:, 0] >= 0
+    position = np.where(same_side[:, None], position, position * (-1, 1, 1))
+    middle = vertices[half.faces].mean(axis=1)
+    nearest = np.linalg.norm(middle - position[:, None], axis=2).argmin(axis=1)
+    np.testing.assert_array_equal(parts.labels[nearest], parts.node_part[tips])

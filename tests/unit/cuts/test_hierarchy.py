@@ -146,3 +146,9 @@ def test_candidates_in_several_pieces_are_split_and_merge_within_pieces():
     assert hierarchy.parts(4)[split.element_candidate].tolist() in ([0, 0, 1, 2, 2, 3], [0, 0, 2, 1, 1, 3])
     assert len(np.unique(hierarchy.parts(1)[split.element_candidate[:3]])) == 1
     assert hierarchy.n_loose == 2
+
+
+def test_a_candidate_is_not_parted_from_itself():
+    hierarchy = Hierarchy.of(3, [(0, 1), (1, 2)], [0.2, 0.7])
+    table = [(0, 0, 0.7, 0.2), (0, 0, 0.7, 0.2), (0.7, 0.7, 0, 0.7), (0.2, 0.2, 0.7, 0)]
+    np.testing.assert_array_equal(hierarchy.salience_table(np.array([1, 1, 2, 0])), table)

@@ -47,3 +47,9 @@ def test_settle_leaves_loose_parts_apart():
     _, hierarchy = settle(graph, np.arange(4), given)
     assert hierarchy.n_loose == 2
     assert hierarchy.salience.tolist() == [0.2, 0.5]
+
+
+def test_what_never_merges_stays_apart_even_where_it_touches():
+    _, hierarchy = settle(path(2), np.arange(2), Hierarchy.of(2, [], []))
+    assert len(hierarchy.merges) == 0
+    assert hierarchy.n_loose == 2

@@ -149,3 +149,18 @@ def test_field_of_a_dense_mesh_is_that_of_the_mesh_itself():
     error = normalize(fast) - normalize(exact)
     assert np.abs(error).max() < 0.04
     assert np.sqrt((error**2).mean()) < 0.01
+
+
+def test_the_first_base_vertex_is_chosen_by_area_not_by_how_dense_the_mesh_is():
+    """A strip that is dense at its left: of its ends, equally far from the middle of the area, the first is taken."""
+    vertices, faces = shapes.flat_grid(20, 4)
+    dense = TriMesh(np.column_stack([20 * (vertices[:, 0] / 20) ** 3, vertices[:, 1:]]), faces)
+    base = spread_base_vertices(dense, GeodesicSolver(dense), dense.vertex_area, 100.0)
+    assert dense.vertices[base.indices[0], 0] == 0
+
+
+def test_there_are_no_more_base_vertices_than_twice_what_the_area_asks_for():
+    """Of a narrow ribbon, along which as many would fit as it is radii long."""
+    ribbon = shapes.flat_grid(400, 1)
+    base, radius = base_of(TriMesh(ribbon.vertices * (1, 0.01, 1), ribbon.faces))
+    assert len(base.indices) <= np.ceil(2 * 400 * 0.01 / (1.5 * radius**2))

@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core.errors import DisconnectedMeshError
-from core.field.geodesic import GeodesicSolver
+from core.field.geodesic import GeodesicSolver, _shortest_of
 from core.surface.mesh import TriMesh
 
 SURFACES = {"tree": shapes.tube_tree, "genus 2": lambda: shapes.surface_of_genus(2),
@@ -136,3 +136,28 @@ def test_no_line_between_faces_that_are_lines():
         line = np.array([0.0, 1.0, -0.7, 1.9])[:, None] * direction / np.linalg.norm(direction) + rng.normal(size=3)
         known.append(all_distances(TriMesh(line, [(0, 1, 2), (1, 0, 3)])))
     np.testing.assert_allclose(known, np.broadcast_to(known[0], np.shape(known)), atol=1e-9)
+
+
+def test_a_line_across_an_edge_is_taken_just_where_it_crosses_it():
+    """Random quadrilaterals of two triangles, convex or not, whose far corners lie at any heights."""
+    rng = np.random.default_rng(0)
+    for _ in range(200):
+        (left, up), (right, down) = rng.random((2, 2)) * (3, 1) + (-1, 0.1)
+        vertices = np.array([(0, 0, 0), (1, 0, 0), (left, up, 0), (right, -down, 0)])
+        start, end = vertices[2:]
+        crossing = left + (right - left) * up / (up + down)
+        bent = min(np.linalg.norm(start - bend) + np.linalg.norm(bend - end) for bend in vertices[:2])
+        expected = np.linalg.norm(start - end) if 0 < crossing < 1 else bent
+        found = GeodesicSolver(TriMesh(vertices, [(0, 1, 2), (1, 0, 3)])).distances(2)[3]
+        assert found == pytest.approx(expected, rel=1e-12)
+
+
+def test_of_two_lengths_of_one_pair_the_shorter_counts():
+    length = _shortest_of(np.array([0, 1]), np.array([1, 0]), np.array([2.0, 1.0]), 2)
+    assert length.toarray().tolist() == [[0, 1], [1, 0]]
+
+
+def test_vertices_at_one_place_are_no_distance_apart():
+    vertices = np.array([(0, 0, 0), (0, 0, 0), (1, 0, 0), (0, 1, 0)], float)
+    distance = GeodesicSolver(TriMesh(vertices, [(0, 1, 2), (1, 0, 3)])).distances(0)
+    np.testing.assert_allclose(distance, [0, 0, 1, 1], atol=1e-300)

@@ -6,7 +6,7 @@ import pytest
 import shapes
 from face_graphs import graph_of
 
-from core.graph.contours import contour_sides, contours
+from core.graph.contours import Contours, contour_sides, contours
 from core.surface.arrays import components
 from core.surface.corners import CornerTable
 
@@ -147,3 +147,19 @@ def test_the_order_of_vertices_and_faces_does_not_matter(seed):
     level = 0.4321
     sides = [surface.sides(level, surface.contours(level), 0) for surface in (first, second)]
     assert (sides[1] == sides[0][old_face]).all()
+
+
+def test_the_centroid_of_a_contour_is_that_of_its_length():
+    """Ten short segments to the left and a long one to the right, which all lie around 5.5; around 1 by number."""
+    x = np.append(np.arange(11) / 10, 11.0)
+    long = np.stack([np.outer(ends, (1, 0, 0)) for ends in (x[:-1], x[1:])], axis=1)
+    segments = np.concatenate([long, [[(4.0, 0.3, 0), (4.2, 0.3, 0)]]])
+    found = Contours(2, segments, np.arange(12), np.repeat([0, 1], (11, 1)), np.zeros((12, 2, 2), int),
+                     np.zeros((12, 2)))
+    assert found.around(np.array([5.5, 0, 0])) == 0
+
+
+@pytest.mark.parametrize(("field", "count"), [((0, 0.5, 1), 1), ((0.5, 0.5, 1), 0), ((0, 0.5, 0.5), 1)])
+def test_a_vertex_on_the_level_counts_as_above_it(field, count):
+    table = CornerTable.of(np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], float), np.array([(0, 1, 2)]))
+    assert contours(np.array(field), 0.5, table).count == count

@@ -7,7 +7,7 @@ import shapes
 
 from core.graph.critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.graph.reeb import ReebGraph, reeb_graph, reeb_topology
+from core.graph.reeb import ReebGraph, _node_means, _saddle_values, reeb_graph, reeb_topology
 from core.parameters import Parameters
 from core.pipeline import decompose
 from core.surface.arrays import components
@@ -222,3 +222,27 @@ def test_arcs_run_upwards(seed):
         assert (high >= graph.point_value[graph.arc_points[1:] - 1]).all()
         same_arc = np.diff(graph.point_arc) == 0
         assert (np.diff(graph.point_value)[same_arc] >= 0).all()
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_saddle_of_a_node_is_its_sharpest_and_then_its_nearest(seed):
+    mesh = TriMesh(*shapes.icosphere(3))
+    values = mesh.vertices[:, 2] + 0.25 * np.random.default_rng(seed).random(mesh.n_vertices)
+    sets = cut_at_levels(mesh, (values - values.min()) / np.ptp(values), uniform_levels(6))
+    topology = reeb_topology(sets)
+    middle, _ = _node_means(sets, topology)
+    points = critical_points(mesh, total_order(sets.values))
+    at_node, value = topology.piece_node[sets.vertex_piece[points.vertex]], sets.values[points.vertex]
+    found = _saddle_values(sets, topology, middle)
+    most = 0
+    for node, level in enumerate(middle):
+        own = np.flatnonzero((points.kind == SADDLE) & (at_node == node))
+        order = np.lexsort((np.abs(value[own] - level), -points.multiplicity[own]))
+        assert found[node] == (value[own[order[0]]] if len(own) else level)
+        most = max(most, len(own))
+    assert most > 1
+
+
+def test_the_mean_level_of_a_node_is_the_middle_of_its_slab():
+    sets, topology, _ = along(shapes.icosphere(3), (0, 0, 1), n_slabs=4)
+    np.testing.assert_allclose(np.sort(_node_means(sets, topology)[0]), [0.125, 0.875])

@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 import shapes
 
+from core.field.agd import ScalarField
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_graph, reeb_topology
-from core.graph.simplify import simplify
+from core.graph.simplify import _WorkGraph, level_height, simplify
 from core.surface.arrays import components
 from core.surface.mesh import TriMesh
 
@@ -173,3 +174,19 @@ def test_a_graph_of_one_node_stays():
     assert len(done.arcs) == 0
     assert done.piece_node.tolist() == [0]
     assert done.piece_arc.tolist() == [-1]
+
+
+def test_the_height_of_a_level_is_in_units_of_the_largest_agd():
+    """AGD of 10 to 20 and three levels: each stands for a quarter of the range, over 20."""
+    values = np.linspace(0, 1, 101)
+    field = ScalarField(values, values, 10 + 10 * values)
+    np.testing.assert_allclose(level_height(field, np.array([0.25, 0.5, 0.75])), 0.125)
+
+
+def test_the_areas_of_what_is_left_add_up_to_the_surface(made):
+    _, sets, before, _ = made
+    work = _WorkGraph(sets, before, np.ones(len(sets.levels)), (0.01 * sets.mesh.area, 2, 0.0))
+    work.cancel_leaves()
+    assert None in work.arcs
+    left = [area for place, area in enumerate(work.area) if work.parent[place] == place]
+    assert sum(left) == pytest.approx(sets.mesh.area)

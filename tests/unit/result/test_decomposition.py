@@ -184,3 +184,26 @@ def test_a_result_stored_by_the_first_version_has_its_parameters():
     parameters = Decomposition.from_bytes(stream.getvalue()).parameters
     assert parameters == Parameters(
         **then, pieces="separate", symmetry=False, n_slabs=80, concavity_weight=0.25, band_ratio=0.25, equalize=False)
+
+
+def test_a_twin_is_the_twin_of_its_twin():
+    result = decompose(*shapes.mirrored_figure())
+    rng = np.random.default_rng(0)
+    grouped = [result.group(rng.integers(0, 5, result.n_candidates)) for _ in range(20)]
+    for parts in (*(result.parts(n_parts=n + 1) for n in range(result.n_candidates)), *grouped):
+        has = np.flatnonzero(parts.twin >= 0)
+        np.testing.assert_array_equal(parts.twin[parts.twin[has]], has)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_contacts_are_between_faces_that_are_near_in_any_order_of_the_faces(seed):
+    tower = shapes.subdivide(shapes.subdivide(shapes.box((1.0, 1.0, 3.0))))
+    beam = shapes.moved(shapes.subdivide(shapes.box((3.0, 0.5, 0.5))), (1.0, 0.2, 1.0))
+    vertices, faces = shapes.together(tower, beam)
+    faces = np.random.default_rng(seed).permutation(faces)
+    contacts = decompose(vertices, faces).contacts
+    assert len(contacts)
+    corners = vertices[faces]
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max()
+    apart = np.linalg.norm(np.diff(corners.mean(axis=1)[contacts], axis=1), axis=2)
+    assert apart.max() < longest + 0.03 * np.ptp(vertices, axis=0).max()

@@ -16,6 +16,19 @@ def test_by_hand():
     np.testing.assert_array_equal(strong_levels(salience, 11), [11, 13, 16])
 
 
+def test_the_first_cut_hides_no_number_beside_it():
+    np.testing.assert_array_equal(strong_levels(np.array([0.3, 0.1]), 11), [11, 12, 13])
+
+
+@pytest.mark.parametrize("falls", [(0.3, 0.2), (0.2, 0.3)])
+def test_a_number_just_a_ratio_away_is_not_beside(falls):
+    """From 20 to 27 is RATIO: both stand out."""
+    fall = np.full(41, 0.001)
+    fall[[0, 10, 17]] = 0.0, *falls
+    levels = strong_levels(1.0 - np.cumsum(fall)[:40], 10)
+    assert {20, 27} <= set(levels.tolist())
+
+
 def test_nothing_to_step_through():
     np.testing.assert_array_equal(strong_levels(np.empty(0), 3), [3])
 
