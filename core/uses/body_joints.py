@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import components, distinct_pairs, sums_by
+from ..surface.arrays import components, cross, distinct_pairs, row_products, sums_by
 from ..surface.corners import CornerTable
-from .groups import touching_groups
+from .groups import beside, touching_groups
 from .hulls import Hull
 
 # A cut that is shorter than this share of the longest one between its two parts gets no joint of its own.
@@ -135,11 +135,15 @@ def overlapping(hulls: list[Hull]) -> np.ndarray:
     pairs : (k, 2) int64
         The lower number first, rising.
     """
-    apart = np.zeros((len(hulls), len(hulls)), bool)
-    for index, hull in enumerate(hulls):
-        a, b, c = hull.vertices[hull.triangles].transpose(1, 0, 2)
-        normal = np.cross(b - a, c - a)
-        level = (normal * a).sum(axis=1)
-        for other, beside in enumerate(hulls):
-            apart[index, other] = ((normal @ beside.vertices.T).min(axis=1) >= level).any()
-    return np.argwhere(np.triu(~(apart | apart.T), 1))
+    if not hulls:
+        return np.empty((0, 2), np.int64)
+    near = beside([hull.vertices for hull in hulls], 0.0)
+    apart = [_divides(hulls[a], hulls[b]) or _divides(hulls[b], hulls[a]) for a, b in near.tolist()]
+    return near[~np.array(apart, bool)]
+
+
+def _divides(hull: Hull, other: Hull) -> bool:
+    """Whether the plane of a face of a hull has another hull on its outer side."""
+    a, b, c = hull.vertices[hull.triangles].transpose(1, 0, 2)
+    normal = cross(b - a, c - a)
+    return bool(((normal @ other.vertices.T).min(axis=1) >= row_products(normal, a)).any())

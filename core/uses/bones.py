@@ -19,15 +19,15 @@ from ..surface.corners import CornerTable
 from ..surface.mirror_plane import MirrorPlane
 from .groups import touching_groups
 
-# Least length of a bone, as a share of the diagonal of the bounding box of the faces' centers. A shorter bone is
-# replaced by one of this length that points upwards.
+# Least length of a bone, as a share of the diagonal of the vertices' bounding box. A shorter bone is replaced by one of
+# this length that points upwards.
 _SHORTEST = 0.01
 # A cut is a neck if the middles of both sides are so many of its radii away from its middle, and if this share of all
 # that divides the two sides is the cut between a part and the part that it hangs on, not one beside another part. In a
 # ring, half is; it cannot be bent.
 _AWAY, _OWN = 0.6, 0.51
-# Two parts have bones that are images if their middles are, within so much of the same diagonal. In 59 of 60 symmetric
-# models of the benchmark, of artists and of a game all are, within 0.031.
+# Two parts have bones that are images if their middles are, within so much of the diagonal of the faces' centers. In 59
+# of 60 symmetric models of the benchmark, of artists and of a game all are, within 0.031.
 _ALMOST = 0.05
 # A bone ends toward those that hang on it by a contact, as a hand on the sleeve, if they and all that follows have this
 # share of its part's area: a head's bone does not end at its eyes.
@@ -153,7 +153,7 @@ def part_bones(
     """
     table, count = table.joined()[0], int(labels.max()) + 1
     weight = _weights(area)
-    middle, center = _middles(table, labels, weight)
+    middle, _ = _middles(table, labels, weight)
     size = np.bincount(labels, weight, count)
     joints = _Joints.between(table, labels, images)
     of_part = np.bincount(labels, weight * table.face_means(height), count) / size
@@ -165,7 +165,8 @@ def part_bones(
     if images is not None:
         head = _even(images, head)
     tail = head.copy()
-    shortest = _SHORTEST * float(np.linalg.norm(np.ptp(center, axis=0)))
+    diagonal = float(np.linalg.norm(np.ptp(table.vertices[table.corner_vertex], axis=0)))
+    shortest = max(_SHORTEST * diagonal, np.finfo(float).tiny)
     shown = joints.by_cut(parent) | (beyond @ size >= _SHOWN * size[parent])
     for part in order:
         children = np.flatnonzero((parent == part) & shown)
@@ -174,7 +175,7 @@ def part_bones(
             way = tuple(images.onto_plane(points) for points in way)
         tail[part] = _end(head[part], *way, parent[part] < 0)
         if np.linalg.norm(tail[part] - head[part]) < shortest:
-            tail[part] = head[part] + max(shortest, 1e-6) * _up(images)
+            tail[part] = head[part] + shortest * _up(images)
     if images is not None:
         tail = _even(images, tail)
     only = (parent >= 0) & (np.bincount(parent[parent >= 0], minlength=count)[parent] == 1)

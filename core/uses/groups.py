@@ -46,7 +46,7 @@ def touching_groups(table: CornerTable, labels: np.ndarray,
     points = [_points(table, labels == part, near) for part in range(count)]
     trees = [cKDTree(some) for some in points]
     found = []
-    for a, b in _beside(points, near).tolist():
+    for a, b in beside(points, near).tolist():
         if group.connected(a, b):
             continue
         distance, place = trees[b].query(points[a], distance_upper_bound=near + slack)
@@ -56,8 +56,12 @@ def touching_groups(table: CornerTable, labels: np.ndarray,
     return [(pair, places) for _, pair, places in sorted(found, key=lambda contact: contact[:2]) if group.merge(*pair)]
 
 
-def _beside(points: list[np.ndarray], near: float) -> np.ndarray:
-    """Pairs of parts whose bounding boxes come so near to each other, (k, 2), the lower one first, rising."""
+def beside(points: list[np.ndarray], near: float) -> np.ndarray:
+    """Find what may touch: pairs of sets of points whose bounding boxes come near to each other.
+
+    points : list of (r, 3) float64, at least one each. near : float, in their unit; 0 for boxes that touch or overlap.
+    Returns (k, 2) int64, the lower number first, rising.
+    """
     low, high = (np.array([bound(some, axis=0) for some in points]) for bound in (np.min, np.max))
     gap = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)
     return np.argwhere(np.triu(gap <= near, 1))

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Joints of rigid bodies: in the middle of each cut, along and across it; which hulls overlap."""
 
+import itertools
+
 import numpy as np
 import pytest
 import shapes
 
 from core.surface.corners import CornerTable
 from core.uses.body_joints import body_joints, overlapping
-from core.uses.hulls import part_hulls
+from core.uses.hulls import Hull, part_hulls
 
 
 def bar(size=(4.0, 1.0, 0.5), n=(8, 2, 2)):
@@ -99,3 +101,33 @@ def test_which_boxes_overlap(distance, pairs):
     table = CornerTable.of(both, np.concatenate([faces, faces + 8]))
     hulls = [hull for (hull,) in part_hulls(table, np.repeat([0, 1], 6))]
     assert overlapping(hulls).tolist() == pairs
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_every_two_hulls_with_a_point_in_common_overlap(seed):
+    """Random tetrahedra: those with points inside each other overlap, those whose boxes are apart do not."""
+    rng = np.random.default_rng(seed)
+    hulls = []
+    for corners in rng.random((12, 4, 3)) + 1.5 * rng.random((12, 1, 3)):
+        faces = np.array([(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)])
+        outwards = np.linalg.det(corners[:3] - corners[3]) > 0
+        hulls.append(Hull(corners, faces if outwards else faces[:, ::-1]))
+    found = {tuple(pair) for pair in overlapping(hulls).tolist()}
+    share = rng.dirichlet(np.ones(4), 500)
+    for a, b in itertools.combinations(range(len(hulls)), 2):
+        if any(_inside(hulls[one], share @ hulls[other].vertices).any() for one, other in ((a, b), (b, a))):
+            assert (a, b) in found
+        low, high = (np.array([bound(hulls[one].vertices, axis=0) for one in (a, b)]) for bound in (np.min, np.max))
+        if (low.max(axis=0) > high.min(axis=0)).any():
+            assert (a, b) not in found
+    assert found
+
+
+def _inside(hull, points):
+    """Which points, (k, 3), lie within a hull."""
+    a, b, c = hull.vertices[hull.triangles].transpose(1, 0, 2)
+    return (((points[:, None] - a) * np.cross(b - a, c - a)).sum(axis=2) < 0).all(axis=1)
+
+
+def test_no_hull_overlaps_nothing():
+    assert overlapping([]).shape == (0, 2)

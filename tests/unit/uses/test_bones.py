@@ -75,6 +75,21 @@ def test_loose_parts_have_no_parent_and_no_bone_is_without_length():
     assert np.linalg.norm(made.tail - made.head, axis=1) == pytest.approx(0.09)
 
 
+@pytest.mark.parametrize("scale", [2.0**-20, 2.0**20])
+def test_bones_are_the_same_at_any_scale(scale):
+    """Of a ball around another, whose middles are one, the bones have the least length."""
+    def made(scale):
+        vertices, faces = shapes.together(shapes.icosphere(2), shapes.icosphere(2, 0.5))
+        table = CornerTable.of(scale * vertices, faces)
+        area = np.linalg.norm(table.face_vectors(), axis=1)
+        labels = np.repeat([0, 1], len(faces) // 2)
+        return part_bones(table, labels, area, np.zeros(len(vertices)), np.empty((0, 3)), np.empty(0, np.int64))
+
+    assert np.linalg.norm(made(1.0).tail - made(1.0).head, axis=1) == pytest.approx(0.02 * np.sqrt(3))
+    np.testing.assert_allclose(made(scale).tail / scale, made(1.0).tail, rtol=1e-12, atol=1e-12)
+    assert made(scale).parent.tolist() == made(1.0).parent.tolist()
+
+
 def test_joints_are_weighted_by_the_length_of_their_edges():
     made = bones([(0, 0, 0), (4, 0, 0)], [(0, 1), (0, 1)], [(2, 0, 0), (2, 4, 0)], length=[3, 1])
     assert made.head[1].tolist() == [2, 1, 0]
