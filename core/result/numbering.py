@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..surface.arrays import distinct_pairs, sums_by
+from ..surface.arrays import both_ways, distinct_pairs, stable_order, sums_by
 from .decomposition import Decomposition, Parts
 from .levels import detail_between, strong_levels
 from .splits import Splits
@@ -278,44 +278,75 @@ def _births(
     """
     area = _votes(decomposition)[splits.order]
     previous_number = previous_number[splits.order]
-    known = np.unique(previous_number[previous_number > 0])
-    code = np.where(previous_number > 0, np.searchsorted(known, previous_number), len(known))
-
-    def overlap(start: int, end: int) -> np.ndarray:
-        """Area within an interval of places that had each previous number."""
-        return np.bincount(code[start:end], area[start:end], len(known) + 1)[:-1]
-
-    total, free = overlap(0, len(code)), np.ones(len(known), bool)
-    taken = set(known.tolist())
-
-    def give(start: int, end: int, count: int) -> int:
-        """Choose the number of a new part; ``count`` is the number of parts at its level."""
-        mine = overlap(start, end)
-        mine[~free | (2 * mine <= total)] = 0.0
-        if mine.any():
-            free[mine.argmax()] = False
-            return int(known[mine.argmax()])
-        while count in taken:
-            count += 1
-        taken.add(count)
-        return count
-
-    number, births = np.zeros(len(code), np.int64), []
+    vote = _AreaVote.of(previous_number, area)
+    number, births = np.zeros(len(area), np.int64), []
     for start, end in splits.root_intervals.tolist():
-        births.append(give(start, end, len(births) + 1))
+        births.append(vote.give(start, end, len(births) + 1))
         number[start:end] = births[-1]
     counts = (decomposition.n_candidates - splits.merge).tolist()
     for (start, middle, end), count in zip(splits.intervals.tolist(), counts, strict=True):
         sides = (start, middle), (middle, end)
-        kept = np.flatnonzero(known == number[start])
-        weights = [(overlap(*side)[kept].sum(), area[slice(*side)].sum()) for side in sides]
+        kept = int(number[start])
+        weights = [(vote.area_of(kept, *side), area[slice(*side)].sum()) for side in sides]
         new = sides[1] if weights[0] >= weights[1] else sides[0]
-        births.append(give(*new, count))
+        births.append(vote.give(*new, count))
         number[slice(*new)] = births[-1]
     order = np.argsort(births)
     birth_order = order[np.searchsorted(np.array(births)[order], number)]
     place = np.argsort(splits.order)
-    return _previous_first(number[place], birth_order[place], previous_number[place], known[free])
+    return _previous_first(number[place], birth_order[place], previous_number[place], vote.left_over)
+
+
+@dataclass(frozen=True, eq=False)
+class _AreaVote:
+    """Which previous numbers new parts take, by the area that had them; parts are intervals of c places.
+
+    known : (l,), the previous numbers, rising; code : (c,), index in these of the one at each place, l for none; area :
+    (c,); total : (l + 1,), area of each; free : (l + 1,) bool, those that no part has yet; taken : all numbers that are
+    known or given.
+    """
+
+    known: np.ndarray
+    code: np.ndarray
+    area: np.ndarray
+    total: np.ndarray
+    free: np.ndarray
+    taken: set[int]
+
+    @classmethod
+    def of(cls, previous_number: np.ndarray, area: np.ndarray) -> _AreaVote:
+        """previous_number : (c,) int64, 0 for none."""
+        known = np.unique(previous_number[previous_number > 0])
+        code = np.where(previous_number > 0, np.searchsorted(known, previous_number), len(known))
+        free = np.arange(len(known) + 1) < len(known)
+        return cls(known, code, area, np.bincount(code, area, len(free)), free, set(known.tolist()))
+
+    @property
+    def left_over(self) -> np.ndarray:
+        """Previous numbers that no part has, (k,) int64."""
+        return self.known[self.free[:-1]]
+
+    def area_of(self, number: int, start: int, end: int) -> float:
+        """Area within an interval of places that had a previous number; 0 for a number that is none."""
+        code = int(np.searchsorted(self.known, number))
+        if code == len(self.known) or self.known[code] != number:
+            return 0.0
+        return float(np.bincount(self.code[start:end] == code, self.area[start:end], 2)[1])
+
+    def give(self, start: int, end: int, count: int) -> int:
+        """Choose the number of a new part; ``count`` is the number of parts at its level."""
+        # Of the numbers that are there alone: a table of all of them for every part would take the square of the time.
+        codes, place = np.unique(self.code[start:end], return_inverse=True)
+        mine = np.bincount(place, self.area[start:end])
+        mine[~self.free[codes] | (2 * mine <= self.total[codes])] = 0.0
+        if mine.any():
+            code = codes[mine.argmax()]
+            self.free[code] = False
+            return int(self.known[code])
+        while count in self.taken:
+            count += 1
+        self.taken.add(count)
+        return count
 
 
 def _previous_first(
@@ -327,11 +358,10 @@ def _previous_first(
     that was born first among the candidates that had the previous number.
     """
     number, new = number.copy(), ~np.isin(number, previous_number[previous_number > 0])
-    for previous in left_over.tolist():
-        place = np.flatnonzero(new & (previous_number == previous))
-        if len(place):
-            place = place[birth_order[place].argmin()]
-            number[place], new[place] = previous, False
+    place = np.flatnonzero(new & np.isin(previous_number, left_over))
+    place = place[np.argsort(birth_order[place], kind="stable")]
+    place = place[np.unique(previous_number[place], return_index=True)[1]]
+    number[place], new[place] = previous_number[place], False
     return number, np.argsort(np.lexsort((birth_order, new)))
 
 
@@ -364,7 +394,9 @@ def _number_graph(
     therefore enough to look up the neighbors of each number when it is born.
     """
     own, born = candidate_number[splits.order], birth_order[splits.order]
-    pairs = np.argsort(splits.order)[decomposition.candidate_pairs]
+    beside = both_ways(np.argsort(splits.order)[decomposition.candidate_pairs])
+    beside = beside[stable_order(beside[:, 0])]
+    first = np.searchsorted(beside[:, 0], np.arange(len(own) + 1))
     number, found = np.zeros_like(own), []
 
     def known_by(start: int, end: int) -> int:
@@ -372,17 +404,18 @@ def _number_graph(
         number[start:end] = own[start + born[start:end].argmin()]
         return int(number[start])
 
-    def add_neighbors(new: int) -> None:
-        """Note which numbers a new number touches when it is born."""
-        ends = number[pairs]
-        others = np.unique(ends[(ends == new).any(axis=1)])
-        found.append(np.stack([np.full(len(others), new), others], axis=1)[others != new])
+    def add_neighbors(start: int, end: int) -> None:
+        """Note which numbers that of an interval of places touches when it is born."""
+        others = np.unique(number[beside[first[start]:first[end], 1]])
+        found.append(np.stack([np.full(len(others), number[start]), others], axis=1)[others != number[start]])
 
-    for new in [known_by(start, end) for start, end in splits.root_intervals.tolist()]:
-        add_neighbors(new)
+    for start, end in splits.root_intervals.tolist():
+        known_by(start, end)
+    for start, end in splits.root_intervals.tolist():
+        add_neighbors(start, end)
     for start, middle, end in splits.intervals.tolist():
-        kept = int(number[start])
-        add_neighbors(next(new for new in (known_by(start, middle), known_by(middle, end)) if new != kept))
+        kept, lower, _ = int(number[start]), known_by(start, middle), known_by(middle, end)
+        add_neighbors(*((middle, end) if lower == kept else (start, middle)))
     numbers = np.unique(own)
     pairs, _ = distinct_pairs(*np.sort(np.concatenate(found), axis=1).T)
     return NumberGraph(numbers, np.searchsorted(numbers, pairs))
@@ -413,8 +446,10 @@ def inherited(
     numbers : (c,) int64
         Number of the new part to which each candidate belongs: the ``previous_number`` that ``Numbering.of`` takes.
     """
-    level = Numbering.of(decomposition, np.zeros_like(previous_number), pinned).parts(detail, n_parts)
-    part = decomposition.group(level.candidate_numbers).candidate_part
+    splits = Splits.of(decomposition, pinned)
+    _, first, part = np.unique(splits.parts(splits.n_done(decomposition, detail, n_parts)), return_index=True,
+                               return_inverse=True)
+    part = decomposition.group(first[part]).candidate_part  # of parts in one place, that of the first candidate first
     # A candidate that had the number of a pinned part but is not pinned to it has no previous number.
     elsewhere = np.where(np.isin(previous_number, pinned), 0, previous_number)
     known = np.where(pinned > 0, pinned, elsewhere)

@@ -11,6 +11,7 @@ from core.field.agd import spread_base_vertices
 from core.field.geodesic import GeodesicSolver
 from core.parameters import Parameters
 from core.pipeline import decompose
+from core.result.numbering import Numbering
 from core.surface.mesh import TriMesh
 from core.surface.polygons import PolygonMesh
 from core.surface.preparation import MAX_EDGE, MIN_BUDGET, bodies, repair, split_long_edges
@@ -144,3 +145,19 @@ def test_larger_bodies_among_many_small_ones_are_decomposed():
     sizes = [len(body.faces) for body in chosen]  # some of the small ones lie so near each other that they are one
     assert 320 in sizes
     assert 4 not in sizes
+
+
+def seconds_to_number(count):
+    """What the processor needs to number so many loose parts, and to number them again by what they have."""
+    result = decompose(*tetrahedra(count), parameters=Parameters(pieces="separate", loose_part=1.0))
+    assert result.n_candidates == count
+    none = np.zeros(count, np.int64)
+    start = time.process_time()
+    numbers = Numbering.of(result, none, none).parts(1.0).candidate_numbers
+    Numbering.of(result, numbers, none)
+    return time.process_time() - start
+
+
+def test_numbers_of_many_parts_cost_in_proportion_to_them():
+    ratios = (seconds_to_number(12_000) / seconds_to_number(2_000) for _ in range(3))
+    assert any(ratio < 12 for ratio in ratios)

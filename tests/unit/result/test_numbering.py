@@ -226,6 +226,12 @@ def test_no_level_shows_one_color_on_both_sides_of_a_cut(result):
             assert len(np.unique(number_colors(numbered), axis=0)) == numbered.parts.count
 
 
+def test_numbers_touch_in_the_graph_where_they_do_at_some_level(result):
+    numbering = Numbering.of(result, settled(result), none(result))
+    touching = {tuple(numbered.numbers[cut]) for numbered in levels(numbering) for cut in numbered.parts.cuts}
+    assert {tuple(pair) for pair in numbering.graph.numbers[numbering.graph.pairs]} == touching
+
+
 def test_another_decomposition_takes_over_numbers_by_overlap(result):
     numbers = settled(result, n_parts=8)
     # Numbers of the old parts, with one in a hundred faces astray.
