@@ -47,7 +47,7 @@ class Sentence(str):
     """
 
     message: str
-    values: dict[str, object]
+    values: dict[str, Any]
 
     def __new__(cls, message: str, **values: Any) -> Sentence:
         """Fill the values into the message."""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +12,7 @@ from ..cuts.settling import settle
 from ..sentence import Sentence
 from ..surface.labels import connect, majority
 from ..surface.polygons import PolygonMesh
-from ..surface.preparation import repair
+from ..surface.preparation import WorkingMesh, repair
 from .assemble import face_graph_of, tables_of
 from .decomposition import Decomposition
 from .found import LEAST_WEIGHT
@@ -51,5 +52,19 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
         field=whole.field[:given.triangles.n_vertices], node_candidate=home[whole.node_candidate],
         point_candidate=home[whole.point_candidate], contacts=contacts, mirror=np.empty(0), face_twin=nothing,
         face_side=nothing.astype(np.int8),
-        notes=(Sentence("The mesh was decomposed together with its mirror image."), *whole.notes),
+        notes=(Sentence("The mesh was decomposed together with its mirror image."), *_of_one_side(whole, working)),
     ).scaled(given.exponent)
+
+
+def _of_one_side(whole: Decomposition, working: WorkingMesh) -> Iterator[str]:
+    """The notes of the whole; those about the mesh, which the half gives rise to as well, count what is on its side.
+
+    The whole has each vertex, border and face twice, and at the plane an edge that joins four faces once, of which the
+    half knows nothing. The half has borders at the plane, which the whole has not.
+    """
+    own = {note.message: note.values["n"] for note in working.notes}
+    for note in whole.notes:
+        if isinstance(note, Sentence) and note.message in own:
+            yield Sentence(note.message, n=min(own[note.message], note.values["n"] // 2))
+        else:
+            yield note

@@ -60,7 +60,7 @@ class WorkingMesh:
     polygon: np.ndarray
     vertex_source: np.ndarray
     joined: np.ndarray
-    notes: tuple[str, ...] = ()
+    notes: tuple[Sentence, ...] = ()
     vertex_rank: np.ndarray | None = None
 
 
@@ -307,7 +307,7 @@ def _either(which: np.ndarray, one: tuple[np.ndarray, ...], other: tuple[np.ndar
     return tuple(np.where(which, *pair) for pair in zip(one, other, strict=True))
 
 
-def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[str, ...]]:
+def _join_coincident_borders(mesh: TriMesh) -> tuple[np.ndarray, tuple[Sentence, ...]]:
     """Vertex that each vertex is joined to, (n,) int64, see ``joined_borders``, and a note of how many were joined."""
     border = np.unique(mesh.edges.vertices[mesh.edges.n_faces == 1])
     joined = joined_borders(mesh.vertices, border, mesh.faces.ravel(), np.repeat(np.arange(mesh.n_faces), 3))
@@ -390,7 +390,7 @@ def _has_one_fan(mesh: TriMesh) -> np.ndarray:
     return known & (passed == np.bincount(corner_vertex, minlength=n))
 
 
-def _notes(given: PolygonMesh) -> tuple[str, ...]:
+def _notes(given: PolygonMesh) -> tuple[Sentence, ...]:
     """One sentence for each oddity of the caller's mesh."""
     mesh = given.triangles
     n_lost = int((~mesh.used).sum())

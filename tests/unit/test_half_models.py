@@ -113,3 +113,14 @@ def test_a_tip_lies_in_the_part_that_it_or_its_image_is_on(side):
     middle = vertices[half.faces].mean(axis=1)
     nearest = np.linalg.norm(middle - position[:, None], axis=2).argmin(axis=1)
     np.testing.assert_array_equal(parts.labels[nearest], parts.node_part[tips])
+
+
+def test_notes_count_what_the_half_has():
+    half = shapes.with_flat_faces(shapes.with_unused_vertices(shapes.half_of(shapes.mirrored_figure()), 3), 5)
+    alone, found = decompose(*half), decompose(*half, mirror=X)
+    both = completed(PolygonMesh.of(*half), X)
+    whole = decompose(both.vertices, both.triangles)
+    for text, share in (("no part", 1), ("zero area", 1), ("border", 0.5)):
+        (note,), (of_half,), (of_whole,) = ([n for n in made.notes if text in n] for made in (found, alone, whole))
+        assert note.values["n"] == of_whole.values["n"] // 2
+        assert share == 0.5 or note == of_half
