@@ -285,9 +285,7 @@ def cut_discrepancy(mesh: TriMesh, first: ArrayLike, second: ArrayLike) -> float
     first, second = _numbered(first), _numbered(second)
     for label in (first, second):
         _check_count(len(label), mesh.n_faces, "labels")
-    # SciPy takes a stored 0 for "no edge".
-    length = np.maximum(mesh.edge_length, np.finfo(float).tiny)
-    graph = coo_array((length, mesh.edges.vertices.T), shape=(mesh.n_vertices, mesh.n_vertices)).tocsr()
+    graph = coo_array((mesh.edge_length, mesh.edges.vertices.T), shape=(mesh.n_vertices, mesh.n_vertices)).tocsr()
     ends = [_cut_ends(mesh, label) for label in (first, second)]
     if not all(map(len, ends)):
         return float("nan")

@@ -75,7 +75,6 @@ def _path_graph(mesh: TriMesh, links: np.ndarray) -> csr_array:
     columns = np.concatenate([mesh.edges.vertices[:, 1], d, target, links[:, 1]])
     straight = np.linalg.norm(mesh.vertices[links[:, 0]] - mesh.vertices[links[:, 1]], axis=1)
     length = np.concatenate([mesh.edge_length, across, seen, straight])
-    length = np.maximum(length, np.finfo(float).tiny)  # SciPy takes a stored 0 for "no edge"
     return _shortest_of(rows, columns, length, mesh.n_vertices)
 
 

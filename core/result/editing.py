@@ -220,7 +220,7 @@ def boundary_distance(
     sides = inside[face_pairs]
     distance = np.full(count, np.inf)
     across = np.full(count, -1, np.int64)
-    # A path begins across the boundary and then stays on one side. SciPy takes a length of 0 for "no edge".
+    # A path begins across the boundary and then stays on one side. It has a length, so that its sign says which.
     length = np.maximum(pair_length, 1e-12 * (pair_length.max(initial=0.0) or 1.0))
     for side in (False, True):
         usable = ~(sides != side).all(axis=1)

@@ -126,7 +126,8 @@ def square_roots(values: np.ndarray, scale: np.ndarray) -> np.ndarray:
 def whole_steps(length: np.ndarray, step: float = 2.0**-22) -> np.ndarray:
     """Lengths of ways in whole steps, one or more: their sums are exact.
 
-    Of two ways that are equally long, rounding must not choose. SciPy takes a length of 0 for "no way".
+    Of two ways that are equally long, rounding must not choose; of those through elements that lie in one place, that
+    through the fewest is the shortest.
     length : array of float64, in units of about the size of the surface.
     """
     return np.maximum(np.rint(length / step), 1.0)

@@ -206,7 +206,7 @@ def _shortest_paths(
     """
     key = np.sort(edges[inner], axis=1) @ (n, 1)
     order = np.argsort(key)
-    weight = length[inner] + 1e-9 * length.max(initial=1.0)  # SciPy takes a length of 0 for "no edge"
+    weight = length[inner] + 1e-9 * length.max(initial=1.0)  # of paths of one length that of fewest edges
     graph = coo_matrix((weight, edges[inner].T), (n, n)).tocsr()
     distance, previous, _ = dijkstra(
         graph, directed=False, indices=roots, return_predecessors=True, min_only=True
