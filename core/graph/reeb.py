@@ -273,7 +273,8 @@ def _node_means(sets: LevelSets, topology: ReebTopology) -> tuple[np.ndarray, np
     weight = sets.element_area[inside] + 1e-12 * sets.mesh.area
     node = node[inside]
     total = np.bincount(node, weight, topology.n_nodes)
-    middles = (sets.element_slab[inside] + 0.5) / (len(sets.levels) + 1)
+    bounds = np.concatenate([[0.0], sets.levels, [1.0]])
+    middles = ((bounds[:-1] + bounds[1:]) / 2)[sets.element_slab[inside]]
     centers = sets.mesh.face_centroids[sets.element_face[inside]]
     means = sums_by(node, weight[:, None] * np.column_stack([middles, centers]), topology.n_nodes) / total[:, None]
     return means[:, 0], means[:, 1:]

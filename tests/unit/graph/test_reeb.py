@@ -243,6 +243,8 @@ def test_the_saddle_of_a_node_is_its_sharpest_and_then_its_nearest(seed):
     assert most > 1
 
 
-def test_the_mean_level_of_a_node_is_the_middle_of_its_slab():
-    sets, topology, _ = along(shapes.icosphere(3), (0, 0, 1), n_slabs=4)
-    np.testing.assert_allclose(np.sort(_node_means(sets, topology)[0]), [0.125, 0.875])
+@pytest.mark.parametrize(("levels", "middles"), [((0.25, 0.5, 0.75), (0.125, 0.875)), ((0.9, 0.95), (0.45, 0.975))])
+def test_the_mean_level_of_a_node_is_the_middle_of_its_slab(levels, middles):
+    height = shapes.icosphere(3).vertices[:, 2]
+    sets, topology, _ = graph_of(shapes.icosphere(3), (height - height.min()) / np.ptp(height), levels)
+    np.testing.assert_allclose(np.sort(_node_means(sets, topology)[0]), middles)
