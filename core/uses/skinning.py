@@ -177,8 +177,8 @@ def _stiffened(laplacian: csr_array, table: CornerTable, stiffness: np.ndarray) 
     return csr_array(laplacian + diags(np.asarray(springs.sum(axis=1)).ravel()) - springs)
 
 
-def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones, odds: np.ndarray) -> Weights:
-    """The weights where each vertex goes beyond the joint of each bone with such odds, (n, count)."""
+def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones, odds: np.ndarray) -> np.ndarray:
+    """Share of each vertex that each bone moves, (n, count), where it goes beyond the bone's joint with such odds."""
     children = [np.flatnonzero(bones.parent == bone) for bone in range(len(bones.parent))]
     mass = np.zeros(odds.shape)
     mass[:, bones.parent < 0] = _roots(table, labels, bones)

@@ -72,7 +72,7 @@ def write(mesh: bpy.types.Mesh, numbers: np.ndarray, colors: np.ndarray, changed
         attribute.data.foreach_set("color_srgb", _spread(colors, numbers[face]))
 
 
-def _write_few(attribute: bpy.types.Attribute, face: np.ndarray, changed: np.ndarray | None,
+def _write_few(attribute: bpy.types.Attribute, face: np.ndarray, changed: np.ndarray,
                shades: list[list[float]]) -> None:
     """Color the corners of some faces one by one."""
     first, end = np.searchsorted(face, changed), np.searchsorted(face, changed, side="right")
