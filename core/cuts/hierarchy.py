@@ -208,8 +208,7 @@ class Hierarchy:
         part : (n_candidates,) int64
             Part of each candidate, 0..n_parts-1.
         """
-        n_parts = min(max(n_parts, self.n_loose), self.n_candidates)
-        done = self.merges[: self.n_candidates - n_parts]
+        done = self.merges[: max(self.n_candidates - n_parts, 0)]
         return components(self.n_candidates, *done.T)[1]
 
     @cached_property

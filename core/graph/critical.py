@@ -84,9 +84,9 @@ def critical_points(mesh: TriMesh, rank: np.ndarray) -> CriticalPoints:
 
     minimum = (n_lower == 0) & (n_upper > 0)
     maximum = (n_upper == 0) & (n_lower > 0)
-    saddle = (euler >= 2) & ~maximum
     kind = np.full(n, -1, np.int8)
-    kind[saddle], kind[minimum], kind[maximum] = SADDLE, MINIMUM, MAXIMUM
+    # Where several fans of faces meet, as at a border, a maximum has as many lower links, too.
+    kind[euler >= 2], kind[minimum], kind[maximum] = SADDLE, MINIMUM, MAXIMUM
     vertex = np.flatnonzero(kind >= 0)
     vertex = vertex[np.argsort(rank[vertex])]
     multiplicity = np.where(kind[vertex] == SADDLE, euler[vertex] - 1, 1)

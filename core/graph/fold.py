@@ -81,7 +81,7 @@ def unfolded(graph: ReebGraph, node_part: np.ndarray, point_part: np.ndarray) ->
             arcs[arc] = False
             other = int(graph.arcs[arc].sum()) - node
             around[other].discard(arc)
-            branch[other] = max(branch[other], reach)
+            branch[other] = reach  # the longest branch so far: they come in the order of their lengths
             if len(around[other]) == 1:  # it was in between, and is the end of a branch now
                 ends_in[part[other]] += 1
             if len(around[other]) < 2:

@@ -266,12 +266,11 @@ def cut_at_levels(
 def _share_below(corner_values: np.ndarray, level: np.ndarray) -> np.ndarray:
     """Share of each triangle's area, (r,), on which the linear field is below a level.
 
-    corner_values : (r, 3), the field at the corners. level : (r,), of each triangle.
+    corner_values : (r, 3), the field at the corners. level : (r,), of each triangle: above its lowest corner, and not
+    above its highest.
     """
     low, middle, high = np.sort(corner_values, axis=1).T
     with np.errstate(divide="ignore", invalid="ignore"):
         rising = (level - low) ** 2 / ((middle - low) * (high - low))
         falling = 1.0 - (high - level) ** 2 / ((high - low) * (high - middle))
-    share = np.where(level <= middle, rising, falling)
-    share = np.where(level <= low, 0.0, np.where(level >= high, 1.0, share))
-    return np.clip(share, 0.0, 1.0)
+    return np.clip(np.where(level <= middle, rising, falling), 0.0, 1.0)
