@@ -14,6 +14,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..core.graph.critical import KINDS
 from ..core.graph.fold import unfolded
 from ..core.graph.reeb import ReebGraph
 from ..core.result.numbering import NumberedParts
@@ -24,7 +25,6 @@ from .temporary import remove_object
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
-KINDS = ("minimum", "saddle", "maximum")
 _DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
 _WORDS = {"minimum": "middle", "saddle": "joint", "maximum": "tip"}  # behind the name of the part
 FOLDED = "folded"  # on a node: the parts that are shown do not need it

@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 
 from ..core.steps import Steps, finished, stretched
-from ..core.surface.arrays import distinct_pairs, stable_order
+from ..core.surface.arrays import are_among, distinct_pairs, stable_order
 from ..core.surface.corners import edge_labels
 from . import cap_looks, caps, element_layers, hidden, mesh_arrays, outputs, quiet, smooth_faces, welding
 from .elements import CORNER, Elements
@@ -153,16 +153,11 @@ def _with_whole_faces(source: Callable[[], PlainMesh | SculptedMesh], face_numbe
         bpy.data.batch_remove(list(worse.meshes.values()))
         made = other if better else made
         # Where it does not help to leave faces whole, the smooth cut is the better one.
-        helped = along[~_rows_in(along, other.crossing)]
+        helped = along[~are_among(along, other.crossing)]
         if not len(helped) or len(helped) == len(along):
             break
         along = helped
     return made
-
-
-def _rows_in(rows: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Whether each row of two numbers is among others, (k,) bool."""
-    return (rows[:, None] == others[None]).all(axis=2).any(axis=1)
 
 
 class PlainMesh:

@@ -268,21 +268,21 @@ class Candidates:
 
         piece : (E,) int64, of each element. Returns Candidates.
         """
+        from scipy.cluster.hierarchy import DisjointSet  # imported here for the reason that ``Dendrogram.of`` gives
+
         cells, element = distinct_pairs(self.element_candidate, piece)
         # Of each set, one of the new candidates in each piece that it has elements in.
         inside: list[dict[int, int]] = [{} for _ in range(self.hierarchy.n_candidates)]
         for new, (old, place) in enumerate(cells.tolist()):
             inside[old][place] = new
-        root = list(range(len(inside)))
+        sets = DisjointSet(range(len(inside)))
         merges, salience = [], []
         for (a, b), strength in zip(self.hierarchy.merges.tolist(), self.hierarchy.salience.tolist(), strict=True):
-            while root[a] != a:
-                a = root[a]
-            while root[b] != b:
-                b = root[b]
-            root[b] = a
-            for place, new in inside[b].items():
-                if inside[a].setdefault(place, new) != new:
-                    merges.append((inside[a][place], new))
+            joined, others = inside[sets[a]], inside[sets[b]]
+            for place, new in others.items():
+                if joined.setdefault(place, new) != new:
+                    merges.append((joined[place], new))
                     salience.append(strength)
+            sets.merge(a, b)
+            inside[sets[a]] = joined
         return Candidates(element, Hierarchy.of(len(cells), merges, salience))

@@ -46,7 +46,7 @@ def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest
         height = row_products(offset, d)
         smaller = row_products(offset, offset) / np.maximum(2 * height, 1e-12)
         shrinks = (distance < radius[active] * (1 - 1e-3)) & (height > 1e-9)
-        shrinks &= (smaller < radius[active]) & (_cosine(p, offset, smaller[:, None] * d) < SEPARATION)
+        shrinks &= (smaller < radius[active]) & (_cosine(offset, smaller[:, None] * d) < SEPARATION)
         active = active[shrinks]
         if not len(active):
             break
@@ -54,7 +54,7 @@ def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest
     return radius
 
 
-def _cosine(point: np.ndarray, offset: np.ndarray, to_center: np.ndarray) -> np.ndarray:
+def _cosine(offset: np.ndarray, to_center: np.ndarray) -> np.ndarray:
     """Cosine of the angle, (k,), between two points that a ball touches, seen from its center.
 
     offset, to_center : (k, 3), from the first point to the second and to the center.

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import components, distinct_pairs
+from ..surface.arrays import are_among, components, distinct_pairs
 from ..surface.mesh import EdgeTable
 
 # A piece is a little smaller than the box.
@@ -73,7 +73,7 @@ def inside_section(flat: np.ndarray, edges: np.ndarray, triangles: np.ndarray) -
         Counterclockwise; None unless the curves are all that bounds them.
     """
     table, edges = EdgeTable.of(triangles, len(flat)), np.sort(edges, axis=1)
-    wall = _rows_in(table.vertices, edges)
+    wall = are_among(table.vertices, edges)
     open_ = wall[table.pair_edge]
     count, label = components(len(triangles), *table.pairs[~open_].T)
     # Across each curve, what is outside is inside; at the rim of all triangles, it is known.
@@ -95,9 +95,3 @@ def inside_section(flat: np.ndarray, edges: np.ndarray, triangles: np.ndarray) -
     table = EdgeTable.of(chosen, len(flat))
     same = np.array_equal(table.vertices[table.n_faces == 1], distinct_pairs(*edges.T)[0])
     return chosen if same else None
-
-
-def _rows_in(rows: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Whether rows of two numbers are among others, (k,) bool."""
-    base = int(max(rows.max(initial=0), others.max(initial=0))) + 1
-    return np.isin(rows @ [base, 1], others @ [base, 1])

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components, dijkstra, minimum_spanning_tree
 
-from ..surface.arrays import components, last_of_each
+from ..surface.arrays import components, last_of_each, pair_keys
 from ..surface.corners import CornerTable
 from .conformal import ConformalFactor
 
@@ -204,7 +204,7 @@ def _shortest_paths(
     Returns the distance of each vertex, (n,), the first edge of its path, (n,), -1 for none, and whether each edge
     belongs to a path, (e,) bool.
     """
-    key = np.sort(edges[inner], axis=1) @ (n, 1)
+    key = pair_keys(np.sort(edges[inner], axis=1), n)
     order = np.argsort(key)
     weight = length[inner] + 1e-9 * length.max(initial=1.0)  # of paths of one length that of fewest edges
     graph = coo_matrix((weight, edges[inner].T), (n, n)).tocsr()
@@ -213,7 +213,7 @@ def _shortest_paths(
     )
     before = np.full(n, -1)
     reached = np.flatnonzero(previous >= 0)
-    step = np.sort(np.stack([reached, previous[reached]], axis=1), axis=1) @ (n, 1)
+    step = pair_keys(np.sort(np.stack([reached, previous[reached]], axis=1), axis=1), n)
     before[reached] = inner[order[np.searchsorted(key[order], step)]]
     tree = np.zeros(len(edges), bool)
     tree[before[reached]] = True
@@ -228,11 +228,11 @@ def _in_cotree(pairs: np.ndarray, weight: np.ndarray, tree: np.ndarray, n_faces:
     free = np.flatnonzero(~tree)
     graph = coo_matrix((2 * weight.max(initial=1.0) - weight[free], pairs[free].T), (n_faces, n_faces)).tocsr()
     kept = minimum_spanning_tree(graph).tocoo()
-    key = np.sort(pairs[free], axis=1) @ (n_faces, 1)
+    key = pair_keys(np.sort(pairs[free], axis=1), n_faces)
     crossed = np.zeros(len(pairs), bool)
     # Where two faces share several edges, the tree crosses the first of them only.
     _, first = np.unique(key, return_index=True)
-    taken = np.isin(key[first], np.sort(np.stack([kept.row, kept.col], axis=1), axis=1) @ (n_faces, 1))
+    taken = np.isin(key[first], pair_keys(np.sort(np.stack([kept.row, kept.col], axis=1), axis=1), n_faces))
     crossed[free[first[taken]]] = True
     return crossed
 

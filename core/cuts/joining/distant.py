@@ -15,7 +15,7 @@ from scipy.cluster.hierarchy import DisjointSet
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
-from ...surface.arrays import on_grid, rounded
+from ...surface.arrays import on_grid, pair_keys, rounded
 from .pairs import PartPairs, Salience, cut_between, unlikeness
 
 MOST = 80  # parts that are compared with all others; pairs grow as the square of it
@@ -102,7 +102,7 @@ def _largest(area: np.ndarray) -> np.ndarray:
 
 def _direct(near: np.ndarray, odds: np.ndarray, parts: np.ndarray, count: int) -> np.ndarray:
     """Log-odds of those pairs, (e, 2), that are among the near ones; NOT_NEAR of the others."""
-    key, wanted = near @ (count, 1), parts @ (count, 1)
+    key, wanted = pair_keys(near, count), pair_keys(parts, count)
     if not len(key):
         return np.full(len(parts), NOT_NEAR)
     order = np.argsort(key)
@@ -141,7 +141,7 @@ def _joining(pairs: np.ndarray, level: np.ndarray) -> tuple[np.ndarray, np.ndarr
         return pairs, level
     count = int(pairs.max()) + 1
     # Of two pairs with the same members the first counts; SciPy would add the numbers of both.
-    _, first = np.unique(np.sort(pairs, axis=1) @ (count, 1), return_index=True)
+    _, first = np.unique(pair_keys(np.sort(pairs, axis=1), count), return_index=True)
     ends = pairs[first].T.astype(np.int32)  # SciPy's trees take no others
     tree = minimum_spanning_tree(csr_array((first + 1.0, ends), shape=(count, count)))
     kept = np.sort(tree.data.astype(np.int64)) - 1

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...surface.arrays import in_steps, on_grid, renumbered
+from ...surface.arrays import in_steps, on_grid, pair_keys, renumbered
 from ...surface.contact import TOUCH
 from ...surface.mesh import TriMesh
 from ..boosted_trees import BoostedTrees
@@ -207,7 +207,7 @@ def _with_distant(
     judged = np.concatenate([odds, on_grid(_judged(model, distant.features))])
     weight = _pair_weight(parts, pairs)
     weight[:len(near)] *= NEARNESS
-    _, first, row = np.unique(pairs @ (count, 1), return_index=True, return_inverse=True)
+    _, first, row = np.unique(pair_keys(pairs, count), return_index=True, return_inverse=True)
     total = np.bincount(row, weight)
     mean = np.bincount(row, weight * judged) / total
     order = np.argsort(first)  # the near pairs keep their places

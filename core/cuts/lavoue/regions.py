@@ -7,7 +7,7 @@ import heapq
 
 import numpy as np
 
-from ...surface.arrays import components, rounded, sums_by, symmetric_matrix, whole_steps
+from ...surface.arrays import components, pair_keys, rounded, sums_by, symmetric_matrix, whole_steps
 from ...surface.labels import label_boundaries
 from ...surface.mesh import TriMesh
 from ...surface.nearest_seeds import nearest_seeds
@@ -70,9 +70,9 @@ class CurvatureGraph:
         self.sums = sums_by(region, area[:, None] * curvature[mesh.faces].mean(axis=1), count)
         touching, length = label_boundaries(region, mesh.edges.pairs, mesh.pair_length)
         length = length + 1e-12 * np.sqrt(mesh.area)
-        low, high = np.sort(region[mesh.edges.pairs], axis=1).T
-        apart = low != high
-        place = np.searchsorted(touching @ (count, 1), low[apart] * count + high[apart])
+        pairs = np.sort(region[mesh.edges.pairs], axis=1)
+        apart = pairs[:, 0] != pairs[:, 1]
+        place = np.searchsorted(pair_keys(touching, count), pair_keys(pairs[apart], count))
         at = curvature[mesh.edges.vertices[mesh.edges.pair_edge[apart]]].mean(axis=1)
         weight = mesh.pair_length[apart] + 1e-12 * np.sqrt(mesh.area)
         sums = sums_by(place, weight[:, None] * at, len(touching))

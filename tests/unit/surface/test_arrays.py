@@ -8,6 +8,7 @@ import pytest
 
 from core.surface.arrays import (
     MANY,
+    are_among,
     components,
     cross,
     expanded,
@@ -15,6 +16,7 @@ from core.surface.arrays import (
     is_last_of_each,
     last_of_each,
     lengths,
+    pair_keys,
     ranges,
     renumbered,
     rounded_order,
@@ -116,3 +118,15 @@ def test_the_last_of_a_group_without_elements_is_none():
     group, key = np.array([0, 2, 2, 0]), np.array([1.0, 1.0, 3.0, 1.0])
     assert last_of_each(group, key, count=4).tolist() == [3, -1, 2, -1]
     assert is_last_of_each(group, key, count=4).tolist() == [False, False, True, True]
+
+
+def test_keys_of_pairs_are_in_the_order_of_the_pairs():
+    pairs = np.array([(i, j) for i in range(3) for j in range(3)])
+    assert pair_keys(pairs, 3).tolist() == list(range(9))
+
+
+def test_which_pairs_are_among_others():
+    pairs, others = np.array([(1, 2), (2, 1), (0, 0), (5, 9)]), np.array([(5, 9), (2, 1)])
+    assert are_among(pairs, others).tolist() == [False, True, False, True]
+    assert are_among(pairs, others[:0]).tolist() == 4 * [False]
+    assert are_among(pairs[:0], others).tolist() == []
