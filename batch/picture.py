@@ -252,7 +252,7 @@ def _set_up_cycles(scene: bpy.types.Scene, size: tuple[int, int], samples: int) 
     scene.render.film_transparent = True
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGBA"
-    # The colours of the parts, as the panel shows them: no filmic look.
+    # The colors of the parts, as the panel shows them: no filmic look.
     scene.view_settings.view_transform = "Standard"
 
 

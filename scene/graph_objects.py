@@ -2,7 +2,7 @@
 """The Reeb graph as objects: an empty for each node and one curve for the arcs, in a collection of ours.
 
 The objects are children of the decomposed one and live in its coordinates, so that moving and scaling it
-carries them along. They are recognised by custom properties, never by name.
+carries them along. They are recognized by custom properties, never by name.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _SIZE, _NOTHING = "reeb_parts_size", 1e-4  # its size when it is not folded, and
 _LOCKS = ("lock_location", "lock_rotation", "lock_scale")
 
 # A graph starts hidden if more than this share of its marks would lie under others, in a picture of the model that is
-# so many marks wide. Of 31 labelled models, at the usual detail, these are four clothed men with hair and belts of
+# so many marks wide. Of 31 labeled models, at the usual detail, these are four clothed men with hair and belts of
 # their own; with all nodes shown, as before, it would be fifteen.
 CROWDED, MARKS_WIDE = 0.35, 45
 

@@ -12,7 +12,7 @@ import numpy as np
 from ..core.result.numbering import default_name
 from . import transaction
 
-#: The largest number that a part has: colours are looked up in a table of all numbers.
+#: The largest number that a part has: colors are looked up in a table of all numbers.
 MAX_NUMBER = 1_000_000
 
 _LONGEST, _ROOM = 63, 8  # bytes of a name in Blender, and of the longest number behind it

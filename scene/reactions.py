@@ -139,10 +139,10 @@ def recolor(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     def keep(stored: Stored) -> None:
         numbered = stored.shown_parts()
         own = outputs.palette_colors(mesh, numbered)[numbered.numbers == part.number][0]
-        # Blender's popup, when it is cancelled, sets the colour back.
+        # Blender's popup, when it is cancelled, sets the color back.
         chosen = np.abs(own - part.color).max() > 0.5 / 255
         part_names.keep_color(mesh, part.number, part.color[:] if chosen else None)
-        # The list is not filled anew: the user is just changing one of its colours.
+        # The list is not filled anew: the user is just changing one of its colors.
         outputs.update_colors(mesh, numbered)
         for obj in targets.users(mesh):
             graph_objects.update_parts(obj, numbered)

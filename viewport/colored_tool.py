@@ -20,7 +20,7 @@ class ColoredTool(ViewTool):
     A class that inherits gives ``finish(context, obj)``, too.
     """
 
-    _shown = None  # (p,) int64, the part that each face has the colour of
+    _shown = None  # (p,) int64, the part that each face has the color of
 
     def finish(self, context: bpy.types.Context, obj: bpy.types.Object) -> set[str]:
         """It was confirmed; the operator's result. Raises SceneError."""

@@ -84,7 +84,7 @@ class Model:
 
     @property
     def tree(self) -> cKDTree:
-        """Finds face centres; made when it is needed first."""
+        """Finds face centers; made when it is needed first."""
         from scipy.spatial import cKDTree
 
         if self._tree is None:

@@ -151,7 +151,7 @@ class ViewTool(ReportingOperator):
             return self.give_up(context)
         if event.type in _CONFIRM and event.value == "PRESS":
             return self.confirm(context)
-        # Of the area that it was started in there may be nothing left: another workspace, a maximised area.
+        # Of the area that it was started in there may be nothing left: another workspace, a maximized area.
         place = pointing.viewport_region(context.window.screen, event.mouse_x, event.mouse_y)
         if place is None and self.aims:
             return {"PASS_THROUGH"}

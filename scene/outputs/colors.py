@@ -14,10 +14,10 @@ from .kept_aside import add_attribute, remove_attribute
 NAME = "Reeb Parts"
 
 # Up to this share of the faces, their corners one by one cost less than all corners at once: Blender sets
-# byte colours slowly.
+# byte colors slowly.
 FEW = 0.01
 
-# From so many corners on, Blender's operator that converts colours is worth calling.
+# From so many corners on, Blender's operator that converts colors is worth calling.
 MANY = 200_000
 
 
@@ -112,6 +112,6 @@ def _write_many(mesh: bpy.types.Mesh, attribute: bpy.types.Attribute, numbers: n
 
 def _spread(colors: np.ndarray, index: np.ndarray) -> np.ndarray:
     """The colors of an index, four values each, in a row, float32."""
-    # A colour as one number of sixteen bytes is copied four times as fast as a row.
+    # A color as one number of sixteen bytes is copied four times as fast as a row.
     whole = np.ascontiguousarray(colors, np.float32).view(np.complex128)[:, 0]
     return whole[index].view(np.float32)

@@ -63,7 +63,7 @@ def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.nd
     old = part_names.number_colors(mesh)
     gone = _list_parts(mesh, numbered)
     new = part_names.number_colors(mesh)
-    # Colours first: what evaluates the scene there finds nothing else changed yet.
+    # Colors first: what evaluates the scene there finds nothing else changed yet.
     colors.write(mesh, numbered.face_numbers, new, _recolored(numbered, before, old, new))
     for group, material in gone:
         vertex_groups.remove_one(obj, group)
