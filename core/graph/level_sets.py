@@ -223,20 +223,8 @@ def cut_at_levels(
     lowest, highest = corner_slab.min(axis=1), corner_slab.max(axis=1)
     element_face, element_slab = expanded(lowest, highest - lowest + 1)
     segment_face, segment_level = expanded(lowest, highest - lowest)
-    pairs = mesh.edges.pairs
-    ends = slab[mesh.edges.vertices[mesh.edges.pair_edge]]
-    low, high = ends.min(axis=1), ends.max(axis=1)
-
     first = np.cumsum(highest - lowest + 1) - (highest - lowest + 1) - lowest
-    pair, at = expanded(low, high - low + 1)
-    n_pieces, element_piece = components(
-        len(element_face), first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
-
-    first_segment = np.cumsum(highest - lowest) - (highest - lowest) - lowest
-    pair, at = expanded(low, high - low)
-    n_contours, segment_contour = components(
-        len(segment_face), first_segment[pairs[pair, 0]] + at, first_segment[pairs[pair, 1]] + at)
-
+    n_pieces, element_piece, n_contours, segment_contour = _connected(mesh, slab, lowest, highest, first)
     lower = first[segment_face] + segment_level
     contour_pieces = np.empty((n_contours, 2), np.int64)
     contour_pieces[segment_contour, 0] = element_piece[lower]
@@ -247,20 +235,50 @@ def cut_at_levels(
         loose_part = np.empty(n_pieces, np.int64)
         loose_part[element_piece] = mesh.face_components[1][element_face]
         linked = element_piece[first[bridges[pair]] + at[:, None]]
-        swap = loose_part[linked[:, 0]] > loose_part[linked[:, 1]]
-        pieces, contours = joined_runs(np.where(swap[:, None], linked[:, ::-1], linked), contour_pieces, loose_part)
-        n_pieces, piece = components(n_pieces, *pieces.T)
-        n_contours, contour = components(n_contours, *contours.T)
+        piece, contour = _bridged(linked, loose_part, contour_pieces)
         element_piece, segment_contour = piece[element_piece], contour[segment_contour]
-        contour_pieces[contour] = piece[contour_pieces]
-        contour_pieces = contour_pieces[:n_contours]
-    piece_slab = np.empty(n_pieces, np.int64)
+        joined = np.empty((int(contour.max(initial=-1)) + 1, 2), np.int64)
+        joined[contour] = piece[contour_pieces]
+        contour_pieces = joined
+    piece_slab = np.empty(int(element_piece.max()) + 1, np.int64)
     piece_slab[element_piece] = element_slab
-    contour_level = np.empty(n_contours, np.int64)
+    contour_level = np.empty(len(contour_pieces), np.int64)
     contour_level[segment_contour] = segment_level
     return LevelSets(mesh, values, levels, slab, element_face, element_slab, element_piece,
                      piece_slab, segment_face, segment_level, segment_contour, contour_level,
                      contour_pieces)
+
+
+def _connected(
+    mesh: TriMesh, slab: np.ndarray, lowest: np.ndarray, highest: np.ndarray, first: np.ndarray
+) -> tuple[int, np.ndarray, int, np.ndarray]:
+    """Number of pieces and piece of each element, (E,), number of contours and contour of each segment, (S,).
+
+    slab : (n,), of each vertex. lowest, highest : (m,), slabs of each face. first : (m,), the element of each face in
+    slab 0, if it had one there.
+    """
+    pairs = mesh.edges.pairs
+    ends = slab[mesh.edges.vertices[mesh.edges.pair_edge]]
+    low, high = ends.min(axis=1), ends.max(axis=1)
+    n_elements, n_segments = int((highest - lowest + 1).sum()), int((highest - lowest).sum())
+    pair, at = expanded(low, high - low + 1)
+    n_pieces, piece = components(n_elements, first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
+    first = first - np.arange(len(first))  # a face has one segment less than elements
+    pair, at = expanded(low, high - low)
+    n_contours, contour = components(n_segments, first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
+    return n_pieces, piece, n_contours, contour
+
+
+def _bridged(
+    linked: np.ndarray, loose_part: np.ndarray, contour_pieces: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """New number of each piece, (P,), and of each contour, (C,), where bridges join them.
+
+    linked : (l, 2), pieces with a bridge between them. loose_part : (P,). contour_pieces : (C, 2).
+    """
+    swap = loose_part[linked[:, 0]] > loose_part[linked[:, 1]]
+    pieces, contours = joined_runs(np.where(swap[:, None], linked[:, ::-1], linked), contour_pieces, loose_part)
+    return components(len(loose_part), *pieces.T)[1], components(len(contour_pieces), *contours.T)[1]
 
 
 def _share_below(corner_values: np.ndarray, level: np.ndarray) -> np.ndarray:

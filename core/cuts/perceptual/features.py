@@ -235,14 +235,27 @@ def _cut_columns(
     mean : (k, BORDER.width), mean of the measures over each cut, weighted by length. length : (k,), of each cut.
     union : (k, len(SHAPE)), shape of the two regions of each cut together.
     """
-    r, b = REGION, BORDER
-    middle, level = mean[:, b.center], mean[:, b.level]
-    thickness, clearance, contour = (mean[:, k] for k in (b.log_thickness, b.log_clearance, b.log_contour))
-    curvature, centroid, normal = mean[:, b.curvature], sides.mean[..., r.centroid], sides.mean[..., r.normal]
-    norm = np.linalg.norm(normal, axis=2)
-    spread = mean[:, b.second_moment] - row_products(middle, middle)
+    columns = _columns_of_cut(regions, sides, mean, length)
     siblings = _siblings(regions, np.stack([regions.shape[sides.index[0]], union]), sides.index)
-    columns = {
+    columns["siblings_small"], columns["siblings_union"] = siblings
+    columns |= {f"{name}_{side}": of_side for name, both in _columns_of_sides(regions, sides, mean, length).items()
+                for side, of_side in zip(("small", "large"), both, strict=True)}
+    for name, runs in (("curvature", BORDER.curvature), ("concavity", BORDER.concavity), ("creased", BORDER.creased)):
+        columns |= {f"{name}_{scale + 1}": column for scale, column in enumerate(mean[:, runs].T)}
+    return columns
+
+
+def _columns_of_cut(
+    regions: RegionMeasures, sides: _Sides, mean: np.ndarray, length: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Features of the cut itself and of how its two sides differ, (k,) each; parameters as of ``_cut_columns``."""
+    r, b = REGION, BORDER
+    middle, level, thickness, clearance = (mean[:, k] for k in (b.center, b.level, b.log_thickness, b.log_clearance))
+    centroid, normal = sides.mean[..., r.centroid], sides.mean[..., r.normal]
+    norm = np.linalg.norm(normal, axis=2)
+    curvature = mean[:, b.curvature]
+    spread = mean[:, b.second_moment] - row_products(middle, middle)
+    return {
         "log_length": np.log(length),
         "distance": lengths(centroid[0] - centroid[1]) / sides.size[0],
         "dihedral": mean[:, b.dihedral],
@@ -261,24 +274,24 @@ def _cut_columns(
         "protrusion": (regions.agd_max[sides.index[0]] - mean[:, b.agd]) / length,
         "second_moment": square_roots(spread, mean[:, b.second_moment]) / length,
         "largest": np.full(len(length), regions.sums[regions.alive, r.area].max()),
-        "siblings_small": siblings[0],
-        "siblings_union": siblings[1],
     }
-    of_both = {
+
+
+def _columns_of_sides(
+    regions: RegionMeasures, sides: _Sides, mean: np.ndarray, length: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Features of the cut in relation to each of its sides, (2, k) each; parameters as of ``_cut_columns``."""
+    b = BORDER
+    return {
         "length": length / sides.size,
         "share": length / np.maximum(regions.perimeter[sides.index], length),
-        "log_thickness": thickness - sides.shape["log_thickness"],
-        "narrow": contour - sides.shape["log_contour"],
+        "log_thickness": mean[:, b.log_thickness] - sides.shape["log_thickness"],
+        "narrow": mean[:, b.log_contour] - sides.shape["log_contour"],
         "other_concavity": sides.other[..., b.concavity.start + 1],
         "other_dihedral": sides.other[..., b.dihedral],
-        "distance": np.linalg.norm(centroid - middle, axis=2) / sides.size,
+        "distance": np.linalg.norm(sides.mean[..., REGION.centroid] - mean[:, b.center], axis=2) / sides.size,
         "neighbors": regions.degree[sides.index],
     }
-    columns |= {f"{name}_{side}": of_side for name, both in of_both.items()
-                for side, of_side in zip(("small", "large"), both, strict=True)}
-    for name, runs in (("curvature", b.curvature), ("concavity", b.concavity), ("creased", b.creased)):
-        columns |= {f"{name}_{scale + 1}": column for scale, column in enumerate(mean[:, runs].T)}
-    return columns
 
 
 def _siblings(regions: RegionMeasures, shape: np.ndarray, ends: np.ndarray) -> np.ndarray:
