@@ -124,3 +124,13 @@ def test_notes_count_what_the_half_has():
         (note,), (of_half,), (of_whole,) = ([n for n in made.notes if text in n] for made in (found, alone, whole))
         assert note.values["n"] == of_whole.values["n"] // 2
         assert share == 0.5 or note == of_half
+
+
+def test_contacts_of_a_half_are_between_faces_that_it_has():
+    ball = shapes.icosphere(2)
+    beside = shapes.moved(shapes.icosphere(2, 0.5), (1.49, 0, 0))
+    half = shapes.together(shapes.half_of(ball), beside)
+    found = decompose(*half, mirror=X)
+    assert 0 < len(found.contacts)
+    assert found.contacts.max() < found.n_faces
+    assert (found.contacts[:, 0] != found.contacts[:, 1]).all()

@@ -10,6 +10,7 @@ from core import MeshError, Parameters, decompose
 from core.cuts import hinted
 from core.cuts.hierarchy import Hierarchy
 from core.cuts.hinted import hinted_candidates
+from core.cuts.joining.method import LAST
 from core.parameters import METHODS
 from core.surface.labels import FaceGraph
 
@@ -121,3 +122,11 @@ def test_half_models_take_them_along():
 def test_what_is_no_hint_is_refused(hints):
     with pytest.raises(MeshError, match="Hints must be one whole number for each of the 320 faces"):
         decompose(*shapes.icosphere(2), hints=hints)
+
+
+def test_no_cut_of_a_hint_is_more_certain_than_the_last():
+    """Two materials on two candidates that never merge early: salience ends at LAST, so that all parts can be one."""
+    graph = FaceGraph(2, np.array([(0, 1)]), np.ones(1), np.ones(2))
+    _, hierarchy = hinted_candidates(graph, np.empty((0, 2), np.int64), np.arange(2),
+                                     Hierarchy.of(2, [(0, 1)], [1.0]), np.arange(2))
+    assert hierarchy.salience.tolist() == [LAST]

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 import shapes
 
-from core.cuts.minimum_cut import _minimum_cut, minimum_cuts
+from core.cuts.hierarchy import Hierarchy
+from core.cuts.minimum_cut import _cuts_by_length, _minimum_cut, minimum_cuts, move_cuts
 from core.surface.mesh import TriMesh
 
 
@@ -91,3 +92,54 @@ def test_the_cheapest_of_all_cuts_is_found():
         sides = sides[sides[:, held[0]] & ~sides[:, held[1]]]
         costs = ((sides[:, a] != sides[:, b]) * cost).sum(axis=1)
         assert cost[side[a] != side[b]].sum() == costs.min()
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_of_two_equal_creases_the_nearer_wins(side):
+    n = 48
+    mesh = TriMesh(*shapes.flat_grid(n, n))
+    x = side * (mesh.face_centroids[:, 0] - n / 2)
+    a, b = mesh.edges.pairs.T
+    crease = ((x[a] > 1) != (x[b] > 1)) | ((x[a] > -3) != (x[b] > -3))
+    moved = minimum_cuts(mesh, np.where(crease, -12.0, 0.0), (x > 0).astype(np.int64), 0.5, widest=6.0)
+    assert (moved == (x > 1)).all()
+
+
+def test_the_longest_cut_moves_first():
+    cuts = _cuts_by_length(np.arange(3), np.array([0, 1]), np.array([1, 2]), np.array([1.0, 10.0]))
+    assert cuts.tolist() == [[1, 2], [0, 1]]
+
+
+def quarters(n):
+    """A flat square in four candidates: two halves of two each."""
+    mesh = TriMesh(*shapes.flat_grid(n, n))
+    x, y = mesh.face_centroids[:, :2].T
+    label = 2 * (x > n / 2) + (y > n / 2)
+    return mesh, x, label, Hierarchy.of(4, [(0, 1), (2, 3), (0, 2)], [0.3, 0.3, 0.9])
+
+
+def test_a_cut_that_moved_at_one_level_stays_at_the_next():
+    """Into the crease beside it, and not on into a deeper one beside that, which was out of reach before."""
+    mesh, x, label, hierarchy = quarters(48)
+    a, b = mesh.edges.pairs.T
+    curvature = np.where((x[a] > 25) != (x[b] > 25), -12.0, np.where((x[a] > 26) != (x[b] > 26), -60.0, 0.0))
+    moved = move_cuts(mesh, label, hierarchy, curvature, 0.5, widest=2.0)
+    assert (moved // 2 == (x > 25)).all()
+    again = minimum_cuts(mesh, curvature, moved // 2, 0.5, widest=2.0)
+    assert (again == (x > 26)).all()
+
+
+def test_candidates_follow_the_cut_of_their_parts():
+    """Each face that changed part takes the candidate beside it there."""
+    mesh, x, label, hierarchy = quarters(24)
+    a, b = mesh.edges.pairs.T
+    crease = (x[a] > 13) != (x[b] > 13)
+    moved = move_cuts(mesh, label, hierarchy, np.where(crease, -60.0, 0.0), 0.5, (0.5,), widest=2.0)
+    assert (moved // 2 == (x > 13)).all()
+    far = np.abs(mesh.face_centroids[:, 1] - 12) > 2
+    assert (moved % 2 == label % 2)[far].all()
+
+
+def test_without_a_band_no_candidate_changes():
+    mesh, _, label, hierarchy = quarters(12)
+    assert (move_cuts(mesh, label, hierarchy, np.zeros(len(mesh.edges.pairs)), 0.0) == label).all()

@@ -13,6 +13,7 @@ from core.field.agd import (
     coarse_agd,
     equalize,
     normalize,
+    protrusion_field,
     spread_base_vertices,
 )
 from core.field.geodesic import GeodesicSolver
@@ -164,3 +165,11 @@ def test_there_are_no_more_base_vertices_than_twice_what_the_area_asks_for():
     ribbon = shapes.flat_grid(400, 1)
     base, radius = base_of(TriMesh(ribbon.vertices * (1, 0.01, 1), ribbon.faces))
     assert len(base.indices) <= np.ceil(2 * 400 * 0.01 / (1.5 * radius**2))
+
+
+@pytest.mark.parametrize(("stretch", "protrudes"), [(1.0, False), (1.3, True)])
+def test_where_nothing_protrudes_the_field_is_flat(stretch, protrudes):
+    ball = shapes.icosphere(3)
+    field = protrusion_field(Pyramid(TriMesh(ball.vertices * (1, 1, stretch), ball.faces)), 0.005, True)
+    assert field.values.any() == field.normalized.any() == protrudes
+    assert field.agd.min() > 0

@@ -248,3 +248,12 @@ def test_the_mean_level_of_a_node_is_the_middle_of_its_slab(levels, middles):
     height = shapes.icosphere(3).vertices[:, 2]
     sets, topology, _ = graph_of(shapes.icosphere(3), (height - height.min()) / np.ptp(height), levels)
     np.testing.assert_allclose(np.sort(_node_means(sets, topology)[0]), middles)
+
+
+def test_of_equal_tips_the_first_is_lowest_and_the_last_highest():
+    """As in the total order. A strip whose vertices come in pairs of one height."""
+    _, _, graph = graph_of(shapes.flat_grid(2, 1), np.repeat([0, 1, 0], 2), [0.5])
+    place = shapes.flat_grid(2, 1).vertices
+    lowest = graph.node_position[graph.node_kind == MINIMUM]
+    assert sorted(map(tuple, lowest)) == sorted(map(tuple, place[[0, 4]]))
+    assert graph.node_position[graph.node_kind == MAXIMUM].tolist() == [place[3].tolist()]

@@ -190,3 +190,10 @@ def test_the_areas_of_what_is_left_add_up_to_the_surface(made):
     assert None in work.arcs
     left = [area for place, area in enumerate(work.area) if work.parent[place] == place]
     assert sum(left) == pytest.approx(sets.mesh.area)
+
+
+def test_a_leaf_just_as_large_as_the_limit_stays():
+    sets = strip([0, 1, 0, 1, 0])  # of 4, its ends have an area of 1/2 each
+    topology = reeb_topology(sets)
+    assert len(simplify(sets, topology, 0.125, 0).arcs) == len(topology.arcs)
+    assert len(simplify(sets, topology, 0.126, 0).arcs) < len(topology.arcs)

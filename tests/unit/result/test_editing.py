@@ -18,6 +18,7 @@ from core.result.editing import (
     split_candidates,
 )
 from core.surface.corners import CornerTable
+from core.surface.labels import FaceGraph
 
 
 @pytest.fixture(scope="module")
@@ -205,3 +206,19 @@ def _neighbors(vertices, faces):
     pairs = (order // 3).reshape(-1, 2)
     ends = vertices[edges[order[::2]]]
     return pairs, np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+
+
+def test_areas_stay_in_the_unit_of_the_result(result, tree):
+    graph, table = tree
+    larger = FaceGraph(graph.n_faces, graph.pairs, graph.length, 7 * graph.area)
+    chosen = np.arange(graph.n_faces) % 2 == 0
+    finer, same = (split_candidates(result, chosen, some, table) for some in (larger, graph))
+    assert finer.candidate_area.sum() == pytest.approx(result.candidate_area.sum())
+    assert finer.candidate_area == pytest.approx(same.candidate_area)
+
+
+def test_faces_in_one_place_are_on_the_side_that_they_belong_to():
+    """Two faces on each other, with the boundary between them: no distance, but a sign."""
+    distance, across = boundary_distance(np.array([False, True]), np.array([[0, 1]]), np.zeros(1))
+    assert distance[0] > 0 > distance[1]
+    assert across.tolist() == [1, 0]

@@ -57,3 +57,10 @@ def test_fixed_candidates_stay_together_though_they_do_not_touch(chain):
     assert splits.n_roots == 3
     assert len(splits.intervals) == 0
     assert same(splits.parts(0).tolist(), [0, 1, 0, 2])
+
+
+def test_what_touches_and_never_merges_stays_apart_beside_what_is_fixed(chain):
+    loose = replace(chain, hierarchy=Hierarchy.of(4, [(2, 3)], [0.2]))
+    splits = Splits.of(loose, np.array([0, 0, 7, 7]))
+    assert splits.n_roots == 3
+    assert same(splits.parts(0).tolist(), [0, 1, 2, 2])

@@ -67,3 +67,10 @@ def test_faces_of_two_candidates_go_to_the_larger(seed):
 def test_one_candidate_needs_no_merge():
     votes = FaceVotes(np.array([0, 2]), np.array([0, 0]), np.ones(2), 3, Hierarchy.of(1, [], []))
     assert votes.winners().tolist() == [0, -1, 0]
+
+
+def test_rounding_does_not_decide_between_sides_that_have_equally_much():
+    weight = np.array([0.3, 0.1, 0.2])  # the sum of the last two is larger, by its last digit
+    assert weight[1] + weight[2] > weight[0]
+    hierarchy = Hierarchy.of(3, [(1, 2), (0, 1)], [0.1, 0.3])
+    assert FaceVotes(np.zeros(3, np.int64), np.arange(3), weight, 1, hierarchy).winners().tolist() == [0]

@@ -81,3 +81,10 @@ def test_straightening_takes_saw_teeth():
     assert boundary_length(graph, teeth) == 18  # ten down, and one across at both sides of four teeth
     np.testing.assert_array_equal(straighten(graph, teeth, 20), straight)
     np.testing.assert_array_equal(straighten(graph, straight, 20), straight)
+
+
+def test_straightening_gains_nothing_by_rounding():
+    graph = path(5, lengths=[1, 0.3, 0.1 + 0.2, 1])
+    label = np.array([0, 0, 0, 1, 1])
+    assert graph.length[2] > graph.length[1]
+    assert (straighten(graph, label, 3) == label).all()
