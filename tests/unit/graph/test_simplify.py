@@ -68,6 +68,9 @@ def test_an_arc_put_together_from_two_is_as_long_as_both():
     done = simplify(sets, topology, 0.0, 5)
     assert sorted(np.bincount(done.contour_arc[done.contour_arc >= 0]).tolist()) == [3, 7, 12]
     assert done.n_nodes == 4
+    # The same by height: the leg is as high as its two arcs together.
+    by_height = simplify(sets, topology, 0.0, 0, np.full(len(sets.levels), 0.5), 2.5)
+    assert by_height.contour_arc.tolist() == done.contour_arc.tolist()
 
 
 def test_nothing_below_the_limits_nothing_changes():

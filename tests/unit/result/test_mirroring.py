@@ -41,3 +41,11 @@ def test_what_has_no_image_changes_alone():
     after = np.array([*BEFORE[:3], 1, *BEFORE[4:]])
     assert on_both_sides(
         np.array(BEFORE), after, np.array(TWIN), {3: 3}, lambda: next(new)).tolist() == after.tolist()
+
+
+def test_an_image_that_was_of_another_part_keeps_it():
+    """The face of part 1 that goes to the middle has its image in part 3, which is not that of part 1."""
+    before = np.array([1, 1, 3, 3, 3, 2])
+    twin = np.array([4, 5, 3, 2, 0, 1])
+    after = np.array([3, 1, 3, 3, 3, 2])
+    assert on_both_sides(before, after, twin, NUMBERS, lambda: 9).tolist() == after.tolist()

@@ -274,3 +274,14 @@ def test_order_of_labels_is_order_of_numbers(result):
     parts = numbered.parts
     assert parts.area == pytest.approx(np.bincount(parts.candidate_part, result.candidate_area))
     assert (parts.cuts[:, 0] < parts.cuts[:, 1]).all()
+
+
+def test_who_had_the_number_of_a_fixed_part_elsewhere_gets_another(result):
+    """Two candidates had number 1, and one of them is fixed as that."""
+    pinned = none(result)
+    pinned[0] = 1
+    former = np.arange(result.n_candidates) + 1
+    former[-1] = 1
+    numbers = inherited(result, 0.0, result.n_candidates, former, pinned)
+    assert numbers[:-1].tolist() == former[:-1].tolist()
+    assert numbers[-1] not in former

@@ -7,7 +7,7 @@ import shapes
 
 from core.surface.mesh import TriMesh
 from core.surface.polygons import PolygonMesh
-from core.surface.preparation import _separate_fans, repair, split_long_edges
+from core.surface.preparation import _separate_fans, repair, split_long_edges, worth_cutting
 
 
 def repaired(shape, polygon=None):
@@ -272,3 +272,14 @@ def test_a_piece_as_small_as_the_gap_keeps_its_faces():
     speck = shapes.Shape(5e-6 * speck.vertices, speck.faces)
     working = repaired(shapes.together(shapes.icosphere(2), shapes.moved(speck, (0, 0, 2))))
     assert working.mesh.n_faces == len(shapes.icosphere(2).faces) + len(speck.faces)
+
+
+@pytest.mark.parametrize(("few", "kept"), [(1, 1), (30, 0)])
+def test_of_many_bodies_the_larger_are_decomposed_and_of_equal_ones_all_or_none(few, kept):
+    """Twenty balls of 80 faces, beside tetrahedra: with too many in all the balls stay, and no tetrahedron."""
+    places = 10.0 * np.arange(50)
+    balls = [shapes.moved(shapes.icosphere(1), (x, 0, 0)) for x in places[:20]]
+    small = [shapes.moved(shapes.tetrahedron(), (x, 100, 0)) for x in places[:few]]
+    working = repaired(shapes.together(*balls, *small))
+    sizes = np.bincount(working.mesh.face_components[1])[worth_cutting(working, working.mesh.face_components[1], 0.0)]
+    assert np.bincount(sizes, minlength=81)[[80, 4]].tolist() == [20, kept]
