@@ -44,8 +44,8 @@ def test_what_has_no_image_changes_alone():
 
 
 def test_an_image_that_was_of_another_part_keeps_it():
-    """The face of part 1 that goes to the middle has its image in part 3, which is not that of part 1."""
+    """The face of part 1 that goes to part 2 has its image in part 3, which is not that of part 1."""
     before = np.array([1, 1, 3, 3, 3, 2])
     twin = np.array([4, 5, 3, 2, 0, 1])
-    after = np.array([3, 1, 3, 3, 3, 2])
+    after = np.array([2, 1, 3, 3, 3, 2])
     assert on_both_sides(before, after, twin, NUMBERS, lambda: 9).tolist() == after.tolist()
