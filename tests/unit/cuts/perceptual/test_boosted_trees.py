@@ -31,6 +31,12 @@ def test_every_leaf_by_hand():
     np.testing.assert_allclose(two_trees().predict(rows), [by_hand(*r) for r in rows], rtol=1e-12)
 
 
+@pytest.mark.parametrize("error", [1e-12, -1e-12])
+def test_rounding_does_not_decide_at_a_threshold(error):
+    rows = np.array([(x, y) for x in (0, 1, 2) for y in (0, 1, 2)], float)
+    assert two_trees().predict(rows + error).tolist() == two_trees().predict(rows).tolist()
+
+
 def test_answers_are_those_of_the_trainer():
     """Rows on and beside thresholds; tests/data/trees_by_trainer.py made the file."""
     path = Path(__file__).resolve().parents[3] / "data" / "trees_by_trainer.npz"
