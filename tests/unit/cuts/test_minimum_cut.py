@@ -105,6 +105,17 @@ def test_of_two_equal_creases_the_nearer_wins(side):
     assert (moved == (x > 1)).all()
 
 
+def test_beyond_a_depth_creases_are_equally_cheap():
+    """So that the nearer one wins, however deep the other is."""
+    n = 48
+    mesh = TriMesh(*shapes.flat_grid(n, n))
+    x = mesh.face_centroids[:, 0] - n / 2
+    a, b = mesh.edges.pairs.T
+    curvature = np.where((x[a] > 1) != (x[b] > 1), -60.0, np.where((x[a] > -3) != (x[b] > -3), -1000.0, 0.0))
+    moved = minimum_cuts(mesh, curvature, (x > 0).astype(np.int64), 0.5, widest=6.0)
+    assert (moved == (x > 1)).all()
+
+
 def test_the_longest_cut_moves_first():
     cuts = _cuts_by_length(np.arange(3), np.array([0, 1]), np.array([1, 2]), np.array([1.0, 10.0]))
     assert cuts.tolist() == [[1, 2], [0, 1]]
