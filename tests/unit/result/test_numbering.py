@@ -130,6 +130,15 @@ def test_numbers_come_back_at_the_level_at_which_they_were_given(result):
         assert (numbering.parts(0.0, count).candidate_numbers == former).all()
 
 
+def test_a_number_that_one_candidate_had_is_that_of_its_part_at_every_level(result):
+    """Numbers there were are born before all others, however small what had them is."""
+    least = result.candidate_area.argmin()
+    former = none(result)
+    former[least] = 7
+    for numbered in levels(Numbering.of(result, former, none(result))):
+        assert numbered.candidate_numbers[least] == 7
+
+
 def test_finer_parts_are_numbered_as_they_come(result):
     former = settled(result, n_parts=5)
     numbering = Numbering.of(result, former, none(result))
