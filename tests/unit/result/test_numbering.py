@@ -130,13 +130,16 @@ def test_numbers_come_back_at_the_level_at_which_they_were_given(result):
         assert (numbering.parts(0.0, count).candidate_numbers == former).all()
 
 
-def test_a_number_that_one_candidate_had_is_that_of_its_part_at_every_level(result):
-    """Numbers there were are born before all others, however small what had them is."""
-    least = result.candidate_area.argmin()
-    former = none(result)
-    former[least] = 7
-    for numbered in levels(Numbering.of(result, former, none(result))):
-        assert numbered.candidate_numbers[least] == 7
+@pytest.mark.parametrize("seed", range(4))
+def test_a_part_with_a_number_that_was_there_has_no_new_one(result, seed):
+    """Numbers there were are born before all others, also those of which no part has most."""
+    former = np.random.default_rng(seed).integers(0, 2 + result.n_candidates // 4, result.n_candidates)
+    numbering = Numbering.of(result, former, none(result))
+    kept = np.isin(numbering.candidate_number, former[former > 0])
+    assert np.isin(former[former > 0], numbering.candidate_number).all()
+    for numbered in levels(numbering):
+        has_kept = np.bincount(numbered.parts.candidate_part, kept) > 0
+        assert np.isin(numbered.numbers[has_kept], former).all()
 
 
 def test_finer_parts_are_numbered_as_they_come(result):
