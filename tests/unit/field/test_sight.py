@@ -22,7 +22,7 @@ def stretched(n_x, n_y, by):
     return TriMesh(vertices * (1.0, by, 1.0), faces)
 
 
-@pytest.mark.parametrize("by", [1.0, 4.0, 15.0, 40.0])
+@pytest.mark.parametrize("by", [1.0, 4.0, 10.0, 15.0])
 def test_over_needles_distances_are_as_good_as_directions_allow(by):
     mesh = stretched(90, 6, by)
     source = 45 * 7 + 3
