@@ -72,7 +72,7 @@ class Ordering:
         polygon : (m,) int64, of each triangle, 0..n_polygons-1. vertex_rank : (n,) int64, the order of the vertices
         that decides where the shape is symmetric; that in which they are without it.
         """
-        corner, axes = _in_own_frame(mesh, vertex_rank)
+        corner, axes = _in_own_frame(mesh, polygon, vertex_rank)
         center = sum(corner[column] for column in mesh.faces.T) / 3
 
         def normal() -> np.ndarray:
@@ -228,11 +228,13 @@ def rank_by_place(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
         Place of each in the order, which depends on order, pose and scale as ``Ordering`` does.
     """
     position = points - weighted_sum(weight, points) / weight.sum()
-    place = inner_products(position, _own_axes(position, weight, position, weight))
+    place = inner_products(position, _own_axes(position, weight, position, lambda: weight))
     return inverse(_order(place / max(np.abs(place).max(), 1e-300), lambda: np.zeros_like(place)))
 
 
-def _in_own_frame(mesh: TriMesh, vertex_rank: np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
+def _in_own_frame(
+    mesh: TriMesh, polygon: np.ndarray, vertex_rank: np.ndarray | None
+) -> tuple[np.ndarray, np.ndarray]:
     """Place of each vertex along the axes of the surface itself, (n, 3), and these axes, (3, 3).
 
     Places are from its middle, in units of the largest coordinate of a vertex with a face.
@@ -244,25 +246,36 @@ def _in_own_frame(mesh: TriMesh, vertex_rank: np.ndarray | None) -> tuple[np.nda
         used = used[stable_order(vertex_rank[used])]
     corner = np.zeros((mesh.n_vertices, 3))
     corner[used] = mesh.vertices[used] - middle
-    around = np.bincount(mesh.faces.ravel(), minlength=mesh.n_vertices)[used]
-    axes = _own_axes(mesh.face_centroids - middle, weight, corner[used], around * around)
+
+    def meeting() -> np.ndarray:
+        """Squared number of polygons at each vertex in use, or of their edges: how they are divided must not count."""
+        ends = mesh.faces
+        if len(polygon) > polygon.max(initial=-1) + 1:
+            within = mesh.edges.pair_edge[polygon[mesh.edges.pairs[:, 0]] == polygon[mesh.edges.pairs[:, 1]]]
+            ends = np.delete(mesh.edges.vertices, within, axis=0)
+        number = np.bincount(ends.ravel(), minlength=mesh.n_vertices)[used]
+        return number * number
+
+    axes = _own_axes(mesh.face_centroids - middle, weight, corner[used], meeting)
     corner = inner_products(corner, axes)
     return corner / max(np.abs(corner).max(), 1e-300), axes
 
 
-def _own_axes(position: np.ndarray, weight: np.ndarray, points: np.ndarray, point_weight: np.ndarray) -> np.ndarray:
+def _own_axes(
+    position: np.ndarray, weight: np.ndarray, points: np.ndarray, point_weight: Callable[[], np.ndarray]
+) -> np.ndarray:
     """Axes of a surface, (3, 3), a row each: the principal axes of positions, (m, 3), from their middle.
 
     Each points to where the farther positions are, or away from there; where both sides of the shape are alike, to
-    where the points, (k, 3), have more weight, (k,), as the triangles of symmetric shapes often differ; where these
-    are alike, too, the first point that is clearly on one side decides.
+    where the points, (k, 3), have more of another weight, (k,), as the faces of symmetric shapes often differ; where
+    these are alike, too, the first point that is clearly on one side decides.
     """
     axes = principal_axes(second_moments(position, weight), points)
     for axis in axes:
         lean = _lean(inner_products(position, axis), weight)
         if abs(lean) < TIE:
             height = inner_products(points, axis)
-            lean = _lean(height, point_weight)
+            lean = _lean(height, point_weight())
             if abs(lean) < TIE:
                 lean = height[(np.abs(height) >= 0.5 * np.abs(height).max()).argmax()]
         axis *= -1.0 if lean < 0 else 1.0
