@@ -29,17 +29,18 @@ def json_bytes(result: dict[str, Any]) -> bytes:
     return (json.dumps(result, indent=2, allow_nan=False) + "\n").encode()
 
 
-def model_document(model: Model, result: Decomposition, parts: Parts, labels: bool = False,
-                   files: dict[str, Any] | None = None) -> dict[str, Any]:
+def model_document(
+    model: Model, result: Decomposition, parts: Parts, files: dict[str, Any] | None = None
+) -> dict[str, Any]:
     """The JSON document of one model, by the schema of docs/json.md.
 
-    labels : bool, whether it has the part of each face. files : what is written, by kind. Returns a dict.
+    files : what is written, by kind. Returns a dict.
     """
     import trimesh
 
     corner = np.repeat(parts.labels[model.polygon], 3)
     boxes = bounding_boxes(corner, model.vertices[model.faces].reshape(-1, 3), parts.count)
-    made = document([report(result, parts, model.name, boxes=boxes, labels=labels)], files=files or {})
+    made = document([report(result, parts, model.name, boxes=boxes)], files=files or {})
     made["versions"]["trimesh"] = trimesh.__version__
     return made
 

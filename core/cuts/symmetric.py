@@ -20,7 +20,7 @@ from itertools import product
 import numpy as np
 from scipy.sparse import csr_array
 
-from ..surface.arrays import components, renumbered, rounded
+from ..surface.arrays import components, pair_keys, renumbered, rounded
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
 from .hierarchy import Hierarchy
 from .joining.method import LAST
@@ -252,12 +252,12 @@ def _without_lone(
     names, place = renumbered(full)
     lead, way = np.divmod(names, n_ways)
     pairs = graph.boundaries(place)[0]
-    here = np.sort(pairs, axis=1) @ (len(names), 1)
+    here = pair_keys(np.sort(pairs, axis=1), len(names))
     alone = np.zeros(len(names), bool)
     for mirrored in range(1, n_ways):
         image = _places(names, n_ways * lead + kind[lead, ways.after[way, ways.back[mirrored]]])
         there = image >= 0
-        of_pairs = np.sort(image[pairs], axis=1) @ (len(names), 1)
+        of_pairs = pair_keys(np.sort(image[pairs], axis=1), len(names))
         held = np.zeros(len(names), bool)
         held[pairs[np.isin(of_pairs, here) & there[pairs].all(axis=1)]] = True
         alone |= seen[lead, mirrored] & ~(held & there)

@@ -184,8 +184,8 @@ def equalize(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
     counts, edges = np.histogram(values, bins=HISTOGRAM_BINS, range=(0.0, 1.0), weights=weights)
     # An empty bin gets a millionth of the area, so that values within it keep their order.
     counts = counts + 1e-6 * weights.sum()
-    cumulative = np.concatenate([[0.0], np.cumsum(counts)]) / counts.sum()
-    return np.interp(values, edges, cumulative)
+    cumulative = np.concatenate([[0.0], np.cumsum(counts)])
+    return np.interp(values, edges, cumulative / cumulative[-1])
 
 
 def coarse_agd(

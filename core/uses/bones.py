@@ -286,13 +286,19 @@ def limb_bones(
         of_bones = None if images is None else images.of_bones(bone_part, part_bone)
         bones = part_bones(table, of_face, area, height, line, np.where(line_part < 0, -1, part_bone[line_part]),
                            of_bones)
-        neck = _necks(table, of_face, area, bones)
-        hangs = ~neck if of_bones is None else ~neck[of_bones.first]
-        if not hangs.any():
-            return bones, bone_part, part_bone
-        # What hangs on a part that itself hangs on another is looked at again in the next round.
-        now = hangs & ~hangs[bones.parent]
-        owner = np.where(now, bone_part[bones.parent], bone_part)[part_bone]
+        held, neck = bone_part.copy(), _necks(table, of_face, area, bones)
+        for bone in np.flatnonzero(~neck if of_bones is None else ~neck[of_bones.first]).tolist():
+            held[bone] = bone_part[bones.parent[bone]]
+        if (held == bone_part).all():
+            return bones, _own_part(bone_part, part_bone), part_bone
+        # What hangs on a part that itself hangs on another follows in the next round.
+        owner = held[part_bone]
+
+
+def _own_part(bone_part: np.ndarray, part_bone: np.ndarray) -> np.ndarray:
+    """The part that names each bone, (k,) int64, or, where another bone moves that one, the first that it moves."""
+    first = np.unique(part_bone, return_index=True)[1]
+    return np.where(part_bone[bone_part] == np.arange(len(bone_part)), bone_part, first)
 
 
 def _necks(table: CornerTable, labels: np.ndarray, area: np.ndarray, bones: Bones) -> np.ndarray:

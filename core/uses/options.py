@@ -32,6 +32,7 @@ def add_parameters(group: argparse._ArgumentGroup) -> None:
             words["help"] += f" ({low} to {high}; default {field.default})"
             group.add_argument(name, type=int if field.type == "int" else float, metavar="N", **words)
         else:
+            words["help"] += f" (default {'on' if field.default else 'off'})"
             group.add_argument(name, action=argparse.BooleanOptionalAction, **words)
     for old in RENAMED:  # scripts of version 0.1.0
         kind = {"action": argparse.BooleanOptionalAction} if old == "equalise" else {"type": float}
