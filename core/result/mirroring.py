@@ -7,7 +7,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..surface.arrays import components
+from ..surface.labels import FaceGraph, connect
 from .numbering import NumberedParts
+
+CRUMB = 0.02  # share of its part's area below which a region that the image of a change leaves alone is no part
 
 
 def twin_numbers(numbered: NumberedParts) -> dict[int, int]:
@@ -18,6 +22,31 @@ def twin_numbers(numbered: NumberedParts) -> dict[int, int]:
     twin = numbered.parts.twin
     has = np.flatnonzero(twin >= 0)
     return dict(zip(numbered.numbers[has].tolist(), numbered.numbers[twin[has]].tolist(), strict=True))
+
+
+def without_crumbs(graph: FaceGraph, asked: np.ndarray, both: np.ndarray) -> np.ndarray:
+    """Give what the mirror image of a change cut off by chance to the part around it.
+
+    Where faces have no exact images, the image of a cut may leave a few of them alone that the cut itself did not.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+        Of p faces.
+    asked, both : (p,) int64
+        Number of the part of each face after a change, and after its mirror image, too.
+
+    Returns
+    -------
+    both : (p,) int64
+    """
+    extra = both != asked
+    first, second = graph.pairs.T
+    same = np.flatnonzero(both[first] == both[second])
+    region = components(graph.n_faces, first[same], second[same])[1]
+    small = np.bincount(region, graph.area)[region] < CRUMB * np.bincount(both, graph.area)[both]
+    concerned = np.isin(both, np.concatenate([asked[extra], both[extra]]))
+    return np.where(small & concerned, connect(graph, both), both)
 
 
 def on_both_sides(

@@ -6,7 +6,8 @@ from itertools import count
 import numpy as np
 import pytest
 
-from core.result.mirroring import on_both_sides
+from core.result.mirroring import on_both_sides, without_crumbs
+from core.surface.labels import FaceGraph
 
 BEFORE = [1, 1, 1, 3, 3, 3, 3, 2, 2, 2]
 TWIN = list(range(9, -1, -1))
@@ -49,3 +50,25 @@ def test_an_image_that_was_of_another_part_keeps_it():
     twin = np.array([4, 5, 3, 2, 0, 1])
     after = np.array([2, 1, 3, 3, 3, 2])
     assert on_both_sides(before, after, twin, NUMBERS, lambda: 9).tolist() == after.tolist()
+
+
+@pytest.mark.parametrize(("asked", "both", "expected"), [
+    # The last face has no image, and is cut off where its twin is part of what was cut.
+    ([4, 4, 1, 1, 3, 3, 2, 2, 2, 2], [4, 4, 1, 1, 3, 3, 2, 2, 5, 2], [4, 4, 1, 1, 3, 3, 2, 2, 5, 5]),
+    # What the change itself cuts off is wanted.
+    ([1, 1, 1, 1, 3, 3, 2, 2, 5, 2], [1, 4, 1, 1, 3, 3, 2, 2, 5, 2], [1, 4, 1, 1, 3, 3, 2, 2, 5, 2]),
+    # Without an image nothing changes.
+    ([4, 1, 1, 1, 3, 3, 2, 2, 5, 2], [4, 1, 1, 1, 3, 3, 2, 2, 5, 2], [4, 1, 1, 1, 3, 3, 2, 2, 5, 2])])
+def test_crumbs_that_an_image_leaves_join_the_part_around_them(asked, both, expected):
+    area = np.ones(10)
+    area[9] = 0.01
+    row = np.arange(9)
+    graph = FaceGraph(10, np.stack([row, row + 1], axis=1), np.ones(9), area)
+    assert without_crumbs(graph, np.array(asked), np.array(both)).tolist() == expected
+
+
+def test_a_large_piece_that_an_image_leaves_is_a_part():
+    row = np.arange(9)
+    graph = FaceGraph(10, np.stack([row, row + 1], axis=1), np.ones(9), np.ones(10))
+    both = np.array([4, 4, 1, 1, 3, 3, 2, 2, 5, 2])
+    assert without_crumbs(graph, np.array([4, 4, 1, 1, 3, 3, 2, 2, 2, 2]), both).tolist() == both.tolist()
