@@ -303,7 +303,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     face_numbers, also = _mirrored(obj.data, stored, before, asked, stored.decomposition.face_twin)
     if also:
         mesh_tables = mesh_tables or bridge.face_graph(obj)
-        face_numbers = without_crumbs(mesh_tables[0], asked, face_numbers)
+        face_numbers = without_crumbs(mesh_tables[0], before, asked, face_numbers)
     moved = face_numbers != before
     if not moved.any():
         return face_numbers

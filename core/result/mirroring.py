@@ -24,7 +24,7 @@ def twin_numbers(numbered: NumberedParts) -> dict[int, int]:
     return dict(zip(numbered.numbers[has].tolist(), numbered.numbers[twin[has]].tolist(), strict=True))
 
 
-def without_crumbs(graph: FaceGraph, asked: np.ndarray, both: np.ndarray) -> np.ndarray:
+def without_crumbs(graph: FaceGraph, before: np.ndarray, asked: np.ndarray, both: np.ndarray) -> np.ndarray:
     """Give what the mirror image of a change cut off by chance to the part around it.
 
     Where faces have no exact images, the image of a cut may leave a few of them alone that the cut itself did not.
@@ -33,12 +33,13 @@ def without_crumbs(graph: FaceGraph, asked: np.ndarray, both: np.ndarray) -> np.
     ----------
     graph : FaceGraph
         Of p faces.
-    asked, both : (p,) int64
-        Number of the part of each face after a change, and after its mirror image, too.
+    before, asked, both : (p,) int64
+        Number of the part of each face before a change, after it, and after its mirror image, too.
 
     Returns
     -------
     both : (p,) int64
+        Regions in which a face was changed stay.
     """
     extra = both != asked
     first, second = graph.pairs.T
@@ -46,7 +47,8 @@ def without_crumbs(graph: FaceGraph, asked: np.ndarray, both: np.ndarray) -> np.
     region = components(graph.n_faces, first[same], second[same])[1]
     small = np.bincount(region, graph.area)[region] < CRUMB * np.bincount(both, graph.area)[both]
     concerned = np.isin(both, np.concatenate([asked[extra], both[extra]]))
-    return np.where(small & concerned, connect(graph, both), both)
+    left = np.bincount(region, both != before)[region] == 0
+    return np.where(small & concerned & left, connect(graph, both), both)
 
 
 def on_both_sides(

@@ -57,6 +57,8 @@ def test_an_image_that_was_of_another_part_keeps_it():
     ([4, 4, 1, 1, 3, 3, 2, 2, 2, 2], [4, 4, 1, 1, 3, 3, 2, 2, 5, 2], [4, 4, 1, 1, 3, 3, 2, 2, 5, 5]),
     # What the change itself cuts off is wanted.
     ([1, 1, 1, 1, 3, 3, 2, 2, 5, 2], [1, 4, 1, 1, 3, 3, 2, 2, 5, 2], [1, 4, 1, 1, 3, 3, 2, 2, 5, 2]),
+    # A few faces that were given to a part far from it, and their image, are parts apart.
+    ([2, 1, 1, 1, 3, 3, 2, 2, 2, 2], [2, 1, 1, 1, 3, 3, 2, 2, 2, 1], [2, 1, 1, 1, 3, 3, 2, 2, 2, 1]),
     # Without an image nothing changes.
     ([4, 1, 1, 1, 3, 3, 2, 2, 5, 2], [4, 1, 1, 1, 3, 3, 2, 2, 5, 2], [4, 1, 1, 1, 3, 3, 2, 2, 5, 2])])
 def test_crumbs_that_an_image_leaves_join_the_part_around_them(asked, both, expected):
@@ -64,11 +66,13 @@ def test_crumbs_that_an_image_leaves_join_the_part_around_them(asked, both, expe
     area[9] = 0.01
     row = np.arange(9)
     graph = FaceGraph(10, np.stack([row, row + 1], axis=1), np.ones(9), area)
-    assert without_crumbs(graph, np.array(asked), np.array(both)).tolist() == expected
+    before = np.array([1, 1, 1, 1, 3, 3, 2, 2, 2, 2])
+    assert without_crumbs(graph, before, np.array(asked), np.array(both)).tolist() == expected
 
 
 def test_a_large_piece_that_an_image_leaves_is_a_part():
     row = np.arange(9)
     graph = FaceGraph(10, np.stack([row, row + 1], axis=1), np.ones(9), np.ones(10))
     both = np.array([4, 4, 1, 1, 3, 3, 2, 2, 5, 2])
-    assert without_crumbs(graph, np.array([4, 4, 1, 1, 3, 3, 2, 2, 2, 2]), both).tolist() == both.tolist()
+    before, asked = np.array([[1, 1, 1, 1, 3, 3, 2, 2, 2, 2], [4, 4, 1, 1, 3, 3, 2, 2, 2, 2]])
+    assert without_crumbs(graph, before, asked, both).tolist() == both.tolist()
