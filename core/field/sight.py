@@ -17,7 +17,7 @@ from ..surface.mesh import ON_A_LINE, TriMesh
 
 WIDE = 0.5  # cosine of 60 degrees: the angle up to which directions of paths are near enough to each other
 NEEDLE = 4.0  # ratio of a triangle's longest side to its height above that from which on it is one
-CHAIN = 20  # upper bound of the number of triangles in a chain
+CHAIN = 12  # upper bound of the number of triangles in a chain
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,11 +114,11 @@ def _first_windows(mesh: TriMesh, across: np.ndarray) -> _Windows:
     return _open(_Windows(source, side, np.stack([begin, end], axis=1), right, left, right, left))
 
 
-def _open(windows: _Windows) -> _Windows:
-    """Those that are wide and have a triangle behind them."""
+def _open(windows: _Windows, among: np.ndarray | bool = True) -> _Windows:
+    """Those of a mask that are wide and have a triangle behind them."""
     within = row_products(windows.from_, windows.to)
     wide = within < (WIDE - TIE) * lengths(windows.from_) * lengths(windows.to)
-    return windows.chosen(wide & (windows.side >= 0))
+    return windows.chosen(wide & (windows.side >= 0) & among)
 
 
 def _behind(mesh: TriMesh, windows: _Windows) -> tuple[np.ndarray, np.ndarray]:
@@ -148,7 +148,7 @@ def _next_windows(
                         windows.from_, np.where(left_of[:, None], windows.to, place))
     by_left = _Windows(windows.source, to_left, np.stack([corner, windows.ends[:, 1]], axis=1), place, windows.left,
                        np.where(right_of[:, None], windows.from_, place), windows.to)
-    return _open(by_right.chosen(~right_of)).joined(_open(by_left.chosen(~left_of)))
+    return _open(by_right, ~right_of).joined(_open(by_left, ~left_of))
 
 
 def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
