@@ -43,7 +43,7 @@ def write_request(folder: Path, shapes: list[tuple[np.ndarray, ...]], parameters
         The files cannot be written.
     """
     for number, arrays in enumerate(shapes):
-        np.savez(folder / f"shape_{number}.npz", **dict(zip(_SHAPE, arrays, strict=True)))
+        _write(folder / f"shape_{number}.npz", dict(zip(_SHAPE, arrays, strict=True)))
     request = {"shapes": len(shapes), "parameters": asdict(parameters)}
     (folder / "request.json").write_text(json.dumps(request), encoding="utf-8")
 
@@ -71,7 +71,7 @@ def write_result(folder: Path, number: int, result: Decomposition) -> None:
     """Write the result for a shape; raises OSError if it cannot be written."""
     head = {"parameters": asdict(result.parameters), "notes": [plain_sentence(note) for note in result.notes],
             "seconds": result.seconds, "version": result.version}
-    np.savez(folder / f"result_{number}.npz", **result.to_arrays())
+    _write(folder / f"result_{number}.npz", result.to_arrays())
     (folder / f"result_{number}.json").write_text(json.dumps(head), encoding="utf-8")
 
 
@@ -96,6 +96,11 @@ def _arrays(path: Path) -> dict[str, np.ndarray]:
     """All arrays of a file."""
     with np.load(path, allow_pickle=False) as file:
         return {name: file[name] for name in file.files}
+
+
+def _write(path: Path, arrays: dict[str, np.ndarray]) -> None:
+    """Write arrays by their names; raises OSError if they cannot be written."""
+    np.savez(path, **arrays)  # type: ignore[arg-type]  # none of them is called as an option of savez is
 
 
 def plain_error(error: ReebError) -> dict[str, Any]:

@@ -97,7 +97,8 @@ class Overlap:
         values : (k,) float64, per pair of regions. Returns the sums for the regions of the first labeling, (r,), and
         for those of the second, (s,).
         """
-        return tuple(np.bincount(region, values) for region in self.pair.T)
+        first, second = self.pair.T
+        return np.bincount(first, values), np.bincount(second, values)
 
     def largest(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Find the largest value of each region of each labeling.
@@ -105,10 +106,15 @@ class Overlap:
         values : (k,) float64, 0 or more, per pair of regions. Returns the largest values for the regions of the first
         labeling, (r,), and for those of the second, (s,).
         """
-        best = tuple(np.zeros(region.max() + 1) for region in self.pair.T)
-        for result, region in zip(best, self.pair.T, strict=True):
-            np.maximum.at(result, region, values)
-        return best
+        first, second = self.pair.T
+        return _largest(first, values), _largest(second, values)
+
+
+def _largest(region: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """The largest of values, (k,), 0 or more, in each region, (r,)."""
+    best = np.zeros(region.max() + 1)
+    np.maximum.at(best, region, values)
+    return best
 
 
 def rand_index_error(first: ArrayLike, second: ArrayLike) -> float:

@@ -205,7 +205,7 @@ def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types
         for vertex in copy.vertices:  # groups cannot be read in bulk
             for entry in vertex.groups:
                 mass[vertex.index, column[entry.group]] = entry.weight
-    found, known = limited(mass), mass.any(axis=1)[:, None]
+    found, known = limited(mass), mass.any(axis=1, keepdims=True)
     return Weights(np.where(known, found.bone, smooth.bone), np.where(known, found.weight, smooth.weight))
 
 

@@ -111,7 +111,7 @@ def digest(*arrays: np.ndarray) -> str:
     """Equal for arrays of equal shapes and bytes."""
     whole = hashlib.blake2b(digest_size=16)
     for array in arrays:
-        part = hashlib.blake2b(np.ascontiguousarray(array), digest_size=16).digest()
+        part = hashlib.blake2b(np.ascontiguousarray(array).data, digest_size=16).digest()
         whole.update(str(array.shape).encode() + part)
     return whole.hexdigest()
 

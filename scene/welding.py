@@ -82,7 +82,8 @@ def _unlike(values: Values, some: np.ndarray, others: np.ndarray) -> np.ndarray:
         return (values[some] != values[others]).reshape(len(some), -1).any(axis=1)
     owner = np.repeat(np.arange(len(values)), values.count)
     # Lists of as many items are the same if the sorted items are.
-    items = values.items[np.lexsort((*(values.items[name] for name in reversed(values.items.dtype.names)), owner))]
+    names = values.items.dtype.names or ()
+    items = values.items[np.lexsort((*(values.items[name] for name in reversed(names)), owner))]
     start = np.cumsum(values.count) - values.count
     found = values.count[some] != values.count[others]
     for place in range(int(values.count[some].max(initial=0))):

@@ -112,8 +112,8 @@ def any_blender() -> Environment:
 
 
 def lint() -> Environment:
-    """What checks the style and the types."""
-    return any_python("lint", "ruff==0.17.5", "mypy==2.4.1")
+    """What checks the style and the types; NumPy for what its functions take and return."""
+    return any_python("lint", "ruff==0.17.5", "mypy==2.4.1", "numpy==2.3.4")
 
 
 def package() -> Environment:

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A round brush that paints faces into a part, over the surface."""
 
-from collections.abc import Sequence
-
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
+from numpy.typing import ArrayLike
 
 from ..core.sentence import Count
 from ..core.surface.arrays import both_ways, components
@@ -41,8 +40,8 @@ class Brush:
         self._locked = np.zeros(count, bool)
         self.free = ~np.isin(model.numbers, edits.locked_others(obj.data, number))
 
-    def dab(self, location: Sequence[float], radius: float) -> None:
-        """Paint faces around a (3,) location, in coordinates of the mesh, as far as the surface goes there.
+    def dab(self, location: ArrayLike, radius: float) -> None:
+        """Paint faces around a location, (3,), in coordinates of the mesh, as far as the surface goes there.
 
         Raises SceneError if the location is none.
         """

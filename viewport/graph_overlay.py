@@ -79,7 +79,12 @@ def marks(places: np.ndarray, kinds: list[str], colors: np.ndarray, right: np.nd
             points.append(fan.reshape(-1, 3))
             shades.append(np.broadcast_to(shade, (3 * len(rim), 4)))
     # The card reads them row by row, which concatenated broadcasts need not be in memory.
-    return tuple(np.ascontiguousarray(np.concatenate(rows), np.float32) for rows in (points, shades))
+    return _by_rows(points), _by_rows(shades)
+
+
+def _by_rows(blocks: list[np.ndarray]) -> np.ndarray:
+    """Blocks, (k, n), below each other, (m, n) float32, row by row in memory."""
+    return np.ascontiguousarray(np.concatenate(blocks), np.float32)
 
 
 def draw() -> None:

@@ -13,6 +13,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from bpy_extras import view3d_utils
 from mathutils import Matrix, Vector
 from mathutils.bvhtree import BVHTree
+from numpy.typing import ArrayLike
 
 from ..scene import graph_follow, graph_objects, mesh_arrays, store
 from ..scene.errors import SceneError
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 REACH = 10.0  # pixels around an arc, of a screen without scaling
 
 
-def check_place(location: Sequence[float]) -> None:
+def check_place(location: ArrayLike) -> None:
     """Raise SceneError unless a (3,) location, as a script may give it, is a place."""
     if not np.isfinite(location).all():
         raise SceneError(rpt_("The location is not finite. Give one on or beside the model."))
@@ -97,11 +98,11 @@ class Model:
 
     def at(self, obj: bpy.types.Object, location: Sequence[float], on_graph: bool) -> Target:
         """The place of the graph, or of the surface, nearest to a location in the world; SceneError if it is none."""
-        location = np.array(obj.matrix_world.inverted_safe() @ Vector(location), np.float64)
-        check_place(location)
+        place = np.array(obj.matrix_world.inverted_safe() @ Vector(location), np.float64)
+        check_place(place)
         if not on_graph:
-            return self._on_face(int(self.tree.query(location)[1]), location)
-        segment, share, _ = nearest(self.lines.position, self.lines.segments, location)
+            return self._on_face(int(self.tree.query(place)[1]), place)
+        segment, share, _ = nearest(self.lines.position, self.lines.segments, place)
         return _on_line(self.lines, segment, share)
 
     def under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
@@ -119,9 +120,10 @@ class Model:
         if arcs is None or not arcs.visible_get():
             return None
         _, places = graph_follow.places(obj)
-        moved = places is not None and len(places) == len(self.shown_lines.position)
-        points = on_screen(places if moved else self.shown_lines.position, obj.matrix_world, region, view)
-        segment, share, distance = nearest(points, self.shown_lines.segments, mouse)
+        if places is None or len(places) != len(self.shown_lines.position):
+            places = self.shown_lines.position
+        points = on_screen(places, obj.matrix_world, region, view)
+        segment, share, distance = nearest(points, self.shown_lines.segments, np.array(mouse))
         if segment < 0 or distance > REACH * context.preferences.system.ui_scale:
             return None
         return _on_line(self.shown_lines, segment, share)

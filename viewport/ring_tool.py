@@ -135,7 +135,8 @@ class RingTool(ColoredTool):
 
     def _show_rings(self, context: bpy.types.Context) -> None:
         cut = context.scene.reeb_parts_use.cut
-        self.preview.show(self.rim, None if cut == "FACES" else partial(self.finding_rim, self._shown, cut == "PLANAR"))
+        numbers = None if cut == "FACES" else self._shown
+        self.preview.show(self.rim, None if numbers is None else partial(self.finding_rim, numbers, cut == "PLANAR"))
         self.preview.faint_lines = self.next
         context.workspace.status_text_set(self.hint())
 

@@ -81,10 +81,10 @@ class Dendrogram:
                 start = following[start]
             ends.append(len(order))
         place = inverse(np.array(order, np.int64))
-        first, second, size = np.array(joins, np.int64).reshape(-1, 3).T
+        first, second, added = np.array(joins, np.int64).reshape(-1, 3).T
         return cls(
             np.array(order, np.int64), np.stack([ends[:-1], ends[1:]], axis=1),
-            np.stack([place[first], place[second], place[second] + size], axis=1), np.array(rows, np.int64))
+            np.stack([place[first], place[second], place[second] + added], axis=1), np.array(rows, np.int64))
 
     @cached_property
     def place(self) -> np.ndarray:

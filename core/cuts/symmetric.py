@@ -159,8 +159,8 @@ def _best(
         cells = _cells(graph, label, ways, lead, whole)
         merges, strength = _linkage(cells, _touching(cells, graph.with_contacts(contacts)), _means(cells, salience))
         tree = Hierarchy.of(len(cells.area), merges, strength)
-        error = np.mean([_disagreement(tree.parts(tree.n_parts(detail))[cells.label], parts, concerned)
-                         for detail, parts in zip(DETAILS, found, strict=True)])
+        error = float(np.mean([_disagreement(tree.parts(tree.n_parts(detail))[cells.label], parts, concerned)
+                               for detail, parts in zip(DETAILS, found, strict=True)]))
         if error < least - 1e-9:
             best, least = (cells.label, tree), error
     return best

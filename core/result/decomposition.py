@@ -406,8 +406,9 @@ class Decomposition:
 _ARRAYS = ("candidates", "vertex_candidates", "candidate_area", "candidate_pairs",
            "candidate_pair_length", "field", "node_candidate", "point_candidate", "contacts", "mirror",
            "face_twin", "face_side")
-_UNKNOWN_TO_0_1_0 = {"contacts": np.empty((0, 2), np.int64), "mirror": np.empty(0), "face_twin": np.empty(0, np.int64),
-                     "face_side": np.empty(0, np.int8)}
+_UNKNOWN_TO_0_1_0: dict[str, np.ndarray] = {
+    "contacts": np.empty((0, 2), np.int64), "mirror": np.empty(0), "face_twin": np.empty(0, np.int64),
+    "face_side": np.empty(0, np.int8)}
 
 
 #: All arrays that ``to_bytes`` writes.

@@ -247,7 +247,7 @@ def _longest(mesh: TriMesh, max_length: float, most: int) -> np.ndarray:
     if mesh.edges.n_faces[long].sum() <= most:
         return long
     order = np.argsort(-mesh.edge_length, kind="stable")
-    fits = np.searchsorted(np.cumsum(mesh.edges.n_faces[order]), most, side="right")
+    fits = int(np.searchsorted(np.cumsum(mesh.edges.n_faces[order]), most, side="right"))
     # Edges of one length are split all, or none.
     limit = max(max_length, mesh.edge_length[order[min(fits, len(order) - 1)]])
     return mesh.edge_length > (1 + TIE) * limit

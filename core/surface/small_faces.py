@@ -141,7 +141,7 @@ class SmallFaces:
     @cached_property
     def middle(self) -> np.ndarray:
         """(3,) float64, middle of the surface."""
-        return weighted_sum(self.mesh.face_area / self.mesh.area, self.mesh.face_centroids)
+        return np.asarray(weighted_sum(self.mesh.face_area / self.mesh.area, self.mesh.face_centroids))
 
     @cached_property
     def size(self) -> float:

@@ -170,10 +170,10 @@ def part_bones(
     shown = joints.by_cut(parent) | (beyond @ size >= _SHOWN * size[parent])
     for part in order:
         children = np.flatnonzero((parent == part) & shown)
-        way = head[children], line[line_part == part], middle[[part]]
+        ends, center_line, center = head[children], line[line_part == part], middle[[part]]
         if images is not None and images.own[part]:
-            way = tuple(images.onto_plane(points) for points in way)
-        tail[part] = _end(head[part], *way, parent[part] < 0)
+            ends, center_line, center = (images.onto_plane(points) for points in (ends, center_line, center))
+        tail[part] = _end(head[part], ends, center_line, center, parent[part] < 0)
         if np.linalg.norm(tail[part] - head[part]) < shortest:
             tail[part] = head[part] + shortest * _up(images)
     if images is not None:

@@ -57,7 +57,7 @@ def nested_sides(places: np.ndarray, curves: np.ndarray) -> np.ndarray:
 def own_places(sides: np.ndarray) -> np.ndarray:
     """The places of each side that no smaller one has, and last those that are in none: (s + 1, n) bool."""
     before = np.cumsum(sides, axis=0) - sides
-    return np.concatenate([sides & (before == 0), ~sides.any(axis=0)[None]])
+    return np.concatenate([sides & (before == 0), ~sides.any(axis=0, keepdims=True)])
 
 
 def _spread(places: np.ndarray, chosen: np.ndarray) -> np.ndarray:

@@ -94,8 +94,8 @@ def picture(
     for top in range(0, size, n_rows):  # bands, so that a large picture needs little memory
         rows = range(top * fine, min(top + n_rows, size) * fine)
         band = shown[_nearest_faces(place, height, rows, camera.size)].reshape(len(rows), camera.size, 3)
-        for centers, *look in discs:
-            _draw_discs(band, centers - (0, rows.start), *look)
+        for centers, disc_color, radius in discs:
+            _draw_discs(band, centers - (0, rows.start), disc_color, radius)
         mean = band.reshape(-1, fine, size, fine, 3).mean(axis=(1, 3))
         image[top:top + n_rows] = (255 * mean).round().astype(np.uint8)
     return image

@@ -101,7 +101,7 @@ def convexity(position: np.ndarray, pairs: np.ndarray) -> float:
     shape = np.zeros((PIXELS + 4, PIXELS + 4), bool)
     shape[tuple(np.rint(drawn).astype(int).reshape(-1, 2).T)] = True
     shape = binary_fill_holes(binary_dilation(shape))
-    grid = np.stack(np.indices(shape.shape), axis=-1).reshape(-1, 2)
+    grid = np.indices(shape.shape).reshape(2, -1).T
     # The hull is drawn as the shape was: wider by the half of a pixel and by the one of the dilation.
     inside = (grid @ hull.equations[:, :2].T + hull.equations[:, 2] <= 1.0).all(axis=1).reshape(shape.shape)
     whole = inside | shape

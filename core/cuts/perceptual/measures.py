@@ -133,8 +133,8 @@ def _contour_length(sets: LevelSets) -> np.ndarray:
     length = np.divide(total, count, out=np.full(sets.n_pieces, np.sqrt(sets.mesh.area)),
                        where=count > 0)
     area = sets.element_area + 1e-12 * sets.mesh.area
-    of_face = np.bincount(sets.element_face, area * length[sets.element_piece], sets.mesh.n_faces)
-    of_face /= np.bincount(sets.element_face, area, sets.mesh.n_faces)
+    of_face = (np.bincount(sets.element_face, area * length[sets.element_piece], sets.mesh.n_faces)
+               / np.bincount(sets.element_face, area, sets.mesh.n_faces))
     return np.clip(of_face / np.sqrt(sets.mesh.area), 0.01, 20.0)
 
 

@@ -57,7 +57,8 @@ class RegionAdjacencyGraph:
         apart = low != high
         self.ends, border = distinct_pairs(low[apart], high[apart])
         self.border = sums_by(border, measures.pair[apart], len(self.ends))
-        around = sum(sums_by(end, self.border, n) for end in self.ends.T)
+        first, second = self.ends.T
+        around = sums_by(first, self.border, n) + sums_by(second, self.border, n)
         level_min, level_max = np.full(n, np.inf), np.full(n, -np.inf)
         np.minimum.at(level_min, label, measures.level)
         np.maximum.at(level_max, label, measures.level)

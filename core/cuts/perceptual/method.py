@@ -212,7 +212,7 @@ def _coarse_copies(pyramid: Pyramid) -> list[Coarsening]:
 
 def _is_whole(copy: TriMesh, area: float, n_pieces: int) -> bool:
     """Whether a coarse copy has the pieces of the mesh from which it was made, and nearly its area."""
-    whole = copy.n_faces > 0 and copy.used.all()
+    whole = copy.n_faces > 0 and bool(copy.used.all())
     return whole and copy.face_components[0] == n_pieces and copy.area > WHOLE * area
 
 

@@ -95,7 +95,8 @@ def finding_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | Non
     """What ``clean_cuts`` does, in steps."""
     band = Band.of(table, labels, (REACH if planar else max(STEPS)) + 2)
     if band is None:
-        return CleanCuts(*(np.empty(0, kind) for kind in (np.int64, float, np.int64, np.int64, np.int64, np.int64)))
+        none = np.empty(0, np.int64)
+        return CleanCuts(none, np.empty(0), none, none, none, none)
     taken = np.zeros(len(band.vertices), bool)
     failed = taken
     yield 0.05
