@@ -14,7 +14,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils.bvhtree import BVHTree
 from mathutils.geometry import delaunay_2d_cdt
 
-from . import caps, mesh_arrays
+from . import caps, mesh_arrays, mesh_groups
 from .errors import SceneError
 from .temporary import freed
 
@@ -177,7 +177,7 @@ def _imprint(mesh: bpy.types.Mesh, shared: BVHTree, planes: list[tuple[np.ndarra
                                    plane_no=normal)
         bm.faces.layers.int.remove(own)
         _split_straight(bm)
-        mesh_arrays.write(bm, mesh)
+        mesh_groups.write(bm, mesh)
 
 
 def _split_straight(bm: BMesh) -> None:
@@ -265,7 +265,7 @@ def _half(mesh: bpy.types.Mesh, bm: BMesh, kept: np.ndarray, cap: np.ndarray, la
             face[layer], face.material_index = 1, material
         bmesh.ops.delete(half, geom=gone, context="FACES")
         half.normal_update()
-        mesh_arrays.write(half, made)
+        mesh_groups.write(half, made)
     return made
 
 
@@ -289,7 +289,7 @@ def _bodies(mesh: bpy.types.Mesh) -> list[bpy.types.Mesh]:
             bm.faces.ensure_lookup_table()
             gone = [bm.faces[i] for i in np.flatnonzero(label != index).tolist()]
             bmesh.ops.delete(bm, geom=gone, context="FACES")
-            mesh_arrays.write(bm, body)
+            mesh_groups.write(bm, body)
         made.append(body)
     bpy.data.meshes.remove(mesh)
     return made

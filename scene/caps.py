@@ -14,7 +14,7 @@ from mathutils import Vector
 from mathutils.geometry import tessellate_polygon
 
 from ..core.uses.cap_surfaces import common_order
-from . import mesh_arrays
+from . import mesh_arrays, mesh_groups
 from .temporary import freed
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, joined: np.ndarray, way
                 made += _fill(bm, sheet, _polygons(bm, sheet, pairs, discs))
         for face in made:
             face[layer] = 1
-        mesh_arrays.write(bm, mesh)
+        mesh_groups.write(bm, mesh)
     return count, left
 
 

@@ -7,14 +7,13 @@ mesh has vertex groups. What is in no array - the displacement of Multires - is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import nullcontext
 
 import bmesh
 import bpy
 import numpy as np
 
-from . import mesh_arrays
+from . import mesh_arrays, mesh_groups
 from .elements import CORNER, EDGE, FACE, POINT, Elements, Layer, Ragged
 from .temporary import freed, removed
 
@@ -27,39 +26,6 @@ _TOPOLOGY = {".edge_verts", ".corner_vert", ".corner_edge"}
 _ITEMS = {POINT: "vertices", EDGE: "edges", FACE: "polygons", CORNER: "loops"}
 _WEIGHT = np.dtype([("group", np.int32), ("weight", np.float32)])
 _SKIN = (("radius", np.float32, 2), ("use_root", bool, 1), ("use_loose", bool, 1))
-
-_lent: list[bpy.types.Object] = []  # objects that are given one mesh after the other
-
-
-@contextmanager
-def one_twin() -> Iterator[None]:
-    """Read and make many meshes inside: Blender gives and takes vertex groups by an object of the mesh only, and to
-    make and remove one for each takes the longer the more there is in the file."""
-    empty = bpy.data.meshes.new("Reeb Parts")
-    twin = bpy.data.objects.new("Reeb Parts", empty)
-    with removed(bpy.data.meshes, empty), removed(bpy.data.objects, twin):
-        _lent.append(twin)
-        try:
-            yield
-        finally:
-            _lent.remove(twin)
-
-
-@contextmanager
-def _twin(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Object]:
-    """An object of a mesh, in no scene, for a moment."""
-    if _lent:
-        twin = _lent[-1]
-        own = twin.data
-        twin.data = mesh
-        try:
-            yield twin
-        finally:
-            twin.data = own  # to remove a mesh is to remove its objects
-    else:
-        twin = bpy.data.objects.new("Reeb Parts", mesh)
-        with removed(bpy.data.objects, twin):
-            yield twin
 
 
 def read(mesh: bpy.types.Mesh, n_groups: int | None = None) -> Elements:
@@ -141,8 +107,10 @@ def _resize(mesh: bpy.types.Mesh, elements: Elements) -> None:
 
 def _set_layers(mesh: bpy.types.Mesh, elements: Elements) -> None:
     """Write what the elements carry."""
-    for name, layer in elements.layers.items():
-        if layer.kind not in SPECIAL and name not in mesh.attributes:
+    new = {name: layer for name, layer in elements.layers.items()
+           if layer.kind not in SPECIAL and name not in mesh.attributes}
+    with mesh_groups.beside(mesh, new) if f"\0{WEIGHTS}" in elements.layers else nullcontext():
+        for name, layer in new.items():
             mesh.attributes.new(name, layer.kind, layer.domain)
     for name, layer in elements.layers.items():
         values = layer.values
@@ -161,7 +129,7 @@ def _set_layers(mesh: bpy.types.Mesh, elements: Elements) -> None:
 def _weights(mesh: bpy.types.Mesh, n_groups: int | None) -> Ragged | None:
     """Groups and weights of each vertex; None without vertex groups. n_groups : as for ``read``."""
     if n_groups is None:
-        with _twin(mesh) as twin:
+        with mesh_groups.twin(mesh) as twin:
             n_groups = len(twin.vertex_groups)
     if not n_groups:
         return None
@@ -180,7 +148,7 @@ def _set_weights(mesh: bpy.types.Mesh, weights: Ragged) -> None:
     new = np.append(True, (group[1:] != group[:-1]) | (weight[1:] != weight[:-1]))[: len(group)]
     first = np.flatnonzero(new)
     end = np.append(first, len(vertices))[1:]  # none where no vertex has a weight
-    with _twin(mesh) as twin:
+    with mesh_groups.twin(mesh) as twin:
         groups = list(twin.vertex_groups)
         runs = zip(group[first].tolist(), weight[first].tolist(), first.tolist(), end.tolist(), strict=True)
         for index, value, here, there in runs:

@@ -12,7 +12,6 @@ from typing import Any
 
 import bpy
 import numpy as np
-from bmesh.types import BMesh
 from numpy.typing import DTypeLike
 
 from ..core.surface.arrays import cross, lengths
@@ -79,18 +78,6 @@ def forget() -> None:
     _face_corners.clear()
     _joined_faces.clear()
     _digested.clear()
-
-
-def write(bm: BMesh, mesh: bpy.types.Mesh) -> None:
-    """Write a BMesh to a mesh in Object Mode.
-
-    Where a vertex is apart from its first shape, be it by rounding, Blender may move its other shapes by as much, and
-    does so on some runs and not on others (seen in 4.2). New vertices often are.
-    """
-    for basis in bm.verts.layers.shape.values()[:1]:
-        for vertex in bm.verts:
-            vertex[basis] = vertex.co
-    bm.to_mesh(mesh)
 
 
 def fingerprint(mesh: bpy.types.Mesh) -> str:

@@ -17,7 +17,7 @@ import numpy as np
 from ..core.steps import Steps, finished, stretched
 from ..core.surface.arrays import are_among, distinct_pairs, stable_order
 from ..core.surface.corners import edge_labels
-from . import cap_looks, caps, element_layers, hidden, mesh_arrays, outputs, quiet, smooth_faces, welding
+from . import cap_looks, caps, element_layers, hidden, mesh_arrays, mesh_groups, outputs, quiet, smooth_faces, welding
 from .elements import CORNER, Elements
 from .holes import Holes
 from .outputs import kept_aside, materials
@@ -112,7 +112,7 @@ def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterab
     plain = plain_copy(mesh)
     others = [(part.number, part.material) for part in mesh.reeb_parts.parts if part.material is not None]
     wanted = [number for number in wanted if (face_numbers == number).any()]
-    with removed(bpy.data.meshes, plain), element_layers.one_twin():
+    with removed(bpy.data.meshes, plain), mesh_groups.one_twin():
         _keep_normals(plain)
         whole, n_apart, sculpted = element_layers.read(plain), 0, is_sculpted(mesh)
         if close:

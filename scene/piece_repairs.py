@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
-from . import cap_looks, caps, made, mesh_arrays, piece_checks, piece_objects, transaction
+from . import cap_looks, caps, made, mesh_groups, piece_checks, piece_objects, transaction
 from .piece_checks import Check
 from .temporary import freed
 
@@ -77,7 +77,7 @@ def _closed(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:
     with freed(bmesh.new()) as bm:
         bm.from_mesh(mesh)
         _fill_holes(bm)
-        mesh_arrays.write(bm, mesh)
+        mesh_groups.write(bm, mesh)
 
 
 def _without_crossing_caps(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:
@@ -96,7 +96,7 @@ def _without_crossing_caps(mesh: bpy.types.Mesh, faults: piece_checks.Faults) ->
             reached += beside
         bmesh.ops.delete(bm, geom=list(wrong), context="FACES")
         _fill_holes(bm)
-        mesh_arrays.write(bm, mesh)
+        mesh_groups.write(bm, mesh)
 
 
 def _fill_holes(bm: BMesh) -> None:

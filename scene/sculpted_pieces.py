@@ -15,7 +15,7 @@ import numpy as np
 from bmesh.types import BMesh
 
 from ..core.steps import Steps
-from . import element_layers, mesh_arrays, smooth_faces, targets
+from . import element_layers, mesh_arrays, mesh_groups, smooth_faces, targets
 from .holes import Holes
 from .temporary import freed
 
@@ -75,4 +75,4 @@ def _with_bmesh(mesh: bpy.types.Mesh, work: Callable[[BMesh], None]) -> None:
     with freed(bmesh.new()) as bm:
         bm.from_mesh(mesh, face_normals=False, vertex_normals=False)
         work(bm)
-        mesh_arrays.write(bm, mesh)
+        mesh_groups.write(bm, mesh)

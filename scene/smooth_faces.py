@@ -18,7 +18,7 @@ from bmesh.types import BMesh, BMFace, BMVert
 
 from ..core.steps import Steps, stretched
 from ..core.surface.corners import CornerTable
-from . import element_layers, mesh_arrays
+from . import element_layers, mesh_groups
 from .elements import FACE, Elements, Layer, Selection
 from .temporary import freed, removed
 
@@ -101,7 +101,7 @@ def _changed(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray, fa
             bm.from_mesh(some, face_normals=False, vertex_normals=False)
             work(bm, here, np.searchsorted(here.faces, faces))
             _select_made(bm)
-            mesh_arrays.write(bm, some)
+            mesh_groups.write(bm, some)
         now = element_layers.read(some)
     numbers = now.layers[NUMBER].values.astype(np.int64)
     n, n_here, n_now = len(whole.count), len(here.faces), len(now.count)

@@ -180,6 +180,33 @@ def test_all_that_the_faces_carry_is_carried_on(rich, caps):
         assert mine == pytest.approx(normals[here["CORNER"]], abs=5e-3)
 
 
+@pytest.mark.parametrize("style", [{"cut": "FACES", "caps": False}, {}, {"seen": True}])
+@pytest.mark.parametrize("kind", ["FLOAT", "FLOAT_COLOR", "FLOAT2"])
+def test_a_vertex_group_may_have_the_name_of_an_attribute(obj, kind, style):
+    """Blender lets it, but gives a new attribute with the name of a group another one."""
+    rng = np.random.default_rng(0)
+    key, width = WIDTH.get(kind, ("value", 1))
+    data = obj.data.attributes.new("Mask", kind, "CORNER" if kind == "FLOAT2" else "POINT").data  # a map, or values
+    data.foreach_set(key, rng.random(len(data) * width).astype(np.float32))
+    group = obj.vertex_groups.new(name="Other")
+    group.add(range(len(obj.data.vertices)), 0.25, "REPLACE")
+    bpy.ops.reeb_parts.decompose()
+    found = []
+    for name in ("Other", "Mask"):
+        group.name = name
+        activate(obj)
+        assert bpy.ops.reeb_parts.separate(**KEEP, **style) == {"FINISHED"}
+        assert all(piece.vertex_groups.keys() == [name] for piece in pieces())
+        found.append([(attributes_of(piece.data), [[(entry.group, entry.weight) for entry in vertex.groups]
+                                                   for vertex in piece.data.vertices]) for piece in pieces()])
+    for (with_other, weights), (with_mask, same_weights) in zip(*found, strict=True):
+        assert weights == same_weights
+        assert with_mask.keys() == with_other.keys()
+        for name, (domain, values) in with_other.items():
+            assert with_mask[name][0] == domain
+            assert np.array_equal(with_mask[name][1], values), name
+
+
 def test_without_custom_normals_none_are_made(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate()
@@ -435,7 +462,7 @@ def test_modifiers_are_copied_or_not(obj):
 
 def test_what_a_bmesh_says_of_its_shapes_is_written(package, rich):
     # Blender itself, in 4.2, writes one of two answers, about every third time the other one.
-    module = importlib.import_module(f"{package}.scene.mesh_arrays")
+    module = importlib.import_module(f"{package}.scene.mesh_groups")
     for _ in range(12):
         mesh = rich.data.copy()
         bm = bmesh.new()
