@@ -297,12 +297,14 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         The part that each face was to be in, with the mirror image of the change; pieces have other numbers then.
     """
     from ..core.result.editing import split_candidates
-    from ..core.result.mirroring import without_crumbs
+    from ..core.result.mirroring import gathered, without_crumbs
 
     before, asked = stored.face_numbers, face_numbers
     face_numbers, also = _mirrored(obj.data, stored, before, asked, stored.decomposition.face_twin)
     if also:
         mesh_tables = mesh_tables or bridge.face_graph(obj)
+        found = stored.decomposition
+        face_numbers = gathered(mesh_tables[0], found.contacts, found.face_twin, before, asked, face_numbers)
         face_numbers = without_crumbs(mesh_tables[0], before, asked, face_numbers)
     moved = face_numbers != before
     if not moved.any():
@@ -322,7 +324,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     for number in sorted(concerned):
         if (numbers == number).any():
             concerned |= _part_pieces(obj.data, stored, numbers, number)
-    write(context, obj.data, stored, _pinned(obj.data, stored, numbers, concerned))
+    write(context, obj.data, stored, _with_pins(obj.data, stored, numbers, concerned))
     return face_numbers
 
 
@@ -335,7 +337,9 @@ def _finer(stored: Stored, decomposition: Decomposition) -> Stored:
 
 
 def _part_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, number: int) -> set[int]:
-    """Give all but the largest piece of a part numbers of their own.
+    """Give all but the largest piece of a part numbers of their own, unless they were apart from it already.
+
+    Parts of pieces that touch nothing are in several; of each of these, too, the largest piece that is left stays.
 
     Parameters
     ----------
@@ -353,9 +357,16 @@ def _part_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, numb
     """
     from ..core.result.editing import components_of
 
+    area = stored.decomposition.candidate_area
     piece = components_of(stored.decomposition, numbers == number)
+    former = np.where(piece >= 0, components_of(stored.decomposition, stored.shown == number), -1)
+    there = np.flatnonzero(former >= 0)
+    fragment, place = np.unique(np.stack([former, piece])[:, there], axis=1, return_inverse=True)
+    order = np.lexsort((np.bincount(place.ravel(), area[there], fragment.shape[1]), fragment[0]))
+    last = np.append(fragment[0, order][1:] != fragment[0, order][:-1], True)[: len(order)]
+    stays = {0, *fragment[1, order[last]].tolist()}
     made = set()
-    for index in range(1, piece.max() + 1):
+    for index in sorted({*range(piece.max() + 1)} - stays):
         new = free_number(mesh, stored, numbers.tolist())
         made.add(new)
         numbers[piece == index] = new
@@ -374,7 +385,7 @@ def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, nu
 
 
 def _pinned(mesh: bpy.types.Mesh, stored: Stored, candidate_numbers: np.ndarray, changed: Iterable[int]) -> Stored:
-    """The result with parts that were changed by hand, those that are part of the change pinned.
+    """The result with parts that were changed by hand, on both sides, those that are part of the change pinned.
 
     Parameters
     ----------
@@ -389,10 +400,15 @@ def _pinned(mesh: bpy.types.Mesh, stored: Stored, candidate_numbers: np.ndarray,
     -------
     stored : Stored
     """
-    result = mesh.reeb_parts
     twin = stored.decomposition.candidate_twin
     candidate_numbers, also = _mirrored(mesh, stored, stored.shown, candidate_numbers, twin)
-    to_pin = np.isin(candidate_numbers, [*changed, *also]) | (stored.pinned > 0)
+    return _with_pins(mesh, stored, candidate_numbers, [*changed, *also])
+
+
+def _with_pins(mesh: bpy.types.Mesh, stored: Stored, candidate_numbers: np.ndarray, changed: Iterable[int]) -> Stored:
+    """What ``_pinned`` does, of a change that is made on both sides already."""
+    result = mesh.reeb_parts
+    to_pin = np.isin(candidate_numbers, list(changed)) | (stored.pinned > 0)
     stored = replace(stored, pinned=np.where(to_pin, candidate_numbers, 0))
     # Around the pinned parts everything is as the hierarchy has it.
     count = len(np.unique(candidate_numbers)) if result.by_number else 0

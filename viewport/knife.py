@@ -9,10 +9,11 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..core.steps import Steps, stretched
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
-from ..scene import bridge, cut_curves, edits, mesh_arrays, part_list, part_names
+from ..scene import bridge, cut_curves, edits, mesh_arrays, part_list, part_names, store
 from ..scene.errors import SceneError
 from ..scene.seen_points import seen_points
 from .pointing import Model, Target
@@ -81,6 +82,7 @@ class Knife:
         face_graph : core.surface.labels.FaceGraph
         """
         from ..core.graph.contours import contour_sides
+        from ..core.result.editing import two_sides
 
         found, chosen = self.contour(target)
         if chosen < 0:
@@ -89,7 +91,10 @@ class Knife:
         crossed = np.zeros(len(inside), bool)
         crossed[found.face[found.label == chosen]] = True
         side = contour_sides(face_graph, inside, self.model.face_value >= target.level, crossed)
-        return edits.smaller_side(side, inside, face_graph.area)
+        if side is None:
+            return None
+        side, other = two_sides(face_graph, self.model.stored.decomposition.contacts, inside, side)
+        return edits.smaller_side(side, side | other, face_graph.area)
 
 
 def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, target: Target) -> str:
@@ -110,4 +115,16 @@ def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, targ
     new = edits.free_number(obj.data, model.stored)
     edits.assign_faces(context, obj, model.stored, np.where(side, new, model.numbers), tables)
     part_list.make_active(obj.data, new)
-    return rpt_("{new} was cut from {name}").format(new=part_names.part_name(obj.data, new), name=name)
+    told = rpt_("{new} was cut from {name}").format(new=part_names.part_name(obj.data, new), name=name)
+    more = _parts_beside(model, store.load(obj.data), new)
+    if not more:
+        return told
+    return told + "; " + rpt_("what is left is in {n} {n:part|parts} more").format(n=Count(more))
+
+
+def _parts_beside(before: Model, after: store.Stored, new: int) -> int:
+    """How many parts have come about beside a new one and its mirror image."""
+    from ..core.result.mirroring import twin_numbers
+
+    made = np.setdiff1d(after.shown, before.numbers)
+    return len(np.setdiff1d(made, [new, twin_numbers(after.shown_parts()).get(new, new)]))

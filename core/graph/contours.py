@@ -128,6 +128,9 @@ def contour_sides(
 ) -> np.ndarray | None:
     """Cut a part in two along one contour.
 
+    Of a part of several pieces, which share no edge, the contour cuts the one that it lies on: the others are on no
+    upper side.
+
     Around a handle, one contour does not separate the part into two sides. The part is then cut along every contour of
     the level, and its upper side is the connected faces above the level that touch the given contour.
 
@@ -147,6 +150,8 @@ def contour_sides(
     side : (p,) bool or None
         Faces of the part on the upper side of the cut, which is straightened; None if one side would have no face.
     """
+    piece = components(graph.n_faces, *graph.pairs[inside[graph.pairs].all(axis=1)].T)[1]
+    inside = inside & np.isin(piece, piece[inside & crossed])
     ids = np.flatnonzero(inside)
     place = np.full(graph.n_faces, -1)
     place[ids] = np.arange(len(ids))

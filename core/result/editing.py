@@ -15,9 +15,9 @@ from scipy.sparse.csgraph import dijkstra
 from ..cuts.hierarchy import Dendrogram, Hierarchy
 from ..graph.contours import contours
 from ..graph.critical import SADDLE
-from ..surface.arrays import components, symmetric_matrix
+from ..surface.arrays import both_ways, components, symmetric_matrix
 from ..surface.corners import CornerTable
-from ..surface.labels import FaceGraph, majority
+from ..surface.labels import FaceGraph, label_boundaries, majority, spread
 from .decomposition import Decomposition
 from .fans import boundaries
 
@@ -235,6 +235,45 @@ def boundary_distance(
         distance[here] = -found[here] if side else found[here]
         across[here] = source[here]
     return distance, across
+
+
+def two_sides(graph: FaceGraph, contacts: np.ndarray, inside: np.ndarray, side: np.ndarray
+              ) -> tuple[np.ndarray, np.ndarray]:
+    """The two sides of a cut that meet along it, each with what hangs on it.
+
+    A part may be of several pieces that only touch, and a cut goes through one of them: what hung on the rest by the
+    side that is cut off goes with that side.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+        Of p faces.
+    contacts : (t, 2) int64
+        Faces of different pieces that touch.
+    inside : (p,) bool
+        Faces of the part.
+    side : (p,) bool
+        Those on one side of the cut.
+
+    Returns
+    -------
+    side, other : (p,) bool
+        Both that side and the other one. Pieces of the part that hang on neither are in none.
+    """
+    pairs = np.concatenate([graph.pairs, contacts])
+    pairs = pairs[inside[pairs].all(axis=1)]
+    across = side[pairs[:, 0]] != side[pairs[:, 1]]
+    count, region = components(graph.n_faces, *pairs[~across].T)
+    within = inside[graph.pairs].all(axis=1)
+    touching, length = label_boundaries(region, graph.pairs[within], graph.length[within])
+    own = np.zeros(count, np.int64)
+    own[region[side]] = 1
+    known = np.full(count, -1)
+    along = touching[length.argmax()]
+    known[along] = own[along]
+    # From one side to the other in turn: what touches one of the two is no piece of the other.
+    found = np.where(inside, spread(known, *both_ways(region[pairs[across]]).T)[region], -1)
+    return found == 1, found == 0
 
 
 def split_candidates(

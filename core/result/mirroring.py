@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..surface.arrays import components
+from ..surface.arrays import components, last_of_each
 from ..surface.labels import FaceGraph, connect
 from .numbering import NumberedParts
 
@@ -42,13 +42,107 @@ def without_crumbs(graph: FaceGraph, before: np.ndarray, asked: np.ndarray, both
         Regions in which a face was changed stay.
     """
     extra = both != asked
-    first, second = graph.pairs.T
-    same = np.flatnonzero(both[first] == both[second])
-    region = components(graph.n_faces, first[same], second[same])[1]
+    region = _regions(graph, both)
     small = np.bincount(region, graph.area)[region] < CRUMB * np.bincount(both, graph.area)[both]
     concerned = np.isin(both, np.concatenate([asked[extra], both[extra]]))
     left = np.bincount(region, both != before)[region] == 0
     return np.where(small & concerned & left, connect(graph, both), both)
+
+
+def gathered(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, before: np.ndarray, asked: np.ndarray,
+             both: np.ndarray) -> np.ndarray:
+    """Have the mirror image of a change in as many regions as the change itself.
+
+    Where faces have no exact images, as on surfaces that lie inside each other, the image of a region may be scattered:
+    the region that has most of it stays, and the others go to what is around them in the same part.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+        Of p faces.
+    contacts : (t, 2) int64
+        Faces of different pieces that touch.
+    twin : (p,) int64
+        Mirror image of each face; -1 for none.
+    before, asked, both : (p,) int64
+        Number of the part of each face before a change, after it, and after its mirror image, too.
+
+    Returns
+    -------
+    both : (p,) int64
+        As asked, without an image, where less than half of the image would be left.
+    """
+    extra = both != asked
+    # Crumbs of the image first: what lies around one may be a single region without it.
+    once = _without_strays(graph, contacts, twin, before, asked, both, True)
+    result = _without_strays(graph, contacts, twin, before, asked, once, False)
+    lost = graph.area[extra & (result != both)].sum()
+    return asked if lost > 0.5 * graph.area[extra].sum() else result
+
+
+def _without_strays(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, before: np.ndarray, asked: np.ndarray,
+                    both: np.ndarray, image_only: bool) -> np.ndarray:
+    """One round of ``gathered``. image_only : only what the image alone consists of goes to what is around it."""
+    extra = both != asked
+    if not extra.any():
+        return both
+    region = _regions(graph, both)
+    stray = _strays(graph.area, region, _regions(graph, before), _regions(graph, asked), twin, extra)
+    if image_only:
+        stray[region[~extra]] = False
+    number, area = np.zeros(len(stray), np.int64), np.bincount(region, graph.area)
+    number[region] = both
+    # Of each part, where strays go back to: the largest, of those that stay if there are some.
+    main = last_of_each(number, ~stray, area, count=int(number.max()) + 1)[number]
+    stray &= main != np.arange(len(stray))
+    # Nothing goes to another part than those that its own part is cut into.
+    touching = graph.with_contacts(contacts)
+    first, second = touching.pairs.T
+    near = (before[first] == before[second]) | (region[first] == region[second])
+    weight = np.where(stray[region], 1e-9, 1.0) * graph.area  # so that it is the strays that move
+    around = FaceGraph(graph.n_faces, touching.pairs[near], touching.length[near], weight)
+    return number[connect(around, np.where(stray, main, np.arange(len(stray)))[region])]
+
+
+def _regions(graph: FaceGraph, number: np.ndarray) -> np.ndarray:
+    """The connected region of one number that each face is in, (p,) int64."""
+    first, second = graph.pairs.T
+    same = number[first] == number[second]
+    return components(graph.n_faces, first[same], second[same])[1]
+
+
+def _strays(area: np.ndarray, region: np.ndarray, former: np.ndarray, wanted: np.ndarray, twin: np.ndarray,
+            extra: np.ndarray) -> np.ndarray:
+    """Regions after the image of a change that are neither the best image of a region before it nor what it left.
+
+    area : (p,) float64. region, former, wanted : (p,) int64, of each face after and before the change, and after it
+    without its image. twin : (p,) int64. extra : (p,) bool, faces that the image changed. Returns (r,) bool.
+    """
+    stray = np.ones(int(region.max()) + 1, bool)
+    # Those that the image left alone were there, or are wanted; of those that it cut, most of what is left stays.
+    whole = np.bincount(wanted)[wanted] == np.bincount(region)[region]
+    stray[region[whole & ~extra]] = False
+    left = np.flatnonzero(~extra)
+    place, of, share = _shared(region[left], former[left], area[left])
+    largest = last_of_each(of, share, count=int(former.max()) + 1)
+    stray[place[largest[largest >= 0]]] = False
+    has = np.flatnonzero(twin >= 0)
+    place, of, share = _shared(region[has], wanted[twin[has]], area[has])
+    most = last_of_each(place, share, count=len(stray))  # what each region is mostly the image of
+    most = most[most >= 0]
+    best = last_of_each(of[most], share[most], count=int(wanted.max()) + 1)
+    stray[place[most[best[best >= 0]]]] = False
+    return stray
+
+
+def _shared(first: np.ndarray, second: np.ndarray, area: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pairs of regions that faces are in both of, (k,) int64 each, and how much area that is, (k,) float64.
+
+    first, second : (f,) int64, of each face. area : (f,) float64.
+    """
+    count = int(second.max(initial=0)) + 1
+    pairs, index = np.unique(first * count + second, return_inverse=True)
+    return *np.divmod(pairs, count), np.bincount(index, area, len(pairs))
 
 
 def on_both_sides(
@@ -89,8 +183,10 @@ def on_both_sides(
             target = number if itself.mean() > 0.5 else of_new.setdefault(number, new())
         if not target:
             continue
-        right = ~moved[image] & (image_of[before[mine]] == before[image])
-        result[image[right]] = target
+        # Each is asked for its image, and not told by it: several may have one image, which leaves others without.
+        there = np.flatnonzero(~moved & (twin >= 0))
+        there = there[moved[twin[there]] & (after[twin[there]] == number)]
+        result[there[image_of[before[twin[there]]] == before[there]]] = target
     gone = np.setdiff1d(after, result)
     image_stays = np.isin([twin_number.get(number, number) for number in gone.tolist()], after)
     return after.copy() if image_stays.any() else result

@@ -163,3 +163,17 @@ def test_the_centroid_of_a_contour_is_that_of_its_length():
 def test_a_vertex_on_the_level_counts_as_above_it(field, count):
     table = CornerTable.of(np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], float), np.array([(0, 1, 2)]))
     assert contours(np.array(field), 0.5, table).count == count
+
+
+def test_of_several_pieces_the_one_that_the_contour_lies_on_is_cut():
+    """Beside a piece of more area than both sides, no side of the cut is a stray of it."""
+    small = shapes.cylinder(12, 8)
+    large = type(small)(4.0 * small.vertices + (20, 0, 0), small.faces)
+    surface = Surface(shapes.together(small, large), height(2))
+    of_small = np.arange(len(surface.faces)) < len(small.faces)
+    level = float(np.median(small.vertices[:, 2])) + 1e-3
+    found = surface.contours(level)
+    side = surface.sides(level, found, found.label[np.flatnonzero(of_small[found.face])[0]])
+    assert side is not None
+    assert not side[~of_small].any()
+    assert 0 < side.sum() < of_small.sum()

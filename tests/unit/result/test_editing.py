@@ -16,6 +16,7 @@ from core.result.editing import (
     node_split,
     shrinkage,
     split_candidates,
+    two_sides,
 )
 from core.surface.corners import CornerTable
 from core.surface.labels import FaceGraph
@@ -222,3 +223,15 @@ def test_faces_in_one_place_are_on_the_side_that_they_belong_to():
     distance, across = boundary_distance(np.array([False, True]), np.array([[0, 1]]), np.zeros(1))
     assert distance[0] > 0 > distance[1]
     assert across.tolist() == [1, 0]
+
+
+def test_what_hangs_on_a_side_of_a_cut_goes_with_it():
+    """A row 0 1 2 3 cut between 1 and 2; 4 touches 0, 5 touches 4, 6 touches 3, 7 nothing, and 8 is of another part."""
+    graph = FaceGraph(9, np.array([[0, 1], [1, 2], [2, 3]]), np.ones(3), np.ones(9))
+    contacts = np.array([[0, 4], [4, 5], [3, 6], [7, 8]])
+    inside = np.arange(9) < 8
+    for cut_off in ([0, 1], [2, 3]):
+        side, other = two_sides(graph, contacts, inside, np.isin(np.arange(9), cut_off))
+        found = sorted([np.flatnonzero(side).tolist(), np.flatnonzero(other).tolist()])
+        assert found == [[0, 1, 4, 5], [2, 3, 6]]
+        assert side[cut_off].all()

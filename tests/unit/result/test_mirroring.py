@@ -6,7 +6,7 @@ from itertools import count
 import numpy as np
 import pytest
 
-from core.result.mirroring import on_both_sides, without_crumbs
+from core.result.mirroring import gathered, on_both_sides, without_crumbs
 from core.surface.labels import FaceGraph
 
 BEFORE = [1, 1, 1, 3, 3, 3, 3, 2, 2, 2]
@@ -76,3 +76,32 @@ def test_a_large_piece_that_an_image_leaves_is_a_part():
     both = np.array([4, 4, 1, 1, 3, 3, 2, 2, 5, 2])
     before, asked = np.array([[1, 1, 1, 1, 3, 3, 2, 2, 2, 2], [4, 4, 1, 1, 3, 3, 2, 2, 2, 2]])
     assert without_crumbs(graph, before, asked, both).tolist() == both.tolist()
+
+
+def test_two_faces_with_one_image_both_change_with_it():
+    """Faces 2 and 3 have face 0 as their image, which has but one of them."""
+    before, after = np.array([[1, 1, 2, 2, 2], [5, 1, 2, 2, 2]])
+    found = on_both_sides(before, after, np.array([2, 4, 0, 0, 1]), {1: 2, 2: 1}, lambda: 6)
+    assert found.tolist() == [5, 1, 6, 6, 2]
+
+
+ROW = np.array([1] * 8 + [2] * 8)  # two rows of faces, which are no neighbors; the second one is the image of the first
+CUT = np.array([4] * 4 + [1] * 4 + [2] * 8)
+
+
+def gathered_row(image, twin):
+    row = np.arange(16)
+    pairs = np.stack([row[:-1], row[1:]], axis=1)
+    graph = FaceGraph(16, np.delete(pairs, 7, axis=0), np.ones(14), np.ones(16))
+    both = np.array([*CUT[:8], *image])
+    return gathered(graph, np.empty((0, 2), np.int64), np.append(row[8:], twin), ROW, CUT, both).tolist()
+
+
+@pytest.mark.parametrize(("twin", "expected"), [
+    ([0, 1, 2, 3, 4, 5, 6, 7], [5, 5, 5, 5, 2, 2, 2, 2]),
+    ([0, 1, 2, 5, 4, 3, 6, 7], [5, 5, 5, 2, 2, 2, 2, 2]),  # a crumb apart
+    ([0, 5, 1, 2, 3, 6, 6, 7], [5, 5, 5, 5, 5, 2, 2, 2]),  # and one that is left
+    ([4, 0, 5, 1, 6, 2, 7, 3], [2, 2, 2, 2, 2, 2, 2, 2])])  # scattered: none
+def test_an_image_is_in_as_many_regions_as_the_change(twin, expected):
+    image = [5 if face < 4 else 2 for face in twin]
+    assert gathered_row(image, twin) == [*CUT[:8], *expected]
