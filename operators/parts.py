@@ -117,7 +117,11 @@ class REEB_PARTS_OT_suggest_names(ReportingOperator, bpy.types.Operator):
         with object_mode(context):
             found = targets.usable(objects, lambda obj: store.load(obj.data), self.report)
             count = sum(self._named(obj, stored) for obj, stored in found)
-        self.report({"INFO"}, rpt_("{n} {n:part is|parts are} named").format(n=Count(count)))
+        total = sum(len(obj.data.reeb_parts.parts) for obj, _ in found)
+        if count or not total:
+            self.report({"INFO"}, rpt_("{n} {n:part is|parts are} named").format(n=Count(count)))
+        else:
+            self.report({"INFO"}, rpt_("All named already: {n} {n:part|parts}").format(n=Count(total)))
 
     def _named(self, obj: bpy.types.Object, stored: Stored) -> int:
         """How many parts of an object were named."""

@@ -232,3 +232,12 @@ def test_the_order_of_a_long_list_is_that_of_its_keys_and_costs_a_redraw_little(
         times.append(time.perf_counter() - start)
     assert [found[index] for index in wanted] == list(range(1500))
     assert min(times) < 0.005
+
+
+def test_to_suggest_names_again_says_that_all_are_named(obj, capfd):
+    bpy.ops.reeb_parts.decompose()
+    count = len(obj.data.reeb_parts.parts)
+    bpy.ops.reeb_parts.suggest_names()
+    assert f"{count} parts are named" in capfd.readouterr().out
+    bpy.ops.reeb_parts.suggest_names()
+    assert f"All named already: {count} parts" in capfd.readouterr().out
