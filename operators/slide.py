@@ -11,7 +11,7 @@ from ..scene.part_list import active_number
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
 from ..viewport import pointing
-from ..viewport.boundary import Boundary, write_moved
+from ..viewport.boundary import Boundary, check_borders, write_moved
 from ..viewport.colored_tool import ColoredTool
 from ..viewport.pointing import Target
 from ..viewport.view_tool import turns_view
@@ -40,6 +40,7 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
         number = active_number(obj.data)
         edits.check_unlocked(obj.data, [number])
         boundary = Boundary(obj, stored, number, self.neighbor)
+        check_borders(obj, [boundary])
         numbers = boundary.slid(self.offset)
         if (numbers == boundary.number).sum() == 0:
             raise SceneError(rpt_("Nothing would be left of the part. Slide the boundary less far."))
@@ -57,6 +58,7 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
         """Read everything once; each move of the mouse is a comparison of distances then."""
         super().begin(context, obj)
         self.whole = self.boundary = Boundary(obj, self.model.stored, self.number)
+        check_borders(obj, [self.whole])
         self._keep_to(obj, self._pointed(context, obj))
         self.offset = 0.0
         # The whole width of the view is half the size of the object.
@@ -108,4 +110,6 @@ class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):
         return False
 
     def finish(self, context: bpy.types.Context, obj: bpy.types.Object) -> set[str]:
+        if np.array_equal(self.boundary.slid(self.offset), self.boundary.numbers):
+            return {"CANCELLED"}
         return self.execute(context)

@@ -109,6 +109,12 @@ class Boundary:
         return self.ends[self.edges[differ & on_boundary]], self.ends[self.edges[differ & ~on_boundary]]
 
 
+def check_borders(obj: bpy.types.Object, boundaries: Sequence[Boundary]) -> None:
+    """Raise SceneError if there is nothing beyond any of some boundaries of an object's parts."""
+    if not any(boundary.neighbors for boundary in boundaries):
+        raise edits.touches_no_other(obj.data, boundaries[0].number)
+
+
 def write_moved(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: np.ndarray,
                 parts: Sequence[int]) -> str | None:
     """Move boundaries for good; what happened to the parts that they are of, in a sentence, None for nothing.

@@ -74,6 +74,8 @@ class Knife:
         numbers = np.where(side, new, self.model.numbers)
         curves = yield from stretched(cut_curves.finding_curves(table, points, numbers, planar), 0.1, 1.0)
         here = (curves.pair == (old, new)).all(axis=1)
+        if not here.any():  # whole pieces border on nothing
+            return self.ring(target)
         return curves.points(self.seen)[curves.segments[here]]
 
     def sides(self, target: Target, face_graph: FaceGraph) -> np.ndarray | None:

@@ -16,7 +16,7 @@ from ..scene import cut_curves, edits, part_list
 from ..scene.errors import SceneError
 from ..scene.seen_points import seen_points
 from ..scene.store import Stored
-from .boundary import Boundary, write_moved
+from .boundary import Boundary, check_borders, write_moved
 from .colored_tool import ColoredTool
 from .pointing import Target
 from .view_tool import turns_view
@@ -71,10 +71,12 @@ class RingTool(ColoredTool):
         return text.format(rings=Count(self.rings), low=low, high=high)
 
     def boundaries(self, obj: bpy.types.Object, stored: Stored) -> list[Boundary]:
-        """Of the chosen parts; raises SceneError if one is locked."""
+        """Of the chosen parts; raises SceneError if one is locked, or none touches another part."""
         numbers = part_list.chosen_numbers(obj.data)
         edits.check_unlocked(obj.data, numbers)
-        return [Boundary(obj, stored, number) for number in numbers]
+        boundaries = [Boundary(obj, stored, number) for number in numbers]
+        check_borders(obj, boundaries)
+        return boundaries
 
     def _start(self, context: bpy.types.Context) -> set[str]:
         result = super()._start(context)

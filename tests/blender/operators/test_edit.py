@@ -6,6 +6,7 @@ import importlib
 import bpy
 import numpy as np
 import pytest
+import shapes
 from results import numbers
 from snapshot import activate, check_undo, snapshot
 
@@ -504,3 +505,13 @@ def test_several_parts_at_once_are_as_one_after_the_other(make, tree, operator):
         check(obj)
         shown.append(numbers(mesh))
     assert (shown[0] == shown[1]).all()
+
+
+@pytest.mark.parametrize("edit", ["slide", "grow", "shrink"])
+def test_a_part_that_touches_nothing_has_no_boundary_to_move(make, edit):
+    cubes = shapes.together(shapes.icosphere(2), shapes.moved(shapes.icosphere(2), (5, 0, 0)))
+    obj = make(cubes)
+    bpy.ops.reeb_parts.decompose(pieces="separate")
+    obj.data.reeb_parts.active = 0
+    with pytest.raises(RuntimeError, match="touches no other part"):
+        getattr(bpy.ops.reeb_parts, edit)(**({"offset": 0.1} if edit == "slide" else {"rings": 1}))
