@@ -76,10 +76,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
     def _show(self, context: bpy.types.Context, pieces: list[bpy.types.Object],
               of_active: list[bpy.types.Object]) -> None:
         """Show the pieces in the local view, too; leave them selected, unless the user is at work in another mode."""
-        space = context.space_data
-        if space is not None and space.type == "VIEW_3D" and space.local_view:
-            for piece in pieces:
-                piece.local_view_set(space, True)
+        _show_in_local_view(context, pieces)
         if context.mode == "OBJECT":
             select_objects(context, pieces, active=of_active[0] if self.hide and of_active else None)
 
@@ -110,6 +107,11 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
                 "The effect of {modifiers} depends on the extent of the mesh, which differs for each part of {name}: "
                 "use Apply Modifiers to keep the shape").format(
                     modifiers=", ".join(separated.by_extent), name=obj.name))
+        if separated.made_for_all:
+            self.report({"WARNING"}, rpt_(
+                "The effect of {modifiers} is made for all of {name}, and each part takes another shape: use Apply "
+                "Modifiers to keep the shape").format(
+                    modifiers=", ".join(separated.made_for_all), name=obj.name))
         if separated.n_apart:
             self.report({"WARNING"}, rpt_(
                 "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but "
@@ -154,6 +156,7 @@ class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):
         piece_objects.hide_original(context, obj)
         piece_objects.show_pieces(context, obj, True)
         shading.show_pieces(context)
+        _show_in_local_view(context, pieces)
         select_objects(context, pieces, active=pieces[0] if pieces else None)
 
 
@@ -176,4 +179,13 @@ class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
         obj = piece_objects.original(targets.active_object(context))
         piece_objects.show_original(context, obj)
         shading.show_colors(context)
+        _show_in_local_view(context, [obj])
         select_objects(context, [obj], active=obj)
+
+
+def _show_in_local_view(context: bpy.types.Context, objects: list[bpy.types.Object]) -> None:
+    """Show objects in the viewport where a button was pressed, if that shows some objects alone."""
+    space = context.space_data
+    if space is not None and space.type == "VIEW_3D" and space.local_view:
+        for obj in objects:
+            obj.local_view_set(space, True)

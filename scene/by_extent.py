@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Modifiers that work by the extent of the mesh they get: a piece, which is smaller, would be shaped otherwise."""
+"""Modifiers that work by the whole mesh they get, as by its extent: a piece would be shaped otherwise."""
 
 from __future__ import annotations
 
@@ -41,6 +41,22 @@ def others(obj: bpy.types.Object) -> list[str]:
     """The names of modifiers that shape by extent and cannot be told to keep to that of the object."""
     return [modifier.name for modifier in obj.modifiers
             if modifier.show_viewport and (modifier.type == "SIMPLE_DEFORM" or _casts_by_extent(modifier))]
+
+
+def made_for_all(obj: bpy.types.Object, closed: bool) -> list[str]:
+    """The names of modifiers that know the vertices of the object, or of solids; closed : whether pieces are some."""
+    return [modifier.name for modifier in obj.modifiers
+            if modifier.show_viewport and (_knows_vertices(modifier)
+                                           or (not closed and modifier.type in {"BOOLEAN", "REMESH"}))]
+
+
+def _knows_vertices(modifier: bpy.types.Modifier) -> bool:
+    """Whether a modifier is bound to the vertices of its mesh, or has their indices."""
+    if modifier.type in {"SURFACE_DEFORM", "MESH_DEFORM"}:
+        return modifier.is_bound
+    if modifier.type in {"LAPLACIANDEFORM", "CORRECTIVE_SMOOTH"}:
+        return modifier.is_bind
+    return modifier.type == "HOOK" and not modifier.vertex_group and len(modifier.vertex_indices) > 0
 
 
 def _casts_by_extent(modifier: bpy.types.Modifier) -> bool:

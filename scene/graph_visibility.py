@@ -25,11 +25,27 @@ def follow(context: bpy.types.Context) -> None:
     for graph, source in _graphs():
         if _is_seen(context, source) != (SHOWN_BEFORE in graph):
             continue
+        if SHOWN_BEFORE in graph:
+            show(context, source)
+        else:
+            hide(context, source)
+
+
+def hide(context: bpy.types.Context, source: bpy.types.Object) -> None:
+    """Hide the graph of a model that is hidden, and remember whether it was seen."""
+    graph = graph_objects.find(source)
+    if graph is not None and SHOWN_BEFORE not in graph:
         transaction.keep_keys(graph, SHOWN_BEFORE)
-        if SHOWN_BEFORE not in graph:
-            graph[SHOWN_BEFORE] = int(graph_objects.is_shown(context, source))
-            graph_objects.set_hidden(context, source, True)
-        elif graph.pop(SHOWN_BEFORE) and context.scene.reeb_parts.graph:
+        graph[SHOWN_BEFORE] = int(graph_objects.is_shown(context, source))
+        graph_objects.set_hidden(context, source, True)
+
+
+def show(context: bpy.types.Context, source: bpy.types.Object) -> None:
+    """Show the graph of a model that is shown again, if it was seen before and the scene shows graphs."""
+    graph = graph_objects.find(source)
+    if graph is not None and SHOWN_BEFORE in graph:
+        transaction.keep_keys(graph, SHOWN_BEFORE)
+        if graph.pop(SHOWN_BEFORE) and context.scene.reeb_parts.graph:
             graph_objects.set_hidden(context, source, False)
 
 

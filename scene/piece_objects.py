@@ -26,7 +26,7 @@ from . import (
     cut_list,
     element_layers,
     explode,
-    graph_objects,
+    graph_visibility,
     hidden,
     joints,
     made,
@@ -143,7 +143,9 @@ class Separated:
     n_apart : int
         Border vertices that lie on others and could not be made one with them, along which pieces stay open.
     by_extent : list of str
-        Names of modifiers that shape the pieces otherwise than the whole.
+        Names of modifiers that shape the pieces otherwise than the whole, as these have another extent.
+    made_for_all : list of str
+        Names of those that do so as they know the vertices of the whole, or need a closed mesh.
     """
 
     pieces: list[bpy.types.Object]
@@ -158,6 +160,7 @@ class Separated:
     too_long: list[int]
     n_apart: int
     by_extent: list[str]
+    made_for_all: list[str]
 
     def cut_name(self, cut: joints.CutJoints) -> str:
         """What a cut is called: by its two pieces."""
@@ -229,7 +232,8 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
         check_pieces([piece], stretch)
     return Separated(pieces, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part,
                      len(fitted.part), fitted.left, found.n_apart,
-                     by_extent.others(obj) if _keeps_modifiers(style) else [])
+                     by_extent.others(obj) if _keeps_modifiers(style) else [],
+                     by_extent.made_for_all(obj, close) if _keeps_modifiers(style) else [])
 
 
 def _names(obj: bpy.types.Object, origin: dict[int, int], sides: modified.BothSides) -> dict[int, str]:
@@ -425,19 +429,19 @@ def _center(mesh: bpy.types.Mesh) -> Vector:
 
 
 def show_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
-    """Show the object that pieces come from, with its graph if the scene shows graphs, and hide its pieces in the view.
+    """Show the object that pieces come from, with its graph if that was seen before, and hide its pieces in the view.
 
     They are in the same place, where both at once would be speckled.
     """
     show_pieces(context, obj, False)
     _set_hidden(context, obj, False)
-    graph_objects.set_hidden(context, obj, not context.scene.reeb_parts.graph)
+    graph_visibility.show(context, obj)
 
 
 def hide_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Hide the object that pieces come from, with its graph, in the viewport and in renders."""
     _set_hidden(context, obj, True)
-    graph_objects.set_hidden(context, obj, True)
+    graph_visibility.hide(context, obj)
 
 
 def hides_pieces(context: bpy.types.Context, obj: bpy.types.Object) -> bool:

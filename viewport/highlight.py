@@ -146,6 +146,7 @@ def draw() -> None:
     obj, chosen = (of_node[0], obj.select_get()) if of_node else (obj, obj is not None and obj.select_get())
     if (obj is None or obj.type != "MESH" or obj.mode != "OBJECT" or not chosen
             or not (settings.highlight or settings.show_cuts) or not context.space_data.overlay.show_overlays
+            or not obj.visible_in_viewport_get(context.space_data)
             or not store.has_result(obj.data) or store.is_edited(obj.data)
             or explode.find(obj)):  # the parts are elsewhere then
         return

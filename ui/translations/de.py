@@ -142,6 +142,7 @@ TEXTS = {
     "Name the parts that you have not named by what they are: head, leg, handle; else by their place and kind":
         "Die Teile, die noch keinen eigenen Namen haben, danach benennen, was sie sind: Kopf, Bein, Henkel; sonst nach "
         "Art und Lage",
+    "All named already: {n} {n:part|parts}": "Alle schon benannt: {n} {n:Teil|Teile}",
     "{n} {n:part is|parts are} named": "{n} {n:Teil ist|Teile sind} benannt",
     "{place} {kind}": "{kind} {place}",
     "body": "Körper", "head": "Kopf", "neck": "Hals", "arm": "Arm", "leg": "Bein", "tail": "Schwanz", "ear": "Ohr",
@@ -944,6 +945,10 @@ TEXTS = {
         "und erneut zerlegen.",
     "{name} is not in this view layer. Include its collection first.":
         "{name} ist nicht in dieser Ansichtsebene. Bitte zuerst seine Sammlung einschließen.",
+    "The effect of {modifiers} is made for all of {name}, and each part takes another shape: use Apply "
+    "Modifiers to keep the shape":
+        "Die Wirkung von {modifiers} gilt dem ganzen {name}, und jedes Teil bekommt eine andere Form: mit "
+        "„Modifikatoren anwenden“ bleibt die Form",
     "The effect of {modifiers} depends on the extent of the mesh, which differs for each part of {name}: use Apply "
     "Modifiers to keep the shape":
         "Die Wirkung von {modifiers} hängt von der Ausdehnung des Meshs ab, die für jedes Teil von {name} eine andere "

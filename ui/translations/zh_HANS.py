@@ -142,6 +142,7 @@ TEXTS = {
     # 名称建议
     "Name the parts that you have not named by what they are: head, leg, handle; else by their place and kind":
         "为尚未由您命名的部件按其含义命名：头、腿、柄；否则按其位置和类型命名",
+    "All named already: {n} {n:part|parts}": "全部 {n} 个部件均已有名称",
     "{n} {n:part is|parts are} named": "已命名 {n} 个部件",
     "{place} {kind}": "{place}{kind}",
     "body": "身体",
@@ -843,6 +844,9 @@ TEXTS = {
     "The modifiers of {name} leave no faces, though perhaps instances. Apply them as a mesh and decompose again.":
         "{name} 的修改器没有留下任何面，可能只有实例。请将其应用为网格后重新分解。",
     "{name} is not in this view layer. Include its collection first.": "{name} 不在此视图层中。请先包含其集合。",
+    "The effect of {modifiers} is made for all of {name}, and each part takes another shape: use Apply "
+    "Modifiers to keep the shape":
+        "{modifiers} 的效果是针对整个 {name} 设置的，各部件会变成其他形状：请使用“应用修改器”以保持形状",
     "The effect of {modifiers} depends on the extent of the mesh, which differs for each part of {name}: use Apply "
     "Modifiers to keep the shape":
         "{modifiers} 的效果取决于网格的范围，而 {name} 各部件的范围不同：请使用“应用修改器”以保持形状",

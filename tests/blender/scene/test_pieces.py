@@ -352,6 +352,21 @@ def test_the_original_is_hidden_and_comes_back(obj):
     assert bpy.context.view_layer.objects.active == obj
 
 
+@pytest.mark.parametrize("seen", [True, False])
+def test_a_graph_that_was_hidden_stays_hidden_with_the_original(obj, seen):
+    bpy.ops.reeb_parts.decompose()
+    graph = next(layer for layer in bpy.context.view_layer.layer_collection.children
+                 if layer.name.startswith("Reeb Graph"))
+    graph.hide_viewport = not seen  # as of a model whose graph would be crowded
+    bpy.ops.reeb_parts.separate()
+    assert graph.hide_viewport
+    for _ in range(2):
+        bpy.ops.reeb_parts.show_original()
+        assert graph.hide_viewport == (not seen)
+        bpy.ops.reeb_parts.show_pieces()
+        assert graph.hide_viewport
+
+
 def test_the_original_or_its_pieces_are_seen(obj):
     """Both in the same place were speckled. Pieces are hidden in the view alone, which is no work on them."""
     bpy.ops.reeb_parts.decompose()
@@ -821,6 +836,36 @@ def test_modifiers_that_work_by_the_extent_are_told(obj, capfd, kind, settings, 
     activate(obj)
     bpy.ops.reeb_parts.separate(**KEEP, seen=True)
     assert "depends on the extent" not in capfd.readouterr().out
+
+
+def bound(obj, kind):
+    """A modifier of a kind, bound or with indices, that does something to an object."""
+    modifier = obj.modifiers.new("Holder", kind)
+    if kind in ("SURFACE_DEFORM", "MESH_DEFORM"):
+        bpy.ops.mesh.primitive_cube_add(size=30)
+        cage = bpy.context.object
+        setattr(modifier, "target" if kind == "SURFACE_DEFORM" else "object", cage)
+        activate(obj)
+        getattr(bpy.ops.object, "surfacedeform_bind" if kind == "SURFACE_DEFORM" else "meshdeform_bind")(
+            modifier="Holder")
+        assert modifier.is_bound
+    elif kind == "HOOK":
+        modifier.object = bpy.data.objects.new("Hand", None)
+        modifier.vertex_indices_set([0, 1, 2])
+    elif kind == "BOOLEAN":
+        bpy.ops.mesh.primitive_cube_add(size=1)
+        modifier.object = bpy.context.object
+    activate(obj)
+
+
+@pytest.mark.parametrize(("kind", "style", "said"), [
+    ("SURFACE_DEFORM", {}, True), ("MESH_DEFORM", {}, True), ("HOOK", {}, True), ("BOOLEAN", {"caps": False}, True),
+    ("BOOLEAN", {"caps": True}, False), ("REMESH", {"caps": False}, True), ("HOOK", {"seen": True}, False)])
+def test_modifiers_that_are_made_for_the_whole_are_told(obj, capfd, kind, style, said):
+    bound(obj, kind)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP, **style)
+    assert ("effect of Holder is made for all of Tree" in capfd.readouterr().out) == said
 
 
 def test_about_another_object_pieces_have_origins_of_their_own(obj):
