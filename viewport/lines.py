@@ -12,7 +12,9 @@ from mathutils import Matrix
 
 from ..scene.errors import SceneError
 
-NEARER = 2e-5  # how much nearer than the surface a fill is drawn, as a share of the depth of the view
+NEARER = 0.002  # by what share of its distance a fill is drawn nearer than the surface, in perspective
+FLAT = 2e-5  # and without, as a share of the depth of the view
+ROUNDING = 1e-6  # in perspective, of that depth: far away the depths of all that lies nearer differ by no more
 
 
 class Lines:
@@ -78,7 +80,13 @@ class Surface:
         self.shader.bind()
         self.shader.uniform_float("color", color)
         projection = gpu.matrix.get_projection_matrix()
-        projection[2] -= NEARER * projection[3] if is_perspective else projection[3] * NEARER
+        if is_perspective:
+            # A share of the depth of the view would be a thousand times as far where that is a thousand times as deep:
+            # through what lies before it.
+            projection = projection @ Matrix.Diagonal((1.0 - NEARER, 1.0 - NEARER, 1.0 - NEARER, 1.0))
+            projection[2] -= ROUNDING * projection[3]
+        else:
+            projection[2] -= projection[3] * FLAT
         gpu.state.blend_set("ALPHA")
         gpu.state.depth_test_set("LESS_EQUAL")
         with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
