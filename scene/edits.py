@@ -46,11 +46,6 @@ def check_unlocked(mesh: bpy.types.Mesh, numbers: Iterable[int]) -> None:
             raise SceneError(rpt_("{name} is locked. Unlock it in the list first.").format(name=part.name))
 
 
-def touches_no_other(mesh: bpy.types.Mesh, number: int) -> SceneError:
-    """What to say where a part would have to touch another one."""
-    return SceneError(rpt_("{name} touches no other part.").format(name=part_names.part_name(mesh, number)))
-
-
 def one_of_each_pair(stored: Stored, numbers: list[int]) -> list[int]:
     """Parts without those that change with their mirror images, which come before them."""
     from ..core.result.mirroring import twin_numbers
@@ -105,7 +100,7 @@ def _neighbor(mesh: bpy.types.Mesh, numbered: NumberedParts, number: int) -> int
     cuts = numbered.numbers[numbered.parts.cuts]
     own = (cuts == number).any(axis=1)
     if not own.any():
-        raise touches_no_other(mesh, number)
+        raise SceneError(rpt_("{name} touches no other part.").format(name=part_names.part_name(mesh, number)))
     order = np.lexsort((-numbered.parts.cut_length[own], numbered.parts.cut_salience[own]))
     first, second = cuts[own][order[0]].tolist()
     return first if second == number else second

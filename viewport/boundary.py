@@ -11,6 +11,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..scene import bridge, edits, mesh_arrays, part_names
+from ..scene.errors import SceneError
 from ..scene.store import Stored
 
 RING = 0.01  # width of a ring, as a share of the object's size
@@ -112,7 +113,8 @@ class Boundary:
 def check_borders(obj: bpy.types.Object, boundaries: Sequence[Boundary]) -> None:
     """Raise SceneError if there is nothing beyond any of some boundaries of an object's parts."""
     if not any(boundary.neighbors for boundary in boundaries):
-        raise edits.touches_no_other(obj.data, boundaries[0].number)
+        raise SceneError(rpt_("{name} shares no edge with another part: there is no boundary to move.").format(
+            name=part_names.part_name(obj.data, boundaries[0].number)))
 
 
 def write_moved(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, numbers: np.ndarray,

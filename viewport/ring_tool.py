@@ -71,7 +71,7 @@ class RingTool(ColoredTool):
         return text.format(rings=Count(self.rings), low=low, high=high)
 
     def boundaries(self, obj: bpy.types.Object, stored: Stored) -> list[Boundary]:
-        """Of the chosen parts; raises SceneError if one is locked, or none touches another part."""
+        """Of the chosen parts; raises SceneError if one is locked, or none borders on another part."""
         numbers = part_list.chosen_numbers(obj.data)
         edits.check_unlocked(obj.data, numbers)
         boundaries = [Boundary(obj, stored, number) for number in numbers]

@@ -880,6 +880,8 @@ TEXTS = {
     "These parts do not touch each other. Choose parts that do.":
         "Diese Teile berühren einander nicht. Bitte Teile wählen, die es tun.",
     "{n} {n:part is|parts are} {name} now": "{n} {n:Teil ist|Teile sind} jetzt {name}",
+    "{name} shares no edge with another part: there is no boundary to move.":
+        "{name} hat mit keinem anderen Teil eine Kante gemeinsam: keine Grenze zu verschieben.",
     "{name} touches no other part.": "{name} berührt kein anderes Teil.",
     "No cut was found inside {name}. Select faces in Edit Mode and assign them to another part instead.":
         "In {name} wurde kein Schnitt gefunden. Stattdessen können im Bearbeitungsmodus Flächen ausgewählt und einem "

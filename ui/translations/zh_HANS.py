@@ -791,6 +791,8 @@ TEXTS = {
     "Mark the parts to merge in the list, two or more.": "请在列表中勾选两个或更多要合并的部件。",
     "These parts do not touch each other. Choose parts that do.": "这些部件互不相接。请选择相接的部件。",
     "{n} {n:part is|parts are} {name} now": "{n} 个部件现为 {name}",
+    "{name} shares no edge with another part: there is no boundary to move.":
+        "{name} 与其他部件没有共享的边：没有可移动的边界。",
     "{name} touches no other part.": "{name} 不与其他部件相接。",
     "No cut was found inside {name}. Select faces in Edit Mode and assign them to another part instead.":
         "在 {name} 内没有找到切口。请改为在编辑模式中选择面，并将其指定给另一个部件。",

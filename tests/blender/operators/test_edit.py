@@ -513,5 +513,5 @@ def test_a_part_that_touches_nothing_has_no_boundary_to_move(make, edit):
     obj = make(cubes)
     bpy.ops.reeb_parts.decompose(pieces="separate")
     obj.data.reeb_parts.active = 0
-    with pytest.raises(RuntimeError, match="touches no other part"):
+    with pytest.raises(RuntimeError, match="shares no edge with another part"):
         getattr(bpy.ops.reeb_parts, edit)(**({"offset": 0.1} if edit == "slide" else {"rings": 1}))
