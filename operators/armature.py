@@ -8,6 +8,7 @@ from ..core.sentence import Count
 from ..scene import armature
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
+from .checks import report_kept
 
 
 class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
@@ -29,7 +30,8 @@ class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
     )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
-        rig, stiff = armature.make(context, obj, stored, self.deform, self.weights)
+        rig, stiff, kept = armature.make(context, obj, stored, self.deform, self.weights)
+        report_kept(self, kept)
         if stiff:
             message = rpt_("{n} {n:part moves with the one it hangs|parts move with the ones they hang} on: "
                            "no neck to bend at")

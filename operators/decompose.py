@@ -29,6 +29,7 @@ from ..scene.settings import (
 )
 from ..scene.stepped import LARGE, SteppedOperator
 from ..viewport import shading
+from .checks import report_kept
 
 #: How far all is when a large mesh has been read.
 READ = 0.05
@@ -103,10 +104,12 @@ class REEB_PARTS_OT_decompose(
         done = [outcome for outcome in outcomes if outcome.decomposition is not None]
         if not done:
             raise SceneError(translated(outcomes[0].problem))
+        kept = 0
         with object_mode(context):
             for index, outcome in enumerate(done):
                 steps = writing_result(context, bpy.data.objects[outcome.object_name, None], outcome, self)
-                yield from stretched(steps, index / len(done), (index + 1) / len(done))
+                kept += yield from stretched(steps, index / len(done), (index + 1) / len(done))
+        report_kept(self, kept)
         for outcome in outcomes:
             self._report(outcome, len(outcomes) > 1)
 

@@ -8,6 +8,7 @@ from ..core.sentence import Count
 from ..scene import hulls
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
+from .checks import report_kept
 
 
 class REEB_PARTS_OT_hulls(PartOperator, bpy.types.Operator):
@@ -29,4 +30,5 @@ class REEB_PARTS_OT_hulls(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         made = hulls.make(context, obj, stored, self.engine, self.count)
-        return rpt_("{n} {n:hull|hulls}").format(n=Count(len(made)))
+        report_kept(self, made.kept)
+        return rpt_("{n} {n:hull|hulls}").format(n=Count(len(made.hulls)))

@@ -17,7 +17,7 @@ from ..scene.selection import in_layer, select_objects
 from ..scene.settings import SeparateProperties
 from ..scene.stepped import SteppedOperator, is_long
 from ..viewport import shading
-from .checks import report_unsound
+from .checks import report_kept, report_unsound
 
 
 class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProperties):
@@ -89,9 +89,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         if separated.too_long:
             self.report({"WARNING"}, rpt_("Not closed, so not cut to fit the bed: {names}").format(
                 names=", ".join(separated.names[key] for key in separated.too_long)))
-        if separated.kept:
-            self.report({"INFO"}, rpt_("{n} earlier {n:piece that was edited since is left as it is|pieces that were "
-                                       "edited since are left as they are}").format(n=Count(separated.kept)))
+        report_kept(self, separated.kept)
         if separated.along_faces:
             message = rpt_("{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there")
             self.report({"INFO"}, message.format(n=Count(separated.along_faces)))

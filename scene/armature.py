@@ -31,10 +31,11 @@ DEFORM = "DEF-"  # how their names begin, as Rigify's do; after that comes the n
 
 
 class Made(NamedTuple):
-    """An armature, and how many parts have no bone of their own."""
+    """An armature, how many parts have no bone of their own, and how many earlier armatures were left alone."""
 
     rig: bpy.types.Object
     n_stiff: int
+    kept: int
 
 
 def remove_modifier(obj: bpy.types.Object) -> None:
@@ -105,12 +106,13 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         _write_groups(obj, numbered)
         groups = [part.group for part in obj.data.reeb_parts.parts]
     collection = piece_objects.make_collection(context, obj)
-    made.remove_untouched(collection.objects, "armature", _former_looks)
+    role = "armature"  # which is all that it stands for
+    earlier = made.remove_untouched(collection.objects, role, _former_looks, lambda _: role, {role})
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
     rig = bpy.data.objects.new(data.name, data)
     rig.matrix_world = found.place
     rig.show_in_front = True
-    rig[made.ROLE] = "armature"
+    rig[made.ROLE] = role
     collection.objects.link(rig)
     _add_bones(context, rig, found.bones, groups)
     made.mark(rig)
@@ -122,7 +124,8 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         modifier.object = rig
     else:
         remove_modifier(obj)
-    return Made(rig, found.n_stiff)
+    made.hand_on(earlier.gone, [(role, rig)])
+    return Made(rig, found.n_stiff, earlier.kept)
 
 
 def _check_alone(obj: bpy.types.Object) -> None:

@@ -8,7 +8,7 @@ carries them along. They are recognized by custom properties, never by name.
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterator
+from collections.abc import Collection, Container, Iterator
 from typing import Any
 
 import bpy
@@ -27,6 +27,7 @@ SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
 _DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
 _WORDS = {"minimum": "middle", "saddle": "joint", "maximum": "tip"}  # behind the name of the part
+_ARCS = "arcs"  # the role of the curve
 FOLDED = "folded"  # on a node: the parts that are shown do not need it
 _SIZE, _NOTHING = "reeb_parts_size", 1e-4  # its size when it is not folded, and when it is
 _LOCKS = ("lock_location", "lock_rotation", "lock_scale")
@@ -50,7 +51,7 @@ def left_behind() -> Iterator[bpy.types.Object]:
 
 def arcs(obj: bpy.types.Object) -> bpy.types.Object | None:
     """The curve with the arcs of an object's graph, or None."""
-    return next(_items(obj, "arcs"), None)
+    return next(_items(obj, _ARCS), None)
 
 
 def _items(obj: bpy.types.Object, role: str) -> Iterator[bpy.types.Object]:
@@ -86,21 +87,31 @@ def _layers(context: bpy.types.Context, collection: bpy.types.Collection | None
         waiting.extend(layer.children)
 
 
-def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, graph: ReebGraph, stretch: np.ndarray,
-               style: Any) -> None:
+def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: NumberedParts, stretch: np.ndarray,
+               style: Any) -> int:
     """Draw a graph in place of an earlier one.
 
     Parameters
     ----------
     context : bpy.types.Context
     obj : bpy.types.Object
-    graph : ReebGraph
+    numbered : NumberedParts
+        The graph is that of their decomposition.
     stretch : (3, 3) float64
         What took the mesh's coordinates to the graph's; undone here.
     style
         Has the values of settings.OverlayProperties.
+
+    Returns
+    -------
+    kept : int
+        Earlier nodes that were left alone, since other objects need them.
     """
-    remove(obj)
+    graph = numbered.parts.decomposition.graph
+    numbers = numbered.numbers[numbered.parts.node_part].tolist()
+    kinds = [KINDS[kind] for kind in graph.node_kind.tolist()]
+    coming = [*map(_name_of_node, numbers, kinds), _ARCS]
+    earlier = _remove(obj, coming)
     back = bridge.unstretch(stretch).T
     collection = bpy.data.collections.new(f"Reeb Graph {obj.name}")
     collection[SOURCE] = obj
@@ -108,16 +119,28 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, graph: ReebGra
     context.scene.collection.children.link(collection)
     nodes = graph.node_position @ back
     for index, position in enumerate(nodes.tolist()):
-        kind = KINDS[graph.node_kind[index]]
+        kind = kinds[index]
         empty = bpy.data.objects.new(f"Reeb {kind}", None)
         empty.empty_display_type = _DISPLAY[kind]
         empty.location = position
-        empty["kind"], empty["value"], empty["part"] = kind, float(graph.node_value[index]), 0
+        empty["kind"], empty["value"], empty["part"] = kind, float(graph.node_value[index]), numbers[index]
         empty["node"], empty[FOLDED] = index, False
         _place(empty, "node", obj, collection)
     curve = _curve(graph, back, np.ones(graph.n_arcs, bool))
-    _place(bpy.data.objects.new("Reeb arcs", curve), "arcs", obj, collection)
+    _place(bpy.data.objects.new("Reeb arcs", curve), _ARCS, obj, collection)
     restyle(obj, style)
+    made.hand_on(earlier.gone, [(_stands_for(item), item) for item in collection.objects])
+    return earlier.kept
+
+
+def _name_of_node(number: int, kind: str) -> str:
+    """What a node stands for: a part and what it is in it."""
+    return f"{number} {kind}"
+
+
+def _stands_for(item: bpy.types.Object) -> str:
+    """See made.StandsFor."""
+    return _ARCS if item[ROLE] == _ARCS else _name_of_node(item.get("part"), item.get("kind"))
 
 
 def _place(item: bpy.types.Object, role: str, obj: bpy.types.Object, collection: bpy.types.Collection) -> None:
@@ -312,7 +335,7 @@ def restyle(obj: bpy.types.Object | None, style: Any) -> None:
             else:
                 item.empty_display_size = size
             item.show_in_front = style.in_front
-        elif item.get(ROLE) == "arcs":
+        elif item.get(ROLE) == _ARCS:
             transaction.keep(item.data, "bevel_depth")
             item.data.bevel_depth = style.line_thickness
             item.show_in_front = style.in_front
@@ -320,16 +343,29 @@ def restyle(obj: bpy.types.Object | None, style: Any) -> None:
 
 def remove(obj: bpy.types.Object) -> None:
     """Remove the graph of an object, and those of objects that are gone."""
+    _remove(obj, None)
+
+
+def _remove(obj: bpy.types.Object, coming: Collection[str] | None) -> made.Earlier:
+    """What ``remove`` does. coming : what the nodes of a new graph stand for, see made.needed; None without one."""
+    gone, kept = [], 0
     for collection in list(bpy.data.collections):
         if SOURCE not in collection or collection[SOURCE] not in (obj, None):
             continue
         ours = [item for item in collection.objects if ROLE in item]
-        theirs = [item for item in collection.all_objects if item not in ours]
-        for item in ours:
+        needed = made.needed(ours, _stands_for, coming) if coming is not None and collection[SOURCE] else set()
+        going = [item for item in ours if item not in needed]
+        theirs = set(collection.all_objects) - set(going)
+        for item in needed:
+            made.hand_over(item, ROLE)
+        gone += [(_stands_for(item), item) for item in going]
+        kept += len(needed)
+        for item in going:
             remove_object(item)
         made.hand_over(collection, SOURCE, SHOWN_BEFORE)
         if not theirs and not len(collection.children):  # else it is the user's now, who put something in it
             transaction.discard(collection)
+    return made.Earlier(gone, kept)
 
 
 def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | None:
@@ -341,7 +377,7 @@ def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | Non
 
 def source_of_arcs(item: bpy.types.Object | None) -> bpy.types.Object | None:
     """The decomposed object that a curve of arcs stands for, or None."""
-    if item is None or item.get(ROLE) != "arcs" or not store.has_parts(item.parent):
+    if item is None or item.get(ROLE) != _ARCS or not store.has_parts(item.parent):
         return None
     return item.parent
 

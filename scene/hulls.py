@@ -3,17 +3,27 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import bpy
 import numpy as np
 
 from . import made, mesh_arrays, part_names, piece_objects, placing
 from .store import Stored
 
+PART = "reeb_parts_hull_of"  # on a hull: the number of its part
 _LONGEST = 59  # bytes of a name, with room for a number that Blender adds
 
 
+class Made(NamedTuple):
+    """Hulls, and how many earlier ones were left alone."""
+
+    hulls: list[bpy.types.Object]
+    kept: int
+
+
 def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engine: str,
-         count: int = 1) -> list[bpy.types.Object]:
+         count: int = 1) -> Made:
     """Make convex hulls of each part, in place of earlier ones that the user has not worked on; Object Mode.
 
     Parameters
@@ -29,7 +39,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
 
     Returns
     -------
-    found : list of bpy.types.Object
+    made : Made
     """
     from ..core.uses.hulls import part_hulls  # imports SciPy
 
@@ -37,8 +47,9 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))
     hulls = part_hulls(table, numbered.parts.labels, count)
     collection = piece_objects.make_collection(context, obj)
-    made.remove_untouched(collection.objects, "hull", _former_looks)
-    found = []
+    coming = set(map(str, numbered.numbers.tolist()))
+    earlier = made.remove_untouched(collection.objects, "hull", _former_looks, _stands_for, coming)
+    found: list[bpy.types.Object] = []
     for number, several in zip(numbered.numbers.tolist(), hulls, strict=True):
         part = part_names.piece_name(obj, number)
         for place, hull in enumerate(several, 1):
@@ -48,10 +59,17 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
             mesh = bpy.data.meshes.new(name)
             mesh.from_pydata(hull.vertices.tolist(), [], hull.triangles.tolist())
             found.append(_placed(bpy.data.objects.new(name, mesh), obj))
+            found[-1][PART] = number
             collection.objects.link(found[-1])
     for hull in found:
         made.mark(hull)
-    return found
+    made.hand_on(earlier.gone, [(_stands_for(hull), hull) for hull in found])
+    return Made(found, earlier.kept)
+
+
+def _stands_for(hull: bpy.types.Object) -> str:
+    """The part; see made.StandsFor."""
+    return str(hull.get(PART))
 
 
 def _fitting(before: str, name: str, after: str) -> str:

@@ -194,7 +194,6 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
                style: SeparateProperties) -> Steps[Separated]:
     """What ``separate`` does, in steps."""
     show_pieces(context, obj, True)  # those that stay, too
-    kept = yield from stretched(_removing_earlier(obj, numbers), 0.0, 0.1)
     face_numbers = stored.shown_parts().face_numbers
     seen = modified.seen_mesh(context, obj, face_numbers) if style.seen and modified.has_modifiers(obj) else None
     mesh, face_numbers = seen or (obj.data, face_numbers)
@@ -203,6 +202,9 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     stretch = bridge.world_stretch(obj)
     close = style.caps or style.fit_bed or style.joints != "NONE"
     with removed(bpy.data.meshes, *([mesh] if seen else [])):
+        # Before anything new is made: then that has the names of what goes.
+        coming = _coming(obj, wanted, sides, style)
+        earlier = yield from stretched(_removing_earlier(obj, numbers, coming), 0.0, 0.1)
         found = yield from stretched(
             making_pieces(mesh, sides.face_numbers, wanted, close, None if style.cut == "FACES" else stretch,
                           style.cut == "PLANAR"), 0.1, 0.7)
@@ -227,13 +229,20 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     for index, piece in enumerate((*pieces, *loose)):
         yield 0.8 + 0.1 * index / (len(pieces) + len(loose))
         made.mark(piece)
+    made.hand_on(earlier.gone, [(_stands_for(piece), piece) for piece in (*pieces, *loose)])
     for index, piece in enumerate(pieces if close else ()):
         yield 0.9 + 0.1 * index / len(pieces)
         check_pieces([piece], stretch)
-    return Separated(pieces, loose, found.left_open, found.along_faces, kept, joined.cuts, names, part,
+    return Separated(pieces, loose, found.left_open, found.along_faces, earlier.kept, joined.cuts, names, part,
                      len(fitted.part), fitted.left, found.n_apart,
                      by_extent.others(obj) if _keeps_modifiers(style) else [],
                      by_extent.made_for_all(obj, close) if _keeps_modifiers(style) else [])
+
+
+def _coming(obj: bpy.types.Object, wanted: list[int], sides: modified.BothSides, style: SeparateProperties) -> set[str]:
+    """What the new pieces stand for, and dowels, of which nobody knows yet where there is room for them."""
+    parts = {sides.part.get(key, key) for key in np.intersect1d(wanted, sides.face_numbers).tolist()}
+    return {*map(_name, parts), *(_stands_for(dowel) for dowel in dowels(obj) if style.joints == "DOWEL")}
 
 
 def _names(obj: bpy.types.Object, origin: dict[int, int], sides: modified.BothSides) -> dict[int, str]:
@@ -277,6 +286,19 @@ def _dowel(context: bpy.types.Context, obj: bpy.types.Object, dowel: joints.Dowe
     item[DOWEL] = sorted(part.get(key, key) for key in dowel.keys)
     make_collection(context, obj).objects.link(item)
     return item
+
+
+def _stands_for(item: bpy.types.Object) -> str:
+    """The part of a piece, or the parts that a dowel joins; see made.StandsFor."""
+    if DOWEL not in item:
+        return _name(item[NUMBER])
+    joined = item[DOWEL]
+    return f"dowel of {joined if isinstance(joined, int) else list(joined)}"
+
+
+def _name(number: int) -> str:
+    """What a piece stands for."""
+    return f"part {number}"
 
 
 def active_piece(context: bpy.types.Context) -> bpy.types.Object:
@@ -352,23 +374,27 @@ def _include(context: bpy.types.Context, collection: bpy.types.Collection) -> No
         open_ += layer.children
 
 
-def _removing_earlier(obj: bpy.types.Object, numbers: list[int]) -> Steps[int]:
-    """Remove pieces of these parts, and dowels in them, unless the user has worked on them; how many stay."""
-    kept, earlier, there = 0, [], [*piece_objects(obj), *dowels(obj)]
+def _removing_earlier(obj: bpy.types.Object, numbers: list[int], coming: Collection[str]) -> Steps[made.Earlier]:
+    """Remove pieces of these parts, and dowels in them, unless the user has worked on them or needs them.
+
+    coming : what the new ones stand for, see made.needed.
+    """
+    every = len(numbers) == len(obj.data.reeb_parts.parts)
+    there = [piece for piece in (*piece_objects(obj), *dowels(obj)) if every or is_of(piece, numbers)]
+    needed = made.needed(there, _stands_for, coming)
+    gone = []
     for index, piece in enumerate(there):
         yield index / len(there)
-        if not is_of(piece, numbers) and len(numbers) < len(obj.data.reeb_parts.parts):
-            continue
-        if made.is_untouched(piece, former_looks):
-            earlier.append(piece)
-            continue
-        made.hand_over(piece, NUMBER, made.MADE, DOWEL)
-        kept += 1
+        if piece not in needed and made.is_untouched(piece, former_looks):
+            gone.append((_stands_for(piece), piece))
+        else:
+            made.hand_over(piece, NUMBER, made.MADE, DOWEL)
+    earlier = [piece for _, piece in gone]
     if earlier:
         rigid_bodies.remove_joints(collection_of(obj), earlier)
     for piece in earlier:
         remove_object(piece)
-    return kept
+    return made.Earlier(gone, len(there) - len(gone))
 
 
 def former_looks(piece: bpy.types.Object) -> str:

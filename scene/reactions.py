@@ -110,9 +110,9 @@ def show_graph(obj: bpy.types.Object | None, shown: bool, context: bpy.types.Con
         return
 
     def draw(stored: Stored) -> None:
-        stretch = store.stretch_of(obj.data)
-        graph_objects.draw_graph(context, obj, stored.decomposition.graph, stretch, context.scene.reeb_parts)
-        graph_objects.update_parts(obj, stored.shown_parts())
+        stretch, numbered = store.stretch_of(obj.data), stored.shown_parts()
+        graph_objects.draw_graph(context, obj, numbered, stretch, context.scene.reeb_parts)
+        graph_objects.update_parts(obj, numbered)
 
     _with_result(obj.data, context, draw)
 

@@ -54,7 +54,7 @@ def detail_of(obj: bpy.types.Object | None) -> dict[str, float | int]:
     return {"detail": result.detail, "n_parts": result.n_parts if result.by_number else 0}
 
 
-def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> None:
+def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> int:
     """Write one object's parts and graph; Object Mode.
 
     Parameters
@@ -65,11 +65,16 @@ def write_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Out
         With a decomposition.
     settings
         Has the values of OutputProperties and OverlayProperties.
+
+    Returns
+    -------
+    kept : int
+        Nodes of an earlier graph that were left alone, see graph_objects.draw_graph.
     """
-    finished(writing_result(context, obj, outcome, settings))
+    return finished(writing_result(context, obj, outcome, settings))
 
 
-def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> Steps[None]:
+def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: Outcome, settings: Any) -> Steps[int]:
     """What ``write_result`` does, in steps."""
     mesh, decomposition = obj.data, outcome.decomposition
     assert decomposition is not None
@@ -93,14 +98,16 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
         outputs.keep_places(mesh, numbered)
     store.mark_pins(mesh, stored)
     yield 0.8
+    kept = 0
     # Other objects of the mesh show its parts, and a graph of theirs is that of the result before.
     for user in targets.users(mesh):
         if settings.graph and (user == obj or graph_objects.find(user)):
-            graph_objects.draw_graph(context, user, decomposition.graph, outcome.shape.stretch, settings)
+            kept += graph_objects.draw_graph(context, user, numbered, outcome.shape.stretch, settings)
             graph_objects.update_parts(user, numbered)
             graph_objects.set_hidden(context, user, shows_clutter(numbered))
         else:
             graph_objects.remove(user)
+    return kept
 
 
 def shows_clutter(numbered: NumberedParts) -> bool:

@@ -55,7 +55,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     from ..core.uses.body_joints import body_joints, overlapping  # imports SciPy
     from ..core.uses.hulls import part_hulls
 
-    remove_joints(collection)
+    earlier = remove_joints(collection)
     numbered = stored.shown_parts()
     world = np.array(placing.world_matrix(obj), np.float64)
     points = mesh_arrays.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
@@ -78,11 +78,12 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     for some in several:
         for piece in some[1:]:  # what was cut to fit the bed
             joints.append(_joint(physics, collection, "FIXED", (some[0], piece), piece.matrix_world.normalized(), size))
-    held = {tuple(pair) for pair in found.pairs.tolist()}
+    apart, held = [], {tuple(pair) for pair in found.pairs.tolist()}
     for a, b in overlapping(hulls).tolist():
         # Bodies that overlap at the start would push each other away.
         for ends in ((x, y) for x in several[a] for y in several[b] if (a, b) not in held):
-            _joint(physics, collection, "GENERIC", ends, ends[0].matrix_world.normalized(), 0.2 * size)
+            apart.append(_joint(physics, collection, "GENERIC", ends, ends[0].matrix_world.normalized(), 0.2 * size))
+    made.hand_on(earlier.gone, [(joint.name, joint) for joint in (*joints, *apart)])
     return Joined([piece for some in several for piece in some], joints)
 
 
@@ -151,8 +152,8 @@ def _joint(physics: bpy.types.RigidBodyWorld, collection: bpy.types.Collection, 
     return joint
 
 
-def remove_joints(collection: bpy.types.Collection, of: Iterable[bpy.types.Object] | None = None) -> None:
-    """Remove joints that the user has not worked on.
+def remove_joints(collection: bpy.types.Collection, of: Iterable[bpy.types.Object] | None = None) -> made.Earlier:
+    """Remove joints that the user has not worked on; they stand for what their names say.
 
     collection : where the joints are. of : only those of these pieces.
     """
@@ -160,7 +161,7 @@ def remove_joints(collection: bpy.types.Collection, of: Iterable[bpy.types.Objec
     if of is not None:
         ends, held = set(of), [(joint, joint.rigid_body_constraint) for joint in joints]
         joints = [joint for joint, holds in held if holds is not None and {holds.object1, holds.object2} & ends]
-    made.remove_untouched(joints, "joint", _former_looks)
+    return made.remove_untouched(joints, "joint", _former_looks, lambda joint: joint.name, None)
 
 
 def _former_looks(joint: bpy.types.Object) -> str:

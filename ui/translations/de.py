@@ -919,9 +919,10 @@ TEXTS = {
     "Go to Object Mode first": "Zuerst in den Objektmodus wechseln",
     "{name}: {n} {n:part is an object|parts are objects} now":
         "{name}: {n} {n:Teil ist jetzt ein Objekt|Teile sind jetzt Objekte}",
-    "{n} earlier {n:piece that was edited since is left as it is|pieces that were edited since are left as they are}":
-        "{n} {n:früheres Stück, das seither bearbeitet wurde, bleibt, wie es ist|frühere Stücke, die seither "
-        "bearbeitet wurden, bleiben, wie sie sind}",
+    "{n} earlier {n:object that was edited or is needed by others is left as it is|objects that were edited or are "
+    "needed by others are left as they are}":
+        "{n} {n:früheres Objekt, das bearbeitet wurde oder das andere brauchen, bleibt, wie es ist|frühere Objekte, "
+        "die bearbeitet wurden oder die andere brauchen, bleiben, wie sie sind}",
     "{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are not closed or cross themselves}: {names}":
         "{n} von {total} {total:Teil|Teilen} {n:ist nicht geschlossen oder durchdringt|sind nicht geschlossen oder "
         "durchdringen} sich: {names}",

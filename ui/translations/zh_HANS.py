@@ -824,8 +824,9 @@ TEXTS = {
     "Nothing is being computed": "当前没有计算",
     "Go to Object Mode first": "请先进入物体模式",
     "{name}: {n} {n:part is an object|parts are objects} now": "{name}：{n} 个部件现为物体",
-    "{n} earlier {n:piece that was edited since is left as it is|pieces that were edited since are left as they are}":
-        "{n} 个此后被编辑过的先前的块保持不变",
+    "{n} earlier {n:object that was edited or is needed by others is left as it is|objects that were edited or are "
+    "needed by others are left as they are}":
+        "{n} 个被编辑过或被其他物体引用的先前物体保持不变",
     "{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are not closed or cross themselves}: {names}":
         "{total} 个部件中有 {n} 个未封闭或自相交：{names}",
     "{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or cross themselves} as the model does "
