@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 # A cap that is so bent that less than this share of its area looks along the axis has no axis to speak of.
 _STRAIGHT = 0.6
+# Of its size: what is not farther from the middle of a cap is in the middle, but for rounding.
+_SAME = 1e-9
 # How many places on a cap are looked at, and along its longer side; how many of them are tried with all of the peg, and
 # how often the deepest one is looked for between them.
 _PLACES, _ALONG, _MOST, _FINER = 400, 64, 100, 3
@@ -203,15 +205,27 @@ def _axes(cap: Cap, along: np.ndarray | None) -> np.ndarray | None:
             return None
         normal = along if along @ normal >= 0 else -along
     normal = normal / np.linalg.norm(normal)
-    weight = np.linalg.norm(cap.normals(), axis=1)
-    middle = cap.corners().mean(axis=1)
-    out = middle - np.average(middle, axis=0, weights=weight)
-    out -= np.outer(out @ normal, normal)
+    out, weight = _across(cap, normal)
     _, vectors = np.linalg.eigh((out * weight[:, None]).T @ out)
     u = vectors[:, 2] - (vectors[:, 2] @ normal) * normal
     u /= np.linalg.norm(u)
     u = u if rounded(np.array([weight @ (out @ u) ** 3]))[0] >= 0 else -u
     return np.stack([u, np.cross(normal, u), normal])
+
+
+def _across(cap: Cap, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """How far the triangles are from the middle of a cap, across its axis, (k, 3), and their areas, (k,).
+
+    Where all of them are in the middle, as in a cap of one triangle, their corners instead: these differ.
+    """
+    corners, weight = cap.corners(), np.linalg.norm(cap.normals(), axis=1)
+    middle = corners.mean(axis=1)
+    out = middle - np.average(middle, axis=0, weights=weight)
+    out -= np.outer(out @ normal, normal)
+    if np.abs(out).max() > _SAME * np.ptp(corners, axis=(0, 1)).max():
+        return out, weight
+    out = (corners - np.average(middle, axis=0, weights=weight)).reshape(-1, 3)
+    return out - np.outer(out @ normal, normal), np.repeat(weight, 3)
 
 
 def arc_direction(graph: ReebGraph, place: np.ndarray) -> np.ndarray | None:

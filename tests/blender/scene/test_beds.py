@@ -59,6 +59,18 @@ def test_cuts_of_the_bed_are_joined_as_all_others(make):
     assert sum(volume(piece.data) for piece in pieces()) == pytest.approx(volume(obj.data), rel=5e-3)
 
 
+def test_cuts_through_a_triangular_bar_are_joined(make):
+    """The cap of each is one triangle."""
+    make(shapes.prism(3), "Tree")
+    bpy.ops.reeb_parts.decompose(n_parts=1)
+    with np.errstate(all="raise"):
+        bpy.ops.reeb_parts.separate(fit_bed=True, bed=(1500.0, 1500.0, 1500.0), joints="ROUND", **KEEP)
+    cuts = bpy.data.objects["Tree"].reeb_parts_made.cuts
+    assert len(pieces()) == len(cuts) + 1 > 3
+    assert [cut.count for cut in cuts] == [1] * len(cuts)
+    assert all(is_sound(piece) for piece in pieces())
+
+
 def test_what_the_mesh_carries_goes_on(obj):
     obj.shape_key_add(name="Basis")
     key = obj.shape_key_add(name="Fat")

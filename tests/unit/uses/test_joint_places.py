@@ -191,6 +191,26 @@ def test_a_bent_cap_has_an_axis_only_if_told():
     assert not found.bent
 
 
+@pytest.mark.parametrize("corners", [[(-1, 0), (2, 0), (0, 1)], [(0, 0), (1, 0), (0.5, np.sqrt(0.75))],
+                                     [(0, 0), (9, 0), (0, 1)]])
+@pytest.mark.parametrize("seed", range(3))
+@np.errstate(all="raise")
+def test_a_cap_of_one_triangle_has_an_axis(corners, seed):
+    """The middle of its only triangle is its own middle: from where the triangles are, nothing can be told."""
+    rng = np.random.default_rng(seed)
+    turn, offset = (np.linalg.qr(rng.normal(size=(3, 3)))[0], rng.normal(size=3)) if seed else (np.eye(3), 0)
+    points = np.column_stack([corners, np.zeros(3)]) @ turn.T + offset
+    one = with_rims(points, np.array([[0, 1, 2]]))
+    pair = (Box((-99,) * 3, (99,) * 3), Box((-99,) * 3, (99,) * 3))
+    found = joint_places(one, pair, WANTED)
+    (joint,) = found.joints
+    assert joint.axes @ joint.axes.T == pytest.approx(np.eye(3), abs=1e-9)
+    assert np.abs(joint.axes[2] @ np.cross(points[1] - points[0], points[2] - points[0])) == pytest.approx(
+        2 * one.area())
+    a, b, c = (np.linalg.norm(points[i] - points[j]) for i, j in ((1, 2), (2, 0), (0, 1)))
+    assert found.width == pytest.approx(2 * 2 * one.area() / (a + b + c), rel=0.02)  # of the inscribed circle
+
+
 def test_the_arc_beside_a_cut_gives_its_direction():
     graph = decompose(*shapes.dumbbell()).graph
     found = arc_direction(graph, np.array([0.1, 0.0, 0.3]))
