@@ -59,25 +59,32 @@ class REEB_PARTS_OT_decompose(
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """From the panel: with the panel's settings, in a process of its own, so that the window stays alive."""
-        self._take_over_former_names()
+        self._complete_detail(context)
         defaults.adopt(context.scene)
         values = {name: getattr(context.scene.reeb_parts, name) for name in (*PARAMETERS, *HINTS, *OUTPUTS, *OVERLAY)}
-        values |= results.detail_of(targets.active_object(context))
         for name, value in values.items():
             if not self.properties.is_property_set(name):
                 setattr(self, name, value)
         return self.attempt(self._start, context)
 
     def run(self, context: bpy.types.Context) -> None:
-        """From scripts and the redo panel: all at once; what a script leaves out is as in the preferences."""
-        self._take_over_former_names()
+        """From scripts and the redo panel: all at once; what a script leaves out is as in the preferences.
+
+        But for the detail, which is that of the parts that the active object shows.
+        """
+        self._complete_detail(context)
         defaults.complete(self)
         parameters, shapes = finished(self._reading(context))
         finished(self._writing(context, compute_all(shapes, parameters, lambda stage, share, of="": None)))
 
-    def _take_over_former_names(self) -> None:
+    def _complete_detail(self, context: bpy.types.Context) -> None:
+        """Take over former names, and how many parts are shown where a caller gives neither detail nor number."""
         for note in take_over_former_names(self.properties):
             self.report({"INFO"}, note)
+        given = self.properties.is_property_set
+        if not given("detail") and not given("n_parts"):
+            for name, value in results.detail_of(targets.active_object(context)).items():
+                setattr(self, name, value)
 
     def draw(self, context: bpy.types.Context) -> None:
         """The redo panel: how many parts, and what differs from the defaults."""

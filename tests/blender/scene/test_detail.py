@@ -112,6 +112,27 @@ def test_what_was_given_to_parts_outlasts_an_edit(obj, result, package):
     assert {number: after[number] for number in same} == {number: before[number] for number in same}
 
 
+@pytest.mark.parametrize("change", [{"detail": 0.9}, {"n_parts": 3}])
+def test_detail_stays_when_a_script_decomposes_again(obj, result, change):
+    for name, value in change.items():
+        setattr(result, name, value)
+    shown = (pytest.approx(result.detail), result.by_number, [part.number for part in result.parts])
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+    assert (result.detail, result.by_number, [part.number for part in result.parts]) == shown
+    bpy.ops.reeb_parts.decompose(colors=False)
+    assert (result.detail, result.by_number, [part.number for part in result.parts]) == shown
+
+
+def test_what_a_script_says_of_the_parts_wins(result):
+    result.n_parts = 3
+    bpy.ops.reeb_parts.decompose(detail=0.9)
+    assert (result.detail, result.by_number) == (pytest.approx(0.9), False)
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    assert (len(result.parts), result.by_number) == (2, True)
+    bpy.ops.reeb_parts.decompose(n_parts=0)
+    assert not result.by_number
+
+
 def test_detail_of_several_selected_models_is_set_together(make, tree):
     first, second, third = (make((tree[0] * size, tree[1]), name) for size, name in ((1, "A"), (2, "B"), (3, "C")))
     for obj in (first, second, third):

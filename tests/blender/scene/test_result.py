@@ -230,7 +230,7 @@ def test_a_colour_outlives_a_name_that_is_taken_back(obj, result):
 def test_numbers_of_parts_survive_a_coarser_run(obj, result):
     fine = numbers(obj.data)
     bpy.ops.reeb_parts.decompose(n_parts=2)
-    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.decompose(detail=0.5)
     assert (numbers(obj.data) == fine).all()
 
 
