@@ -2,6 +2,8 @@
 """What is stored in the file: settings on the scene, the result on its mesh, what was made of it on the object.
 
 The names of the properties and of the pointers to them are those of files that exist: they never change.
+
+What does something when it is set has ``options=set()``: it cannot be animated, as a frame that is shown sets nothing.
 """
 
 from typing import Any
@@ -27,19 +29,20 @@ class ReebPart(bpy.types.PropertyGroup):
     """A part as the list shows it."""
 
     name: StringProperty(
-        name="Name", update=reactions.rename, maxlen=63,
+        name="Name", update=reactions.rename, options=set(), maxlen=63,
         description="Name of the part and of its vertex group; double click to change it",
     )
     number: IntProperty(name="Number", description="What the part is known by; the value of reeb_part")
     color: FloatVectorProperty(
         name="Color", subtype="COLOR_GAMMA", size=3, min=0.0, max=1.0, update=reactions.recolor,
+        options=set(),
         description="Color of the part; one that you choose stays with it",
     )
     share: FloatProperty(name="Share", subtype="FACTOR", description="Share of the surface's area")
     middle: FloatVectorProperty(size=3)  # of its surface, in the coordinates of the mesh
     own_name: StringProperty(description="The name of the part until the user gives it another")
     locked: BoolProperty(
-        name="Locked", update=reactions.lock,
+        name="Locked", update=reactions.lock, options=set(),
         description="The part stays as it is, whatever the detail and whatever is done to its neighbors",
     )
     pinned: BoolProperty(name="Pinned", description="The part was changed by hand and stays whatever the detail")
@@ -82,11 +85,12 @@ class ReebPartsResult(bpy.types.PropertyGroup, Settled):
     # What can be changed
     detail: FloatProperty(
         name="Detail", min=0.0, max=1.0, default=0.5, subtype="FACTOR", update=reactions.show_detail,
+        options=set(),
         description="How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate. "
         "Nothing is computed again",
     )
     n_parts: IntProperty(
-        name="Number of Parts", min=1, update=reactions.show_number,
+        name="Number of Parts", min=1, update=reactions.show_number, options=set(),
         description="Exactly this many parts, whatever the detail. Nothing is computed again",
     )
     by_number: BoolProperty(description="The number of parts decides, not the detail")
@@ -94,7 +98,7 @@ class ReebPartsResult(bpy.types.PropertyGroup, Settled):
     fewest: IntProperty()  # parts that there can be, once a number was asked for
     most: IntProperty()
     parts: CollectionProperty(type=ReebPart)
-    active: IntProperty(name="Active Part", update=part_list.on_list_click, options=set())  # no keys in its menu
+    active: IntProperty(name="Active Part", update=part_list.on_list_click, options=set())
     names: CollectionProperty(type=ReebName)
 
     # What was written, under which name, and what was there before

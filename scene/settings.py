@@ -159,14 +159,16 @@ class OverlayProperties:
 
     node_size: FloatProperty(
         name="Node Size", default=0.005, min=0.001, max=0.5, precision=3, step=0.1, update=_redraw_graph,
+        options=set(),
         description="Size of the empties, as a share of the object's",
     )
     line_thickness: FloatProperty(
         name="Line Thickness", default=0.0, min=0.0, max=1.0, precision=3, step=1, update=_redraw_graph,
+        options=set(),
         description="Thickness of the curve under the lines, as a share of the radius of the body around it",
     )
     in_front: BoolProperty(
-        name="In Front", default=True, update=_redraw_graph,
+        name="In Front", default=True, update=_redraw_graph, options=set(),
         description="Draw the graph over the model instead of hidden inside it",
     )
 
@@ -326,7 +328,7 @@ def _set_by_former_name(self: bpy.types.PropertyGroup, context: bpy.types.Contex
 class FormerParameters:
     """The parameters by their names of version 0.1.0, for scenes of then and scripts that set them."""
 
-    __annotations__ = {name: _former_property(present[0], update=_set_by_former_name)
+    __annotations__ = {name: _former_property(present[0], update=_set_by_former_name, options=set())
                        for name, present in RENAMED.items()}
 
 
@@ -344,8 +346,8 @@ class ReebPartsSettings(
     """What the next run will do; on the scene."""
 
     # Here, and only here, they are seen at once.
-    graph: BoolProperty(**OutputProperties.__annotations__["graph"].keywords, update=_show_graph)
-    palette: EnumProperty(**OutputProperties.__annotations__["palette"].keywords, update=_repaint)
+    graph: BoolProperty(**OutputProperties.__annotations__["graph"].keywords, update=_show_graph, options=set())
+    palette: EnumProperty(**OutputProperties.__annotations__["palette"].keywords, update=_repaint, options=set())
 
     def differs_from_preset(self) -> bool:
         """Whether a parameter was changed since the preset was chosen; how many parts there are does not count."""
@@ -381,7 +383,7 @@ class ReebPartsSettings(
         description="Draw all borders between parts where Separate would cut them, by its setting Cuts",
     )
     preset: EnumProperty(
-        name="Preset", items=PRESET_ITEMS, update=_use_preset,
+        name="Preset", items=PRESET_ITEMS, update=_use_preset, options=set(),
         description="Set all parameters at once",
     )
     adopted: BoolProperty(description="The preferences were taken over")

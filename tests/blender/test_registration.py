@@ -35,6 +35,25 @@ def test_properties_mirror_the_parameters(parameters, where):
         assert mirrored.description
 
 
+def test_what_does_something_when_it_is_set_cannot_be_animated(package):
+    """A frame that is shown sets nothing: the slider would move, and the parts would stay. Explode heeds frames."""
+    classes = importlib.import_module(f"{package}.scene.schema").CLASSES
+    found = {name: cls.bl_rna.properties[name].is_animatable
+             for cls in classes for base in reversed(cls.__mro__)
+             for name, made in getattr(base, "__annotations__", {}).items()
+             if "update" in getattr(made, "keywords", {})}
+    assert {"detail", "n_parts", "locked", "color", "graph", "palette", "preset", "node_size"} <= found.keys()
+    assert {name for name, animatable in found.items() if animatable} == {"explode"}
+
+
+def test_neither_keys_nor_drivers_for_detail(obj):
+    bpy.ops.reeb_parts.decompose()
+    with pytest.raises(TypeError, match="not animatable"):
+        obj.data.keyframe_insert("reeb_parts.detail")
+    with pytest.raises(TypeError, match="not animatable"):
+        obj.data.driver_add("reeb_parts.n_parts")
+
+
 def test_defaults_make_default_parameters(parameters):
     assert bpy.context.scene.reeb_parts.parameters() == parameters()
 
