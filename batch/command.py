@@ -46,6 +46,7 @@ from ..scene import (
 )
 from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
+from ..scene.settings import closes_holes
 from ..scene.transaction import transaction
 from ..scene.whole_files import WholeFiles, reason, scene_files, together
 from .interrupt import Interrupted, Interrupts
@@ -297,7 +298,7 @@ def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
         numbers = stored.shown_parts().numbers.tolist()
         separated = piece_objects.separate(bpy.context, obj, stored, numbers, style)
         piece_objects.hide_original(bpy.context, obj)
-        if style.caps or style.joints != "NONE" or style.fit_bed:
+        if closes_holes(style):
             said["unjoined"] = separated.n_apart
         if style.joints != "NONE":
             said["joints"] = [
@@ -316,8 +317,7 @@ def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
 
 def is_separated(options: argparse.Namespace) -> bool:
     """Whether the parts become objects; files of parts then hold these."""
-    asked = options.separate or options.caps or options.cap_material or options.pegs or options.bed
-    return bool(asked or options.rigid_bodies)
+    return bool(options.separate or options.rigid_bodies or closes_holes(separate_style(options)))
 
 
 def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bpy.types.Object], reports: list[dict],

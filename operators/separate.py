@@ -14,7 +14,7 @@ from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import check_parts, wanted_numbers
 from ..scene.reporting import ReportingOperator
 from ..scene.selection import in_layer, select_objects
-from ..scene.settings import SeparateProperties
+from ..scene.settings import SeparateProperties, closes_holes
 from ..scene.stepped import SteppedOperator, is_long
 from ..viewport import shading
 from .checks import report_kept, report_unsound
@@ -95,7 +95,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
             self.report({"INFO"}, message.format(n=Count(separated.along_faces)))
         if self.joints != "NONE":
             self._report_joints(separated)
-        if self.caps or self.joints != "NONE":
+        if closes_holes(self):
             report_unsound(self, separated.pieces, just_made=True)
         if separated.left_open:
             self.report({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "

@@ -42,7 +42,7 @@ from . import (
 from .errors import SceneError
 from .part_meshes import making_pieces
 from .selection import in_layer
-from .settings import SeparateProperties
+from .settings import SeparateProperties, closes_holes
 from .store import Stored
 from .temporary import remove_object, removed
 from .units import millimeters
@@ -200,7 +200,7 @@ def separating(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored
     sides = modified.both_sides(obj, mesh, face_numbers) if seen else modified.BothSides(face_numbers, {}, {})
     wanted = [*numbers, *(key for key, number in sides.part.items() if number in numbers)]
     stretch = bridge.world_stretch(obj)
-    close = style.caps or style.fit_bed or style.joints != "NONE"
+    close = closes_holes(style)
     with removed(bpy.data.meshes, *([mesh] if seen else [])):
         # Before anything new is made: then that has the names of what goes.
         coming = _coming(obj, wanted, sides, style)

@@ -230,21 +230,21 @@ class JointProperties:
     )
 
 
+def closes_holes(style: Any) -> bool:
+    """Whether the holes of pieces are closed. style : has the values of SeparateProperties."""
+    return style.caps or style.fit_bed or style.joints != "NONE"
+
+
 class SeparateProperties(WhichProperties, JointProperties):
     """How parts become objects."""
-
-    @property
-    def closes(self) -> bool:
-        """Whether holes are closed."""
-        return self.caps or self.fit_bed or self.joints != "NONE"
 
     @property
     def rows(self) -> list[str]:
         """Names of the settings in the order in which they are shown, without those that do not count now."""
         joint = list(JointProperties.__annotations__)
-        return ["which", "cut", "caps", *(["cap_material"] if self.closes else []), "center", "modifiers", "seen",
-                "parent", "hide", "fit_bed", *(["bed"] if self.fit_bed else []),
-                *(joint if self.joints != "NONE" else joint[:1])]
+        material = ["cap_material"] if closes_holes(self) else []
+        return ["which", "cut", "caps", *material, "center", "modifiers", "seen", "parent", "hide", "fit_bed",
+                *(["bed"] if self.fit_bed else []), *(joint if self.joints != "NONE" else joint[:1])]
 
     fit_bed: BoolProperty(
         name="Fit the Bed", default=False,

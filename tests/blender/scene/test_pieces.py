@@ -1259,9 +1259,10 @@ def test_bent_cuts_are_planar_if_asked_for(make, separate, cut):
     assert caps == [1, 1] if cut == "PLANAR" else min(caps) > 30
 
 
-def test_with_holes_closed_the_report_tells_the_truth(obj, capfd):
+@pytest.mark.parametrize("style", [{"caps": True}, {"joints": "ROUND"}, {"fit_bed": True, "bed": [9999.0] * 3}])
+def test_with_holes_closed_the_report_tells_the_truth(obj, capfd, style):
     bpy.ops.reeb_parts.decompose()
-    bpy.ops.reeb_parts.separate(caps=True)
+    bpy.ops.reeb_parts.separate(**style)
     count = len(pieces())
     assert f"{count} parts are closed and do not cross themselves" in capfd.readouterr().out
 
