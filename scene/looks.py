@@ -2,9 +2,9 @@
 """What an object has, as a short text that differs once somebody has worked on it.
 
 Told are its settings and those of its modifiers, constraints and whatever else it has, the mesh or the bones with all
-that they carry, and custom properties. Only what differs from its default is told, so that a later Blender with more
-settings tells the same. Not told is what is merely looked at - selected, hidden in the viewport, unfolded in a panel -
-nor what an animation or a driver sets, nor our own marks.
+that they carry, their name, whether they are an asset, and custom properties. Only what differs from its default is
+told, so that a later Blender with more settings tells the same. Not told is what is merely looked at - selected, hidden
+in the viewport, unfolded in a panel - nor what an animation or a driver sets, nor our own marks.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def digest(item: bpy.types.Object) -> str:
     elif item.type == "ARMATURE":
         told += _bones(item, moving)
     if item.data is not None:
-        told += _custom(item.data)
+        told += [item.data.name, item.data.asset_data is not None, *_custom(item.data)]
     return _DIGEST + hashlib.blake2b(repr(told).encode(errors="replace"), digest_size=16).hexdigest()
 
 
