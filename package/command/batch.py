@@ -112,8 +112,8 @@ class _Batch:
         self.options = options
         self.out = Path(os.path.abspath(options.out))
         places = [*options.models, *(place for path in options.list for place in read_list(path))]
-        kinds = formats() + (BY_BLENDER if options.blender else ())
-        self.sources = find_sources(places, kinds, self.out, options.root)
+        # Without a Blender, too: that a model could not be read is to be seen in the table.
+        self.sources = find_sources(places, formats() + BY_BLENDER, self.out, options.root)
         self.settings = Settings(parameters, options.json, _suffix(options.labels), _suffix(options.colored),
                                  options.parts or "", options.thumbnail)
         self.kept = 0

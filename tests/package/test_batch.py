@@ -24,6 +24,7 @@ from reeb_parts.batch import cluster
 from reeb_parts.batch.model_process import ModelProcess
 from reeb_parts.batch.records import RECORD, Settings, is_done, read_record
 from reeb_parts.batch.sources import SourceError, find_sources
+from reeb_parts.batch.tables import MODELS, PARTS
 from reeb_parts.batch.work import do_model
 from reeb_parts.command import batch as command
 from reeb_parts.whole_files import remove_leftovers
@@ -101,6 +102,15 @@ def test_the_results_are_those_of_core(batch, models):
     assert [{key: row[key] for key in entry["parts"][0]} for row in found] == entry["parts"]
     described = part_descriptors(mesh.vertices, mesh.faces, expected)
     assert np.array([row["descriptor"] for row in found]) == pytest.approx(described, abs=1e-6)
+
+
+def test_the_tables_have_a_column_for_all_that_is_known(batch):
+    """Of what there is no column for, Arrow says nothing."""
+    documented = set(SCHEMA["$defs"]["part"]["properties"]) - {"check"}  # which takes a Blender
+    assert set(PARTS.names) == {"model", "descriptor", *documented}
+    records = [json.loads(path.read_text()) for path in batch[0].rglob(RECORD)]
+    assert {frozenset(part) for record in records for part in record["parts"]} == {frozenset(PARTS.names) - {"model"}}
+    assert {key for record in records for key in record["model"]} <= set(MODELS.names)
 
 
 def test_parts_like_a_part_are_found_with_pictures(batch, reeb_parts_command, tmp_path):
@@ -202,6 +212,24 @@ def test_what_lacked_a_reader_is_tried_again(suffix, blender, words, tmp_path):
     assert answer["status"] == "reader"
     assert words in answer["reason"]
     assert not is_done(model, tmp_path / "out", Settings(Parameters()))
+
+
+def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tmp_path):
+    for name in ("scene.blend", "deep/thing.FBX"):
+        path = tmp_path / "models" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(b"Kaydara")
+    place, out = tmp_path / "models", tmp_path / "out"
+    for more, expected in (([], {"reader": 2}), ([tree], {"done": 1, "reader": 2}), ([], {"done": 1, "reader": 2})):
+        for shape in more:
+            save(shape, place / "tree.ply")
+        done = reeb_parts_command("batch", place, "--out", out, *LOCAL)
+        assert done.returncode == 1, done.stderr
+        assert json.loads(done.stdout)["models"] == expected
+    table = {row["name"]: row for row in rows(out / "models.parquet")}
+    assert {name: row["status"] for name, row in table.items()} == {
+        "scene.blend": "reader", "deep/thing.FBX": "reader", "tree.ply": "done"}
+    assert "Say where it is with --blender" in table["scene.blend"]["reason"]
 
 
 @pytest.mark.parametrize(("arguments", "status", "words"), [
