@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache, cached_property
-from itertools import zip_longest
 from pathlib import Path
 
 import numpy as np
@@ -67,10 +66,7 @@ class BoostedTrees:
         with np.load(path, allow_pickle=False) as stored:
             trained_on = tuple(stored["names"].tolist())
             if trained_on != names:
-                different = [a or b for a, b in zip_longest(trained_on, names) if a != b]
-                raise ReebError(Sentence(
-                    "The model {file} was trained on other features (first: {name}). Train it again.",
-                    file=path.name, name=different[0]))
+                raise ReebError(_other_features(path.name, trained_on, names))
             return cls(frozen(stored["feature"], np.int64), frozen(stored["threshold"], np.float32),
                        frozen(stored["mask"], np.uint16), frozen(stored["leaf"], np.float64), names)
 
@@ -124,6 +120,15 @@ class BoostedTrees:
         """Feature, (t * i,), threshold and mask, (t * i, ROWS), of all inner nodes: the first of every tree first."""
         threshold, mask = (np.repeat(each.T.ravel(), ROWS).reshape(-1, ROWS) for each in (self.threshold, self.mask))
         return self.feature.T.ravel(), threshold, mask
+
+
+def _other_features(file: str, trained_on: tuple[str, ...], names: tuple[str, ...]) -> Sentence:
+    """Say how the features that a model was trained on differ from those that there are."""
+    different = [name for name in (*trained_on, *names) if (name in trained_on) != (name in names)]
+    if different:
+        return Sentence("The model {file} was trained on other features (first: {name}). Train it again.", file=file,
+                        name=different[0])
+    return Sentence("The model {file} was trained on the features in another order. Train it again.", file=file)
 
 
 @cache

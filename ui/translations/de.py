@@ -291,6 +291,8 @@ TEXTS = {
     "The parameter {old} is called {new} now.": "Der Parameter {old} heißt jetzt {new}.",
     "The model {file} was trained on other features (first: {name}). Train it again.":
         "Das Modell {file} wurde an anderen Merkmalen angelernt (das erste: {name}). Es muss neu angelernt werden.",
+    "The model {file} was trained on the features in another order. Train it again.":
+        "Das Modell {file} wurde an den Merkmalen in anderer Reihenfolge angelernt. Es muss neu angelernt werden.",
     "Crease Length": "Faltenlänge",
     "How much of a cut's length must be concave to count (the paper's sigma)":
         "Wie viel von der Länge eines Schnitts konkav sein muss, um zu zählen (Sigma im Artikel)",

@@ -293,6 +293,8 @@ TEXTS = {
     "The parameter {old} is called {new} now.": "参数 {old} 现名为 {new}。",
     "The model {file} was trained on other features (first: {name}). Train it again.":
         "模型 {file} 是用其他特征训练的（首个：{name}）。请重新训练。",
+    "The model {file} was trained on the features in another order. Train it again.":
+        "模型 {file} 训练时特征的顺序不同。请重新训练。",
     "Crease Length": "折痕长度",
     "How much of a cut's length must be concave to count (the paper's sigma)":
         "切口长度中需有多少为凹才计入（论文中的 sigma）",

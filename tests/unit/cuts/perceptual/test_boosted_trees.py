@@ -64,11 +64,20 @@ def test_reading_gives_back_what_was_written(tmp_path):
     np.testing.assert_allclose(again.predict(rows), two_trees().predict(rows), rtol=1e-6)
 
 
-@pytest.mark.parametrize(("names", "first"), [(("y", "x"), "x"), (("x", "y", "z"), "z"), (("x",), "y")])
+@pytest.mark.parametrize(("names", "first"), [
+    (("x", "y", "z"), "z"), (("z", "x", "y"), "z"), (("x",), "y"), (("y",), "x"), (("x", "z"), "y"),
+])  # fmt: skip
 def test_a_model_of_other_features_is_refused(tmp_path, names, first):
+    """What is missing or unknown is named, not what merely stands in another place for that."""
     two_trees().write(tmp_path / "trees.npz")
     with pytest.raises(ReebError, match=rf"trees.npz was trained on other features \(first: {first}\)"):
         BoostedTrees.read(tmp_path / "trees.npz", names)
+
+
+def test_a_model_of_the_features_in_another_order_is_refused(tmp_path):
+    two_trees().write(tmp_path / "trees.npz")
+    with pytest.raises(ReebError, match=r"trees.npz was trained on the features in another order"):
+        BoostedTrees.read(tmp_path / "trees.npz", ("y", "x"))
 
 
 def test_shipped_coefficients_are_trees_on_these_features():
