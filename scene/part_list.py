@@ -13,7 +13,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix
 
-from . import mesh_arrays, quiet, store, targets, transaction
+from . import mesh_arrays, piece_objects, quiet, store, targets, transaction
 from .errors import SceneError
 from .settled import reaction
 
@@ -21,6 +21,10 @@ from .settled import reaction
 def check_parts(obj: bpy.types.Object | None) -> None:
     """Raise SceneError unless the parts of an object can be worked on."""
     if not store.has_parts(obj):
+        # After Separate a piece is active.
+        original = piece_objects.original(obj) if obj is not None else None
+        if original is not None:
+            raise SceneError(rpt_("Select the original, {name}, first.").format(name=original.name))
         raise SceneError(rpt_("Decompose the mesh first"))
     targets.check_object(obj)
 

@@ -859,6 +859,7 @@ TEXTS = {
         "{name} wurde geändert, während seine Teile berechnet wurden. Bitte erneut zerlegen.",
     "The active object has no parts": "Das aktive Objekt hat keine Teile",
     "Decompose the mesh first": "Das Mesh zuerst zerlegen",
+    "Select the original, {name}, first.": "Bitte zuerst das Original auswählen, {name}.",
     "{name} has no parts yet. Decompose it first.": "{name} hat noch keine Teile. Bitte zuerst zerlegen.",
     "{name} is being edited. Leave Edit Mode first.":
         "{name} wird gerade bearbeitet. Bitte zuerst den Bearbeitungsmodus verlassen.",

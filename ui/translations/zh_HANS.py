@@ -777,6 +777,7 @@ TEXTS = {
         "{name} 在计算部件期间被更改。请重新分解。",
     "The active object has no parts": "活动物体没有部件",
     "Decompose the mesh first": "请先分解网格",
+    "Select the original, {name}, first.": "请先选择原物体 {name}。",
     "{name} has no parts yet. Decompose it first.": "{name} 还没有部件。请先分解。",
     "{name} is being edited. Leave Edit Mode first.": "{name} 正在编辑。请先退出编辑模式。",
     "{name} was edited since it was decomposed. Decompose it again.": "{name} 在分解之后被编辑过。请重新分解。",

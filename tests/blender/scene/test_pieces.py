@@ -512,6 +512,19 @@ def test_other_parts_replace_the_earlier_pieces(obj):
     assert len(bpy.data.meshes) < meshes
 
 
+@pytest.mark.parametrize("name", ["armature", "hulls", "export", "separate", "merge"])
+def test_with_a_piece_active_commands_name_the_original(obj, name, tmp_path):
+    """In a script, right after Separate."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    assert bpy.context.object in pieces()
+    with pytest.raises(RuntimeError, match="Select the original, Tree, first"):
+        getattr(bpy.ops.reeb_parts, name)(**({"directory": str(tmp_path)} if name == "export" else {}))
+    activate(pieces()[0])
+    bpy.ops.reeb_parts.decompose()
+    assert bpy.ops.reeb_parts.hulls() == {"FINISHED"}
+
+
 WORK = {
     "mesh": lambda piece: setattr(piece.data.vertices[0].co, "x", 0.01),
     "place": lambda piece: setattr(piece.location, "z", 1),
