@@ -8,10 +8,13 @@ linkage makes a hierarchy of that, as over the pieces of a body: without a hint,
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..surface.arrays import both_ways, components, is_last_of_each, on_grid, renumbered
 from ..surface.labels import FaceGraph, majority, spread
+from .face_candidates import FaceCandidates
 from .hierarchy import Hierarchy
 from .joining.linkage import average_linkage
 from .joining.method import LAST
@@ -26,45 +29,37 @@ LEAST = 0.2
 ROUNDING = 1e-6  # bounds of saliences, whose log-odds are to be finite
 
 
-def hinted_candidates(
-    graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, hint: np.ndarray
-) -> tuple[np.ndarray, Hierarchy]:
+def hinted_candidates(candidates: FaceCandidates, hint: np.ndarray) -> FaceCandidates:
     """Let candidates end where a hint changes, and merge in the order that follows from both.
 
     Parameters
     ----------
-    graph : FaceGraph
-        Faces that share an edge.
-    contacts : (k, 2) int64
-        Faces that touch though they share no edge.
-    label : (p,) int64
-        Candidate of each face; every candidate is connected, and some may have no face.
-    hierarchy : Hierarchy
-        Of the candidates; all of them merge in the end.
+    candidates : FaceCandidates
+        Of p faces; every candidate is connected, some may have no face, and all of them merge in the end.
     hint : (p,) int64
         Hint of each face, such as its material.
 
     Returns
     -------
-    label : (p,) int64
-        Candidate of each face, each of one hint but for small places, and in one of those given but for small places.
-    hierarchy : Hierarchy
-        Of these.
+    candidates : FaceCandidates
+        Each of one hint but for small places, and in one of those given but for small places.
     """
     if (hint == hint[0]).all():
-        return label, hierarchy
+        return candidates
+    graph, label = candidates.graph, candidates.label
     cell = _cells(graph, label, hint)
     area = np.bincount(cell, graph.area)
     own, said = (majority(cell, named, graph.area + ROUNDING * area.sum(), len(area)) for named in (label, hint))
-    pairs, _ = graph.with_contacts(contacts).boundaries(cell)
+    pairs, _ = candidates.with_contacts().boundaries(cell)
     a, b = pairs.T
-    salience = hierarchy.salience_between(own[a], own[b])
+    salience = candidates.hierarchy.salience_between(own[a], own[b])
     other = said[a] != said[b]
     salience = salience.clip(np.where(other, LEAST, ROUNDING), 1.0 - ROUNDING)
     score = on_grid(np.log(1.0 / salience - 1.0)) + np.where(other, -OTHER, SAME)
     weight = np.sqrt(area[pairs].min(axis=1) / area.sum()) + 1e-9
     merges, joined, _ = average_linkage(len(area), pairs, score, weight)
-    return cell, Hierarchy.of(len(area), merges, np.minimum(1.0 / (1.0 + np.exp(joined)), LAST))
+    hierarchy = Hierarchy.of(len(area), merges, np.minimum(1.0 / (1.0 + np.exp(joined)), LAST))
+    return replace(candidates, label=cell, hierarchy=hierarchy)
 
 
 def _cells(graph: FaceGraph, label: np.ndarray, hint: np.ndarray) -> np.ndarray:

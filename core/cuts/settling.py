@@ -3,37 +3,35 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..surface.arrays import renumbered
-from ..surface.labels import FaceGraph
+from .face_candidates import FaceCandidates
 from .hierarchy import Dendrogram, Hierarchy
 
 
-def settle(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -> tuple[np.ndarray, Hierarchy]:
+def settle(candidates: FaceCandidates) -> FaceCandidates:
     """Drop candidates that no face of the caller has, and let candidates merge only where they touch.
 
     Parameters
     ----------
-    graph : FaceGraph
-        Which of the caller's faces touch.
-    label : (n_faces,) int64
-        Candidate of each face; every candidate is connected.
-    hierarchy : Hierarchy
-        Merges of all candidates, also of those that no face has.
+    candidates : FaceCandidates
+        Of the caller's faces; every candidate is connected, and some may have no face.
 
     Returns
     -------
-    label : (n_faces,) int64
-        Candidate of each face, 0..c-1, all in use.
-    hierarchy : Hierarchy
-        Merges of the c candidates, in the given order. A merge whose two sides do not touch on the caller's faces is
-        put off until they do.
+    candidates : FaceCandidates
+        All candidates are in use. They merge in the given order, but a merge whose two sides do not touch on the
+        caller's faces, along an edge or by contact, is put off until they do.
     """
-    present, label = renumbered(label)
-    touching, _ = graph.boundaries(label)
+    hierarchy = candidates.hierarchy
+    present, label = renumbered(candidates.label)
+    touching, _ = candidates.with_contacts().boundaries(label)
     merge = hierarchy.merge_of(*present[touching].T)
     order = np.argsort(merge, kind="stable")
     order = order[merge[order] < len(hierarchy.merges)]
     rows = order[Dendrogram.of(len(present), touching[order]).rows]
-    return label, Hierarchy.of(len(present), touching[rows], hierarchy.salience[merge[rows]])
+    settled = Hierarchy.of(len(present), touching[rows], hierarchy.salience[merge[rows]])
+    return replace(candidates, label=label, hierarchy=settled)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
@@ -22,6 +22,7 @@ from scipy.sparse import csr_array
 
 from ..surface.arrays import components, pair_keys, renumbered, rounded
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
+from .face_candidates import FaceCandidates
 from .hierarchy import Hierarchy
 from .joining.method import LAST
 from .ways import Ways
@@ -68,21 +69,15 @@ class Cells:
 
 
 def symmetric_candidates(
-    graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, twin: np.ndarray,
-    height: np.ndarray, first: float | np.ndarray = 1.0, exact: bool = False,
-) -> tuple[np.ndarray, Hierarchy]:
+    candidates: FaceCandidates, twin: np.ndarray, height: np.ndarray, first: float | np.ndarray = 1.0,
+    exact: bool = False,
+) -> FaceCandidates:
     """Make candidates and their hierarchy symmetric.
 
     Parameters
     ----------
-    graph : FaceGraph
-        Faces that share an edge.
-    contacts : (k, 2) int64
-        Faces that touch though they share no edge.
-    label : (p,) int64
-        Candidate of each face, 0..c-1, all in use.
-    hierarchy : Hierarchy
-        Of the candidates; all of them merge in the end.
+    candidates : FaceCandidates
+        Of p faces; all candidates are in use, and all of them merge in the end.
     twin : (p,) or (k, p) int64
         Mirror image of each face in each of k planes; -1 for none. With several planes a face that has an image in one
         has images in all, and the image of its image does not depend on the order of the two planes.
@@ -95,35 +90,32 @@ def symmetric_candidates(
 
     Returns
     -------
-    label : (p,) int64
-        Candidate of each face, 0..c'-1; every candidate is connected. Twins have twin candidates.
-    hierarchy : Hierarchy
-        Of these. Candidates merge when and as their twins do.
+    candidates : FaceCandidates
+        Every candidate is connected. Twins have twin candidates, and candidates merge when and as their twins do. The
+        very object that was given if everything stays as it was found.
 
     Notes
     -----
     Of both sides, or all quarters, that one leads whose parts, mirrored, are most like those found on the whole. If
     none is much like them, the last of several planes is left out; without any, everything stays as it was found.
     """
-    if hierarchy.n_candidates > MOST_CANDIDATES:
-        return label, hierarchy
+    if candidates.hierarchy.n_candidates > MOST_CANDIDATES:
+        return candidates
     twin, height, first = np.atleast_2d(twin), np.atleast_2d(height), np.atleast_1d(first)
     ways, beside = Ways.of_planes(twin), height * first[:, None]
     leads = [(beside * np.reshape(sides, (-1, 1)) >= 0).all(axis=0) for sides in product((1, -1), repeat=len(beside))]
-    best = _best(graph, contacts, label, hierarchy, ways, leads, np.inf if exact else WORST)
+    best = _best(candidates, ways, leads, np.inf if exact else WORST)
     if best is None and len(twin) > 1:
-        return symmetric_candidates(graph, contacts, label, hierarchy, twin[:-1], height[:-1], first[:-1], exact)
-    return best or (label, hierarchy)
+        return symmetric_candidates(candidates, twin[:-1], height[:-1], first[:-1], exact)
+    return best or candidates
 
 
-def turned_candidates(
-    graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, ways: Ways, height: np.ndarray
-) -> tuple[np.ndarray, Hierarchy]:
+def turned_candidates(candidates: FaceCandidates, ways: Ways, height: np.ndarray) -> FaceCandidates:
     """Make candidates and their hierarchy alike in all wedges of a shape whose planes of symmetry meet in an axis.
 
     Parameters
     ----------
-    graph, contacts, label, hierarchy
+    candidates : FaceCandidates
         As ``symmetric_candidates`` has them, of p faces.
     ways : Ways
         All exact.
@@ -132,37 +124,35 @@ def turned_candidates(
 
     Returns
     -------
-    label, hierarchy
+    candidates : FaceCandidates
         What ``symmetric_candidates`` returns.
     """
-    if hierarchy.n_candidates > MOST_CANDIDATES:
-        return label, hierarchy
+    if candidates.hierarchy.n_candidates > MOST_CANDIDATES:
+        return candidates
     # Of all images of a face the one farthest from the plane leads: those that do form a wedge.
     lead = height >= height[ways.image].max(axis=0) - 1e-6 * np.abs(height).max()
     leads = [lead[ways.image[way]] for way in ways.every[:: -(-len(ways.every) // MOST_LEADS)]]
-    return _best(graph, contacts, label, hierarchy, ways, leads, np.inf) or (label, hierarchy)
+    return _best(candidates, ways, leads, np.inf) or candidates
 
 
-def _best(
-    graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, ways: Ways,
-    leads: list[np.ndarray], least: float,
-) -> tuple[np.ndarray, Hierarchy] | None:
-    """The candidates and the hierarchy that are most like those found, of those that some wedges make if they lead.
+def _best(candidates: FaceCandidates, ways: Ways, leads: list[np.ndarray], least: float) -> FaceCandidates | None:
+    """The candidates that are most like those found, of those that some wedges make if they lead.
 
     leads : of (p,) bool, which faces lie in each wedge. least : upper bound of how unlike they may be; None if all are.
     """
-    salience = hierarchy.salience_table(np.arange(int(label.max()) + 1))
-    found = [hierarchy.parts(hierarchy.n_parts(detail))[label] for detail in DETAILS]
+    salience = candidates.hierarchy.salience_table(np.arange(int(candidates.label.max()) + 1))
+    found = [candidates.parts(detail) for detail in DETAILS]
+    graph, touching = candidates.graph, candidates.with_contacts()
     concerned = _mirrored_area(graph, ways.image)
     whole, best = float(concerned.sum()), None
     for lead in leads:
-        cells = _cells(graph, label, ways, lead, whole)
-        merges, strength = _linkage(cells, _touching(cells, graph.with_contacts(contacts)), _means(cells, salience))
-        tree = Hierarchy.of(len(cells.area), merges, strength)
-        error = float(np.mean([_disagreement(tree.parts(tree.n_parts(detail))[cells.label], parts, concerned)
+        cells = _cells(graph, candidates.label, ways, lead, whole)
+        merges, strength = _linkage(cells, _touching(cells, touching), _means(cells, salience))
+        made = replace(candidates, label=cells.label, hierarchy=Hierarchy.of(len(cells.area), merges, strength))
+        error = float(np.mean([_disagreement(made.parts(detail), parts, concerned)
                                for detail, parts in zip(DETAILS, found, strict=True)]))
         if error < least - 1e-9:
-            best, least = (cells.label, tree), error
+            best, least = made, error
     return best
 
 

@@ -3,20 +3,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..surface.arrays import components
 from ..surface.labels import FaceGraph, majority
-from .hierarchy import Hierarchy
+from .face_candidates import FaceCandidates
 from .symmetric import symmetric_candidates
 
 MANY = 20_000  # number of faces from which on regions are faster, and slivers are small
 
 
 def symmetric_on_regions(
-    graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, twin: np.ndarray,
-    height: np.ndarray, first: float, exact: bool = False,
-) -> tuple[np.ndarray, Hierarchy]:
+    candidates: FaceCandidates, twin: np.ndarray, height: np.ndarray, first: float, exact: bool = False
+) -> FaceCandidates:
     """What ``symmetric_candidates`` makes of one plane, but for slivers beside the cuts.
 
     Regions are connected faces on one side of the plane, of one candidate, whose images are of one candidate, too: all
@@ -24,7 +25,7 @@ def symmetric_on_regions(
 
     Parameters
     ----------
-    graph, contacts, label, hierarchy
+    candidates : FaceCandidates
         As ``symmetric_candidates`` has them, of p faces.
     twin : (p,) int64
         Mirror image of each face; -1 for none.
@@ -35,10 +36,10 @@ def symmetric_on_regions(
 
     Returns
     -------
-    label : (p,) int64
-    hierarchy : Hierarchy
+    candidates : FaceCandidates
         What ``symmetric_candidates`` returns.
     """
+    graph, label = candidates.graph, candidates.label
     image = np.append(label, -1)[twin] + 1
     kind = (label * (int(label.max()) + 2) + image) * 3 + np.sign(height).astype(np.int64)
     a, b = graph.pairs.T
@@ -48,11 +49,12 @@ def symmetric_on_regions(
     of_region[region] = np.arange(graph.n_faces)  # any face of it
     has = np.flatnonzero(twin >= 0)
     area = np.bincount(region, graph.area, count)
-    regions = FaceGraph(count, *graph.boundaries(region), area)
-    touching = region[contacts]
-    own = label[of_region]
-    found, tree = symmetric_candidates(
-        regions, touching[touching[:, 0] != touching[:, 1]], own, hierarchy,
-        majority(region[has], region[twin[has]], graph.area[has] + 1e-12 * graph.area.sum(), count),
-        height[of_region], first, exact)
-    return (label, hierarchy) if found is own else (found[region], tree)
+    touching = region[candidates.contacts]
+    regions = FaceCandidates(FaceGraph(count, *graph.boundaries(region), area),
+                             touching[touching[:, 0] != touching[:, 1]], label[of_region], candidates.hierarchy)
+    image_of_region = majority(
+        region[has], region[twin[has]], graph.area[has] + 1e-12 * graph.area.sum(), count)
+    made = symmetric_candidates(regions, image_of_region, height[of_region], first, exact)
+    if made is regions:
+        return candidates
+    return replace(candidates, label=made.label[region], hierarchy=made.hierarchy)

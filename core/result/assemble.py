@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.hinted import hinted_candidates
 from ..cuts.settling import settle
@@ -59,35 +60,41 @@ def assemble(
     -------
     decomposition : Decomposition
     """
-    face_graph = face_graph_of(given, working)
-    contacts = _contacts(working, results, face_graph)
     mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
+    candidates = _face_candidates(given, working, results, mirrors, parameters, hint)
+    tables = tables_of(given, working, candidates)
+    values, notes = _vertex_field(given, working, results, parameters)
+    nodes, points = _graph_candidates(results, candidates.label)
+    mirror = Mirror.joined(mirrors)
+    return Decomposition(
+        candidates=candidates.label, vertex_candidates=tables.vertex_candidate,
+        candidate_area=tables.candidate_area, candidate_pairs=tables.pairs,
+        candidate_pair_length=tables.pair_length, hierarchy=candidates.hierarchy, field=values,
+        graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
+        point_candidate=points, contacts=candidates.contacts, mirror=mirror.plane, face_twin=mirror.twin,
+        face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters,
+        notes=working.notes + notes + _too_many(parameters.n_parts, candidates.hierarchy.n_candidates),
+        seconds=seconds)
+
+
+def _face_candidates(
+    given: PolygonMesh, working: WorkingMesh, results: list[ComponentResult], mirrors: list[Mirror],
+    parameters: Parameters, hint: np.ndarray,
+) -> FaceCandidates:
+    """The candidates of the caller's faces, after all that follows cutting. hint : (p,) int64 or empty."""
     coarse = [mirror for mirror in mirrors if mirror.within]
     found = symmetric_within_faces(results, coarse) if coarse and results else FoundCandidates.of(results)
-    label, hierarchy = _face_candidates(given, found.with_rest(working, results), results, face_graph, parameters)
-    label, hierarchy = _apart(working, face_graph, label, hierarchy)
+    candidates = _voted(given, working, found.with_rest(working, results), results, parameters)
+    candidates = _with_loose_apart(candidates, working)
     for mirror in (mirror for mirror in mirrors if not mirror.within):
-        label, hierarchy = _symmetric(face_graph, contacts, label, hierarchy, mirror)
-    if mirrors and len(contacts):  # what is joined on one side by an edge may be joined by contact on the other
-        label, hierarchy = _apart(working, face_graph, label, hierarchy)
+        candidates = _symmetric(candidates, mirror)
+    if mirrors and len(candidates.contacts):  # what an edge joins on one side, a contact may join on the other
+        candidates = _with_loose_apart(candidates, working)
     if parameters.method == PERCEPTUAL:  # the others are as they were published
-        label = without_slivers(face_graph, label, hierarchy)
+        candidates = without_slivers(candidates)
     if len(hint):  # after symmetry: of what was marked on one side only, the other knows nothing
-        label, hierarchy = hinted_candidates(face_graph, contacts, label, hierarchy, hint)
-    mirror = Mirror.joined(mirrors)
-    face_graph = face_graph.with_contacts(contacts)
-    label, hierarchy = settle(face_graph, label, hierarchy)
-    values, notes = _vertex_field(given, working, results, parameters)
-    tables = tables_of(given, working, face_graph, label)
-    nodes, points = _graph_candidates(results, label)
-    return Decomposition(
-        candidates=label, vertex_candidates=tables.vertex_candidate,
-        candidate_area=tables.candidate_area, candidate_pairs=tables.pairs,
-        candidate_pair_length=tables.pair_length, hierarchy=hierarchy, field=values,
-        graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
-        point_candidate=points, contacts=contacts, mirror=mirror.plane, face_twin=mirror.twin,
-        face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters,
-        notes=working.notes + notes + _too_many(parameters.n_parts, hierarchy.n_candidates), seconds=seconds)
+        candidates = hinted_candidates(candidates, hint)
+    return settle(candidates)
 
 
 def _too_many(asked: int, n_candidates: int) -> tuple[Sentence, ...]:
@@ -97,18 +104,16 @@ def _too_many(asked: int, n_candidates: int) -> tuple[Sentence, ...]:
     return (Sentence("{asked} parts were asked for; there are {n} at most.", asked=asked, n=n_candidates),)
 
 
-def _symmetric(
-    graph: FaceGraph, contacts: np.ndarray, label: np.ndarray, hierarchy: Hierarchy, mirror: Mirror
-) -> tuple[np.ndarray, Hierarchy]:
-    """Candidate of each face, (p,) int64, and hierarchy, after both are made symmetric."""
-    if graph.n_faces > MANY and not mirror.exact:
-        return symmetric_on_regions(graph, contacts, label, hierarchy, mirror.twin, mirror.height, mirror.first)
+def _symmetric(candidates: FaceCandidates, mirror: Mirror) -> FaceCandidates:
+    """The candidates and their hierarchy made symmetric in a plane, and in all that were found with it."""
+    if candidates.graph.n_faces > MANY and not mirror.exact:
+        return symmetric_on_regions(candidates, mirror.twin, mirror.height, mirror.first)
     if mirror.ways is not None:
-        return turned_candidates(graph, contacts, label, hierarchy, mirror.ways, mirror.beside)
+        return turned_candidates(candidates, mirror.ways, mirror.beside)
     planes = (mirror, *mirror.across)
     return symmetric_candidates(
-        graph, contacts, label, hierarchy, np.array([plane.twin for plane in planes]),
-        np.array([plane.height for plane in planes]), np.array([plane.first for plane in planes]), mirror.exact)
+        candidates, np.array([plane.twin for plane in planes]), np.array([plane.height for plane in planes]),
+        np.array([plane.first for plane in planes]), mirror.exact)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +139,7 @@ class CandidateTables:
     pair_length: np.ndarray
 
 
-def tables_of(given: PolygonMesh, working: WorkingMesh, graph: FaceGraph, label: np.ndarray) -> CandidateTables:
+def tables_of(given: PolygonMesh, working: WorkingMesh, candidates: FaceCandidates) -> CandidateTables:
     """Measure the candidates of the caller's faces.
 
     Parameters
@@ -143,15 +148,14 @@ def tables_of(given: PolygonMesh, working: WorkingMesh, graph: FaceGraph, label:
         p faces and n vertices.
     working : WorkingMesh
         Made of it.
-    graph : FaceGraph
-        Which of the p faces touch.
-    label : (p,) int64
-        Candidate of each face, 0..c-1.
+    candidates : FaceCandidates
+        Of the p faces, all in use.
 
     Returns
     -------
     tables : CandidateTables
     """
+    graph, label = candidates.with_contacts(), candidates.label
     sides = np.repeat(working.polygon, 3), working.mesh.edges.face_edges.ravel()
     pairs, length = boundaries(graph, label, *sides, working.mesh.edge_length)
     corners = given.triangles.faces.ravel()
@@ -221,11 +225,12 @@ def _nearest_kept(given: PolygonMesh, kept: np.ndarray, lost: np.ndarray) -> np.
     return np.stack([faces, given.polygon[triangle][np.where(equal, nearest, len(triangle)).min(axis=1)]], axis=1)
 
 
-def _face_candidates(
-    given: PolygonMesh, found: FoundCandidates, results: list[ComponentResult], face_graph: FaceGraph,
+def _voted(
+    given: PolygonMesh, working: WorkingMesh, found: FoundCandidates, results: list[ComponentResult],
     parameters: Parameters,
-) -> tuple[np.ndarray, Hierarchy]:
-    """Candidate of each of the caller's faces, (p,) int64, all of them connected, and the hierarchy over them."""
+) -> FaceCandidates:
+    """The candidates for which the pieces of the caller's faces vote, all of them connected; some may have no face."""
+    graph = face_graph_of(given, working)
     votes = FaceVotes(found.face, found.label, found.area, given.n_polygons, found.hierarchy)
     width = _refined_width(given, results)
 
@@ -233,10 +238,11 @@ def _face_candidates(
         """What it costs a refined face to leave the part that has most of it; other faces may do so for nothing."""
         return votes.loss(face, own, other) / width[face]
 
-    label = connect(face_graph, fill_unlabeled(face_graph, votes.winners()))
+    label = connect(graph, fill_unlabeled(graph, votes.winners()))
     # Patches may be smaller than refined faces; the candidates of the other method are not.
     held = loss if parameters.method == PERCEPTUAL else None
-    return connect(face_graph, straighten(face_graph, label, parameters.smoothing, held)), found.hierarchy
+    label = connect(graph, straighten(graph, label, parameters.smoothing, held))
+    return FaceCandidates(graph, _contacts(working, results, graph), label, found.hierarchy)
 
 
 def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.ndarray:
@@ -249,13 +255,9 @@ def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.nda
     return width
 
 
-def _apart(
-    working: WorkingMesh, graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy
-) -> tuple[np.ndarray, Hierarchy]:
-    """Make candidates of their own of what lies apart from the rest of its candidate, as small pieces may.
-
-    label : (p,) int64. Returns new labels, (p,) int64, and the hierarchy in which these merge first.
-    """
+def _with_loose_apart(candidates: FaceCandidates, working: WorkingMesh) -> FaceCandidates:
+    """Make candidates of their own, which merge first, of what lies apart from the rest of its candidate."""
+    graph, label, hierarchy = candidates.graph, candidates.label, candidates.hierarchy
     a, b = graph.pairs.T
     same = np.flatnonzero(label[a] == label[b])
     count, piece = components(graph.n_faces, a[same], b[same])
@@ -267,11 +269,12 @@ def _apart(
                            count=hierarchy.n_candidates)
     apart = np.flatnonzero(solid & ~main)
     if not len(apart):
-        return label, hierarchy
+        return candidates
     merges = np.stack([name[apart], hierarchy.n_candidates + np.arange(len(apart))], axis=1)
     name[apart] = merges[:, 1]
-    return name[piece], Hierarchy.of(hierarchy.n_candidates + len(apart), np.concatenate([merges, hierarchy.merges]),
-                                     np.concatenate([np.zeros(len(apart)), hierarchy.salience]))
+    finer = Hierarchy.of(hierarchy.n_candidates + len(apart), np.concatenate([merges, hierarchy.merges]),
+                         np.concatenate([np.zeros(len(apart)), hierarchy.salience]))
+    return replace(candidates, label=name[piece], hierarchy=finer)
 
 
 def _contacts(working: WorkingMesh, results: list[ComponentResult], graph: FaceGraph) -> np.ndarray:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..cuts.face_candidates import FaceCandidates
 from ..cuts.settling import settle
 from ..sentence import Sentence
 from ..surface.labels import connect, majority
@@ -38,9 +39,9 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
     graph = face_graph_of(given, working)
     contacts = whole.contacts % count
     contacts = contacts[contacts[:, 0] != contacts[:, 1]]
-    touching = graph.with_contacts(contacts)
-    label, hierarchy = settle(touching, connect(graph, whole.candidates[:count]), whole.hierarchy)
-    tables = tables_of(given, working, touching, label)
+    candidates = settle(FaceCandidates(graph, contacts, connect(graph, whole.candidates[:count]), whole.hierarchy))
+    label = candidates.label
+    tables = tables_of(given, working, candidates)
     # Where the nodes of either side lie: most of a candidate of the whole is, mirrored back, in one of the half.
     area = np.tile(tables.face_area, 2)
     home = majority(whole.candidates, np.tile(label, 2), area + LEAST_WEIGHT * area.sum(), whole.n_candidates)
@@ -48,7 +49,7 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
     found = whole.scaled(-given.exponent)
     return replace(
         found, candidates=label, vertex_candidates=tables.vertex_candidate, candidate_area=tables.candidate_area,
-        candidate_pairs=tables.pairs, candidate_pair_length=tables.pair_length, hierarchy=hierarchy,
+        candidate_pairs=tables.pairs, candidate_pair_length=tables.pair_length, hierarchy=candidates.hierarchy,
         field=whole.field[:given.triangles.n_vertices], node_candidate=home[whole.node_candidate],
         point_candidate=home[whole.point_candidate], contacts=contacts, mirror=np.empty(0), face_twin=nothing,
         face_side=nothing.astype(np.int8),

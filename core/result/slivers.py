@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from ..cuts.hierarchy import Hierarchy
+from ..cuts.face_candidates import FaceCandidates
 from ..surface.arrays import TIE, both_ways, components, renumbered
-from ..surface.labels import FaceGraph, label_boundaries
+from ..surface.labels import label_boundaries
 
 # A connected region of a part of detail 0.5 is a sliver if it is smaller than TINY, a share of the area of its piece
 # (such parts were found 15 times on 150 benchmark meshes, where no person has made one), or smaller than SHARD times
@@ -15,25 +17,22 @@ from ..surface.labels import FaceGraph, label_boundaries
 TINY, SHARD = 5e-4, 0.2
 
 
-def without_slivers(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -> np.ndarray:
+def without_slivers(candidates: FaceCandidates) -> FaceCandidates:
     """Let the slivers among the parts of detail 0.5 join the candidates with which they share the longest boundary.
 
     Parameters
     ----------
-    graph : FaceGraph
-        Which faces share an edge, p of them.
-    label : (p,) int64
-        Candidate of each face; every candidate is connected.
-    hierarchy : Hierarchy
-        Of the candidates, and perhaps of others that no face has.
+    candidates : FaceCandidates
+        Every candidate is connected, and some may have no face. Contacts do not count.
 
     Returns
     -------
-    label : (p,) int64
-        Candidate of each face; candidates of slivers are no longer in use, the others are connected. A sliver with two
-        longest boundaries stays, for one on a plane of symmetry belongs to neither side.
+    candidates : FaceCandidates
+        Those of slivers are no longer in use, the others are connected. A sliver with two longest boundaries stays, for
+        one on a plane of symmetry belongs to neither side.
     """
-    present, place = renumbered(label)
+    graph, hierarchy = candidates.graph, candidates.hierarchy
+    present, place = renumbered(candidates.label)
     touching, length = graph.boundaries(place)
     touching, length = touching[length > 0], length[length > 0]
     part = hierarchy.parts(hierarchy.n_parts(0.5))[present]
@@ -45,7 +44,7 @@ def without_slivers(graph: FaceGraph, label: np.ndarray, hierarchy: Hierarchy) -
     touching, length = label_boundaries(unit, touching, length)
     goal = _goals(touching, length, len(present), len(unit))
     goal = np.where(sliver, goal[region], -1)
-    return present[np.where(goal >= 0, goal, np.arange(len(present)))[place]]
+    return replace(candidates, label=present[np.where(goal >= 0, goal, np.arange(len(present)))[place]])
 
 
 def _are_slivers(area: np.ndarray, part: np.ndarray, region: np.ndarray, piece: np.ndarray) -> np.ndarray:

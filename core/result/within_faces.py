@@ -8,8 +8,11 @@ are so within a face.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.settling import settle
 from ..cuts.symmetric_regions import symmetric_on_regions
@@ -40,16 +43,16 @@ def symmetric_within_faces(results: list[ComponentResult], mirrors: list[Mirror]
     alone = sum(map(len, of_each)) == len(planes)
     groups = [([r], images) for r, images in zip(results, of_each, strict=True)] if alone else [(results, planes)]
     parts = [_symmetric(some, images) for some, images in groups]
-    first = firsts([hierarchy.n_candidates for _, hierarchy in parts])
-    label = np.concatenate([k + of_group for k, (of_group, _) in zip(first, parts, strict=True)])
-    hierarchy = Hierarchy.join([of_group for _, of_group in parts])
+    first = firsts([part.hierarchy.n_candidates for part in parts])
+    label = np.concatenate([k + part.label for k, part in zip(first, parts, strict=True)])
+    hierarchy = Hierarchy.join([part.hierarchy for part in parts])
     polygon = np.concatenate([r.component.polygon for r in results])
     area = np.concatenate([r.component.mesh.face_area for r in results])
     return FoundCandidates(polygon, label, area + LEAST_WEIGHT * sum(r.component.mesh.area for r in results), hierarchy)
 
 
-def _symmetric(results: list[ComponentResult], planes: list[Images]) -> tuple[np.ndarray, Hierarchy]:
-    """Candidate of each small face of some components, (m,) int64, and the hierarchy, symmetric in all the planes."""
+def _symmetric(results: list[ComponentResult], planes: list[Images]) -> FaceCandidates:
+    """Candidates of the small faces of some components, symmetric in all the planes."""
     mesh = _joined([r.component.mesh for r in results])
     first = firsts([r.component.mesh.n_faces for r in results])
     contacts = np.concatenate([k + r.contacts for k, r in zip(first, results, strict=True)])
@@ -57,12 +60,12 @@ def _symmetric(results: list[ComponentResult], planes: list[Images]) -> tuple[np
     label = np.concatenate([k + r.face_candidate for k, r in zip(first, results, strict=True)])
     hierarchy = Hierarchy.join([r.candidates.hierarchy for r in results])
     graph = FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
-    label, hierarchy = settle(graph.with_contacts(contacts), connect(graph, label), hierarchy)
+    candidates = settle(FaceCandidates(graph, contacts, connect(graph, label), hierarchy))
     for images in planes:  # of planes across each other each keeps the symmetry in those before it
         mirror = Mirror.of_faces(images, mesh)
-        label, hierarchy = symmetric_on_regions(
-            graph, contacts, label, merged_at_last(hierarchy), mirror.twin, mirror.height, mirror.first, mirror.exact)
-    return label, hierarchy
+        candidates = replace(candidates, hierarchy=merged_at_last(candidates.hierarchy))
+        candidates = symmetric_on_regions(candidates, mirror.twin, mirror.height, mirror.first, mirror.exact)
+    return candidates
 
 
 def _joined(meshes: list[TriMesh]) -> TriMesh:

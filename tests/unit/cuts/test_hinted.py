@@ -8,6 +8,7 @@ from results import same_partition
 
 from core import MeshError, Parameters, decompose
 from core.cuts import hinted
+from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import Hierarchy
 from core.cuts.hinted import hinted_candidates
 from core.cuts.joining.method import LAST
@@ -22,6 +23,12 @@ def tree():
 
 def centers(shape):
     return shape.vertices[shape.faces].mean(axis=1)
+
+
+def with_hint(graph, label, hierarchy, hint):
+    """Labels and hierarchy of candidates on faces without contacts, after a hint."""
+    found = hinted_candidates(FaceCandidates(graph, np.empty((0, 2), np.int64), label, hierarchy), hint)
+    return found.label, found.hierarchy
 
 
 def test_where_the_shape_says_nothing_the_hint_decides():
@@ -53,8 +60,8 @@ def test_hints_may_be_below_zero(tree):
 def test_two_groups_are_judged_by_the_mean_over_the_smaller_of_each_two_places():
     """A, B and C touch each other; A and B are of one candidate, B and C of one hint. B and C join first."""
     graph = FaceGraph(3, np.array([[0, 1], [0, 2], [1, 2]]), np.ones(3), np.array([1.0, 0.5, 1.0]))
-    label, hierarchy = hinted_candidates(graph, np.empty((0, 2), np.int64), np.array([0, 0, 1]),
-                                         Hierarchy.of(2, [(0, 1)], [0.6]), np.array([0, 1, 1]))
+    label, hierarchy = with_hint(
+        graph, np.array([0, 0, 1]), Hierarchy.of(2, [(0, 1)], [0.6]), np.array([0, 1, 1]))
     assert label.tolist() == [0, 1, 2]
     score = np.array([np.log(1 / hinted.LEAST - 1), np.log(1 / 0.6 - 1)]) - hinted.OTHER  # of A and B, A and C
     joined = np.average(score, weights=np.sqrt([0.5, 1.0]))
@@ -102,9 +109,8 @@ def test_the_order_of_faces_does_not_matter(tree):
 def test_what_little_a_hint_cuts_off_joins_what_has_the_hint(last):
     graph = FaceGraph(3, np.array([[0, 2], [1, 2]]), np.ones(2), np.array([1.0, 1.0, 1e-9]))
     merges = [(0, candidate) for candidate in range(1, last + 1)]
-    label, hierarchy = hinted_candidates(
-        graph, np.empty((0, 2), np.int64), np.array([0, last, last]), Hierarchy.of(last + 1, merges, [0.5] * last),
-        np.array([1, 0, 1]))
+    label, hierarchy = with_hint(
+        graph, np.array([0, last, last]), Hierarchy.of(last + 1, merges, [0.5] * last), np.array([1, 0, 1]))
     assert label.tolist() == [0, 1, 0]
     assert hierarchy.n_candidates == 2
 
@@ -127,6 +133,5 @@ def test_what_is_no_hint_is_refused(hints):
 def test_no_cut_of_a_hint_is_more_certain_than_the_last():
     """Two materials on two candidates that never merge early: salience ends at LAST, so that all parts can be one."""
     graph = FaceGraph(2, np.array([(0, 1)]), np.ones(1), np.ones(2))
-    _, hierarchy = hinted_candidates(graph, np.empty((0, 2), np.int64), np.arange(2),
-                                     Hierarchy.of(2, [(0, 1)], [1.0]), np.arange(2))
+    _, hierarchy = with_hint(graph, np.arange(2), Hierarchy.of(2, [(0, 1)], [1.0]), np.arange(2))
     assert hierarchy.salience.tolist() == [LAST]

@@ -6,6 +6,7 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
+from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import Hierarchy
 from core.cuts.symmetric import symmetric_candidates
 from core.cuts.symmetric_regions import symmetric_on_regions
@@ -24,14 +25,13 @@ def row(make, label, merges, salience):
     """Faces in a row, an even number, mirrored in its middle."""
     n = len(label)
     graph = FaceGraph(n, np.array([(i, i + 1) for i in range(n - 1)]), np.ones(n - 1), np.ones(n))
-    return make(
-        graph, np.empty((0, 2), np.int64), np.array(label), Hierarchy.of(max(label) + 1, merges, salience),
-        np.arange(n)[::-1], np.arange(n) - (n - 1) / 2, 1.0)
+    candidates = of_faces(graph, np.array(label), Hierarchy.of(max(label) + 1, merges, salience))
+    return make(candidates, np.arange(n)[::-1], np.arange(n) - (n - 1) / 2, 1.0)
 
 
-def parts(result, detail):
-    label, hierarchy = result
-    return hierarchy.parts(hierarchy.n_parts(detail))[label].tolist()
+def of_faces(graph, label, hierarchy):
+    """Candidates of faces without contacts."""
+    return FaceCandidates(graph, np.empty((0, 2), np.int64), label, hierarchy)
 
 
 def same(first, second):
@@ -41,44 +41,44 @@ def same(first, second):
 def test_a_symmetric_result_stays_as_it_is(make):
     label = [0, 0, 1, 2, 2, 3, 4, 4]
     result = row(make, label, [(1, 2), (2, 3), (0, 1), (3, 4)], [0.3, 0.3, 0.8, 0.8])
-    assert same(result[0], label)
-    assert result[1].salience.tolist() == pytest.approx([0.3, 0.3, 0.8, 0.8])
-    assert same(parts(result, 0.5), [0, 0, 1, 1, 1, 1, 2, 2])
+    assert same(result.label, label)
+    assert result.hierarchy.salience.tolist() == pytest.approx([0.3, 0.3, 0.8, 0.8])
+    assert same(result.parts(0.5), [0, 0, 1, 1, 1, 1, 2, 2])
 
 
 def test_a_cut_that_only_one_side_has_is_on_both_or_on_neither(make):
     # The left end is cut off, the right one is not.
     result = row(make, [0] + 98 * [1] + [2], [(1, 2), (0, 1)], [0.2, 0.9])
     for detail in (0.05, 0.3, 0.5, 0.9):
-        found = parts(result, detail)
+        found = result.parts(detail)
         assert same(found, found[::-1])
-    assert len(set(parts(result, 0.0))) == 1
+    assert len(set(result.parts(0.0))) == 1
 
 
 def test_a_candidate_that_hangs_over_the_plane_is_cut_off_there(make):
     result = row(make, 51 * [0] + 49 * [1], [(0, 1)], [0.9])
-    assert same(parts(result, 0.5), 50 * [0] + 50 * [1])
+    assert same(result.parts(0.5), 50 * [0] + 50 * [1])
 
 
 def test_what_speaks_against_the_plane_is_left_as_it_is(make):
     label = 20 * [0] + 80 * [1]
-    assert row(make, label, [(0, 1)], [0.9])[0].tolist() == label
+    assert row(make, label, [(0, 1)], [0.9]).label.tolist() == label
 
 
 def test_thousands_of_candidates_are_left_as_they_are(make):
     label = list(range(20_000))  # a table of all their pairs would take 3 GB
     result = row(make, label, [(i, i + 1) for i in range(len(label) - 1)], np.linspace(0, 1, len(label) - 1))
-    assert result[0].tolist() == label
-    assert result[1].n_candidates == len(label)
+    assert result.label.tolist() == label
+    assert result.hierarchy.n_candidates == len(label)
 
 
 def test_parts_without_an_image_keep_their_own(make):
     graph = FaceGraph(5, np.array([(0, 1), (1, 2), (2, 3), (3, 4)]), np.ones(4), np.ones(5))
-    label, hierarchy = make(
-        graph, np.empty((0, 2), np.int64), np.array([0, 1, 1, 1, 2]), Hierarchy.of(3, [(0, 1), (1, 2)], [0.4, 0.8]),
+    found = make(
+        of_faces(graph, np.array([0, 1, 1, 1, 2]), Hierarchy.of(3, [(0, 1), (1, 2)], [0.4, 0.8])),
         np.array([-1, 3, 2, 1, -1]), np.array([-2.0, -1, 0, 1, 2]), 1.0)
-    assert same(label, [0, 1, 1, 1, 2])
-    assert hierarchy.salience.tolist() == pytest.approx([0.4, 0.8])
+    assert same(found.label, [0, 1, 1, 1, 2])
+    assert found.hierarchy.salience.tolist() == pytest.approx([0.4, 0.8])
 
 
 @pytest.mark.parametrize(
@@ -155,20 +155,20 @@ def test_one_corner_leads_all_four():
     label = np.zeros((n, n), np.int64)
     label[:2, :2], label[:2, -2:] = 1, 2
     x, y = np.indices((n, n)).reshape(2, -1) - (n - 1) / 2
+    candidates = of_faces(FaceGraph(n * n, pairs, np.ones(len(pairs)), np.ones(n * n)), label.ravel(),
+                          Hierarchy.of(3, [(0, 2), (0, 1)], [0.4, 0.8]))
     result = symmetric_candidates(
-        FaceGraph(n * n, pairs, np.ones(len(pairs)), np.ones(n * n)), np.empty((0, 2), np.int64), label.ravel(),
-        Hierarchy.of(3, [(0, 2), (0, 1)], [0.4, 0.8]), np.stack([face[::-1].ravel(), face[:, ::-1].ravel()]),
-        np.stack([x, y]), np.ones(2), exact=True)
+        candidates, np.stack([face[::-1].ravel(), face[:, ::-1].ravel()]), np.stack([x, y]), np.ones(2), exact=True)
     corners = np.where((abs(x) > 1) & (abs(y) > 1), 2 * (x > 0) + (y > 0) + 1, 0)
     # The second corner leads: with all four cut off where it is, most pairs of points stay as they were found. Corners
     # and middle are parted by 0.4, corners beside each other by 0.6 (0.8 and 0.4) or 0.4 (0.8 and 0), those across by
     # 0.6. The middle takes in all four at once: in the mean over pairs of points, of 20 faces and of 4 in each corner.
     between, inside = 4 * 20 * 4, 6 * 4 * 4
     mean = (between * 0.4 + inside * (0.6 + 0.4 + 0.6) / 3) / (between + inside)
-    assert same(result[0], corners)
-    assert result[1].salience.tolist() == pytest.approx(4 * [mean])
-    assert same(parts(result, 0.5), np.zeros(n * n, int))
-    assert same(parts(result, 0.6), corners)
+    assert same(result.label, corners)
+    assert result.hierarchy.salience.tolist() == pytest.approx(4 * [mean])
+    assert same(result.parts(0.5), np.zeros(n * n, int))
+    assert same(result.parts(0.6), corners)
 
 
 def test_what_one_side_lacks_is_no_sliver():

@@ -6,6 +6,7 @@ import pytest
 import shapes
 
 from core import TriMesh, decompose
+from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import Hierarchy
 from core.result.slivers import SHARD, TINY, without_slivers
 from core.surface.labels import FaceGraph
@@ -23,20 +24,25 @@ def all_apart(count):
     return Hierarchy.of(count, [(0, other) for other in range(1, count)], np.full(count - 1, 0.9))
 
 
+def label_without(graph, label, hierarchy):
+    """Candidate of each face after slivers joined their neighbors."""
+    return without_slivers(FaceCandidates(graph, np.empty((0, 2), np.int64), label, hierarchy)).label
+
+
 def test_a_tiny_part_joins_the_neighbor_with_the_longest_boundary():
     graph, label = strip(3000, 1, 1000)
     graph.length[2999] = 2.0
-    assert np.bincount(without_slivers(graph, label, all_apart(3))).tolist() == [3001, 0, 1000]
+    assert np.bincount(label_without(graph, label, all_apart(3))).tolist() == [3001, 0, 1000]
     assert 1 / 4001 < TINY < 2.5 / 4003
     graph, label = strip(3000, 3, 1000)
     graph.length[2999] = 2.0
-    assert without_slivers(graph, label, all_apart(3)).tolist() == label.tolist()
+    assert label_without(graph, label, all_apart(3)).tolist() == label.tolist()
 
 
 def test_a_tiny_part_between_two_equal_boundaries_stays():
     """It may lie on a plane of symmetry."""
     graph, label = strip(3000, 1, 3000)
-    assert without_slivers(graph, label, all_apart(3)).tolist() == label.tolist()
+    assert label_without(graph, label, all_apart(3)).tolist() == label.tolist()
 
 
 @pytest.mark.parametrize(("shard", "joins"), [(19, True), (21, False)])
@@ -45,7 +51,7 @@ def test_what_is_left_over_of_a_part_joins_what_is_around_it(shard, joins):
     graph, label = strip(100, 50, shard, 50)
     graph.length[149] = 2.0
     hierarchy = Hierarchy.of(4, [(0, 2), (0, 1), (0, 3)], [0.1, 0.9, 0.9])
-    found = without_slivers(graph, label, hierarchy)
+    found = label_without(graph, label, hierarchy)
     assert found.tolist() == (np.where(label == 2, 1, label) if joins else label).tolist()
     assert SHARD * 100 == 20
 
@@ -57,14 +63,14 @@ def test_a_small_piece_of_its_own_stays_and_is_no_left_over():
     for together in (0.1, 0.9):
         hierarchy = Hierarchy.of(2, [(0, 1)], [together])
         for pieces in (apart, touching):
-            assert without_slivers(pieces, label, hierarchy).tolist() == label.tolist()
+            assert label_without(pieces, label, hierarchy).tolist() == label.tolist()
 
 
 def test_slivers_of_two_candidates_join_one():
     graph, label = strip(9000, 1, 1, 3000)
     graph.length[8999] = 2.0
     hierarchy = Hierarchy.of(4, [(1, 2), (0, 1), (0, 3)], [0.1, 0.9, 0.9])
-    assert np.bincount(without_slivers(graph, label, hierarchy)).tolist() == [9002, 0, 0, 3000]
+    assert np.bincount(label_without(graph, label, hierarchy)).tolist() == [9002, 0, 0, 3000]
 
 
 @pytest.mark.parametrize("name", ["mirrored_figure", "tube_tree", "dumbbell"])
