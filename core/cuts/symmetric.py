@@ -7,7 +7,7 @@ both sides; average linkage, each merge with its mirror image, makes a hierarchy
 made symmetric in this way, because only labels and a hierarchy are asked for.
 
 Planes across each other divide a shape in quarters, or in eighths, one of which leads. Where exact planes meet at other
-angles, as those of a star or a gear do, a wedge leads, and the shape is turned, too (``ways``).
+angles, as those of a star or a gear do, a wedge leads, and the shape is turned, too (``symmetry_group``).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbo
 from .face_candidates import FaceCandidates
 from .hierarchy import Hierarchy
 from .joining.method import LAST
-from .ways import Ways
+from .symmetry_group import SymmetryGroup
 
 # Shares of the area of the pieces that the plane mirrors: below SMALL, what little of a candidate is left on the
 # leading side joins a neighbor, and so does what lies across the plane below CROSSING; a region without an image is one
@@ -56,7 +56,7 @@ class Cells:
     image : (c, g) int64
         The images of each cell; -1 for none.
     area : (c,) float64
-    ways : Ways
+    group : SymmetryGroup
     """
 
     label: np.ndarray
@@ -65,7 +65,7 @@ class Cells:
     leads: np.ndarray
     image: np.ndarray
     area: np.ndarray
-    ways: Ways
+    group: SymmetryGroup
 
 
 def symmetric_candidates(
@@ -102,25 +102,25 @@ def symmetric_candidates(
     if candidates.hierarchy.n_candidates > MOST_CANDIDATES:
         return candidates
     twin, height, first = np.atleast_2d(twin), np.atleast_2d(height), np.atleast_1d(first)
-    ways, beside = Ways.of_planes(twin), height * first[:, None]
+    group, beside = SymmetryGroup.of_planes(twin), height * first[:, None]
     leads = [(beside * np.reshape(sides, (-1, 1)) >= 0).all(axis=0) for sides in product((1, -1), repeat=len(beside))]
-    best = _best(candidates, ways, leads, np.inf if exact else WORST)
+    best = _best(candidates, group, leads, np.inf if exact else WORST)
     if best is None and len(twin) > 1:
         return symmetric_candidates(candidates, twin[:-1], height[:-1], first[:-1], exact)
     return best or candidates
 
 
-def turned_candidates(candidates: FaceCandidates, ways: Ways, height: np.ndarray) -> FaceCandidates:
+def turned_candidates(candidates: FaceCandidates, group: SymmetryGroup, height: np.ndarray) -> FaceCandidates:
     """Make candidates and their hierarchy alike in all wedges of a shape whose planes of symmetry meet in an axis.
 
     Parameters
     ----------
     candidates : FaceCandidates
         As ``symmetric_candidates`` has them, of p faces.
-    ways : Ways
+    group : SymmetryGroup
         All exact.
     height : (p,) float64
-        Signed distance of each face from a plane through the middle that is in no way of symmetry.
+        Signed distance of each face from a plane through the middle that is none of symmetry.
 
     Returns
     -------
@@ -130,12 +130,14 @@ def turned_candidates(candidates: FaceCandidates, ways: Ways, height: np.ndarray
     if candidates.hierarchy.n_candidates > MOST_CANDIDATES:
         return candidates
     # Of all images of a face the one farthest from the plane leads: those that do form a wedge.
-    lead = height >= height[ways.image].max(axis=0) - 1e-6 * np.abs(height).max()
-    leads = [lead[ways.image[way]] for way in ways.every[:: -(-len(ways.every) // MOST_LEADS)]]
-    return _best(candidates, ways, leads, np.inf) or candidates
+    lead = height >= height[group.image].max(axis=0) - 1e-6 * np.abs(height).max()
+    leads = [lead[group.image[way]] for way in group.elements[:: -(-len(group.elements) // MOST_LEADS)]]
+    return _best(candidates, group, leads, np.inf) or candidates
 
 
-def _best(candidates: FaceCandidates, ways: Ways, leads: list[np.ndarray], least: float) -> FaceCandidates | None:
+def _best(
+    candidates: FaceCandidates, group: SymmetryGroup, leads: list[np.ndarray], least: float
+) -> FaceCandidates | None:
     """The candidates that are most like those found, of those that some wedges make if they lead.
 
     leads : of (p,) bool, which faces lie in each wedge. least : upper bound of how unlike they may be; None if all are.
@@ -143,10 +145,10 @@ def _best(candidates: FaceCandidates, ways: Ways, leads: list[np.ndarray], least
     salience = candidates.hierarchy.salience_table(np.arange(int(candidates.label.max()) + 1))
     found = [candidates.parts(detail) for detail in DETAILS]
     graph, touching = candidates.graph, candidates.with_contacts()
-    concerned = _mirrored_area(graph, ways.image)
+    concerned = _mirrored_area(graph, group.image)
     whole, best = float(concerned.sum()), None
     for lead in leads:
-        cells = _cells(graph, candidates.label, ways, lead, whole)
+        cells = _cells(graph, candidates.label, group, lead, whole)
         merges, strength = _linkage(cells, _touching(cells, touching), _means(cells, salience))
         made = replace(candidates, label=cells.label, hierarchy=Hierarchy.of(len(cells.area), merges, strength))
         error = float(np.mean([_disagreement(made.parts(detail), parts, concerned)
@@ -162,14 +164,14 @@ def _mirrored_area(graph: FaceGraph, image: np.ndarray) -> np.ndarray:
     return np.where((np.bincount(piece, (image[1:] >= 0).any(axis=0), count) > 0)[piece], graph.area, 0.0)
 
 
-def _cells(graph: FaceGraph, label: np.ndarray, ways: Ways, leads: np.ndarray, whole: float) -> Cells:
+def _cells(graph: FaceGraph, label: np.ndarray, group: SymmetryGroup, leads: np.ndarray, whole: float) -> Cells:
     """The candidates of the leading side and their images, and the candidates of what has no image.
 
     whole : area of the pieces that the planes mirror.
     """
-    n_ways, faces = len(ways.image), np.arange(len(label))
-    has = ways.image >= 0
-    image = np.where(has, ways.image, faces)
+    n_ways, faces = len(group.image), np.arange(len(label))
+    has = group.image >= 0
+    image = np.where(has, group.image, faces)
     # The cell of a face that does not lead itself is the mirror image of the cell of that image of it which leads: a
     # left arm's face, if the right side leads, gets the mirrored right arm. ``heard``: by which ways of mirroring a
     # face has such an image. ``lone``: small regions without any, which get the cell around them.
@@ -179,20 +181,20 @@ def _cells(graph: FaceGraph, label: np.ndarray, ways: Ways, leads: np.ndarray, w
     lone = unseen & ~_large(graph, unseen, LONE * whole)
     leader = image[way, faces]
     asked = (way == 0) & ~lone
-    cell, own, seen = _lead_cells(graph, label, np.where(has, label[image], -1), leader, asked, whole, ways)
-    kind = _kinds(own, ways)
+    cell, own, seen = _lead_cells(graph, label, np.where(has, label[image], -1), leader, asked, whole, group)
+    kind = group.cosets(own)
     full = np.where(lone, -1, n_ways * cell[leader] + kind[cell[leader], way])
     full = connect(graph, fill_unlabeled(graph, full))
-    full = connect(graph, fill_unlabeled(graph, _without_lone(graph, full, kind, seen, LONE * whole, ways)))
+    full = connect(graph, fill_unlabeled(graph, _without_lone(graph, full, kind, seen, LONE * whole, group)))
     names, full = renumbered(full)
     lead, way = np.divmod(names, n_ways)
-    partner = _places(names, n_ways * lead[:, None] + kind[lead[:, None], ways.after[way][:, ways.back]])
+    partner = _places(names, n_ways * lead[:, None] + kind[lead[:, None], group.composition[way][:, group.inverse]])
     weight = graph.area + 1e-12 * graph.area.sum()
     # A cell that follows takes over all that is known of its leading image, instead of its own, nearly the same
     # numbers: so that rounding cannot make the two sides differ. ``asked``: of which cell, in which way, it is read.
     leading = np.where(way > 0, partner[np.arange(len(names)), way], -1)
     leader, way_there = np.where(leading < 0, (np.arange(len(names)), 0 * way), (leading, way))
-    from_there = ways.after[:, ways.back[way_there]].T
+    from_there = group.composition[:, group.inverse[way_there]].T
     asked = leader[:, None], from_there
     shown = np.where(has, label[image], label)
     found = np.stack([majority(full, of_way, weight, len(names)) for of_way in shown], axis=1)
@@ -201,7 +203,7 @@ def _cells(graph: FaceGraph, label: np.ndarray, ways: Ways, leads: np.ndarray, w
     shares = tuple(shares[leader + len(names) * of_way] for of_way in from_there.T)
     speaks = (partner >= 0) & (way[partner] == 0)
     speaks[~speaks.any(axis=1), 0] = True
-    return Cells(full, found, shares, speaks, partner, np.bincount(full, graph.area), ways)
+    return Cells(full, found, shares, speaks, partner, np.bincount(full, graph.area), group)
 
 
 def _shares(cell: np.ndarray, shown: np.ndarray, weight: np.ndarray) -> csr_array:
@@ -213,17 +215,6 @@ def _shares(cell: np.ndarray, shown: np.ndarray, weight: np.ndarray) -> csr_arra
     return csr_array((np.tile(weight / area[cell], n_ways), (row.ravel(), shown.ravel())), size)
 
 
-def _kinds(crosses: np.ndarray, ways: Ways) -> np.ndarray:
-    """The first of the ways that lead from the same image to each leading cell, (c, g) int64.
-
-    crosses : (c, g) bool, which images of a cell are the cell itself.
-    """
-    kind = np.tile(ways.every, (len(crosses), 1))
-    for way in ways.every[1:]:
-        kind = np.where(crosses[:, way, None], np.minimum(kind, ways.after[way]), kind)
-    return kind
-
-
 def _places(names: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Place of each of some wanted names among the names there are, which rise; -1 where it is not there."""
     place = np.searchsorted(names, wanted).clip(max=len(names) - 1)
@@ -231,12 +222,12 @@ def _places(names: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 
 def _without_lone(
-    graph: FaceGraph, full: np.ndarray, kind: np.ndarray, seen: np.ndarray, least: float, ways: Ways
+    graph: FaceGraph, full: np.ndarray, kind: np.ndarray, seen: np.ndarray, least: float, group: SymmetryGroup
 ) -> np.ndarray:
     """Cell of each face, (p,): -1 for small cells whose image is not there, or not among the images of their neighbors.
 
     full : (p,), g times the leading cell of each face, and the way in which it is mirrored. kind, seen : (c, g), see
-    ``_kinds``, and which images leading cells have. least : area from which a cell is not small.
+    ``SymmetryGroup.cosets``, and which images leading cells have. least : area from which a cell is not small.
     """
     n_ways = kind.shape[1]
     names, place = renumbered(full)
@@ -245,7 +236,7 @@ def _without_lone(
     here = pair_keys(np.sort(pairs, axis=1), len(names))
     alone = np.zeros(len(names), bool)
     for mirrored in range(1, n_ways):
-        image = _places(names, n_ways * lead + kind[lead, ways.after[way, ways.back[mirrored]]])
+        image = _places(names, n_ways * lead + kind[lead, group.composition[way, group.inverse[mirrored]]])
         there = image >= 0
         of_pairs = pair_keys(np.sort(image[pairs], axis=1), len(names))
         held = np.zeros(len(names), bool)
@@ -274,7 +265,7 @@ def _large(graph: FaceGraph, chosen: np.ndarray, least: float) -> np.ndarray:
 
 def _lead_cells(
     graph: FaceGraph, label: np.ndarray, mirrored: np.ndarray, leader: np.ndarray, asked: np.ndarray, whole: float,
-    ways: Ways,
+    group: SymmetryGroup,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The candidates on the leading side, in connected pieces.
 
@@ -299,7 +290,7 @@ def _lead_cells(
     area = rounded(np.bincount(cell[leader][spoken_for], share, count))
     largest = np.zeros(int(own.max()) + 1)
     np.maximum.at(largest, own, area)
-    crosses = ways.closed(own[:, None] == other)
+    crosses = group.generated_subgroups(own[:, None] == other)
     # What little of a candidate reaches over the plane from the side that follows is cut off there.
     little = (np.bincount(mine, graph.area[asked], count)
               < OVERHANG * 2 / len(mirrored) * np.bincount(label, graph.area)[own])
@@ -367,16 +358,17 @@ class _Groups:
     A set is a number whose bits are its ways.
     """
 
-    def __init__(self, ways: Ways) -> None:
-        self._ways = ways
+    def __init__(self, group: SymmetryGroup) -> None:
+        self._group = group
         self._closed: dict[int, int] = {}
         self._joined: dict[tuple[int, int], tuple[int, int, int]] = {}
 
     def closed(self, chosen: int) -> int:
         """The smallest set that holds some ways."""
         if chosen not in self._closed:
-            bits = [[chosen >> way & 1 == 1 for way in self._ways.every.tolist()]]
-            self._closed[chosen] = sum(1 << way for way in np.flatnonzero(self._ways.closed(np.array(bits))).tolist())
+            bits = [[chosen >> way & 1 == 1 for way in self._group.elements.tolist()]]
+            subgroup = self._group.generated_subgroups(np.array(bits))
+            self._closed[chosen] = sum(1 << way for way in np.flatnonzero(subgroup).tolist())
         return self._closed[chosen]
 
     def joined(self, one: int, other: int) -> tuple[int, int, int]:
@@ -399,7 +391,7 @@ class _Clusters:
         self.area, self.image = (cells.area + 1e-12 * cells.area.sum()).tolist(), cells.image.tolist()
         self.mean, self.of = mean.copy(), np.arange(len(cells.area))
         self.touching = [set(np.flatnonzero(row).tolist()) - {k} for k, row in enumerate(touching)]
-        self.groups, self.after = _Groups(cells.ways), cells.ways.after.tolist()
+        self.groups, self.after = _Groups(cells.group), cells.group.composition.tolist()
         #: Of each cluster, the ways that leave it as it is, and what parts it from its image in each way.
         self.own, self.apart = [1 for _ in every], [[] for _ in every]
         self.spread: list[dict[int, float]] = [{} for _ in every]

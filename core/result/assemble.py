@@ -108,8 +108,8 @@ def _symmetric(candidates: FaceCandidates, mirror: Mirror) -> FaceCandidates:
     """The candidates and their hierarchy made symmetric in a plane, and in all that were found with it."""
     if candidates.graph.n_faces > MANY and not mirror.exact:
         return symmetric_on_regions(candidates, mirror.twin, mirror.height, mirror.first)
-    if mirror.ways is not None:
-        return turned_candidates(candidates, mirror.ways, mirror.beside)
+    if mirror.group is not None:
+        return turned_candidates(candidates, mirror.group, mirror.beside)
     planes = (mirror, *mirror.across)
     return symmetric_candidates(
         candidates, np.array([plane.twin for plane in planes]), np.array([plane.height for plane in planes]),

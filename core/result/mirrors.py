@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..cuts.ways import Ways
+from ..cuts.symmetry_group import SymmetryGroup
 from ..surface.mesh import TriMesh
 from ..surface.mirror_images import Images
 from ..surface.mirror_plane import MirrorPlane
@@ -16,7 +16,7 @@ from ..surface.small_faces import SmallFaces
 from ..surface.symmetry import EXACT, LEAST, mirror_plane
 
 LEAST_BODY = 0.1  # share of the area below which a body has no plane of its own
-MOST_WAYS = 64  # upper bound of the number of ways in which a shape is its own image
+LARGEST_GROUP = 64  # upper bound of the number of symmetries of a shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,11 +40,11 @@ class Mirror:
     within : tuple of Images
         If the faces are too large to be mirrored, what the planes in which smaller ones are to be do, this one first;
         then a twin is the face that most of an image lies in.
-    ways : Ways or None
+    group : SymmetryGroup or None
         Of an exact one, if other exact planes meet it or each other at less than a right angle, as those of a star do:
-        all ways in which the faces are their own images.
+        the group that all of them generate.
     beside : (p,) float64
-        Signed distance of each face from a plane that is in none of these ways of symmetry; empty without them.
+        Signed distance of each face from a plane that is none of the group's; empty without a group.
     """
 
     plane: np.ndarray
@@ -54,7 +54,7 @@ class Mirror:
     exact: bool = False
     across: tuple[Mirror, ...] = ()
     within: tuple[Images, ...] = ()
-    ways: Ways | None = None
+    group: SymmetryGroup | None = None
     beside: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     @classmethod
@@ -70,21 +70,21 @@ class Mirror:
         across = tuple(cls._in(other.plane, other.exact_twins, mesh, polygon) for other in images.exact[1:])
         mirror = replace(cls._in(plane, images.twins, mesh, polygon), exact=bool(images.exact), across=across,
                          within=tuple(images.within))
-        return mirror._turned([cls._in(other.plane, other.exact_twins, mesh, polygon) for other in images.meeting])
+        return mirror._with_group([cls._in(other.plane, other.exact_twins, mesh, polygon) for other in images.meeting])
 
-    def _turned(self, meeting: list[Mirror]) -> Mirror:
-        """This one with all ways that it and some that meet at other angles make."""
+    def _with_group(self, meeting: list[Mirror]) -> Mirror:
+        """This one with the group that it, those across it and some that meet at other angles generate."""
         if not meeting:
             return self
         planes = (self, *self.across, *meeting)
         twins = np.array([plane.twin for plane in planes])
-        ways = Ways.generated(np.where(twins < 0, np.arange(len(self.twin)), twins), MOST_WAYS)
-        if ways is None:
+        group = SymmetryGroup.generated(np.where(twins < 0, np.arange(len(self.twin)), twins), LARGEST_GROUP)
+        if group is None:
             return self
         # Steps that no two planes have in common lead away from all of them.
         steps = np.modf(np.arange(1, len(planes) + 1) * np.sqrt(2.0))[0] + 0.5
         beside = sum(step * plane.height for step, plane in zip(steps, planes, strict=True))
-        return replace(self, ways=ways, beside=beside)
+        return replace(self, group=group, beside=beside)
 
     @classmethod
     def of_faces(cls, images: Images, mesh: TriMesh) -> Mirror:

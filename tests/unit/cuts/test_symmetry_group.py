@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The group of the ways in which a shape is its own image, and parts that are alike in all of them."""
+"""The group of symmetries of a shape, and parts that are alike under all of them."""
 
 import numpy as np
 import pytest
@@ -7,12 +7,12 @@ import shapes
 from scipy.spatial import cKDTree
 
 from core import decompose
-from core.cuts.ways import Ways
+from core.cuts.symmetry_group import SymmetryGroup
 from core.metrics import rand_index_error
 
 
 def rays(count):
-    """The star's polygons cut so finely that its rays can be parts; and all ways that map it onto itself."""
+    """The star's polygons cut so finely that its rays can be parts; and all its symmetries."""
     vertices, faces = shapes.prism_of_rays(count)
     quads = faces
     for _ in range(4):
@@ -47,40 +47,41 @@ def moved_faces(vertices, faces, linear):
 def test_two_mirrors_make_the_group_of_a_star(count):
     vertices, faces, maps = rays(count)
     images = [moved_faces(vertices, faces, linear) for linear in maps]
-    ways = Ways.generated(np.array([images[2], images[6], images[1]]), 64)  # two next to each other, and front and back
-    assert {way.tobytes() for way in ways.image} == {image.tobytes() for image in images}
-    assert (ways.image[0] == np.arange(len(faces))).all()
+    # Two planes next to each other, and front and back.
+    group = SymmetryGroup.generated(np.array([images[2], images[6], images[1]]), 64)
+    assert {image.tobytes() for image in group.image} == {image.tobytes() for image in images}
+    assert (group.image[0] == np.arange(len(faces))).all()
     for u in range(len(maps)):
         for v in range(len(maps)):
-            assert (ways.image[ways.after[u, v]] == ways.image[u][ways.image[v]]).all()
-        assert ways.after[u, ways.back[u]] == ways.after[ways.back[u], u] == 0
+            assert (group.image[group.composition[u, v]] == group.image[u][group.image[v]]).all()
+        assert group.composition[u, group.inverse[u]] == group.composition[group.inverse[u], u] == 0
 
 
 def test_planes_across_each_other():
     vertices, faces, _ = rays(4)
     twins = np.array([moved_faces(vertices, faces, np.diag(signs)) for signs in ((-1, 1, 1), (1, -1, 1), (1, 1, -1))])
-    planes, made = Ways.of_planes(twins), Ways.generated(twins, 64)
-    assert {way.tobytes() for way in planes.image} == {way.tobytes() for way in made.image}
+    planes, made = SymmetryGroup.of_planes(twins), SymmetryGroup.generated(twins, 64)
+    assert {image.tobytes() for image in planes.image} == {image.tobytes() for image in made.image}
     for u in range(8):
         for v in range(8):
-            assert (planes.image[planes.after[u, v]] == planes.image[u][planes.image[v]]).all()
+            assert (planes.image[planes.composition[u, v]] == planes.image[u][planes.image[v]]).all()
 
 
-def test_too_many_ways_are_none():
+def test_too_large_a_group_is_none():
     vertices, faces, maps = rays(5)
     images = np.array([moved_faces(vertices, faces, linear) for linear in maps])
-    assert Ways.generated(images, 19) is None
-    assert len(Ways.generated(images, 20).image) == 20
+    assert SymmetryGroup.generated(images, 19) is None
+    assert len(SymmetryGroup.generated(images, 20).image) == 20
 
 
-def test_closed_sets_are_the_subgroups():
+def test_generated_sets_are_the_subgroups():
     vertices, faces, maps = rays(3)
     images = [moved_faces(vertices, faces, linear) for linear in maps]
-    ways = Ways.generated(np.array([images[2], images[6]]), 64)
-    every = np.arange(len(ways.image))
-    closed = ways.closed((np.arange(1 << len(every))[:, None] >> every & 1) == 1)
-    assert sorted({int(row.sum()) for row in closed}) == [1, 2, 3, 6]  # of the triangle's six ways
-    assert len(np.unique(closed, axis=0)) == 6
+    group = SymmetryGroup.generated(np.array([images[2], images[6]]), 64)
+    every = np.arange(len(group.image))
+    subgroups = group.generated_subgroups((np.arange(1 << len(every))[:, None] >> every & 1) == 1)
+    assert sorted({int(row.sum()) for row in subgroups}) == [1, 2, 3, 6]  # of the triangle's six symmetries
+    assert len(np.unique(subgroups, axis=0)) == 6
 
 
 @pytest.mark.parametrize("count", [3, 5, 7, 12])
