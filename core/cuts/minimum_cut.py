@@ -7,6 +7,8 @@ costs more toward the rim of the band, so that cuts stay near their places.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,27 +31,59 @@ CHEAPEST, DEAREST = 0.05, 3.0
 UNITS = 10_000  # capacity of an edge of mean cost; SciPy takes whole numbers only
 
 
-def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, band_ratio: float = 0.5,
-                 within: np.ndarray | None = None, widest: float | None = None,
-                 fixed: np.ndarray | None = None) -> np.ndarray:
-    """Move the cuts between parts into the creases beside them.
+@dataclass(frozen=True, eq=False)
+class MovableCuts:
+    """A surface of m faces on which cuts move: what they cost where, and how far they may go.
 
-    Parameters
+    Attributes
     ----------
     mesh : TriMesh
         m faces, one connected component.
     curvature : (p,) float64
         Curvature across each pair of faces, in units of 1 / square root of the area; negative in concavities.
-    part : (m,) int64
-        Part of each face, 0 or more.
     band_ratio : float
         Half the width of the band over the radius of a circle as long as the cut; 0 moves nothing.
-    within : (m,) int64, optional
-        Coarser part of each face: cuts between coarser parts stay where they are.
     widest : float, optional
         Upper bound of half the width of the band, in the unit of the vertices; without it, WIDEST.
     fixed : (m,) bool, optional
         Faces that keep their part.
+    """
+
+    mesh: TriMesh
+    curvature: np.ndarray
+    band_ratio: float = 0.5
+    widest: float | None = None
+    fixed: np.ndarray | None = None
+
+    @cached_property
+    def cost(self) -> np.ndarray:
+        """(p,) float64, what it costs to cut between each pair of faces, in the unit of the vertices."""
+        return self.mesh.pair_length * np.clip(np.exp(self.curvature / CREASE), CHEAPEST, DEAREST)
+
+    @cached_property
+    def distance(self) -> csr_array:
+        """(m, m) csr, distance between the faces of each pair, above 0."""
+        mesh = self.mesh
+        return symmetric_matrix(mesh.edges.pairs, np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area)),
+                                mesh.n_faces)
+
+    def half_width(self, length: float) -> float:
+        """Half the width of the band around a cut of some length."""
+        widest = WIDEST * np.sqrt(self.mesh.area) if self.widest is None else self.widest
+        return min(self.band_ratio * length / (2 * np.pi), widest)
+
+
+def minimum_cuts(movable: MovableCuts, part: np.ndarray, within: np.ndarray | None = None) -> np.ndarray:
+    """Move the cuts between parts into the creases beside them.
+
+    Parameters
+    ----------
+    movable : MovableCuts
+        Of m faces.
+    part : (m,) int64
+        Part of each face, 0 or more.
+    within : (m,) int64, optional
+        Coarser part of each face: cuts between coarser parts stay where they are.
 
     Returns
     -------
@@ -61,45 +95,34 @@ def minimum_cuts(mesh: TriMesh, curvature: np.ndarray, part: np.ndarray, band_ra
     The longest cut moves first. One minimum cut per pair of parts that touch.
     """
     part = part.copy()
-    if band_ratio <= 0:
+    if movable.band_ratio <= 0:
         return part
-    a, b = mesh.edges.pairs.T
-    length = mesh.pair_length
-    cost = length * np.clip(np.exp(curvature / CREASE), CHEAPEST, DEAREST)
-    way = np.maximum(mesh.pair_distance, 1e-9 * np.sqrt(mesh.area))
-    ways = symmetric_matrix(mesh.edges.pairs, way, mesh.n_faces)
+    a, b = movable.mesh.edges.pairs.T
+    length = movable.mesh.pair_length
     free = np.ones(len(a), bool) if within is None else within[a] == within[b]
-    widest = WIDEST * np.sqrt(mesh.area) if widest is None else widest
-    fixed = np.zeros(mesh.n_faces, bool) if fixed is None else fixed
     for first, second in _cuts_by_length(part, a[free], b[free], length[free]):
         on_cut = ((part[a] == first) & (part[b] == second)) | ((part[a] == second) & (part[b] == first))
-        half = min(band_ratio * length[on_cut].sum() / (2 * np.pi), widest)
-        if half > 0:  # parts may touch no longer, or along edges without a length
-            part = _cut_anew(mesh, part, first, second, on_cut, cost, ways, half, fixed)
+        half_width = movable.half_width(length[on_cut].sum())
+        if half_width > 0:  # parts may touch no longer, or along edges without a length
+            part = _cut_anew(movable, part, (first, second), on_cut, half_width)
     return part
 
 
-def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature: np.ndarray,
-              band_ratio: float, details: tuple[float, ...] = (0.5, 0.75), widest: float | None = None,
-              fixed: np.ndarray | None = None) -> np.ndarray:
+def move_cuts(
+    movable: MovableCuts, label: np.ndarray, hierarchy: Hierarchy, details: tuple[float, ...] = (0.5, 0.75)
+) -> np.ndarray:
     """Move the cuts of some levels of detail into creases, and let the candidates follow.
 
     Parameters
     ----------
-    mesh : TriMesh
-        m faces, one connected component.
+    movable : MovableCuts
+        Of m faces.
     label : (m,) int64
         Candidate of each face.
     hierarchy : Hierarchy
         The order in which the candidates merge.
-    curvature : (p,) float64
-        Curvature across each pair of faces, in units of 1 / square root of the area; negative in concavities.
-    band_ratio : float
-        Half the width of the band over the radius of a circle as long as the cut; 0 moves nothing.
     details : tuple of float
         Levels of detail whose cuts move, rising. Cuts that moved at one level stay in place at the next.
-    widest, fixed : float and (m,) bool, optional
-        See ``minimum_cuts``.
 
     Returns
     -------
@@ -107,12 +130,11 @@ def move_cuts(mesh: TriMesh, label: np.ndarray, hierarchy: Hierarchy, curvature:
         Candidate of each face. A face that changed part takes the candidate of a neighbor in its new part, from the cut
         outwards.
     """
-    a, b = both_ways(mesh.edges.pairs).T
+    a, b = both_ways(movable.mesh.edges.pairs).T
     coarser = None
     for detail in details:
-        parts = hierarchy.parts(hierarchy.n_parts(detail))
-        part = parts[label]
-        moved = minimum_cuts(mesh, curvature, part, band_ratio, coarser, widest, fixed)
+        part = hierarchy.parts(hierarchy.n_parts(detail))[label]
+        moved = minimum_cuts(movable, part, coarser)
         before, label = label, np.where(moved == part, label, -1)
         together = moved[a] == moved[b]
         label = spread(label, a[together], b[together])
@@ -128,35 +150,39 @@ def _cuts_by_length(part: np.ndarray, a: np.ndarray, b: np.ndarray, length: np.n
 
 
 def _cut_anew(
-    mesh: TriMesh, part: np.ndarray, first: int, second: int, on_cut: np.ndarray, cost: np.ndarray, ways: csr_array,
-    half: float, fixed: np.ndarray,
+    movable: MovableCuts, part: np.ndarray, two: tuple[int, int], on_cut: np.ndarray, half_width: float
 ) -> np.ndarray:
     """Part of each face, (m,), after one minimum cut between two parts, in a band around the cut that they have.
 
-    on_cut, cost : (p,), whether each pair of faces lies across the cut, and what it costs to cut there. ways : (m, m),
-    length of the way between neighboring faces. half : half the width of the band. fixed : (m,) bool.
+    on_cut : (p,) bool, whether each pair of faces lies across the cut.
     """
-    a, b = mesh.edges.pairs.T
-    sources = np.unique(mesh.edges.pairs[on_cut])
-    distance = dijkstra(ways, directed=True, indices=sources, min_only=True, limit=half)
+    pairs = movable.mesh.edges.pairs
+    a, b = pairs.T
+    first, second = two
+    distance = dijkstra(movable.distance, directed=True, indices=np.unique(pairs[on_cut]), min_only=True,
+                        limit=half_width)
     band = np.isfinite(distance) & ((part == first) | (part == second))
-    inner = np.flatnonzero(band[a] & band[b])
-    place = np.full(mesh.n_faces, -1)
-    faces = np.flatnonzero(band)
-    place[faces] = np.arange(len(faces))
-    # Faces at the rim of the band, with a neighbor of their own part outside, cannot change part.
-    edge = np.flatnonzero((band[a] != band[b]) & (part[a] == part[b]))
-    rim = fixed & band
-    rim[np.where(band[a[edge]], a[edge], b[edge])] = True
-    held = np.flatnonzero(rim)
+    rim = _rim(pairs, band, part)
+    held = np.flatnonzero(rim if movable.fixed is None else rim | (band & movable.fixed))
     if not ((part[held] == first).any() and (part[held] == second).any()):
         return part
-    far = np.maximum(distance[a[inner]], distance[b[inner]]) / half
-    side = _minimum_cut(place[a[inner]], place[b[inner]], cost[inner] * (1 + far**2), place[held],
+    faces, inner = np.flatnonzero(band), np.flatnonzero(band[a] & band[b])
+    place = np.full(len(part), -1)
+    place[faces] = np.arange(len(faces))
+    far = np.maximum(distance[a[inner]], distance[b[inner]]) / half_width
+    side = _minimum_cut(place[a[inner]], place[b[inner]], movable.cost[inner] * (1 + far**2), place[held],
                         part[held] == first, len(faces))
     part = part.copy()
     part[faces] = np.where(side, first, second)
     return part
+
+
+def _rim(pairs: np.ndarray, band: np.ndarray, part: np.ndarray) -> np.ndarray:
+    """The rim of a band, (m,) bool: its faces with a neighbor of their own part outside, which cannot change part."""
+    a, b = pairs[(band[pairs[:, 0]] != band[pairs[:, 1]]) & (part[pairs[:, 0]] == part[pairs[:, 1]])].T
+    rim = np.zeros(len(band), bool)
+    rim[np.where(band[a], a, b)] = True
+    return rim
 
 
 def _minimum_cut(

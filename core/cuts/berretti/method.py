@@ -12,7 +12,7 @@ from ...surface.arrays import both_ways
 from ...surface.curvature import SCALES, curvature_across, k_min
 from ...surface.labels import majority, spread
 from ..hierarchy import Candidates
-from ..minimum_cut import move_cuts
+from ..minimum_cut import MovableCuts, move_cuts
 from .boundary_search import search_boundaries
 from .regions import berretti_regions, rank_regions, with_finer
 
@@ -54,7 +54,7 @@ def berretti_candidates(
     area = sets.element_area + 1e-12 * sets.mesh.area
     label = majority(sets.element_face, candidate, area, sets.mesh.n_faces)
     across = curvature_across(sets.mesh, SCALES[:1])[0]
-    label = move_cuts(sets.mesh, label, regions.hierarchy, across, parameters.band_ratio)
+    label = move_cuts(MovableCuts(sets.mesh, across, parameters.band_ratio), label, regions.hierarchy)
     return Candidates(label[sets.element_face], regions.hierarchy)
 
 

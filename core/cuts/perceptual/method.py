@@ -22,7 +22,7 @@ from ...surface.mesh import TriMesh
 from ...surface.sheets import Inflated, inflated, sheet_faces
 from ..boosted_trees import BoostedTrees
 from ..hierarchy import Candidates, Hierarchy
-from ..minimum_cut import move_cuts
+from ..minimum_cut import MovableCuts, move_cuts
 from .features import FEATURES
 from .measures import BORDER, surface_measures
 from .merging import Judge, RegionAdjacencyGraph, merge_all_
@@ -157,7 +157,7 @@ def _cut_solid(
     progress(0.2)
     hierarchy, curvature = _merge(sets, field, label, judge, decision)
     progress(0.7)
-    return move_cuts(sets.mesh, label, hierarchy, curvature, band_ratio), hierarchy
+    return move_cuts(MovableCuts(sets.mesh, curvature, band_ratio), label, hierarchy), hierarchy
 
 
 def _on_coarse_copy(
@@ -253,8 +253,8 @@ def _refined(
     some, _ = mesh.submesh(zone)
     unit = np.sqrt(mesh.area)
     bend = np.clip(some.dihedral / np.maximum(some.pair_distance, 1e-9 * unit) * unit, -MAX_CURVATURE, MAX_CURVATURE)
-    found[zone] = move_cuts(some, found[zone], hierarchy, bend, band_ratio, (0.5,),
-                            BAND * step.mesh.edge_length.mean(), rim[zone])
+    movable = MovableCuts(some, bend, band_ratio, widest=BAND * step.mesh.edge_length.mean(), fixed=rim[zone])
+    found[zone] = move_cuts(movable, found[zone], hierarchy, (0.5,))
     return found
 
 

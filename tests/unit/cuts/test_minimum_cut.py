@@ -8,7 +8,7 @@ import pytest
 import shapes
 
 from core.cuts.hierarchy import Hierarchy
-from core.cuts.minimum_cut import _cuts_by_length, _minimum_cut, minimum_cuts, move_cuts
+from core.cuts.minimum_cut import MovableCuts, _cuts_by_length, _minimum_cut, minimum_cuts, move_cuts
 from core.surface.mesh import TriMesh
 
 
@@ -24,16 +24,21 @@ def ragged_grid(n=24):
     return mesh, (x > n / 2 + np.where(np.floor(y) % 2 > 0, 1.0, -1.0)).astype(np.int64)
 
 
+def flat(mesh, band_ratio=0.5, **bounds):
+    """Cuts on a surface without creases."""
+    return MovableCuts(mesh, np.zeros(len(mesh.edges.pairs)), band_ratio, **bounds)
+
+
 def test_saw_teeth_become_a_straight_line():
     mesh, part = ragged_grid()
-    moved = minimum_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.5)
+    moved = minimum_cuts(flat(mesh), part)
     assert border_length(mesh, moved) < 0.6 * border_length(mesh, part)
     assert border_length(mesh, moved) == pytest.approx(24, rel=0.1)
 
 
 def test_nothing_moves_without_reach():
     mesh, part = ragged_grid()
-    assert (minimum_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.0) == part).all()
+    assert (minimum_cuts(flat(mesh, 0.0), part) == part).all()
 
 
 @pytest.mark.filterwarnings("error")
@@ -42,7 +47,7 @@ def test_a_cut_without_a_length_stays():
     vertices = np.array([(0.0, 0, 0), (0, 0, 0), (1, 0, 0), (-1, 0, 0), (1, 1, 0), (-1, 1, 0)])
     mesh = TriMesh(vertices, np.array([(0, 1, 2), (1, 0, 3), (2, 1, 4), (3, 0, 5)]))
     part = np.array([0, 1, 0, 1])
-    assert (minimum_cuts(mesh, np.zeros(len(mesh.edges.pairs)), part, 0.5) == part).all()
+    assert (minimum_cuts(flat(mesh), part) == part).all()
 
 
 def test_a_cut_falls_into_the_crease_beside_it():
@@ -53,7 +58,7 @@ def test_a_cut_falls_into_the_crease_beside_it():
     part = (x > n / 2).astype(np.int64)
     a, b = mesh.edges.pairs.T
     crease = (x[a] > n / 2 + 1) != (x[b] > n / 2 + 1)
-    moved = minimum_cuts(mesh, np.where(crease, -30.0, 0.0), part, 0.5)
+    moved = minimum_cuts(MovableCuts(mesh, np.where(crease, -30.0, 0.0)), part)
     assert (moved == (x > n / 2 + 1)).all()
 
 
@@ -61,19 +66,18 @@ def test_cuts_between_coarser_parts_stay():
     mesh, part = ragged_grid()
     y = mesh.face_centroids[:, 1]
     finer = part + 2 * (y > 10 + np.where(np.floor(mesh.face_centroids[:, 0]) % 2 > 0, 1, 0))
-    moved = minimum_cuts(mesh, np.zeros(len(mesh.edges.pairs)), finer, 0.5, part)
+    moved = minimum_cuts(flat(mesh), finer, part)
     assert (moved % 2 == part).all()
     assert border_length(mesh, moved) < border_length(mesh, finer)
 
 
 def test_no_face_moves_that_is_held_or_out_of_reach():
     mesh, part = ragged_grid()
-    flat = np.zeros(len(mesh.edges.pairs))
     fixed = mesh.face_centroids[:, 1] < 12
-    moved = minimum_cuts(mesh, flat, part, 0.5, fixed=fixed)
+    moved = minimum_cuts(flat(mesh, fixed=fixed), part)
     assert (moved == part)[fixed].all()
     assert not (moved == part).all()
-    near = minimum_cuts(mesh, flat, part, 0.5, widest=0.6)
+    near = minimum_cuts(flat(mesh, widest=0.6), part)
     beside = np.abs(mesh.face_centroids[:, 0] - 12) < 1 + 0.6 + 1  # the teeth, the reach, a face's width
     assert (near == part)[~beside].all()
 
@@ -101,7 +105,8 @@ def test_of_two_equal_creases_the_nearer_wins(side):
     x = side * (mesh.face_centroids[:, 0] - n / 2)
     a, b = mesh.edges.pairs.T
     crease = ((x[a] > 1) != (x[b] > 1)) | ((x[a] > -3) != (x[b] > -3))
-    moved = minimum_cuts(mesh, np.where(crease, -12.0, 0.0), (x > 0).astype(np.int64), 0.5, widest=6.0)
+    movable = MovableCuts(mesh, np.where(crease, -12.0, 0.0), widest=6.0)
+    moved = minimum_cuts(movable, (x > 0).astype(np.int64))
     assert (moved == (x > 1)).all()
 
 
@@ -112,7 +117,7 @@ def test_beyond_a_depth_creases_are_equally_cheap():
     x = mesh.face_centroids[:, 0] - n / 2
     a, b = mesh.edges.pairs.T
     curvature = np.where((x[a] > 1) != (x[b] > 1), -60.0, np.where((x[a] > -3) != (x[b] > -3), -1000.0, 0.0))
-    moved = minimum_cuts(mesh, curvature, (x > 0).astype(np.int64), 0.5, widest=6.0)
+    moved = minimum_cuts(MovableCuts(mesh, curvature, widest=6.0), (x > 0).astype(np.int64))
     assert (moved == (x > 1)).all()
 
 
@@ -134,9 +139,10 @@ def test_a_cut_that_moved_at_one_level_stays_at_the_next():
     mesh, x, label, hierarchy = quarters(48)
     a, b = mesh.edges.pairs.T
     curvature = np.where((x[a] > 25) != (x[b] > 25), -12.0, np.where((x[a] > 26) != (x[b] > 26), -60.0, 0.0))
-    moved = move_cuts(mesh, label, hierarchy, curvature, 0.5, widest=2.0)
+    movable = MovableCuts(mesh, curvature, widest=2.0)
+    moved = move_cuts(movable, label, hierarchy)
     assert (moved // 2 == (x > 25)).all()
-    again = minimum_cuts(mesh, curvature, moved // 2, 0.5, widest=2.0)
+    again = minimum_cuts(movable, moved // 2)
     assert (again == (x > 26)).all()
 
 
@@ -145,7 +151,8 @@ def test_candidates_follow_the_cut_of_their_parts():
     mesh, x, label, hierarchy = quarters(24)
     a, b = mesh.edges.pairs.T
     crease = (x[a] > 13) != (x[b] > 13)
-    moved = move_cuts(mesh, label, hierarchy, np.where(crease, -60.0, 0.0), 0.5, (0.5,), widest=2.0)
+    movable = MovableCuts(mesh, np.where(crease, -60.0, 0.0), widest=2.0)
+    moved = move_cuts(movable, label, hierarchy, (0.5,))
     assert (moved // 2 == (x > 13)).all()
     far = np.abs(mesh.face_centroids[:, 1] - 12) > 2
     assert (moved % 2 == label % 2)[far].all()
@@ -153,4 +160,4 @@ def test_candidates_follow_the_cut_of_their_parts():
 
 def test_without_a_band_no_candidate_changes():
     mesh, _, label, hierarchy = quarters(12)
-    assert (move_cuts(mesh, label, hierarchy, np.zeros(len(mesh.edges.pairs)), 0.0) == label).all()
+    assert (move_cuts(flat(mesh, 0.0), label, hierarchy) == label).all()
