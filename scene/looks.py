@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What an object has, as a short text that differs once somebody has worked on it.
 
-Told are its settings and those of its modifiers, constraints and whatever else it has, the mesh or the bones with all
-that they carry, their name, whether they are an asset, and custom properties. Only what differs from its default is
-told, so that a later Blender with more settings tells the same. Not told is what is merely looked at - selected, hidden
-in the viewport, unfolded in a panel - nor what an animation or a driver sets, nor our own marks.
+The text covers the settings of the object and of its modifiers, constraints and whatever else it has, the mesh or the
+bones with all that they carry, their name, whether they are an asset, and custom properties. A setting counts only
+where it differs from its default, so that a later Blender with more settings gives the same text. Left out are what
+changes only the view - whether something is selected, hidden in the viewport or unfolded in a panel -, what an
+animation or a driver sets, and our own marks.
 """
 
 from __future__ import annotations

@@ -19,7 +19,8 @@ from .temporary import remove_object
 #: Custom properties of an object that we made: what it is for, such as "node" or "hull"; what it was like when made.
 ROLE, MADE = "reeb_parts_role", "reeb_parts_looks"
 
-#: What earlier versions kept of an object: a text that differs once somebody has worked on it. Not asked in Edit Mode.
+#: Gives the text that earlier versions kept of an object, which differs once somebody has worked on it. It is not
+#: called in Edit Mode.
 Former = Callable[[bpy.types.Object], str]
 
 #: What an object that we made stands for, such as a part, as a text. Several may stand for the same, in order.

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Candidates and their hierarchy as they are with a hint: labels that the mesh brings along, such as its materials.
 
-Where the hint changes a cut becomes possible, whatever the shape, and it is likelier; where it does not a cut is less
-likely. What the method of cutting says of two candidates and what the hint says are added as log-odds, and average
-linkage makes a hierarchy of that, as over the pieces of a body: without a hint, the same one.
+Where the hint changes, a cut becomes possible, whatever the shape, and likelier; elsewhere a cut becomes less likely.
+What the method of cutting says of two candidates and what the hint says are added as log-odds, and average linkage
+makes a hierarchy of the sums, as it does over the pieces of a body. If all hints are the same, nothing changes.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from .joining.method import LAST
 SAME, OTHER = 0.5, 1.5
 # Share of the area below which what a hint cuts out of a candidate stays in it.
 SMALL = 0.002
-# Salience at least of what parts two places of different hints: that the method saw nothing there says no more.
+# Least salience between cells of different hints: there, that the method saw no cut counts for nothing.
 LEAST = 0.2
 ROUNDING = 1e-6  # bounds of saliences, whose log-odds are to be finite
 
@@ -71,7 +71,7 @@ def _cells(graph: FaceGraph, label: np.ndarray, hint: np.ndarray) -> np.ndarray:
     a, b = graph.pairs.T
     alike = hint[a] == hint[b]
     region = components(len(hint), *graph.pairs[alike].T)[1]
-    # A region of a hint that is small as a whole is none.
+    # A region of one hint that is small as a whole does not end candidates.
     speck = (np.bincount(region, graph.area) < least)[region]
     alike |= speck[a] | speck[b]
     within = label[a] == label[b]

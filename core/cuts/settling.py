@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Candidates of the faces there are, which merge only where they touch."""
+"""Only candidates that have faces stay, and they merge only where they touch."""
 
 from __future__ import annotations
 

@@ -239,7 +239,8 @@ def _voted(
         return votes.loss(face, own, other) / width[face]
 
     label = connect(graph, fill_unlabeled(graph, votes.winners()))
-    # Patches may be smaller than refined faces; the candidates of the other method are not.
+    # Patches of the method "perceptual" may be smaller than the caller's faces that were refined, and would be lost in
+    # them. The three other methods have larger candidates and do without.
     held = loss if parameters.method == PERCEPTUAL else None
     label = connect(graph, straighten(graph, label, parameters.smoothing, held))
     return FaceCandidates(graph, _contacts(working, results, graph), label, found.hierarchy)

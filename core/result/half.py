@@ -58,10 +58,11 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
 
 
 def _of_one_side(whole: Decomposition, working: WorkingMesh) -> Iterator[str]:
-    """The notes of the whole; those about the mesh, which the half gives rise to as well, count what is on its side.
+    """The notes of the whole; where the half has the same note about its mesh, it counts what lies in the half.
 
-    The whole has each vertex, border and face twice, and at the plane an edge that joins four faces once, of which the
-    half knows nothing. The half has borders at the plane, which the whole has not.
+    That is half of what the whole counts, which has each vertex, border and face twice, or less where the half counts
+    less. So what one of the two alone has at the plane is left out: the whole edges that join four faces, the half its
+    borders.
     """
     own = {note.message: note.values["n"] for note in working.notes}
     for note in whole.notes:

@@ -368,9 +368,11 @@ def _previous_first(
 def _make_room(
     number: np.ndarray, birth_order: np.ndarray, previous_number: np.ndarray, pinned: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers of the candidates and order of their births, (c,) each, where only pinned parts have their numbers.
+    """Renumber so that a pinned part's number is carried only by its own candidates.
 
-    New numbers that are previous numbers, or that pinned parts have, are raised to the next free number.
+    New numbers that collide with a previous or a pinned number move up to the next free one. pinned : (c,) int64,
+    number of the pinned part of each candidate, 0 for none. Returns the numbers of the candidates and the order of
+    their births, (c,) each.
     """
     number, order = number.copy(), np.argsort(birth_order)
     taken, known, last = set(pinned.tolist()), set(previous_number.tolist()), 0

@@ -39,7 +39,7 @@ def symmetric_within_faces(results: list[ComponentResult], mirrors: list[Mirror]
     """
     planes = [images for mirror in mirrors for images in mirror.within]
     of_each = [[images for images in planes if images.faces.mesh is r.component.mesh] for r in results]
-    # What a plane of one body does to the others is nothing, and would take long to find.
+    # A plane of one body changes no other, and trying it there costs time.
     alone = sum(map(len, of_each)) == len(planes)
     groups = [([r], images) for r, images in zip(results, of_each, strict=True)] if alone else [(results, planes)]
     parts = [_symmetric(some, images) for some, images in groups]

@@ -106,8 +106,8 @@ class Images:
     def meeting(self) -> list[Images]:
         """Two planes, next to each other, of three or more that meet in an axis, in which all polygons are exact.
 
-        What these two and those of ``exact`` do, one after the other, makes all ways in which a star or a gear is its
-        own image. Empty if there are no such planes; meshes of more than MOST_TURNED polygons are not looked at.
+        These two and those of ``exact`` generate the group of all symmetries of a star or a gear.
+        Empty if there are no such planes; meshes of more than MOST_TURNED polygons are not looked at.
         """
         polygons = self.faces.polygons
         if not self.exact or self.faces.n_polygons > MOST_TURNED:

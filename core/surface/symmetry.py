@@ -23,11 +23,11 @@ COARSE, FINE = (1_000, 100), (12_000, 500)
 EQUAL = 0.05  # planes whose shares differ by less are equal: the first of them is taken, in all poses the same
 SOME = 300  # number of polygons by which it is seen whether a plane is exact; the first that is comes before all others
 LIKELY = 0.5  # share of the area that the best plane must match already when few points are looked at
-# By how little a plane moves in a step, in its normal and its offset, when it is found, and when it is only to be told
-# from others.
+# A plane is improved until a step moves its normal and its offset by less: STILL where its place is to be found, ROUGH
+# where it is only to be told from others.
 STILL, ROUGH = 1e-7, 3e-3
-STEPS, KEPT = 30, 0.8  # how often a plane is improved, and by which share of the probes, the best ones
-EXACT = 0.02  # a plane is exact if its share is less by this only
+STEPS, KEPT = 30, 0.8  # upper bound of these steps; share of the probes, the best ones, from which each is computed
+EXACT = 0.02  # a share that is less than 1, or than the best there is, by this only is as good
 
 
 def mirror_plane(faces: SmallFaces) -> MirrorPlane | None:
@@ -103,7 +103,7 @@ def _improved(
 
 
 def judged(plane: MirrorPlane, surface: Elements, probes: Elements) -> MirrorPlane:
-    """A plane with its share: of the area of the probes that whose mirror image lies on the surface."""
+    """A plane with its share: that of the probes, by area, whose mirror images lie on the surface."""
     image = probes.mirrored(plane)
     matched = surface.matched(image, surface.nearest(image)[1], MATCH)
     return MirrorPlane(plane.normal, plane.offset, float(probes.area[matched].sum()))

@@ -26,7 +26,7 @@ def nested_sides(places: np.ndarray, curves: np.ndarray) -> np.ndarray:
     sides : (s, n) bool
         The places on one side of each division. Smaller sides come first; of two sides, one is within the other or
         both have no place in common. Each has two places or more that no smaller one has, and as many are in none.
-        None for a network of more than 12 places.
+        (0, n) for fewer than 4 or more than MOST_PLACES places.
     """
     n = len(places)
     none = np.zeros((0, n), bool)

@@ -24,8 +24,8 @@ PART = ("log_area", "log_piece_area", "extent_1", "extent_2", "extent_3", "agd",
 #: Of a pair.
 PAIR = ("odds", "weakest", "joined", "steps", "way", "distance", "pass", "same_piece", "salience", "alike")
 FEATURES = (*PAIR, *(f"small_{n}" for n in PART), *(f"large_{n}" for n in PART))
-# In place of what there is none of: log-odds of parts that are not near each other, and of those that nothing joins,
-# the lowest level, the length of a way in diameters, and its steps.
+# Values of features that are undefined: log-odds of parts that are not near each other, and of those that nothing
+# joins; the lowest level; the length of a way in diameters, and its steps.
 NOT_NEAR, NEVER, LOWEST, FAR, STEPS = -9.0, -20.0, -1.0, 5.0, 50.0
 
 
@@ -63,7 +63,8 @@ def distant_pairs(
     Returns
     -------
     pairs : DistantPairs
-        No pairs, if fewer than two parts are compared: of more than MOST, those larger than all that do not fit in.
+        Empty if fewer than two parts are compared. Of more than MOST parts the largest are taken; a group of equal area
+        that does not fit in whole is left out.
     """
     shapes, count = near.shapes, len(near.shapes.area)
     chosen = _largest(shapes.area)
@@ -93,7 +94,7 @@ def distant_pairs(
 
 
 def _largest(area: np.ndarray) -> np.ndarray:
-    """The MOST largest parts, in their order; of several of one area that do not all fit in, none."""
+    """The MOST largest parts, in their order, without a group of equal area that does not fit in whole."""
     if len(area) <= MOST:
         return np.arange(len(area))
     area = rounded(area)

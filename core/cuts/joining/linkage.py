@@ -76,7 +76,7 @@ class _Groups:
     def __init__(self, sizes: list[float], ease: float) -> None:
         self.sizes, self.ease = sizes, ease
         self.around: list[dict[int, Edge]] = [{} for _ in sizes]
-        #: Of each group an edge that costs no more than any it has; it may be gone since.
+        #: Of each group a lower bound: no edge that it has costs less than this one, which may no longer be there.
         self.nearest: list[Edge | None] = [None for _ in sizes]
         self.queue: list[tuple[Edge, int]] = []
 

@@ -25,19 +25,19 @@ from .distant import DistantPairs, distant_pairs
 from .linkage import average_linkage
 from .pairs import FEATURES, PartPairs, part_pairs
 
-# Cuts within a piece of less salience than this are not asked about: where a salience is the share of people who would
-# cut there, and in the methods that measure how deep or how narrow a cut is.
+# Cuts within a piece of less salience than this are not judged anew: FINE where a salience is the share of people who
+# would cut there, FINE_MEASURED in the methods that measure how deep or how narrow a cut is.
 FINE, FINE_MEASURED = 0.06, 0.2
-# What a learned salience counts of the log-odds of two parts of one piece; the rest is the model's.
+# Weight of a learned salience in the log-odds of two parts of one piece; the model of pairs has the rest.
 WITHIN = 0.2
 # Share of people who put two parts together at which they are together at detail 0.5.
 DECISION = 0.5
-# Between candidates that nothing brought near each other.
+# Salience between candidates that nothing brought near each other.
 LAST = 0.999
-# Small groups are more often one part than their pairs are judged to be. Below LARGE, a share of the area, the odds of
-# two groups are raised by so many times the smaller is below it, to the power of EASE.
+# Small groups are more often one part than their pairs are judged to be: if the smaller of two has a share a of the
+# area, below LARGE, their odds are multiplied by (LARGE / a) ** EASE.
 LARGE, EASE = 0.1, 0.1
-# What the judgement of two parts that come near each other counts beside that of all pairs, each of which counts 1.
+# Weight of what the first model says of a pair that comes near each other; what the second says of any pair has 1.
 NEARNESS = 20.0
 SURE = 1e-4, 1 - 1e-4  # bounds of a judgement, whose log-odds are to be finite
 CUT = 0.02, 0.98  # of a salience, the same
@@ -59,7 +59,7 @@ class FineParts:
     fine : float
         Salience below which candidates are together in them.
     within : float
-        What the salience of a cut counts of the log-odds of two parts of one piece, 0..1.
+        Weight of the salience of a cut in the log-odds of two parts of one piece, 0..1.
     """
 
     part: np.ndarray

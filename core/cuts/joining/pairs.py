@@ -29,7 +29,8 @@ PART = ("log_area", "extent_1", "extent_2", "extent_3", "repeats", "agd", "agd_d
 PAIR = ("same_piece", "salience", "distance", "gap", "near_small_1", "near_small_2", "near_small_3", "near_large_1",
         "near_large_2", "near_large_3", "elsewhere_small", "elsewhere_large", "inside_small", "inside_large",
         "normals", "agd_change", "log_ratio", "alike", "contact_spread", "contact_extent", "height")
-# Nothing of the whole, such as how many pieces it has: that would tell models that were learned from from others.
+# Properties of the whole model, such as its number of pieces, are left out: trees would recognize the training models
+# by them.
 FEATURES = (*PAIR, *(f"small_{n}" for n in PART), *(f"large_{n}" for n in PART))
 
 #: Two parts each, (e,) int64 twice, to a number of each two, (e,) float64. There is no table of all: of thousands of

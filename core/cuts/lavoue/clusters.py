@@ -58,7 +58,10 @@ def cluster(points: np.ndarray, weight: np.ndarray, count: int = 0) -> np.ndarra
 
 
 def _split(points: np.ndarray, weight: np.ndarray, label: np.ndarray) -> np.ndarray | None:
-    """Cluster of each point, (n,) int64, after the cluster of the largest sum of squares is split; None if none can."""
+    """Split the cluster of the largest sum of squares at its mean, across its longest axis.
+
+    Returns the cluster of each point, (n,) int64; None if all points of that cluster lie on one side.
+    """
     count = int(label.max()) + 1
     offset = points - _centers(points, weight, label)[label]
     squares = np.bincount(label, weight * (offset**2).sum(axis=1), count)
@@ -71,7 +74,7 @@ def _split(points: np.ndarray, weight: np.ndarray, label: np.ndarray) -> np.ndar
 
 
 def _moved(points: np.ndarray, weight: np.ndarray, label: np.ndarray) -> tuple[np.ndarray, float]:
-    """Lloyd's rounds: centers are the means of their points, points belong to the nearest center.
+    """Lloyd's algorithm: centers move to the means of their points, points to the nearest center, until none changes.
 
     Returns the cluster of each point, (n,) int64, and the weighted mean of the squared distances from the centers.
     """

@@ -171,11 +171,12 @@ def _share_of_its_own(graph: RegionAdjacencyGraph, strength: np.ndarray, border:
 
     strength : (b,), what the judge returned for each border.
 
-    The judge looks at one border at a time: to a wedge between finger and palm it gives 0.6 against either, though the
-    wedge belongs to one of them. It can belong to one only, so that it is a part of its own with 1 - 0.4 - 0.4 = 0.2.
-    Neighbors count if they touch each other: the handle of a dumbbell belongs to neither ball. They count by how much
-    they are larger, from nothing if as large to all if twice as large, or it would be chance which of two equal regions
-    is the one in question. Of a ring whose two rims are one cut nothing is its own.
+    The judge looks at one border at a time: to a wedge between finger and palm it gives 0.6 against either. But the
+    wedge can belong to only one of them, so that what is left for a part of its own is 1 - 0.4 - 0.4 = 0.2.
+    Of the other neighbors those count that touch the one across the border: the handle of a dumbbell belongs to neither
+    ball. A neighbor counts from not at all, if it is as large as the region, to fully, if it is twice as large;
+    otherwise chance would say which of two equal regions is the smaller. Of a ring whose two rims are one cut nothing
+    is its own.
     """
     area = graph.regions.sums[:, REGION.area]
     small, large = sorted(graph.ends[border].tolist(), key=area.__getitem__)

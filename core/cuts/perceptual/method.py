@@ -84,7 +84,15 @@ def perceptual_candidates(
 
 
 class Judges(NamedTuple):
-    """Who judges cuts: of solids, which are closed surfaces, and of sheets that were inflated."""
+    """Who judges cuts.
+
+    Attributes
+    ----------
+    solid : callable
+        Judges cuts of solids, which are closed surfaces.
+    sheet : callable
+        Judges cuts of sheets that were inflated.
+    """
 
     solid: Judge
     sheet: Judge
@@ -130,7 +138,17 @@ def _cut_in_creases(
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """A component whose sheets are inflated, with its field and level sets."""
+    """A component whose sheets are inflated.
+
+    Attributes
+    ----------
+    shape : Inflated
+        Its mesh, n vertices, and from which faces and vertices of the component that was made.
+    sets : LevelSets
+        Of the mesh, at the levels of the component.
+    field : ScalarField
+        At the n vertices, from that of the component.
+    """
 
     shape: Inflated
     sets: LevelSets
@@ -138,7 +156,20 @@ class Solid:
 
 
 def inflate(sets: LevelSets, field: ScalarField) -> Solid | None:
-    """Inflate the sheets of a component; None if it has none."""
+    """Inflate the sheets of a component.
+
+    Parameters
+    ----------
+    sets : LevelSets
+        Level sets of one connected component.
+    field : ScalarField
+        AGD of the component.
+
+    Returns
+    -------
+    solid : Solid or None
+        None if the component has no sheets.
+    """
     sheet = sheet_faces(sets.mesh, field.agd[sets.mesh.faces].mean(axis=1))
     if not sheet.any():
         return None
@@ -191,8 +222,8 @@ def _on_coarse_copy(
 def _coarse_copies(pyramid: Pyramid) -> list[Coarsening]:
     """The steps to a coarse copy of at most MAX_FACES faces, in which the surface is whole.
 
-    Where the surface is thin, or has small pieces, copies may lack triangles. Pieces that would are taken as they are;
-    to the last finer copy if then hardly anything is left to coarsen.
+    Where the surface is thin, or has small pieces, a copy may lack triangles. Pieces that would lose some stay as they
+    are; if then hardly anything is left to coarsen, the last copy has more faces.
     """
     steps: list[Coarsening] = []
     copy, area = pyramid.mesh, pyramid.mesh.vertex_area
@@ -238,8 +269,8 @@ def _refined(
 ) -> np.ndarray:
     """Candidate of each face of a mesh, (m,) int64, from those of a coarse copy: the cuts of detail 0.5 move anew.
 
-    They move by BAND edges of the copy at most, on which they have found their places but for its coarseness; only what
-    is near them is looked at.
+    On the copy the cuts have found their places as well as its edges allow. So they move by BAND of these edges at
+    most, and only faces near them are looked at.
     """
     found = _prolong_labels(mesh, step, label)
     part = hierarchy.parts(hierarchy.n_parts(0.5))[label]
