@@ -39,7 +39,7 @@ from people import Run, Subject, category_of, merge_and_record, mesh_numbers, pr
 
 from core.cuts.boosted_trees import BoostedTrees
 from core.cuts.perceptual.features import FEATURES
-from core.cuts.perceptual.method import DECISION, SHEET_DECISION
+from core.cuts.perceptual.method import SHARE_AT_HALF, SHEET_SHARE_AT_HALF
 from core.surface.arrays import renumbered
 from core.surface.mesh import TriMesh
 
@@ -332,8 +332,8 @@ def main():
     add_variants(runs, variants, fold)
     people = [r for of_mesh in runs.values() for r in of_mesh]
     further = [*(solids() if options.solids else []), *pieces(options.labelled, DETAIL), *pieces(options.bodies)]
-    for name, beside, rounds, decision in (("cut_model", further, ROUNDS_FURTHER if further else 0, DECISION),
-                                           ("sheet_model", sheets(), options.rounds, SHEET_DECISION)):
+    for name, beside, rounds, decision in (("cut_model", further, ROUNDS_FURTHER if further else 0, SHARE_AT_HALF),
+                                           ("sheet_model", sheets(), options.rounds, SHEET_SHARE_AT_HALF)):
         model = fit_many(people, N_MODELS, learn_further(people, beside, rounds, decision))
         model.write(options.out / f"{name}.npz")
         print(f"{name}.npz: {len(model.leaf)} trees on {len(FEATURES)} features")

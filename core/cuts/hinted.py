@@ -21,11 +21,11 @@ from .joining.method import LAST
 
 # What it adds to the log-odds that two candidates belong together if their hints are the same, and takes from them if
 # they differ.
-SAME, OTHER = 0.5, 1.5
+SAME_HINT, OTHER_HINT = 0.5, 1.5
 # Share of the area below which what a hint cuts out of a candidate stays in it.
-SMALL = 0.002
+LEAST_CUT_OUT = 0.002
 # Least salience between cells of different hints: there, that the method saw no cut counts for nothing.
-LEAST = 0.2
+LEAST_SALIENCE = 0.2
 ROUNDING = 1e-6  # bounds of saliences, whose log-odds are to be finite
 
 
@@ -54,8 +54,8 @@ def hinted_candidates(candidates: FaceCandidates, hint: np.ndarray) -> FaceCandi
     a, b = pairs.T
     salience = candidates.hierarchy.salience_between(own[a], own[b])
     other = said[a] != said[b]
-    salience = salience.clip(np.where(other, LEAST, ROUNDING), 1.0 - ROUNDING)
-    score = on_grid(np.log(1.0 / salience - 1.0)) + np.where(other, -OTHER, SAME)
+    salience = salience.clip(np.where(other, LEAST_SALIENCE, ROUNDING), 1.0 - ROUNDING)
+    score = on_grid(np.log(1.0 / salience - 1.0)) + np.where(other, -OTHER_HINT, SAME_HINT)
     weight = np.sqrt(area[pairs].min(axis=1) / area.sum()) + 1e-9
     merges, joined, _ = average_linkage(len(area), pairs, score, weight)
     hierarchy = Hierarchy.of(len(area), merges, np.minimum(1.0 / (1.0 + np.exp(joined)), LAST))
@@ -67,7 +67,7 @@ def _cells(graph: FaceGraph, label: np.ndarray, hint: np.ndarray) -> np.ndarray:
 
     What little a hint cuts off a candidate joins a neighbor of the same hint: there the candidate ends at the hint.
     """
-    least = SMALL * graph.area.sum()
+    least = LEAST_CUT_OUT * graph.area.sum()
     a, b = graph.pairs.T
     alike = hint[a] == hint[b]
     region = components(len(hint), *graph.pairs[alike].T)[1]

@@ -12,7 +12,7 @@ from ..surface.labels import FaceGraph, majority
 from .face_candidates import FaceCandidates
 from .symmetric import symmetric_candidates
 
-MANY = 20_000  # number of faces from which on regions are faster, and slivers are small
+MANY_FACES = 20_000  # number of faces from which on regions are faster, and slivers beside cuts are small
 
 
 def symmetric_on_regions(

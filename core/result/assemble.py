@@ -14,7 +14,7 @@ from ..cuts.hierarchy import Hierarchy
 from ..cuts.hinted import hinted_candidates
 from ..cuts.settling import settle
 from ..cuts.symmetric import symmetric_candidates, turned_candidates
-from ..cuts.symmetric_regions import MANY, symmetric_on_regions
+from ..cuts.symmetric_regions import MANY_FACES, symmetric_on_regions
 from ..field.agd import ScalarField
 from ..graph.reeb import ReebGraph
 from ..parameters import PERCEPTUAL, TOGETHER, Parameters
@@ -106,7 +106,7 @@ def _too_many(asked: int, n_candidates: int) -> tuple[Sentence, ...]:
 
 def _symmetric(candidates: FaceCandidates, mirror: Mirror) -> FaceCandidates:
     """The candidates and their hierarchy made symmetric in a plane, and in all that were found with it."""
-    if candidates.graph.n_faces > MANY and not mirror.exact:
+    if candidates.graph.n_faces > MANY_FACES and not mirror.exact:
         return symmetric_on_regions(candidates, mirror.twin, mirror.height, mirror.first)
     if mirror.group is not None:
         return turned_candidates(candidates, mirror.group, mirror.beside)

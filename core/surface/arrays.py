@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, DTypeLike
     from scipy.sparse import csr_array
 
-MANY = 5_000  # number of elements from which on it is faster to divide the search for components into rounds
-FEW = 600  # number of elements and pairs up to which it takes longer to call SciPy than to search for them in Python
+MANY_ELEMENTS = 5_000  # number of elements from which on it is faster to divide the search for components into rounds
+FEW_ELEMENTS = 600  # number of elements and pairs up to which a search in Python takes less time than a call of SciPy
 
 
 def frozen(array: ArrayLike, dtype: DTypeLike) -> np.ndarray:
@@ -151,9 +151,9 @@ def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
         Component of each element, 0..count-1. Components are numbered in the order of their lowest elements,
         so that the numbering does not depend on the library.
     """
-    if n + len(a) <= FEW:
+    if n + len(a) <= FEW_ELEMENTS:
         return _joined_in_turn(n, a, b)
-    if n < MANY:
+    if n < MANY_ELEMENTS:
         return _few_components(n, a, b)
     # Each element goes to a lower one that it is joined with, and on to where that one goes, as far down as it comes.
     goal = np.arange(n)

@@ -31,7 +31,7 @@ MOST_AGAINST = 1e-3  # share of neighbors that may disagree on it; coarse copies
 LEAST_AREA = 0.05  # share of the area of a surface of several pieces below which a piece stays as it is
 HEIGHT = 0.25  # of the inflated surface over that of the balls
 PER_EDGE = 3  # number of balls that touch each edge of the outline
-LARGEST = 0.6  # radius at which these begin to shrink, in units of the square root of the area; a disc has 0.56
+LARGEST_BALL = 0.6  # radius at which these begin to shrink, in units of the square root of the area; a disc has 0.56
 # Bounds of the height of the balls over that of a membrane: they pass over roughness, and over sheets that lie on
 # each other, where straight distances mislead.
 LOWEST, HIGHEST = 0.5, 1.5
@@ -237,7 +237,7 @@ def _ball_height(mesh: TriMesh, thin: np.ndarray, within: np.ndarray) -> np.ndar
     unit = np.sqrt(mesh.area)
     place = (mesh.vertices - mesh.vertices.mean(axis=0)) / unit
     point, inwards, ends = _outline(mesh, thin, place)
-    radius = ball_radius(search_tree(np.concatenate([point, ends])), point, inwards, LARGEST)
+    radius = ball_radius(search_tree(np.concatenate([point, ends])), point, inwards, LARGEST_BALL)
     center = point + radius[:, None] * inwards
     # r^2 - |x - c|^2 = r^2 - |c|^2 + 2 x c - |x|^2, of which the largest needs inner products only.
     rest, height = radius**2 - (center**2).sum(axis=1), np.zeros(mesh.n_vertices)

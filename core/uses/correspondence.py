@@ -33,7 +33,7 @@ DISTANCE = 2.0  # weight of the change of distances, in units of the largest one
 # Weights of positions from which the search starts, before it goes on without them; and the weight by which plans are
 # judged that it leads to.
 STARTS, TIE = (0.0, 0.3, 1.0, 3.0, 10.0, 30.0), 0.1
-STEP = 0.01  # size of a proximal step: entropy of the change, in units of the costs
+PROXIMAL_STEP = 0.01  # size of a proximal step: entropy of the change, in units of the costs
 FIRST, LAST, ROUNDS = 15, 40, 60  # steps with and without positions; rounds that balance a plan in each of them
 
 
@@ -159,7 +159,7 @@ def _descend(source: Samples, target: Samples, cost: np.ndarray, plan: np.ndarra
     """Improve a plan by so many proximal steps. cost : (k, l), of each pair of samples."""
     for _ in range(steps):
         gradient = cost + DISTANCE * _change(source, target, plan)
-        plan = _balanced(plan * np.exp((gradient.min() - gradient) / STEP), source.weight, target.weight)
+        plan = _balanced(plan * np.exp((gradient.min() - gradient) / PROXIMAL_STEP), source.weight, target.weight)
     return plan
 
 

@@ -26,7 +26,7 @@ from ..surface.corners import CornerTable
 from ..surface.ordering import principal_axes
 
 #: How many corners a hull has at most; game engines take 255, and are faster with fewer.
-MOST = 64
+MOST_CORNERS = 64
 # A part that is flatter than this share of its size gets a hull that is so thick.
 _THIN = 0.01
 # Planes that are tried for each axis are at the ends of so many slabs of equal width.
@@ -60,7 +60,9 @@ class Hull:
         return float((a * cross(b, c)).sum()) / 6
 
 
-def part_hulls(table: CornerTable, labels: np.ndarray, count: int = 1, most: int = MOST) -> list[tuple[Hull, ...]]:
+def part_hulls(
+    table: CornerTable, labels: np.ndarray, count: int = 1, most: int = MOST_CORNERS
+) -> list[tuple[Hull, ...]]:
     """Make the convex hull of each part, or several that fit it better.
 
     Parameters
@@ -222,7 +224,7 @@ def _best_split(piece: _Surface, room: int) -> _Split:
 
 def _slabs(piece: _Surface, height: np.ndarray, levels: np.ndarray) -> list[np.ndarray]:
     """Points that span what lies between each two levels: its points, and where edges cross the levels."""
-    directions = _directions(MOST).T
+    directions = _directions(MOST_CORNERS).T
     place = np.searchsorted(levels, height)
     order = stable_order(place)
     slabs = np.split(piece.points[order], np.searchsorted(place[order], np.arange(1, len(levels) + 1)))
@@ -234,7 +236,7 @@ def _slabs(piece: _Surface, height: np.ndarray, levels: np.ndarray) -> list[np.n
         crossing = (place[start] <= index) & (place[end] > index)
         points = _between(piece.points, height, start[crossing], end[crossing], level)
         slabs[index], slabs[index + 1] = (np.concatenate([slab, points]) for slab in slabs[index : index + 2])
-    return [slab[np.unique((slab @ directions).argmax(axis=0))] if len(slab) > MOST else slab for slab in slabs]
+    return [slab[np.unique((slab @ directions).argmax(axis=0))] if len(slab) > MOST_CORNERS else slab for slab in slabs]
 
 
 def _between(points: np.ndarray, height: np.ndarray, start: np.ndarray, end: np.ndarray, level: float) -> np.ndarray:

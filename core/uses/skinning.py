@@ -31,7 +31,7 @@ _TIP = 0.9
 #: The angle at which no face should be turned over, in radians.
 BENT = np.pi / 3
 #: How many bones may move a vertex; what game engines take.
-MOST = 4
+MOST_BONES = 4
 _LITTLE = 1e-9
 _NEEDLE = 0.5e-6  # area of a needle over the square of its length
 _STEPS = 1024  # weights are multiples of 1 / _STEPS
@@ -208,11 +208,11 @@ def limited(mass: np.ndarray, fifth: float = 0.0) -> Weights:
     Weights.
     """
     n, count = mass.shape
-    if fifth and count > MOST:
-        largest = -np.partition(-mass, MOST, axis=1)[:, [MOST]]
+    if fifth and count > MOST_BONES:
+        largest = -np.partition(-mass, MOST_BONES, axis=1)[:, [MOST_BONES]]
         mass = np.maximum(mass - fifth * largest, _LITTLE * mass)
-    bone, weight = np.full((n, MOST), -1), np.zeros((n, MOST))
-    few = min(MOST, count)
+    bone, weight = np.full((n, MOST_BONES), -1), np.zeros((n, MOST_BONES))
+    few = min(MOST_BONES, count)
     bone[:, :few] = np.argsort(-mass, axis=1, kind="stable")[:, :few]
     weight[:, :few] = np.take_along_axis(mass, bone[:, :few], axis=1)
     weight /= np.maximum(weight.sum(axis=1, keepdims=True), np.finfo(float).tiny)

@@ -16,7 +16,7 @@ from ..minimum_cut import MovableCuts, move_cuts
 from .boundary_search import search_boundaries
 from .regions import berretti_regions, rank_regions, with_finer
 
-DECISION = 0.5  # salience of a merge whose area ratio is the paper's threshold, Parameters.small_region
+SALIENCE_OF_SMALL = 0.5  # salience of a merge whose area ratio is the paper's threshold, Parameters.small_region
 
 
 def berretti_candidates(
@@ -36,11 +36,11 @@ def berretti_candidates(
     -------
     candidates : Candidates
         Pieces of the regions, which merge first, then small regions. Merges below the paper's threshold have a salience
-        below DECISION.
+        below SALIENCE_OF_SMALL.
     """
     regions = berretti_regions(sets, topology, parameters.small_region)
     curvature = k_min(sets.mesh)
-    kept = regions.hierarchy.parts(regions.hierarchy.n_parts(1.0 - DECISION))
+    kept = regions.hierarchy.parts(regions.hierarchy.n_parts(1.0 - SALIENCE_OF_SMALL))
     piece_part = kept[regions.piece_region]
     moved = search_boundaries(sets, topology, curvature, piece_part, parameters.concavity_weight,
                               parameters.sigma)

@@ -18,7 +18,7 @@ from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 from ...surface.arrays import on_grid, pair_keys, rounded
 from .pairs import PartPairs, Salience, cut_between, unlikeness
 
-MOST = 80  # parts that are compared with all others; pairs grow as the square of it
+MOST_COMPARED = 80  # parts that are compared with all others; pairs grow as the square of it
 #: Of one part; of a pair first the smaller.
 PART = ("log_area", "log_piece_area", "extent_1", "extent_2", "extent_3", "agd", "climb")
 #: Of a pair.
@@ -63,8 +63,8 @@ def distant_pairs(
     Returns
     -------
     pairs : DistantPairs
-        Empty if fewer than two parts are compared. Of more than MOST parts the largest are taken; a group of equal area
-        that does not fit in whole is left out.
+        Empty if fewer than two parts are compared. Of more than MOST_COMPARED parts the largest are taken; a group of
+        equal area that does not fit in whole is left out.
     """
     shapes, count = near.shapes, len(near.shapes.area)
     chosen = _largest(shapes.area)
@@ -94,11 +94,11 @@ def distant_pairs(
 
 
 def _largest(area: np.ndarray) -> np.ndarray:
-    """The MOST largest parts, in their order, without a group of equal area that does not fit in whole."""
-    if len(area) <= MOST:
+    """The MOST_COMPARED largest parts, in their order, without a group of equal area that does not fit in whole."""
+    if len(area) <= MOST_COMPARED:
         return np.arange(len(area))
     area = rounded(area)
-    return np.flatnonzero(area > np.partition(area, -MOST - 1)[-MOST - 1])
+    return np.flatnonzero(area > np.partition(area, -MOST_COMPARED - 1)[-MOST_COMPARED - 1])
 
 
 def _direct(near: np.ndarray, odds: np.ndarray, parts: np.ndarray, count: int) -> np.ndarray:

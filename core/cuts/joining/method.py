@@ -31,7 +31,7 @@ FINE, FINE_MEASURED = 0.06, 0.2
 # Weight of a learned salience in the log-odds of two parts of one piece; the model of pairs has the rest.
 WITHIN = 0.2
 # Share of people who put two parts together at which they are together at detail 0.5.
-DECISION = 0.5
+SHARE_AT_HALF = 0.5
 # Salience between candidates that nothing brought near each other.
 LAST = 0.999
 # Small groups are more often one part than their pairs are judged to be: if the smaller of two has a share a of the
@@ -132,7 +132,7 @@ def join_parts(parts: FineParts, model: JoinModel | None = None) -> tuple[Hierar
     Returns
     -------
     hierarchy : Hierarchy
-        Below ``parts.fine`` as it was. Salience 0.5 is DECISION.
+        Below ``parts.fine`` as it was. Salience 0.5 is SHARE_AT_HALF.
     contacts : (k, 2) int64
         Faces of different parts that touch, or nearly so: wherever pieces touch, and where parts merge.
     """
@@ -142,7 +142,7 @@ def join_parts(parts: FineParts, model: JoinModel | None = None) -> tuple[Hierar
     merges, score, rows = _linked(parts, pairs.parts, odds, _pair_weight(parts, pairs.parts))
     if model.distant and len((distant := compare_distant(parts, odds, merges, score)).parts):
         merges, score, rows = _linked(parts, *_with_distant(parts, odds, distant, model.distant))
-    strength = np.interp(1 / (1 + np.exp(-score)), [0.0, DECISION, 1.0], [1.0, 0.5, parts.fine])
+    strength = np.interp(1 / (1 + np.exp(-score)), [0.0, SHARE_AT_HALF, 1.0], [1.0, 0.5, parts.fine])
     touching = (pairs.gap <= TOUCH) & ~pairs.same_piece
     contacts = pairs.faces[np.union1d(rows, np.flatnonzero(touching))]
     hierarchy = parts.hierarchy

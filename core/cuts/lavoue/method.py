@@ -18,7 +18,7 @@ SCALE = 10.0
 WIDTH = 0.02  # width over which the curvature of a vertex is taken, in units of the square root of the area
 MOST_RINGS = 8  # upper bound of the number of rings of neighbors that lie in this width
 SMALLEST = 0.001  # share of the area below which a region joins a neighbor before all others
-DECISION = 9.0  # distance, in units of 1 / square root of the area, at which a merge has salience 0.5
+DISTANCE_AT_HALF = 9.0  # distance, in units of 1 / square root of the area, at which a merge has salience 0.5
 
 
 def lavoue_candidates(mesh: TriMesh, n_clusters: int = 0) -> tuple[np.ndarray, Hierarchy]:
@@ -43,7 +43,7 @@ def lavoue_candidates(mesh: TriMesh, n_clusters: int = 0) -> tuple[np.ndarray, H
     region = grow_regions(mesh, cluster(curvature, weight, n_clusters))
     region = absorb_small(mesh, region, SMALLEST)
     merges, distance = merge_regions(CurvatureGraph(mesh, curvature, region))
-    return region, Hierarchy.of(int(region.max()) + 1, merges, distance / (distance + DECISION))
+    return region, Hierarchy.of(int(region.max()) + 1, merges, distance / (distance + DISTANCE_AT_HALF))
 
 
 def curvature_features(mesh: TriMesh) -> np.ndarray:

@@ -12,8 +12,8 @@ from ...surface.labels import label_boundaries
 from ...surface.mesh import TriMesh
 from ...surface.nearest_seeds import nearest_seeds
 
-# Share of the area below which a region is a sliver: whatever parts it from its neighbors counts SLIVER times only.
-SMALL, SLIVER = 0.02, 0.1
+# Share of the area below which a region is a sliver; what parts it from its neighbors counts by the weight only.
+SLIVER_AREA, SLIVER_WEIGHT = 0.02, 0.1
 
 
 def grow_regions(mesh: TriMesh, label: np.ndarray) -> np.ndarray:
@@ -65,7 +65,7 @@ class CurvatureGraph:
     def __init__(self, mesh: TriMesh, curvature: np.ndarray, region: np.ndarray) -> None:
         count = int(region.max()) + 1
         area = mesh.face_area + 1e-12 * mesh.area / mesh.n_faces
-        self.small = SMALL * mesh.area
+        self.small = SLIVER_AREA * mesh.area
         self.area = np.bincount(region, area, count)
         self.sums = sums_by(region, area[:, None] * curvature[mesh.faces].mean(axis=1), count)
         touching, length = label_boundaries(region, mesh.edges.pairs, mesh.pair_length)
@@ -88,7 +88,7 @@ class CurvatureGraph:
         border = along / length
         apart = sum(float(np.linalg.norm(self.sums[r] / self.area[r] - border)) for r in (a, b))
         nesting = max(min(self.perimeter[a], self.perimeter[b]) / length, 1.0)
-        distance = apart * nesting * (SLIVER if min(self.area[a], self.area[b]) < self.small else 1.0)
+        distance = apart * nesting * (SLIVER_WEIGHT if min(self.area[a], self.area[b]) < self.small else 1.0)
         return float(rounded(np.array(distance), 26))  # rounding must not order equal distances
 
     def merge_(self, a: int, b: int) -> None:

@@ -11,7 +11,7 @@ from scipy.sparse.linalg import eigsh
 from ...surface.arrays import symmetric_matrix
 from .patch_graph import PatchGraph
 
-FEW = 250  # number of patches up to which dense matrices are faster
+FEW_PATCHES = 250  # number of patches up to which dense matrices are faster
 # A border counts exp(-crease / SHARP) in the geometric operator, where creases are in units of 1 / square root of the
 # area.
 SHARP = 3.0
@@ -52,7 +52,7 @@ def embed(graph: PatchGraph, conductance: np.ndarray) -> np.ndarray:
     ties = symmetric_matrix(graph.pairs, np.maximum(conductance, 1e-9), k)
     root = 1.0 / np.sqrt(graph.area)
     laplacian = diags_array(root) @ (diags_array(ties.sum(axis=1)) - ties) @ diags_array(root)
-    if k <= FEW:
+    if k <= FEW_PATCHES:
         vectors = eigh(laplacian.toarray(), subset_by_index=[0, 2])[1]
     else:
         # The start is fixed, and does not depend on the order of the patches, so that the answer does not either.

@@ -20,8 +20,8 @@ MOST_PARTS = 32  # upper bound of the number of candidates of a piece
 LEAST_AREA = 0.004  # share of the area of a component below which there is no candidate
 FEWEST_PATCHES = 4  # a part of fewer patches is not cut: an embedding in the plane needs three
 TIPS = 6  # number of landmarks of an outline, every two of which are tried as samples
-DECISION = 0.68  # cost of a cut, see ``Bisection``, at which its salience is 0.5
-DEAREST = 3 * DECISION  # cost above which there is no cut; that of a ball in two halves is 2.5
+COST_AT_HALF = 0.68  # cost of a cut, see ``Bisection``, at which its salience is 0.5
+DEAREST = 3 * COST_AT_HALF  # cost above which there is no cut; that of a ball in two halves is 2.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +81,7 @@ def liu_candidates(
         cost += costs[::-1]
         first += len(splits) + 1
         progress(0.3 + 0.7 * (done + 1) / len(pieces))
-    salience = DECISION / (DECISION + np.array(cost))
+    salience = COST_AT_HALF / (COST_AT_HALF + np.array(cost))
     order = np.argsort(salience, kind="stable")
     return label[patch], Hierarchy.of(first, np.array(merges, np.int64).reshape(-1, 2)[order], salience[order])
 

@@ -17,7 +17,7 @@ from ...field.agd import ScalarField, equalize
 from ...graph.level_sets import LevelSets
 from ...surface.arrays import row_products, weighted_sum
 from ...surface.curvature import angle_defect, curvature_across
-from .thickness import LARGEST, thickness
+from .thickness import LARGEST_BALL, thickness
 
 THICKNESS_BINS = 8  # number of bins of the histogram of the logarithm of the thickness
 
@@ -100,7 +100,7 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
     level = equalize(field.normalized, mesh.vertex_area)[mesh.faces].mean(axis=1)
     unit = np.sqrt(mesh.area)
     agd = (field.agd[mesh.faces].mean(axis=1) - field.agd.min()) / unit
-    log_thickness, log_clearance = (np.log(radius / LARGEST) for radius in thickness(mesh, agd))
+    log_thickness, log_clearance = (np.log(radius / LARGEST_BALL) for radius in thickness(mesh, agd))
     log_contour = np.log(_contour_length(sets))
     share = mesh.face_area / mesh.area
     centroid = weighted_sum(share, mesh.face_centroids)

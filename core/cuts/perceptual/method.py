@@ -30,7 +30,7 @@ from .patches import concave_patches, level_set_patches
 
 # Share of people who separate two regions, 0..1, from which on their cut stays at detail 0.5: of solids, and of sheets,
 # where what was learned from says it is certain.
-DECISION, SHEET_DECISION = 0.55, 0.6
+SHARE_AT_HALF, SHEET_SHARE_AT_HALF = 0.55, 0.6
 # Largest number of faces of a mesh that is cut itself. A denser mesh is cut on a coarse copy of at most so many faces,
 # which are still much smaller than parts.
 MAX_FACES = 60_000
@@ -65,7 +65,7 @@ def perceptual_candidates(
     Returns
     -------
     candidates : Candidates
-        The patches. A cut that a share DECISION of people would make has salience 0.5.
+        The patches. A cut that a share SHARE_AT_HALF of people would make has salience 0.5.
 
     Raises
     ------
@@ -99,18 +99,18 @@ class Judges(NamedTuple):
 
 
 def _merge(
-    sets: LevelSets, field: ScalarField, label: np.ndarray, judge: Judge, decision: float
+    sets: LevelSets, field: ScalarField, label: np.ndarray, judge: Judge, share_at_half: float
 ) -> tuple[Hierarchy, np.ndarray]:
     """Hierarchy over patches, and curvature across each pair of faces, (p,), times the square root of the area.
 
-    label : (m,) int64, patch of each face. decision : share of people that has salience 0.5.
+    label : (m,) int64, patch of each face. share_at_half : see ``salience_of``.
     """
     measures = surface_measures(sets, field)
     graph = RegionAdjacencyGraph(sets.mesh, measures, label)
     merges, share = merge_all_(graph, judge)
     length, curvature = measures.pair[:, [BORDER.length, BORDER.curvature.start]].T
     curvature = np.divide(curvature, length, out=np.zeros_like(length), where=length > 0)
-    return Hierarchy.of(label.max() + 1, merges, salience_of(share, decision)), curvature
+    return Hierarchy.of(label.max() + 1, merges, salience_of(share, share_at_half)), curvature
 
 
 def _cut_at_levels(sets: LevelSets, field: ScalarField, judges: Judges) -> tuple[np.ndarray, Hierarchy]:
@@ -118,8 +118,8 @@ def _cut_at_levels(sets: LevelSets, field: ScalarField, judges: Judges) -> tuple
     label = level_set_patches(sets)
     solid = inflate(sets, field)
     if solid is None:
-        return label, _merge(sets, field, label, judges.solid, DECISION)[0]
-    return label, _merge(solid.sets, solid.field, label[solid.shape.face_source], judges.sheet, SHEET_DECISION)[0]
+        return label, _merge(sets, field, label, judges.solid, SHARE_AT_HALF)[0]
+    return label, _merge(solid.sets, solid.field, label[solid.shape.face_source], judges.sheet, SHEET_SHARE_AT_HALF)[0]
 
 
 def _cut_in_creases(
@@ -131,8 +131,8 @@ def _cut_in_creases(
     """
     solid = inflate(sets, field)
     if solid is None:
-        return _cut_solid(sets, field, band_ratio, judges.solid, DECISION, progress)
-    label, hierarchy = _cut_solid(solid.sets, solid.field, band_ratio, judges.sheet, SHEET_DECISION, progress)
+        return _cut_solid(sets, field, band_ratio, judges.solid, SHARE_AT_HALF, progress)
+    label, hierarchy = _cut_solid(solid.sets, solid.field, band_ratio, judges.sheet, SHEET_SHARE_AT_HALF, progress)
     return solid.shape.on_front(label, sets.mesh.n_faces), hierarchy
 
 
@@ -180,13 +180,13 @@ def inflate(sets: LevelSets, field: ScalarField) -> Solid | None:
 
 
 def _cut_solid(
-    sets: LevelSets, field: ScalarField, band_ratio: float, judge: Judge, decision: float,
+    sets: LevelSets, field: ScalarField, band_ratio: float, judge: Judge, share_at_half: float,
     progress: Callable[[float], None],
 ) -> tuple[np.ndarray, Hierarchy]:
     """What ``_cut_in_creases`` returns, of a component without sheets."""
     label = concave_patches(sets.mesh)
     progress(0.2)
-    hierarchy, curvature = _merge(sets, field, label, judge, decision)
+    hierarchy, curvature = _merge(sets, field, label, judge, share_at_half)
     progress(0.7)
     return move_cuts(MovableCuts(sets.mesh, curvature, band_ratio), label, hierarchy), hierarchy
 
@@ -334,12 +334,12 @@ def judge_by(model: BoostedTrees) -> Judge:
     return lambda graph, borders: model.predict(in_steps(graph.features(borders)))
 
 
-def salience_of(share: np.ndarray, decision: float = DECISION) -> np.ndarray:
-    """Turn shares of people into saliences: 0, the decision and 1 become 0, 0.5 and 1, linearly between.
+def salience_of(share: np.ndarray, share_at_half: float = SHARE_AT_HALF) -> np.ndarray:
+    """Turn shares of people into saliences: 0, ``share_at_half`` and 1 become 0, 0.5 and 1, linearly between.
 
     share : (k,) float64, 0..1. Returns (k,) float64, 0..1.
     """
-    return np.interp(share, [0.0, decision, 1.0], [0.0, 0.5, 1.0])
+    return np.interp(share, [0.0, share_at_half, 1.0], [0.0, 0.5, 1.0])
 
 
 @cache

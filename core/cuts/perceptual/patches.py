@@ -37,7 +37,9 @@ ROUNDS = 3  # number of rounds in which two thirds of the seeds are added; the f
 # the shared edge, plus TURN per radian of a convex turn, or TURN * CONCAVE per radian of a concave turn.
 TURN = 0.1
 CONCAVE = 20.0
-STEP = 2.0**-14  # of that unit, in which ways are measured: a hundredth of most, and more than turns differ by rounding
+# Ways are measured in whole steps of so much of that unit: a hundredth of most ways, and more than rounding changes
+# turns by.
+WAY_STEP = 2.0**-14
 SLABS = 24  # number of slabs whose pieces are the patches of ``level_set_patches``
 SMALLEST = 0.0004  # share of the area of the surface below which a patch joins a neighbor
 
@@ -133,7 +135,7 @@ def _crease_graph(mesh: TriMesh) -> csr_array:
     """Symmetric (m, m) matrix of the lengths of the ways between neighboring faces; TURN has the formula."""
     turn = mesh.dihedral
     length = mesh.pair_distance / np.sqrt(mesh.area) + TURN * np.where(turn < 0, -CONCAVE * turn, turn)
-    return symmetric_matrix(mesh.edges.pairs, whole_steps(length, STEP), mesh.n_faces)
+    return symmetric_matrix(mesh.edges.pairs, whole_steps(length, WAY_STEP), mesh.n_faces)
 
 
 def _first_seeds(mesh: TriMesh, count: int) -> np.ndarray:

@@ -14,7 +14,7 @@ from ...surface.balls import ball_radius
 from ...surface.mesh import TriMesh
 from ...surface.nearest import search_tree
 
-LARGEST = 0.2  # radius at which balls begin to shrink, in units of the square root of the area
+LARGEST_BALL = 0.2  # radius at which balls begin to shrink, in units of the square root of the area
 N_SURFACE = 12_000  # upper bound of the number of points that represent the surface
 N_PROBES = 2_500  # upper bound of the number of faces measured; a face gets the mean of the three nearest of them
 AMONG = 6  # upper bound of their number, as several may be equally near
@@ -34,7 +34,7 @@ def thickness(mesh: TriMesh, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     Returns
     -------
     inside, outside : (m,) float64
-        In units of the square root of the area, above 0 and at most LARGEST.
+        In units of the square root of the area, above 0 and at most LARGEST_BALL.
     """
     unit = np.sqrt(mesh.area)
     center, normal = mesh.face_centroids / unit, mesh.face_normals
@@ -61,4 +61,4 @@ def _nearest(tree: cKDTree, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
     """Radius of the ball, (k,), that touches each point, with its center in the given direction and no point within."""
-    return np.maximum(ball_radius(tree, point, direction, LARGEST), 1e-3 * LARGEST)
+    return np.maximum(ball_radius(tree, point, direction, LARGEST_BALL), 1e-3 * LARGEST_BALL)

@@ -63,7 +63,8 @@ def test_two_groups_are_judged_by_the_mean_over_the_smaller_of_each_two_places()
     label, hierarchy = with_hint(
         graph, np.array([0, 0, 1]), Hierarchy.of(2, [(0, 1)], [0.6]), np.array([0, 1, 1]))
     assert label.tolist() == [0, 1, 2]
-    score = np.array([np.log(1 / hinted.LEAST - 1), np.log(1 / 0.6 - 1)]) - hinted.OTHER  # of A and B, A and C
+    # Of A and B, A and C.
+    score = np.array([np.log(1 / hinted.LEAST_SALIENCE - 1), np.log(1 / 0.6 - 1)]) - hinted.OTHER_HINT
     joined = np.average(score, weights=np.sqrt([0.5, 1.0]))
     assert hierarchy.salience[-1] == pytest.approx(1 / (1 + np.exp(joined)), abs=1e-6)
     assert hierarchy.merges[0].tolist() == [1, 2]

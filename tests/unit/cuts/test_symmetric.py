@@ -104,7 +104,7 @@ def test_regions_give_what_faces_give_but_for_slivers(monkeypatch):
     bent = vertices + 0.003 * np.ptp(vertices) * np.sin(vertices[:, [1, 2, 0]] / np.ptp(vertices) * 9)
     found = []
     for most in (0, len(faces)):
-        monkeypatch.setattr(assemble, "MANY", most)
+        monkeypatch.setattr(assemble, "MANY_FACES", most)
         result = decompose(bent, faces)
         labels, twin = result.parts().labels, result.face_twin
         assert labels.max() > 3

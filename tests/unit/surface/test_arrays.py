@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from core.surface.arrays import (
-    MANY,
+    MANY_ELEMENTS,
     are_among,
     components,
     cross,
@@ -96,7 +96,7 @@ def named_by_the_lowest(n, a, b):
         lowest = lower
 
 
-@pytest.mark.parametrize("n", [0, 1, 300, 3 * MANY])
+@pytest.mark.parametrize("n", [0, 1, 300, 3 * MANY_ELEMENTS])
 @pytest.mark.parametrize("share", [0.0, 0.3, 0.6, 2.0])
 def test_components_are_numbered_by_their_lowest_elements(n, share):
     a, b = np.random.default_rng(n).integers(0, max(n, 1), (2, int(share * n)))
@@ -108,7 +108,7 @@ def test_components_are_numbered_by_their_lowest_elements(n, share):
 
 def test_components_of_what_cannot_be_halved():
     """A star hooks one element to another only in each round; a path comes down in one."""
-    n = 4 * MANY
+    n = 4 * MANY_ELEMENTS
     middle, rest = np.full(n - 1, n - 1), np.arange(n - 1)
     for a, b in ((middle, rest), (rest, middle), (rest, rest + 1), (rest[::-1], rest[::-1] + 1)):
         assert components(n, a, b)[0] == 1

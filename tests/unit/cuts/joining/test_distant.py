@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from core.cuts.joining.distant import FAR, FEATURES, LOWEST, MOST, NEVER, NOT_NEAR, STEPS, distant_pairs
+from core.cuts.joining.distant import FAR, FEATURES, LOWEST, MOST_COMPARED, NEVER, NOT_NEAR, STEPS, distant_pairs
 from core.cuts.joining.pairs import PartPairs, PartShapes
 
 
@@ -77,7 +77,7 @@ def test_the_order_of_parts_and_of_pairs_changes_nothing(seed):
 
 
 def test_of_many_parts_the_largest_are_compared():
-    count = MOST + 5
+    count = MOST_COMPARED + 5
     area = np.linspace(1, 2, count)[::-1]
     near = np.stack([np.arange(count - 1), np.arange(1, count)], axis=1)
     arguments = parted_by(1.0), np.zeros(count - 1), np.empty((0, 2), int), np.empty(0)
@@ -85,10 +85,10 @@ def test_of_many_parts_the_largest_are_compared():
     def compared(area):
         return np.unique(distant_pairs(parts_of(near, area, np.zeros((count, 3)), np.zeros(count)), *arguments).parts)
 
-    np.testing.assert_array_equal(compared(area), np.arange(MOST))
+    np.testing.assert_array_equal(compared(area), np.arange(MOST_COMPARED))
     # Of parts of one size that do not all fit in none is: which of them come first is chance.
-    area[MOST - 10:] = area[-1]
-    np.testing.assert_array_equal(compared(area), np.arange(MOST - 10))
+    area[MOST_COMPARED - 10:] = area[-1]
+    np.testing.assert_array_equal(compared(area), np.arange(MOST_COMPARED - 10))
     assert len(compared(np.ones(count))) == 0
 
 

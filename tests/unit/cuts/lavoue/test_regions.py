@@ -7,7 +7,7 @@ import shapes
 
 from core import Parameters, decompose
 from core.cuts.lavoue.method import curvature_features, lavoue_candidates
-from core.cuts.lavoue.regions import SLIVER, SMALL, CurvatureGraph, grow_regions, merge_regions
+from core.cuts.lavoue.regions import SLIVER_AREA, SLIVER_WEIGHT, CurvatureGraph, grow_regions, merge_regions
 from core.surface.arrays import components
 from core.surface.mesh import TriMesh
 
@@ -52,9 +52,9 @@ def test_distance_of_two_regions_by_hand():
     assert graph.distance(0, 1) == pytest.approx(1 + 1)
     graph.perimeter[:] = 3.0, 5.0
     assert graph.distance(0, 1) == pytest.approx(2 * 3)
-    graph.area[0] *= 0.9 * SMALL
-    graph.sums[0] *= 0.9 * SMALL
-    assert graph.distance(0, 1) == pytest.approx(2 * 3 * SLIVER)
+    graph.area[0] *= 0.9 * SLIVER_AREA
+    graph.sums[0] *= 0.9 * SLIVER_AREA
+    assert graph.distance(0, 1) == pytest.approx(2 * 3 * SLIVER_WEIGHT)
 
 
 def test_the_nearest_pair_merges_first():

@@ -9,8 +9,8 @@ import pytest
 import shapes
 
 from core.cuts.liu.bisection import CHEAPEST, SOFT, best_cut, distances, rows
-from core.cuts.liu.embedding import FEW, SHARP, geometric, structural
-from core.cuts.liu.method import DEAREST, DECISION, LEAST_AREA, bisect, liu_candidates
+from core.cuts.liu.embedding import FEW_PATCHES, SHARP, geometric, structural
+from core.cuts.liu.method import COST_AT_HALF, DEAREST, LEAST_AREA, bisect, liu_candidates
 from core.cuts.liu.patch_graph import PatchGraph
 from core.surface.arrays import components
 from core.surface.mesh import TriMesh
@@ -35,7 +35,7 @@ def grid(nx, ny):
                       10 * rng.random(len(pairs)))
 
 
-@pytest.mark.parametrize("n", [5, FEW + 50])
+@pytest.mark.parametrize("n", [5, FEW_PATCHES + 50])
 def test_a_chain_is_embedded_as_two_cosines(n):
     # The eigenvectors of the Laplacian of a path: cos(pi j (i + 1/2) / n).
     at = np.pi * (np.arange(n) + 0.5) / n
@@ -133,13 +133,13 @@ def test_dumbbell_and_ball():
     ball = liu_candidates(TriMesh(*shapes.icosphere(3)), 0.5)[1]
     assert ball.n_parts(0.5) == 1
     # The cheapest cut of a ball costs sqrt(2 pi), less what its outline takes off.
-    assert ball.salience.max(initial=0) < 1.2 * DECISION / (DECISION + np.sqrt(2 * np.pi))
+    assert ball.salience.max(initial=0) < 1.2 * COST_AT_HALF / (COST_AT_HALF + np.sqrt(2 * np.pi))
 
 
 def test_saliences_never_fall_towards_what_was_cut_first():
     _, hierarchy = liu_candidates(TriMesh(*shapes.tube_tree()), 0.5)
     assert len(hierarchy.salience) > 4
-    assert (hierarchy.salience >= DECISION / (DECISION + DEAREST)).all()
+    assert (hierarchy.salience >= COST_AT_HALF / (COST_AT_HALF + DEAREST)).all()
 
 
 def test_each_piece_is_cut_on_its_own():

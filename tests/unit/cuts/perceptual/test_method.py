@@ -7,7 +7,7 @@ import shapes
 
 from core import Parameters, TriMesh, decompose
 from core.cuts.minimum_cut import WIDEST
-from core.cuts.perceptual.method import DECISION, MAX_FACES, perceptual_candidates, salience_of
+from core.cuts.perceptual.method import MAX_FACES, SHARE_AT_HALF, perceptual_candidates, salience_of
 from core.cuts.perceptual.patches import concave_patches
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
@@ -91,5 +91,5 @@ def test_with_a_band_faces_beside_the_cuts_move_and_nothing_else(tree):
 
 
 def test_salience_stretches_the_decision_to_one_half():
-    assert salience_of(np.array([0.0, DECISION, 1.0])).tolist() == [0.0, 0.5, 1.0]
+    assert salience_of(np.array([0.0, SHARE_AT_HALF, 1.0])).tolist() == [0.0, 0.5, 1.0]
     assert (np.diff(salience_of(np.linspace(0, 1, 50))) > 0).all()
