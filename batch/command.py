@@ -28,8 +28,8 @@ from typing import Any, TextIO
 import bpy
 
 from ..core.errors import ReebError
+from ..core.options import chosen_parameters
 from ..core.parameters import Parameters
-from ..core.uses.options import chosen_parameters
 from ..core.whole_files import readable
 from ..scene import (
     armature,

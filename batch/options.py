@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ..core.uses.options import add_parameters, dashed, number
+from ..core.options import add_parameters, dashed, number
 from ..scene.settings import HintProperties, JointProperties, OutputProperties, OverlayProperties, SeparateProperties
 
 #: Lengths of units in meters, with what Blender calls them.

@@ -11,11 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..parameters import Parameters
 from ..surface.arrays import components, renumbered, sums_by
 from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, connect, straighten
 
-STRAIGHTEN = 10  # rounds of ``straighten``; the default of Parameters.smoothing
+STRAIGHTEN = Parameters.smoothing  # rounds of ``straighten``, as many as cuts get by default
 
 
 @dataclass(frozen=True, eq=False)

@@ -152,9 +152,7 @@ def growth(decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray) 
     candidate : int or None
         None if no allowed candidate touches the part.
     """
-    inner, outer = _border(decomposition, mask)
-    usable = allowed[outer]
-    inner, outer = inner[usable], outer[usable]
+    inner, outer = _border(decomposition, mask, allowed)
     if not len(outer):
         return None
     return int(outer[_weakest(decomposition, inner, outer)])
@@ -182,9 +180,7 @@ def shrinkage(
         The candidate that is given, and the candidate whose part receives it. None instead of both if the part can
         give no candidate.
     """
-    inner, outer = _border(decomposition, mask)
-    usable = allowed[outer]
-    inner, outer = inner[usable], outer[usable]
+    inner, outer = _border(decomposition, mask, allowed)
     time = decomposition.hierarchy.merge_of(inner, outer)
     for index in np.argsort(time, kind="stable").tolist():
         rest = mask.copy()
@@ -390,13 +386,17 @@ def _inside(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
     return pairs[mask[pairs].all(axis=1)]
 
 
-def _border(decomposition: Decomposition, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of touching candidates across the boundary of a mask: the inner ones, (k,), and the outer ones, (k,)."""
+def _border(
+    decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of touching candidates across the boundary of a mask: the inner ones, (k,), and the outer ones, (k,).
+
+    allowed : (c,) bool, which the outer one may be.
+    """
     pairs = decomposition.candidate_pairs
     across = pairs[mask[pairs].sum(axis=1) == 1]
-    first_inside = mask[across[:, 0]]
-    return (np.where(first_inside, across[:, 0], across[:, 1]),
-            np.where(first_inside, across[:, 1], across[:, 0]))
+    inner, outer = np.where(mask[across[:, :1]], across, across[:, ::-1]).T
+    return inner[allowed[outer]], outer[allowed[outer]]
 
 
 def _weakest(decomposition: Decomposition, a: np.ndarray, b: np.ndarray) -> int:

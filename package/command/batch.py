@@ -26,8 +26,8 @@ from typing import Any
 from ..batch.records import CRASH, DONE, OPEN, RECORD, Settings, failure, is_done, records
 from ..batch.sources import Source, find_sources, read_list
 from ..core.errors import ReebError
+from ..core.options import add_parameters, chosen_parameters, number
 from ..core.sentence import Sentence
-from ..core.uses.options import add_parameters, chosen_parameters, number
 from ..core.whole_files import readable
 from ..model_files import BY_BLENDER, formats
 from ..outputs import COLORED, LABELS, PARTS

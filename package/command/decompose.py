@@ -16,8 +16,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from ..core.memory import keep_freed_memory
+from ..core.options import add_parameters, chosen_parameters, number
 from ..core.sentence import Sentence
-from ..core.uses.options import add_parameters, chosen_parameters, number
 from ..core.whole_files import readable
 from ..meshes import decompose
 from ..model_files import read_model

@@ -14,8 +14,8 @@ import json
 from importlib.util import find_spec
 from pathlib import Path
 
+from ..core.options import number as number_option
 from ..core.sentence import Sentence
-from ..core.uses.options import number as number_option
 from ..whole_files import OutputFileError, write_files
 from .batch import MissingPackageError
 from .decompose import file_of

@@ -172,12 +172,8 @@ def fuse_weakest(
 
     Parameters
     ----------
-    sets : LevelSets
-        Level sets of one connected component, P pieces.
-    count : int
-        Number of regions.
-    region : (P,) int64
-        Region of each piece, 0..count-1.
+    sets, count, region
+        As ``fuse_small`` has them.
     small_region : float
         Area of a region over that of the largest region at which a merge has salience 0.5.
 

@@ -34,6 +34,16 @@ class Planes:
     above: np.ndarray
     below: np.ndarray
 
+    @property
+    def is_near(self) -> np.ndarray:
+        """(v,) bool, whether a vertex is near a curve with a plane."""
+        return self.number >= 0
+
+    @property
+    def label(self) -> np.ndarray:
+        """(v,) int64, the label on the side of the plane where each vertex lies."""
+        return np.where(self.height > 0, self.above, self.below)
+
 
 def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: bool = False) -> Planes:
     """Find the curves that a plane fits, and the vertices for which it decides.
@@ -66,8 +76,11 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: 
     rings = np.where(fits, np.ceil(away / np.maximum(length, 1e-300)).clip(max=steps) + 2, 0).astype(np.int64)
     number, ring = _owners(band, crossed, curve, rings)
     height = ((band.points - center[number]) * normal[number]).sum(axis=1)
-    planes = Planes(number, height, low[number, 0], low[number, 1])
-    return _valid(band, top, crossed, curve, planes, ring, rings, fits, bent)
+    planes = _with_sides(Planes(number, height, low[number, 0], low[number, 1]), top, count)
+    beside_others = _in_conflict(band, planes, top, count) if bent else _near_each_other(band, planes, count)
+    wrong = (~fits | beside_others | _contradicted(planes, top, ring == rings[number], count)
+             | _crossing(band, crossed, curve, planes, count))
+    return replace(planes, number=np.where(planes.is_near & ~wrong[number], number, -1))
 
 
 def _curves(band: Band, crossed: np.ndarray) -> np.ndarray:
@@ -99,31 +112,60 @@ def _owners(band: Band, crossed: np.ndarray, curve: np.ndarray, rings: np.ndarra
     return number, ring
 
 
-def _valid(band: Band, top: np.ndarray, crossed: np.ndarray, curve: np.ndarray, planes: Planes, ring: np.ndarray,
-           rings: np.ndarray, fits: np.ndarray, bent: bool) -> Planes:
-    """The planes without those that go wrong: near another curve, or where labels beyond are not as the plane says."""
-    number, height = planes.number, planes.height
-    owned = number >= 0
-    bad = ~fits
-    # The side of each plane that is above is the one where most vertices of the smaller label are.
-    lean = np.where(top == planes.above, 1.0, -1.0) * np.sign(height)
-    sign = np.where(sums_by(number[owned], lean[owned], len(fits)) < 0, -1.0, 1.0)
-    height = np.where(owned, height * sign[number], 0.0)
-    strange = owned & (top != planes.above) & (top != planes.below)
-    said = np.where(height > 0, planes.above, planes.below)
-    strange |= owned & (ring == rings[number]) & (top != said)
-    bad[number[strange]] = True
+def _with_sides(planes: Planes, top: np.ndarray, count: int) -> Planes:
+    """The planes with heights above 0 on that side where most vertices of the smaller label are.
+
+    top : (v,), label of each vertex. count : of curves.
+    """
+    near, number = planes.is_near, planes.number
+    lean = np.where(top == planes.above, 1.0, -1.0) * np.sign(planes.height)
+    sign = np.where(sums_by(number[near], lean[near], count) < 0, -1.0, 1.0)
+    return replace(planes, height=np.where(near, planes.height * sign[number], 0.0))
+
+
+def _contradicted(planes: Planes, top: np.ndarray, at_rim: np.ndarray, count: int) -> np.ndarray:
+    """Curves, (count,) bool, near whose planes labels are none of the two, or at the rim not as the plane says.
+
+    top, at_rim : (v,), label of each vertex, and whether a vertex is as far from the curve as its plane reaches.
+    """
+    strange = ((top != planes.above) & (top != planes.below)) | (at_rim & (top != planes.label))
+    wrong = np.zeros(count, bool)
+    wrong[planes.number[planes.is_near & strange]] = True
+    return wrong
+
+
+def _near_each_other(band: Band, planes: Planes, count: int) -> np.ndarray:
+    """Curves, (count,) bool, whose planes decide for vertices beside those of other planes."""
+    a, b = band.ends[_between_planes(band, planes)].T
+    near = np.zeros(count, bool)
+    near[planes.number[a]] = near[planes.number[b]] = True
+    return near
+
+
+def _in_conflict(band: Band, planes: Planes, top: np.ndarray, count: int) -> np.ndarray:
+    """Curves, (count,) bool, whose planes say near those of others what the labels, (v,), are not without them."""
+    a, b = band.ends[_between_planes(band, planes)].T
+    wrong = planes.is_near & (top != planes.label)
+    conflict = np.zeros(count, bool)
+    for end, other_end in ((a, b), (b, a)):
+        conflict[planes.number[end[wrong[end] | (top[end] != top[other_end])]]] = True
+    return conflict
+
+
+def _between_planes(band: Band, planes: Planes) -> np.ndarray:
+    """Edges, (e,) bool, from a vertex near one plane to a vertex near another."""
     a, b = band.ends.T
-    meet = owned[a] & owned[b] & (number[a] != number[b])
-    if bent:
-        # Where two curves are near each other, each plane has to say there what the parts are without it.
-        wrong = owned & (top != said)
-        for end, other_end in ((a, b), (b, a)):
-            bad[number[end[meet & (wrong[end] | (top[end] != top[other_end]))]]] = True
-    else:
-        bad[number[a[meet]]] = bad[number[b[meet]]] = True
-    other = number[band.ends[crossed]] != curve[:, None]
-    bad[number[band.ends[crossed]][other]] = True
-    bad[curve[other.any(axis=1)]] = True
-    number = np.where(owned & ~bad[number], number, -1)
-    return replace(planes, number=number, height=height)
+    return planes.is_near[a] & planes.is_near[b] & (planes.number[a] != planes.number[b])
+
+
+def _crossing(band: Band, crossed: np.ndarray, curve: np.ndarray, planes: Planes, count: int) -> np.ndarray:
+    """Curves, (count,) bool, at an edge with an end near the plane of another: both.
+
+    crossed, curve : (c,), edges that curves cross, and which curve does.
+    """
+    number = planes.number[band.ends[crossed]]
+    other = number != curve[:, None]
+    both = np.zeros(count, bool)
+    both[number[other]] = True
+    both[curve[other.any(axis=1)]] = True
+    return both

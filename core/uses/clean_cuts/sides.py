@@ -52,7 +52,7 @@ def sides_of(band: Band, diffusion: Diffusion, pins: Pins, steps: int, reach: in
     share[apart] = shares.crossing(band.ends[apart])
     yield 0.8
     planes = planes_of(band, top, share, reach or steps, reach > 0)
-    top = np.where(planes.number >= 0, np.where(planes.height > 0, planes.above, planes.below), top)
+    top = np.where(planes.is_near, planes.label, top)
     flat = (planes.number[a] >= 0) & (planes.number[a] == planes.number[b])
     gap = planes.height[a] - planes.height[b]
     along = np.divide(planes.height[a], gap, out=np.full(len(a), 0.5), where=gap != 0)

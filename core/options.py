@@ -8,8 +8,8 @@ import math
 from collections.abc import Callable
 from dataclasses import fields, replace
 
-from ..parameters import PRESETS, RENAMED, Parameters, present_names
-from ..sentence import Sentence
+from .parameters import PRESETS, RENAMED, Parameters, present_names
+from .sentence import Sentence
 
 
 def add_parameters(group: argparse._ArgumentGroup) -> None:

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from core.uses.options import number
+from core.options import number
 
 
 @pytest.mark.parametrize(("read", "text", "value"), [
