@@ -3,5 +3,6 @@
 
 ``methods`` chooses the method: ``berretti`` follows the paper [Berretti2009], ``perceptual`` cuts where people cut,
 ``lavoue`` where curvature changes [Lavoue2005], ``liu`` in two again and again [Liu2007]. All give
-``hierarchy.Candidates``; ``minimum_cut`` moves cuts into creases for the first two.
+``hierarchy.Candidates``; ``minimum_cut`` moves cuts into creases for the first two. What follows takes and gives
+``face_candidates.FaceCandidates``, once the candidates are on the caller's faces.
 """

@@ -84,6 +84,21 @@ def test_generated_sets_are_the_subgroups():
     assert len(np.unique(subgroups, axis=0)) == 6
 
 
+def test_cosets_of_a_subgroup_divide_the_group():
+    vertices, faces, maps = rays(3)
+    images = [moved_faces(vertices, faces, linear) for linear in maps]
+    group = SymmetryGroup.generated(np.array([images[2], images[6]]), 64)
+    order = len(group.elements)
+    subgroups = np.unique(group.generated_subgroups(
+        (np.arange(1 << order)[:, None] >> np.arange(order) & 1) == 1), axis=0)
+    for subgroup, coset in zip(subgroups, group.cosets(subgroups), strict=True):
+        assert (np.bincount(coset)[coset] == subgroup.sum()).all()
+        for element in range(order):
+            same = group.composition[np.flatnonzero(subgroup), element]  # the element, and then one of the subgroup
+            assert coset[element] == same.min()
+            assert (coset[same] == coset[element]).all()
+
+
 @pytest.mark.parametrize("count", [3, 5, 7, 12])
 def test_rays_of_a_star_are_cut_alike(count):
     vertices, faces, maps = rays(count)
