@@ -396,6 +396,26 @@ def two_spheres(subdivisions: int = 2) -> Shape:
     return together(icosphere(subdivisions), moved(icosphere(subdivisions, 0.5), (3, 0, 0)))
 
 
+def cassini(n: int, waist: float, axis: int = 0) -> Shape:
+    """Two lobes, an oval of Cassini turned around an axis, on an even spiral of points; a waist of 1 has no width.
+
+    No plane mirrors its triangles, but several mirror its shape.
+    """
+    from scipy.spatial import ConvexHull
+
+    height = 1 - (2 * np.arange(n) + 1) / n
+    turn = np.pi * (1 + 5**0.5) * np.arange(n)
+    beside = np.sqrt(1 - height**2)
+    directions = np.stack([beside * np.cos(turn), beside * np.sin(turn), height], axis=1)
+    faces = ConvexHull(directions).simplices.astype(np.int64)
+    inward = np.einsum("ij,ij->i", np.cross(*(directions[faces[:, k]] - directions[faces[:, 0]] for k in (1, 2))),
+                       directions[faces].mean(axis=1)) < 0
+    faces[inward] = faces[inward, ::-1]
+    cosine = 2 * directions[:, axis] ** 2 - 1
+    radius = np.sqrt(cosine + np.sqrt(waist**4 - (1 - cosine**2)))
+    return Shape(directions * radius[:, None], faces)
+
+
 def inside_out(shape: Shape) -> Shape:
     """Every face turned the other way."""
     return Shape(shape.vertices, shape.faces[:, ::-1])

@@ -17,7 +17,7 @@ from itertools import product
 
 import numpy as np
 
-from ..surface.labels import FaceGraph
+from ..surface.labels import FaceGraph, majority
 from .face_candidates import FaceCandidates
 from .symmetric_cells import make_cells
 from .symmetric_linkage import symmetric_linkage
@@ -26,6 +26,10 @@ from .symmetry_group import SymmetryGroup
 # At these details the parts of both sides are compared with those found. Where more pairs of points than WORST come
 # together or apart, the faces are too large to be mirrored, or what was found speaks against the plane.
 DETAILS, WORST = (0.3, 0.4, 0.5, 0.6, 0.7), 0.05
+# A part below CRUMB of the area of the part found in which it lies comes of the mirroring alone: where the cut between
+# two twins runs along the plane, small candidates lie across it, and what is its own image can only join both twins at
+# once. Crumbs are dissolved so often at most.
+CRUMB, MOST_ROUNDS = 0.2, 3
 MOST_WEDGES = 8  # upper bound of the number of wedges of which each is tried as the one that leads
 MOST_CANDIDATES = 2_000  # every pair of them is compared; of more, such as the blades of a lawn, all stay as they are
 
@@ -60,6 +64,7 @@ def symmetric_candidates(
     -----
     Of both sides, or all quarters, that one leads whose parts, mirrored, are most like those found on the whole. If
     none is much like them, the last of several planes is left out; without any, everything stays as it was found.
+    What comes out as a part at detail 0.5 though it is a small share of one found is no part.
     """
     if candidates.hierarchy.n_candidates > MOST_CANDIDATES:
         return candidates
@@ -106,17 +111,43 @@ def _best(
     """
     salience = candidates.hierarchy.salience_table(np.arange(int(candidates.label.max()) + 1))
     found = [candidates.parts(detail) for detail in DETAILS]
-    graph, touching = candidates.graph, candidates.with_contacts()
-    concerned = _mirrored_area(graph, group.image)
-    whole, best, least = float(concerned.sum()), None, worst
+    concerned = _mirrored_area(candidates.graph, group.image)
+    best, least = None, worst
     for wedge in wedges:
-        cells = make_cells(graph, candidates.label, group, wedge, whole)
-        made = replace(candidates, label=cells.label, hierarchy=symmetric_linkage(cells, touching, salience))
+        made = _led_by(candidates, group, wedge, float(concerned.sum()), salience)
         error = float(np.mean([_disagreement(made.parts(detail), parts, concerned)
                                for detail, parts in zip(DETAILS, found, strict=True)]))
         if error < least - 1e-9:
             best, least = made, error
     return best
+
+
+def _led_by(
+    candidates: FaceCandidates, group: SymmetryGroup, wedge: np.ndarray, whole: float, salience: np.ndarray
+) -> FaceCandidates:
+    """The candidates that a wedge makes of those found if it leads, without crumbs.
+
+    wedge : (p,) bool, which faces lie in it. whole : area of the pieces that are mirrored. salience : (c, c), of what
+    parts two candidates.
+    """
+    graph, touching, found = candidates.graph, candidates.with_contacts(), candidates.parts(0.5)
+    dissolved = np.zeros(graph.n_faces, bool)
+    for _ in range(MOST_ROUNDS):
+        cells = make_cells(graph, candidates.label, group, wedge, whole, dissolved)
+        made = replace(candidates, label=cells.label, hierarchy=symmetric_linkage(cells, touching, salience))
+        more = _are_crumbs(graph, made.parts(0.5), found) & wedge & ~dissolved
+        if not more.any():
+            break
+        dissolved |= more
+    return made
+
+
+def _are_crumbs(graph: FaceGraph, part: np.ndarray, found: np.ndarray) -> np.ndarray:
+    """Faces of parts that are small beside the part found in which most of them lies, (p,) bool; part, found : (p,)."""
+    weight = graph.area + 1e-12 * graph.area.sum()
+    area = np.bincount(part, weight)
+    whole = np.bincount(found, weight)[majority(part, found, weight, len(area))]
+    return (area < CRUMB * whole)[part]
 
 
 def _mirrored_area(graph: FaceGraph, image: np.ndarray) -> np.ndarray:

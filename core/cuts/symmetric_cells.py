@@ -53,7 +53,9 @@ class Cells:
     group: SymmetryGroup
 
 
-def make_cells(graph: FaceGraph, label: np.ndarray, group: SymmetryGroup, side: np.ndarray, whole: float) -> Cells:
+def make_cells(
+    graph: FaceGraph, label: np.ndarray, group: SymmetryGroup, side: np.ndarray, whole: float, dissolved: np.ndarray
+) -> Cells:
     """Divide all faces into cells.
 
     Parameters
@@ -67,6 +69,8 @@ def make_cells(graph: FaceGraph, label: np.ndarray, group: SymmetryGroup, side: 
         Which faces lie on the leading side.
     whole : float
         Area of the pieces that the planes mirror.
+    dissolved : (p,) bool
+        Faces that make no cells of their own on the leading side: what mostly consists of them joins a neighbor.
 
     Returns
     -------
@@ -75,7 +79,7 @@ def make_cells(graph: FaceGraph, label: np.ndarray, group: SymmetryGroup, side: 
     """
     least = LEAST_ALONE * whole
     images = _leading_images(graph, group, side, least)
-    leading = _leading_cells(graph, label, images, whole)
+    leading = _leading_cells(graph, label, images, whole, dissolved)
     name = _label_by_leader(graph, images, leading)
     name = _without_unmirrored(graph, name, leading, least)
     return _cell_tables(graph, label, images, leading, name)
@@ -173,10 +177,12 @@ def _in_large_regions(graph: FaceGraph, chosen: np.ndarray, least: float) -> np.
     return chosen & (np.bincount(region, graph.area, count) >= least)[region]
 
 
-def _leading_cells(graph: FaceGraph, label: np.ndarray, images: _LeadingImages, whole: float) -> _LeadingCells:
-    """The candidates on the leading side, in connected cells; small ones join a neighbor.
+def _leading_cells(
+    graph: FaceGraph, label: np.ndarray, images: _LeadingImages, whole: float, dissolved: np.ndarray
+) -> _LeadingCells:
+    """The candidates on the leading side, in connected cells; small and dissolved ones join a neighbor.
 
-    label : (p,), candidate of each face. whole : area of the pieces that the planes mirror.
+    label : (p,), candidate of each face. whole : area of the pieces that the planes mirror. dissolved : (p,) bool.
     """
     leads, leader, group = images.leads, images.leader, images.group
     leaders = _graph_of_leaders(graph, images)
@@ -200,7 +206,9 @@ def _leading_cells(graph: FaceGraph, label: np.ndarray, images: _LeadingImages, 
     across = stabilizer[:, 1:].any(axis=1)
     small = (((share < LEAST_LEADING) & (share < largest[candidate])) | overhangs
              | (across & (share < LEAST_ACROSS)))
-    left, cell[leads] = renumbered(_joined(leaders, cell, candidate, share, small)[in_cell])
+    gone = np.bincount(in_cell, weight * dissolved[leads], count) > 0.5 * np.bincount(in_cell, weight, count)
+    goal = _joined(leaders, cell, candidate, share, small, gone)
+    left, cell[leads] = renumbered(goal[in_cell])
     return _LeadingCells(group, cell, stabilizer[left], candidate_there[left] >= 0)
 
 
@@ -222,19 +230,37 @@ def _connected_cells(leaders: FaceGraph, label: np.ndarray, leads: np.ndarray) -
 
 
 def _joined(
-    graph: FaceGraph, cell: np.ndarray, candidate: np.ndarray, area: np.ndarray, small: np.ndarray
+    graph: FaceGraph, cell: np.ndarray, candidate: np.ndarray, area: np.ndarray, small: np.ndarray, gone: np.ndarray
 ) -> np.ndarray:
     """Cell that each cell becomes, (c,) int64: small ones join a larger neighbor, if they can one of their candidate.
 
-    cell : (p,), of each face, -1 for none. candidate, area, small : (c,).
+    Those that are gone join one that is not, whatever its size, those beside such a one first.
+
+    cell : (p,), of each face, -1 for none. candidate, area, small, gone : (c,).
     """
     touching, length = graph.boundaries(cell)
     length = length * np.where(candidate[touching[:, 0]] == candidate[touching[:, 1]], 1.0, 1e-6)
     goal = longest_neighbor(touching, length, len(area))
-    goal = np.where(small & (goal >= 0) & (area[goal] > area), goal, np.arange(len(area)))
+    goal = np.where(small & ~gone & (goal >= 0) & (area[goal] > area), goal, np.arange(len(area)))
     while (goal[goal] != goal).any():
         goal = goal[goal]
-    return goal
+    return goal[_beside(touching, length, gone)]
+
+
+def _beside(touching: np.ndarray, length: np.ndarray, gone: np.ndarray) -> np.ndarray:
+    """The cell around each cell that is gone, (c,) int64: itself for one that is not, and where all are gone.
+
+    touching, length : cells that share a boundary, and how long it is.
+    """
+    around, inside = np.arange(len(gone)), gone.copy()
+    while True:
+        rim = inside[touching[:, 0]] != inside[touching[:, 1]]
+        goal = longest_neighbor(touching[rim], length[rim], len(gone))
+        now = inside & (goal >= 0)
+        if not now.any():
+            return around
+        around[now] = around[goal[now]]
+        inside &= ~now
 
 
 def _label_by_leader(graph: FaceGraph, images: _LeadingImages, leading: _LeadingCells) -> np.ndarray:

@@ -181,6 +181,15 @@ def test_what_one_side_lacks_is_no_sliver():
     assert np.bincount(both.labels).min() > 50
 
 
+@pytest.mark.parametrize(("n", "waist", "axis"), [
+    (150, 1.1, 0), (200, 1.05, 2), (250, 1.05, 0), (300, 1.02, 0), (400, 1.1, 0), (500, 1.05, 2), (800, 1.1, 0)])
+def test_a_cut_along_the_plane_leaves_nothing_between_two_twins(n, waist, axis):
+    # Small candidates on the plane, or all that lies between a cut and its image, can join neither lobe alone; they
+    # were 1 to 5 parts more.
+    parts = decompose(*shapes.cassini(n, waist, axis)).parts()
+    assert parts.share == pytest.approx([0.5, 0.5], abs=0.05)
+
+
 def test_limbs_of_the_figure_are_pairs():
     shape = shapes.mirrored_figure()
     found = decompose(*shape).parts()
