@@ -2,7 +2,8 @@
 """What a benchmark imports is there: core/ from this checkout, and the packages that it names.
 
 ``need`` is called before anything else is imported. In a Python that lacks a package the benchmark starts again, in an
-environment in .venv/ that is made when it is missing, as those of ./demo and ./test are.
+environment in .venv/ that is made when it is missing, as those of ./demo and ./test are; if all that is asked for is
+help, it is the benchmark's docstring.
 """
 
 from __future__ import annotations
@@ -20,6 +21,9 @@ def need(*modules: str) -> None:
     """Return if all modules can be imported; else run the same command in the environment that has them."""
     if all(importlib.util.find_spec(module) for module in modules):
         return
+    if {"-h", "--help"} & set(sys.argv[1:]):  # not worth 400 MB
+        print(sys.modules["__main__"].__doc__)
+        sys.exit()
     sys.path.insert(0, str(ROOT / "tools"))
     import environments
 

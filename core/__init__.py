@@ -23,6 +23,23 @@ uses                                          colors, JSON report, pictures, bon
 """
 
 from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # "as", so that a name counts as one of the package for those who check types strictly
+    from .cuts.hierarchy import Hierarchy as Hierarchy
+    from .errors import Cancelled as Cancelled
+    from .errors import EmptyMeshError as EmptyMeshError
+    from .errors import MeshError as MeshError
+    from .errors import ParameterError as ParameterError
+    from .errors import ReebError as ReebError
+    from .graph.reeb import ReebGraph as ReebGraph
+    from .parameters import PRESETS as PRESETS
+    from .parameters import Parameters as Parameters
+    from .pipeline import decompose as decompose
+    from .result.decomposition import VERSION as VERSION
+    from .result.decomposition import Decomposition as Decomposition
+    from .result.decomposition import Parts as Parts
+    from .surface.mesh import TriMesh as TriMesh
 
 # The module of each name, which is imported when the name is first used: Blender reads the parameters when it starts,
 # long before SciPy is needed.

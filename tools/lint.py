@@ -50,8 +50,11 @@ def mypy(python: str) -> int:
         for path in (*(ROOT / "package").iterdir(), ROOT / "core"):
             (inside / path.name).symlink_to(path)
         extension = [word for name in PACKAGES for word in ("-p", f"reeb_parts.{name}")]
+        # Whoever imports the package checks it with options of their own, at worst the strict ones.
+        client = ["--strict", "--follow-imports=silent", str(ROOT / "tests" / "package" / "typed_client.py")]
         return (_mypy(python, folder, "mypy", extension)
-                or _mypy(python, installed, "mypy-package", ["-p", "reeb_parts"]))
+                or _mypy(python, installed, "mypy-package", ["-p", "reeb_parts"])
+                or _mypy(python, installed, "mypy-client", client))
 
 
 def _mypy(python: str, folder: str, cache: str, packages: list[str]) -> int:

@@ -32,7 +32,8 @@ class ReebGraph:
         Value of the field at each node, 0..1: of the field whose level sets were taken, and in a ``Decomposition`` of
         the normalized field.
     node_position : (k, 3) float64
-        Position of each node, in units of the vertices: on the surface for a minimum or maximum, inside for a saddle.
+        Position of each node, in units of the vertices: on the surface for a minimum or maximum, for a saddle
+        the centroid of the contours that meet there.
     arcs : (q, 2) int64
         Lower and upper node of each arc. Two nodes may share several arcs, which form loops.
     arc_points : (q + 1,) int64
