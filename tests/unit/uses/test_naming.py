@@ -11,7 +11,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from core import decompose
-from core.uses.naming import Shapes, Suggestion, suggestions
+from core.uses.naming import Shapes, Suggestion, Touching, suggestions
 
 SPOT = Path(__file__).parents[3] / "models" / "spot.obj"
 
@@ -144,18 +144,43 @@ def test_an_insect_has_six_legs_and_what_is_larger_or_higher_is_not_called_its_h
     assert Counter((name.place, name.side) for name in names if name.word == "leg") == {("", 1): 3, ("", -1): 3}
 
 
-def test_legs_are_legs_down_to_the_shoes_however_far_the_arms_are_stretched():
-    """A man of boxes: trunk, head, and on both sides arm, leg and shoe, which hang on each other."""
-    boxes = [((0, 0, 1.3), (0.6, 0.3, 0.8)), ((0, 0, 1.9), (0.3, 0.3, 0.4)),
-             *[((side * x, y, z), size) for x, y, z, size in (
-                 (1.2, 0, 1.5, (1.8, 0.15, 0.15)), (0.14, 0, 0.6, (0.2, 0.2, 0.6)), (0.14, -0.1, 0.15, (0.2, 0.4, 0.3)))
-               for side in (1, -1)]]
+def of_boxes(boxes):
+    """Suggestions for a creature of boxes, each a part. boxes : middle and size of each."""
     pieces = [shapes.subdivide(shapes.subdivide(shapes.moved(
         shapes.box(size), np.subtract(middle, np.divide(size, 2))))) for middle, size in boxes]
-    man = shapes.together(*pieces)
-    result = decompose(*man, hints=np.repeat(np.arange(8), [len(piece.faces) for piece in pieces]))
-    names = named(*man, result, n_parts=8)
+    model = shapes.together(*pieces)
+    hints = np.repeat(np.arange(len(boxes)), [len(piece.faces) for piece in pieces])
+    return named(*model, decompose(*model, hints=hints), n_parts=len(boxes))
+
+
+def test_legs_are_legs_down_to_the_shoes_however_far_the_arms_are_stretched():
+    """A man of boxes: trunk, head, and on both sides arm, leg and shoe, which hang on each other."""
+    names = of_boxes([((0, 0, 1.3), (0.6, 0.3, 0.8)), ((0, 0, 1.9), (0.3, 0.3, 0.4)),
+                      *[((side * x, y, z), size) for x, y, z, size in (
+                          (1.2, 0, 1.5, (1.8, 0.15, 0.15)), (0.14, 0, 0.6, (0.2, 0.2, 0.6)),
+                          (0.14, -0.1, 0.15, (0.2, 0.4, 0.3))) for side in (1, -1)]])
     assert words(names) == {"body": 1, "head": 1, "arm": 2, "leg": 4}
+
+
+# A bull that looks along -y: chest with the front legs, rump with the hind legs and the tail, head.
+BULL = [((0, 0, 1.5), (0.9, 1.4, 1.0)), ((0, 1.3, 1.55), (0.8, 1.2, 0.8)), ((0, -1.0, 1.9), (0.5, 0.6, 0.6)),
+        ((0, 2.0, 1.4), (0.1, 0.2, 1.0)),
+        *[((side * 0.3, y, 0.55), (0.25, 0.25, 0.9 + 0.3 * (y > 1))) for y in (-0.55, 1.6) for side in (1, -1)]]
+
+
+def test_a_rump_is_no_head():
+    """It is larger than the head, but hind legs stand under it."""
+    names = of_boxes(BULL)
+    assert [name.word for name in names] == ["body", "piece", "head", "tail", "leg", "leg", "leg", "leg"]
+    assert [name.place for name in names] == ["", "back", "", "", "front", "front", "back", "back"]
+
+
+def test_a_muzzle_is_no_head():
+    """Both ears are on the skull; nothing hangs on the muzzle, which is an eighth as large and lower."""
+    ears = [((side * 0.2, -1.0, 2.3), (0.08, 0.08, 0.2)) for side in (1, -1)]
+    names = of_boxes([*BULL, ((0, -1.4, 1.9), (0.2, 0.2, 0.2)), *ears])
+    assert [name.word for name in names[2:4]] == ["head", "tail"]
+    assert [(name.word, name.side) for name in names[8:]] == [("tip", 0), ("ear", 1), ("ear", -1)]
 
 
 @pytest.mark.parametrize("seed", range(200))
@@ -166,7 +191,7 @@ def test_the_body_is_what_leaves_the_smallest_remainders(seed):
     cuts = np.array([pair for pair in rng.integers(0, count, (int(rng.integers(0, 2 * count)), 2)).tolist()
                      if pair[0] != pair[1]], np.int64).reshape(-1, 2)
     share = np.ones(count) if seed % 3 == 0 else rng.random(count)
-    parts, axes = SimpleNamespace(count=count, share=share, cuts=cuts), np.zeros((count, 3))
+    parts = SimpleNamespace(count=count, share=share, cuts=cuts)
     remainders = []
     for part in range(count):
         left = cuts[(cuts != part).all(axis=1)]
@@ -175,5 +200,5 @@ def test_the_body_is_what_leaves_the_smallest_remainders(seed):
         beside = np.unique(cuts[(cuts == part).any(axis=1)])
         total = np.bincount(labels, share)
         remainders.append(max((total[labels[other]] for other in beside.tolist() if other != part), default=0.0))
-    body = Shapes(parts, axes, axes, axes, axes, 0).body
+    body = Touching(parts).body
     assert remainders[body] == pytest.approx(min(remainders))
