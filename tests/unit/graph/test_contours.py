@@ -9,6 +9,7 @@ from face_graphs import graph_of
 from core.graph.contours import Contours, contour_sides, contours
 from core.surface.arrays import components
 from core.surface.corners import CornerTable
+from core.surface.labels import FaceGraph
 
 
 class Surface:
@@ -177,3 +178,34 @@ def test_of_several_pieces_the_one_that_the_contour_lies_on_is_cut():
     assert side is not None
     assert not side[~of_small].any()
     assert 0 < side.sum() < of_small.sum()
+
+
+def segments_of(*rows):
+    """Contours of segments along x at some y and z. rows : the x between the segments, y and z of each contour."""
+    ends = [np.stack([np.column_stack([x[k:len(x) - 1 + k], *(np.full(len(x) - 1, at) for at in (y, z))])
+                      for k in (0, 1)], axis=1) for x, y, z in rows]
+    label = np.repeat(np.arange(len(rows)), [len(row) for row in ends])
+    segments = np.concatenate(ends)
+    return Contours(len(rows), segments, np.arange(len(label)), label, np.zeros((len(label), 2, 2), int),
+                    np.zeros((len(label), 2)))
+
+
+def test_around_weighs_segments_by_their_length():
+    """Of a contour of three short segments and a long one the middle is 12, and nearly 10 by number; of the other 9."""
+    found = segments_of(([10, 10.01, 10.02, 10.03, 14.0], 5, 7), ([8.0, 10.0], 5, 7))
+    assert found.around(np.array([10.4, 5, 7])) == 1
+    assert found.around(np.array([10.6, 5, 7])) == 0
+
+
+def test_the_cut_along_a_contour_has_no_saw_teeth():
+    """Five rows of six squares; those above the level lie right of the middle, and one more in the third row."""
+    rows, columns = 5, 6
+    face = np.arange(rows * columns).reshape(rows, columns)
+    pairs = np.concatenate([np.stack([face[:, :-1].ravel(), face[:, 1:].ravel()], axis=1),
+                            np.stack([face[:-1].ravel(), face[1:].ravel()], axis=1)])
+    graph = FaceGraph(rows * columns, pairs, np.ones(len(pairs)), np.ones(rows * columns))
+    right = (np.arange(rows * columns) % columns >= 3)
+    above = right.copy()
+    above[face[2, 2]] = True
+    everything = np.ones(rows * columns, bool)
+    assert contour_sides(graph, everything, above, everything).tolist() == right.tolist()

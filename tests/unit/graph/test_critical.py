@@ -109,3 +109,12 @@ def test_unused_vertices_are_not_critical():
     mesh = TriMesh(*shape)
     points = points_of(mesh, np.arange(float(mesh.n_vertices)))
     assert np.isin(points.vertex, shape.faces).all()
+
+
+def test_the_highest_vertex_of_two_fans_is_a_maximum():
+    """Two triangles that share a vertex have two edges below it, as a saddle has."""
+    mesh = TriMesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (-1, 0, 0), (-1, -1, 0)], [(0, 1, 2), (0, 3, 4)])
+    points = points_of(mesh, [9.0, 1, 2, 3, 4])
+    assert points.vertex.tolist() == [1, 3, 0]
+    assert points.kind.tolist() == [MINIMUM, MINIMUM, MAXIMUM]
+    assert points.multiplicity.tolist() == [1, 1, 1]

@@ -89,3 +89,22 @@ def test_at_any_level(result, n_parts):
         lone = [node for node in np.flatnonzero(inside & (parts.node_part == part))
                 if not reaches[arcs & (graph.arcs == node).any(axis=1)].any()]
         assert len(lone) <= 1
+
+
+def test_a_branch_is_as_long_as_its_stages_together():
+    """From 0, a branch of length 3 to 1, and one of 2 and 2 to 2 and 3; at 2 a bump of 0.5. First the bump is folded,
+    then the far half of the long branch, which is 2 long until then and 4 with its other half; so 1 comes before 2."""
+    star = graph_of([SADDLE, MAXIMUM, SADDLE, MAXIMUM, MAXIMUM],
+                    [(0, 0, 0), (-3, 0, 0), (2, 0, 0), (4, 0, 0), (2, 0.5, 0)], [(0, 1), (0, 2), (2, 3), (2, 4)])
+    nodes, arcs = unfolded(star, np.zeros(5, np.int64), NO_POINTS)
+    assert np.flatnonzero(nodes).tolist() == [0]
+    assert not arcs.any()
+
+
+def test_a_part_of_passages_keeps_the_first():
+    """In a row: an end, one saddle that is all of its part, two that are another part, an end."""
+    row = graph_of([MINIMUM, SADDLE, SADDLE, SADDLE, MAXIMUM], [(x, 0, 0) for x in range(5)],
+                   [(0, 1), (1, 2), (2, 3), (3, 4)])
+    nodes, arcs = unfolded(row, np.array([0, 1, 2, 2, 3]), NO_POINTS)
+    assert np.flatnonzero(nodes).tolist() == [0, 1, 2, 4]
+    assert arcs.all()

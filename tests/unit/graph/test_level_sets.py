@@ -282,3 +282,12 @@ def renamed(a, b):
     """Whether two labellings are equal up to the names of the labels."""
     pairs = np.unique(np.stack([a, b], axis=1), axis=0)
     return len(pairs) == len(np.unique(a)) == len(np.unique(b))
+
+
+def test_a_contour_around_an_apex_on_its_level_is_the_apex():
+    """All of its segments have no length."""
+    sets = cut(shapes.tetrahedron(), [0, 0, 0, 1], [0.5, 1.0])
+    apex = np.flatnonzero(sets.contour_level == 1)
+    assert sets.contour_length[apex].tolist() == [0.0]
+    np.testing.assert_allclose(sets.contour_center[apex], [shapes.tetrahedron()[0][3]], atol=1e-12)
+    assert sets.contour_radius[apex] == pytest.approx(0.0, abs=1e-12)

@@ -84,3 +84,18 @@ def test_bridged_trees_are_a_tree_and_a_bridged_torus_keeps_its_loop():
         sets = cut_at_levels(mesh, values, uniform_levels(16), bridges)
         assert components(sets.n_pieces, *sets.contour_pieces.T)[0] == 1
         assert sets.n_loops == n_loops
+
+
+def test_it_does_not_matter_which_face_of_a_bridge_is_first():
+    """Two strips beside each other with a bridge in each of eight slabs, all of them one run."""
+    mesh = TriMesh(*shapes.together(shapes.flat_grid(8, 1), shapes.moved(shapes.flat_grid(8, 1), (0, 2, 0))))
+    values = mesh.vertices[:, 0] / 8
+    x, part = np.floor(mesh.face_centroids[:, 0]), mesh.face_components[1]
+    bridges = np.array([[np.flatnonzero((x == k) & (part == side))[0] for side in (0, 1)] for k in range(8)])
+    levels = np.arange(1, 8) / 8
+    sets = cut_at_levels(mesh, values, levels, bridges)
+    assert (sets.n_pieces, sets.n_contours) == (8, 7)
+    for backwards in (np.arange(8) % 2 > 0, np.ones(8, bool), np.arange(8) < 3):
+        other = cut_at_levels(mesh, values, levels, np.where(backwards[:, None], bridges[:, ::-1], bridges))
+        np.testing.assert_array_equal(other.element_piece, sets.element_piece)
+        np.testing.assert_array_equal(other.segment_contour, sets.segment_contour)

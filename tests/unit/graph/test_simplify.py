@@ -200,3 +200,14 @@ def test_a_leaf_just_as_large_as_the_limit_stays():
     topology = reeb_topology(sets)
     assert len(simplify(sets, topology, 0.125, 0).arcs) == len(topology.arcs)
     assert len(simplify(sets, topology, 0.126, 0).arcs) < len(topology.arcs)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_node_that_took_in_a_leaf_stays_between_its_arcs(seed):
+    """The leaf may reach above the arc that goes on from the node, and the node's value be that of its saddle there."""
+    sets = noisy(1, seed, noise=0.6)
+    graph = reeb_graph(sets, simplify(sets, reeb_topology(sets), 0.02 * sets.mesh.area, 0.05))
+    lower, upper = graph.node_value[graph.arcs].T
+    first, last = graph.point_value[graph.arc_points[:-1]], graph.point_value[graph.arc_points[1:] - 1]
+    assert (lower <= first).all()
+    assert (last <= upper).all()

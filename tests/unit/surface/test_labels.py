@@ -6,7 +6,15 @@ import pytest
 import shapes
 from face_graphs import boundary_length, graph_of, n_connected, patches, path
 
-from core.surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
+from core.surface.labels import (
+    FaceGraph,
+    connect,
+    fill_unlabeled,
+    label_boundaries,
+    longest_neighbor,
+    majority,
+    straighten,
+)
 from core.surface.mesh import TriMesh
 
 
@@ -88,3 +96,23 @@ def test_straightening_gains_nothing_by_rounding():
     label = np.array([0, 0, 0, 1, 1])
     assert graph.length[2] > graph.length[1]
     assert (straighten(graph, label, 3) == label).all()
+
+
+def test_a_face_without_a_label_touches_nothing():
+    touching, length = label_boundaries(np.array([0, -1, 1]), np.array([[0, 1], [1, 2]]), np.ones(2))
+    assert touching.shape == (0, 2)
+    assert not len(length)
+
+
+def test_of_equally_long_boundaries_that_with_the_lowest_label_counts():
+    touching = np.array([[0, 2], [1, 2], [2, 3]])
+    assert longest_neighbor(touching, np.array([2.0, 2.0, 2.0]), 5).tolist() == [2, 2, 0, 2, -1]
+    assert longest_neighbor(touching, np.array([1.0, 2.0, 2.0]), 5).tolist() == [2, 2, 1, 2, -1]
+
+
+def test_of_equal_gains_not_all_change():
+    """In a ring of two labels by turns every face gains as much as its neighbors; were all to change, nothing would."""
+    ring = FaceGraph(6, np.array([(k, (k + 1) % 6) for k in range(6)]), np.ones(6), np.ones(6))
+    turns = np.arange(6) % 2
+    assert boundary_length(ring, turns) == 6
+    assert boundary_length(ring, straighten(ring, turns, 1)) < 6
