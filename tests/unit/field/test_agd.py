@@ -173,3 +173,9 @@ def test_where_nothing_protrudes_the_field_is_flat(stretch, protrudes):
     field = protrusion_field(Pyramid(TriMesh(ball.vertices * (1, 1, stretch), ball.faces)), 0.005, True)
     assert field.values.any() == field.normalized.any() == protrudes
     assert field.agd.min() > 0
+
+
+def test_equalized_values_keep_their_order_where_no_area_lies_between():
+    equalized = equalize(np.array([0.0, 0.3, 0.4, 0.5, 1.0]), np.array([1.0, 0, 0, 0, 1]))
+    assert (np.diff(equalized) > 0).all()
+    assert equalized[1] == pytest.approx(equalized[3], abs=1e-3)

@@ -2,9 +2,10 @@
 """The way back to the caller's faces: what has no area there."""
 
 import numpy as np
+import pytest
 import shapes
 
-from core import decompose
+from core import Parameters, decompose
 
 
 def test_faces_without_area_that_touch_only_each_other_follow_the_nearest():
@@ -19,3 +20,11 @@ def test_faces_without_area_that_touch_only_each_other_follow_the_nearest():
     assert (two[-2:] == two[nearest]).all()
     for count in range(1, found.n_candidates + 1):
         assert found.parts(n_parts=count).count == count
+
+
+@pytest.mark.parametrize(("more", "notes"), [(0, 0), (1, 1)])
+def test_as_many_parts_as_there_can_be_are_not_too_many(more, notes):
+    shape = shapes.tube_tree(step=0.2)
+    most = decompose(*shape).n_candidates
+    found = decompose(*shape, Parameters(n_parts=most + more)).notes
+    assert len([note for note in found if "asked for" in note]) == notes

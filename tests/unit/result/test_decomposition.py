@@ -207,3 +207,28 @@ def test_contacts_are_between_faces_that_are_near_in_any_order_of_the_faces(seed
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max()
     apart = np.linalg.norm(np.diff(corners.mean(axis=1)[contacts], axis=1), axis=2)
     assert apart.max() < longest + 0.03 * np.ptp(vertices, axis=0).max()
+
+
+def test_twins_are_on_the_side_of_their_faces():
+    """Seven faces in a row, mirrored in the middle one: candidates 0 and 3 are images of each other, and 1 and 2."""
+    result = replace(row(), candidates=np.array([0, 1, 1, 1, 2, 2, 3]), face_twin=np.arange(7)[::-1],
+                     face_side=np.array([1, 1, 1, 0, -1, -1, -1], np.int8), mirror=np.array([1.0, 0, 0, 0]))
+    parts = result.group(np.arange(4))
+    place = parts.candidate_part
+    assert parts.twin[place].tolist() == place[[3, 2, 1, 0]].tolist()
+    assert parts.side[place].tolist() == [1, 1, -1, -1]
+    assert result.group(np.array([0, 1, 1, 2])).side.sum() == 0  # the middle is its own image
+
+
+def test_of_several_pairs_in_a_cut_the_most_salient_counts():
+    """Candidates 0, 1 and 2, 3 are two parts, which touch by 0 and 2, 0.9, and by 1 and 3, 0.4, or the other way."""
+    for pairs in ([(0, 2), (1, 3)], [(1, 3), (0, 2)]):
+        result = replace(row(), candidate_pairs=np.array(pairs), candidate_pair_length=np.array([1.0, 2.0]),
+                         hierarchy=Hierarchy.of(4, [(1, 3), (0, 2), (0, 1)], [0.4, 0.9, 0.95]))
+        assert result.group(np.array([0, 0, 1, 1])).cut_salience.tolist() == [0.9]
+
+
+def test_areas_grow_with_the_square_of_lengths():
+    larger = row().scaled(3)
+    assert larger.candidate_area.tolist() == [64.0, 128.0, 384.0, 64.0]
+    assert larger.candidate_pair_length.tolist() == [4.0, 12.0, 20.0]

@@ -7,7 +7,10 @@ import shapes
 from face_graphs import graph_of
 
 from core import Parameters, decompose
+from core.cuts.hierarchy import Hierarchy
 from core.graph.critical import MAXIMUM
+from core.graph.reeb import ReebGraph
+from core.result.decomposition import Decomposition
 from core.result.editing import (
     best_split,
     boundary_distance,
@@ -235,3 +238,35 @@ def test_what_hangs_on_a_side_of_a_cut_goes_with_it():
         found = sorted([np.flatnonzero(side).tolist(), np.flatnonzero(other).tolist()])
         assert found == [[0, 1, 4, 5], [2, 3, 6]]
         assert side[cut_off].all()
+
+
+def test_a_candidate_that_is_split_still_touches_what_it_only_lies_on():
+    """Two balls that touch in one place, on the side of the given half of the first."""
+    shape = shapes.two_spheres()
+    result, graph, table = decompose(*shape), graph_of(shape), CornerTable.of(*shape)
+    (one, other), = result.contacts.tolist()
+    first, second = result.candidates[[one, other]].tolist()
+    assert [min(first, second), max(first, second)] in result.candidate_pairs.tolist()
+    given = result.candidates == first
+    for half, candidate in ((given & (np.arange(graph.n_faces) != one), first),
+                            (np.arange(graph.n_faces) == one, result.n_candidates)):
+        finer = split_candidates(result, half, graph, table)
+        assert finer.candidates[one] == candidate
+        assert sorted((candidate, second)) in finer.candidate_pairs.tolist()
+
+
+def test_around_a_vertex_of_needles_their_number_decides():
+    """Three needles and a triangle; the first vertex is at the tips of the needles alone, two of which are cut off."""
+    vertices = np.array([(0.0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0), (4, 0, 0), (1, 1, 0)])
+    shape = vertices, np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4), (2, 1, 5)])
+    area = np.array([0, 0, 0, 0.5])
+    graph = FaceGraph(4, np.array([(0, 1), (1, 2), (0, 3)]), np.array([2.0, 3, 1]), area)
+    result = Decomposition(
+        candidates=np.zeros(4, np.int64), vertex_candidates=np.zeros(6, np.int64), candidate_area=np.array([0.5]),
+        candidate_pairs=np.empty((0, 2), np.int64), candidate_pair_length=np.empty(0),
+        hierarchy=Hierarchy.of(1, [], []), field=np.zeros(6), graph=ReebGraph.empty(),
+        node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64),
+        contacts=np.empty((0, 2), np.int64), mirror=np.empty(0), face_twin=np.empty(0, np.int64),
+        face_side=np.empty(0, np.int8), parameters=Parameters(), notes=(), seconds={})
+    finer = split_candidates(result, np.array([False, True, True, False]), graph, CornerTable.of(*shape))
+    assert finer.vertex_candidates.tolist() == [1, 0, 0, 1, 1, 0]

@@ -6,6 +6,9 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
+from core.cuts.hierarchy import Hierarchy
+from core.graph.reeb import ReebGraph
+from core.result.decomposition import Decomposition
 from core.result.numbering import Numbering, follow, inherited
 from core.surface.arrays import components
 from core.surface.labels import majority
@@ -297,3 +300,36 @@ def test_who_had_the_number_of_a_fixed_part_elsewhere_gets_another(result):
     numbers = inherited(result, 0.0, result.n_candidates, former, pinned)
     assert (numbers == former).sum() == len(former) - 1
     assert numbers[most] not in former
+
+
+def candidates_of(area, merges, salience, pairs):
+    """A result of one face for each candidate."""
+    count = len(area)
+    return Decomposition(
+        candidates=np.arange(count), vertex_candidates=np.arange(count), candidate_area=np.array(area),
+        candidate_pairs=np.array(pairs).reshape(-1, 2), candidate_pair_length=np.ones(len(pairs)),
+        hierarchy=Hierarchy.of(count, merges, salience), field=np.zeros(count), graph=ReebGraph.empty(),
+        node_candidate=np.empty(0, np.int64), point_candidate=np.empty(0, np.int64),
+        contacts=np.empty((0, 2), np.int64), mirror=np.empty(0), face_twin=np.empty(0, np.int64),
+        face_side=np.empty(0, np.int8), parameters=Parameters(), notes=(), seconds={})
+
+
+def test_half_of_the_area_of_a_number_is_not_most_of_it():
+    """Of the area of 7, half is in one loose part with another candidate, half is a loose part. Neither has most: the
+    number is handed on to whoever of the two is numbered first, and the candidate alone is, when its part is."""
+    result = candidates_of([1.0, 1.0, 1.0], [(0, 1)], [0.5], [(0, 1)])
+    numbering = Numbering.of(result, np.array([0, 7, 7]), none(result))
+    assert numbering.candidate_number[2] == 7
+    assert 7 not in numbering.candidate_number[:2]
+
+
+def test_of_two_equal_halves_the_first_keeps_the_number():
+    result = candidates_of([1.0, 1.0], [(0, 1)], [0.5], [(0, 1)])
+    for former in (0, 4):
+        number = Numbering.of(result, np.full(2, former), none(result)).candidate_number
+        assert number.tolist() == [former or 1, 2]
+
+
+def test_candidates_as_small_as_numbers_can_be_vote_by_their_area():
+    result = candidates_of([3e-310, 1e-310, 1e-310], [(0, 1), (0, 2)], [0.5, 0.6], [(0, 1), (0, 2)])
+    assert inherited(result, 0.0, 1, np.array([5, 2, 2]), none(result)).tolist() == [5, 5, 5]

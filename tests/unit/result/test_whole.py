@@ -74,3 +74,14 @@ def test_corner_by_corner_as_by_triangles(shape):
     np.testing.assert_array_equal(table.edges[table.corner_edge],
                                   np.sort([table.corner_vertex, table.corner_vertex[table.next_corner]], axis=0).T)
     np.testing.assert_allclose(table.vertices[image], given.vertices * (-1, 1, 1), atol=1e-12)
+
+
+def test_whole_models_have_no_contacts_of_the_half():
+    """Their faces are others."""
+    half = shapes.half_of(shapes.mirrored_figure())
+    ball = shapes.icosphere(1)
+    lowest = half.vertices[half.vertices[:, 0].argmax()]
+    both = shapes.together(half, shapes.moved(ball, lowest - ball.vertices[ball.vertices[:, 0].argmin()]))
+    found, result = whole(both)
+    assert len(result.contacts)
+    assert found.parts.decomposition.contacts.shape == (0, 2)

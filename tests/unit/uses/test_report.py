@@ -72,3 +72,14 @@ def test_bounding_boxes_by_hand():
     points = np.array([[0, 0, 0], [1, 2, 3], [5, 5, 5]], float)
     boxes = bounding_boxes(np.array([0, 0, 1]), points, 2)
     assert boxes.tolist() == [[[0, 0, 0], [1, 2, 3]], [[5, 5, 5], [5, 5, 5]]]
+
+
+def test_transform_turns_the_graph(result):
+    """A quarter turn about z takes (x, y, z) to (-y, x, z)."""
+    turn = np.eye(4)
+    turn[:2, :2] = [(0, -1), (1, 0)]
+    here, there = report(result)["graph"], report(result, transform=turn)["graph"]
+    places = [[place for kind, name in (("nodes", "position"), ("arcs", "points")) for row in graph[kind]
+               for place in np.reshape(row[name], (-1, 3))] for graph in (here, there)]
+    x, y, z = np.transpose(places[0])
+    np.testing.assert_allclose(places[1], np.stack([-y, x, z], axis=1))
