@@ -215,3 +215,62 @@ def test_twins_are_stored():
     assert np.array_equal(again.face_twin, found.face_twin)
     assert np.array_equal(again.mirror, found.mirror)
     assert np.array_equal(again.parts().side, found.parts().side)
+
+
+def areas_in_a_row(make, label, area, twin, height, merges, contacts=(), apart=()):
+    """Faces in a row of some areas. apart : faces that do not touch the ones before them."""
+    n = len(label)
+    graph = FaceGraph(n, np.array([(i, i + 1) for i in range(n - 1) if i + 1 not in apart]),
+                      np.ones(n - 1 - len(apart)), np.array(area, float))
+    return make(graph, np.array(contacts, np.int64).reshape(-1, 2), np.array(label),
+                Hierarchy.of(max(label) + 1, merges, np.linspace(0.4, 0.8, len(merges))), np.array(twin),
+                np.array(height, float), 1.0)
+
+
+@pytest.mark.parametrize(("area", "count"), [(0.4, 2), (0.6, 3)])
+def test_what_little_lies_across_the_plane_joins_a_neighbor(make, area, count):
+    """Two faces in the middle of a thousand times as much, 0.0008 or 0.0012 of it."""
+    side = [50.0] * 10
+    label, hierarchy = areas_in_a_row(make, [0] * 10 + [1, 1] + [2] * 10, [*side, area, area, *side],
+                                      np.arange(22)[::-1], np.arange(22) - 10.5, [(0, 1), (0, 2)])
+    assert len(np.unique(label)) == hierarchy.n_candidates == count
+    assert same(label, [0] * 11 + [2] * 11 if count == 2 else [0] * 10 + [1, 1] + [2] * 10)
+
+
+@pytest.mark.parametrize(("area", "count"), [(4, 2), (6, 3)])
+def test_what_has_no_image_is_a_part_of_its_own_if_it_is_not_small(make, area, count):
+    """At both ends of a row, 0.004 or 0.006 of it: at that of the side that leads it is one in any case."""
+    label, hierarchy = areas_in_a_row(
+        make, [1, *[0] * 20, 2], [area, *[50.0] * 20, area], [-1, *range(1, 21)[::-1], -1], np.arange(22) - 10.5,
+        [(0, 1), (0, 2)])
+    assert hierarchy.n_candidates == count
+    assert same(label, [1 if count == 3 else 0, *[0] * 20, 2])
+
+
+def test_small_pieces_that_only_lie_on_others_stay_apart(make):
+    """A crumb at each end of a row of two halves, an image of the other: no edge joins it with anything."""
+    label = [0] + [1] * 10 + [2] * 10 + [3]
+    found, hierarchy = areas_in_a_row(
+        make, label, [1.0] + [50.0] * 20 + [1.0], np.arange(22)[::-1], np.arange(22) - 10.5,
+        [(0, 1), (2, 3), (1, 2)], contacts=[(0, 1), (20, 21)], apart=(1, 21))
+    assert same(found, label)
+    assert hierarchy.n_candidates == 4
+
+
+def test_where_the_second_plane_is_wrong_the_first_still_holds():
+    """A square of ten by ten, the lowest three rows of which are a part: an image across x, none across y. One corner
+    of it is a candidate more, which its image becomes, too, or neither."""
+    x, y = np.divmod(np.arange(100), 10)
+    square = np.arange(100).reshape(10, 10)
+    pairs = np.concatenate([np.stack([square[:, :-1].ravel(), square[:, 1:].ravel()], axis=1),
+                            np.stack([square[:-1].ravel(), square[1:].ravel()], axis=1)])
+    label = np.where(y < 3, 0, 1)
+    label[(x == 0) & (y == 9)] = 2
+    twin = np.stack([square[::-1].ravel(), square[:, ::-1].ravel()])
+    found, hierarchy = symmetric_candidates(
+        FaceGraph(100, pairs, np.ones(len(pairs)), np.ones(100)), np.empty((0, 2), np.int64), label,
+        Hierarchy.of(3, [(1, 2), (0, 1)], [0.2, 0.9]), twin, np.stack([x, y]) - 4.5, np.ones(2))
+    for detail in (0.05, 0.3, 0.5, 0.9):
+        shown = hierarchy.parts(hierarchy.n_parts(detail))[found]
+        assert same(shown, shown[twin[0]])
+    assert same(parts((found, hierarchy), 0.5), np.where(y < 3, 0, 1))

@@ -231,3 +231,17 @@ def test_a_bowed_cap_is_passed_over_its_whole_height():
     assert joint.high >= under.max() - 1e-3
     assert joint.low <= under.min() + 1e-3
     assert joint.high - joint.low == pytest.approx(0.2 * reach**2, rel=0.2)
+
+
+@pytest.mark.parametrize(("height", "count"), [(1.115, 1), (1.105, 0)])
+def test_a_hole_is_deeper_than_its_peg_by_the_clearance(height, count):
+    """A peg 1 long, a clearance of 0.01 and a wall of 0.1 need 1.11."""
+    wanted = replace(WANTED, size=0.5, depth=1.0, wall=0.1)
+    assert len(joint_places(cap(), bodies(below=height, above=height), wanted).joints) == count
+
+
+@pytest.mark.parametrize(("width", "count"), [(2.15, 1), (3.0, 2)])
+def test_between_two_pegs_is_a_wall_too(width, count):
+    """Two pegs 0.5 wide with a clearance of 0.01, and three walls of 0.4, need 2.24."""
+    wanted = replace(WANTED, size=0.5, count=2, wall=0.4, least=0.49)
+    assert len(joint_places(cap(width, 1.5, 24), bodies(width, 1.5), wanted).joints) == count

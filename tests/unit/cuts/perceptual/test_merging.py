@@ -1,13 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Patches, measures of regions and greedy merging, by identities."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import shapes
 
 from core.cuts.perceptual.features import FEATURES
 from core.cuts.perceptual.measures import BORDER, REGION, surface_measures
-from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
+from core.cuts.perceptual.merging import (
+    MANY_REGIONS,
+    RegionAdjacencyGraph,
+    _next,
+    _share_of_its_own,
+    merge_all_,
+)
 from core.cuts.perceptual.patches import absorb_small, concave_patches
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
@@ -179,3 +187,35 @@ def test_every_feature_is_finite_on_awkward_meshes():
         mesh = TriMesh(*shape)
         graph = RegionAdjacencyGraph(mesh, measured(mesh), np.arange(mesh.n_faces))
         assert np.isfinite(graph.features(np.arange(len(graph.ends)))).all()
+
+
+def test_a_region_that_is_hardly_larger_takes_hardly_anything():
+    """Three regions of areas 1, 1.5 and 3, each of which touches the others: the smallest is parted from both by 0.6.
+    The first may own half of what it would if twice as large: so 1 - 0.5 * 0.4 - 0.4 = 0.4 is left of its own, and
+    the share falls from 0.6 to that for the larger, half as far for the other."""
+    sums = np.zeros((3, REGION.width))
+    sums[:, REGION.area] = 1.0, 1.5, 3.0
+    graph = SimpleNamespace(regions=SimpleNamespace(sums=sums), ends=np.array([(0, 1), (0, 2), (1, 2)]),
+                            neighbors=[{1: 0, 2: 1}, {0: 0, 2: 2}, {0: 1, 1: 2}])
+    strength = np.array([0.6, 0.6, 0.9])
+    assert _share_of_its_own(graph, strength, 1) == pytest.approx(0.4)
+    assert _share_of_its_own(graph, strength, 0) == pytest.approx(0.5)
+
+
+def in_a_row(strength):
+    """The borders between regions in a row, which of them merge next."""
+    count = len(strength) + 1
+    graph = SimpleNamespace(regions=SimpleNamespace(alive=np.ones(count, bool)),
+                            ends=np.stack([np.arange(count - 1), np.arange(1, count)], axis=1))
+    return _next(graph, np.array(strength), count)
+
+
+def test_which_regions_merge_in_one_round():
+    """Of few, those whose cut is weak; of many, those with the weakest fifth of all cuts; never one region twice."""
+    assert in_a_row([0.05, 0.5, 0.11, 0.5]) == [0, 2]
+    assert in_a_row([0.05, 0.5, 0.13, 0.5]) == [0]
+    assert in_a_row([0.2, 0.5, 0.2, 0.5]) == [0]
+    assert in_a_row([0.05, 0.05, 0.5]) == [0]
+    strength = np.full(MANY_REGIONS, 0.9)
+    strength[::2] = 0.2 + np.arange(MANY_REGIONS // 2) / 100
+    assert in_a_row(strength) == list(range(0, 2 * (MANY_REGIONS // 5) + 1, 2))

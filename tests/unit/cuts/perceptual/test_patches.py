@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.cuts.perceptual.patches import N_PATCHES, SLABS, concave_patches, level_set_patches
+from core.cuts.perceptual.patches import N_PATCHES, SLABS, absorb_small, concave_patches, level_set_patches
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.surface.arrays import components
 from core.surface.mesh import TriMesh
@@ -41,3 +41,23 @@ def test_borders_of_level_set_patches_lie_on_levels():
     levels = uniform_levels(SLABS)
     crossed = (levels >= around.min(axis=1)[:, None]) & (levels <= around.max(axis=1)[:, None])
     assert crossed.any(axis=1).all()
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_piece_has_a_patch_of_its_own_however_small_it_is():
+    """The seeds are all spread over the other one."""
+    ball = shapes.icosphere(2)
+    mesh = mesh_of(shapes.together(ball, shapes.Shape(ball.vertices[:3] / 10, np.array([[0, 1, 2]]))))
+    for count in (1, 9):
+        label = concave_patches(mesh, count)
+        assert (label[:-1] != label[-1]).all()
+        assert (np.unique(label) == np.arange(label.max() + 1)).all()
+
+
+def test_of_two_equally_small_patches_the_first_joins_the_other():
+    """Two slivers side by side, with a larger patch beside the second: both together are no sliver any more."""
+    for count, expected in ((8, [0, 0, *[1] * 6]), (2, [0, 0])):
+        mesh = mesh_of(shapes.flat_grid(count, 1))
+        column = np.floor(mesh.face_centroids[:, 0]).astype(int)
+        found = absorb_small(mesh, np.minimum(column, 2), 1.5 / mesh.area)
+        assert found.tolist() == np.array(expected)[column].tolist()
