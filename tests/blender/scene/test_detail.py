@@ -147,3 +147,31 @@ def test_detail_of_several_selected_models_is_set_together(make, tree):
     # A script that sets the detail of a model that is not the active one means this one alone.
     second.data.reeb_parts.n_parts = 2
     assert [len(obj.data.reeb_parts.parts) for obj in (first, second, third)] == [5, 2, 5]
+
+
+def faces_of(obj, name):
+    """Which faces the part of a name has."""
+    number = next((part.number for part in obj.data.reeb_parts.parts if part.name == name), -1)
+    return np.array([value.value for value in obj.data.attributes["reeb_part"].data]) == number
+
+
+def test_a_name_outlasts_another_run_while_fewer_parts_are_shown(obj, result):
+    """By another method, so that numbers do not come out the same by themselves."""
+    bpy.ops.reeb_parts.decompose(method="berretti", detail=0.5)
+    branch = sorted(result.parts, key=lambda part: part.share)[len(result.parts) // 2]
+    branch.name = "Branch"
+    before = faces_of(obj, "Branch")
+    result.detail = 0.0
+    assert "Branch" not in [part.name for part in result.parts]
+    bpy.ops.reeb_parts.decompose(method="perceptual", detail=0.5)
+    after = faces_of(obj, "Branch")
+    assert (before & after).sum() > 0.9 * max(before.sum(), after.sum()) > 0
+
+
+def test_what_is_ticked_stays_ticked_while_the_detail_is_dragged(result):
+    result.detail = 0.5
+    ticked = result.parts[1].number
+    result.parts[1].selected = True
+    for detail in (0.6, 0.8, 0.5):
+        result.detail = detail
+        assert [part.number for part in result.parts if part.selected] == [ticked]

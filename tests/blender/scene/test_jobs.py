@@ -392,3 +392,17 @@ def test_the_operator_computes_in_blender_for_scripts(obj):
     bpy.ops.reeb_parts.decompose()
     assert folders() == before == []
     assert len(obj.data.reeb_parts.parts) > 1
+
+
+def test_parts_of_what_was_edited_or_deleted_meanwhile_are_not_written(package, obj):
+    results, bridge, errors = (importlib.import_module(f"{package}.scene.{name}")
+                               for name in ("results", "bridge", "errors"))
+    computed = {obj.name: bridge.read_shape(obj).digest}
+    results.check_unchanged(computed)
+    obj.data.vertices[0].co.x += 0.1
+    with pytest.raises(errors.SceneError, match="was changed while its parts were computed"):
+        results.check_unchanged(computed)
+    obj.data.vertices[0].co.x -= 0.1
+    bpy.data.objects.remove(obj)
+    with pytest.raises(errors.SceneError, match="is gone"):
+        results.check_unchanged(computed)
