@@ -207,7 +207,7 @@ def _leading_cells(
     small = (((share < LEAST_LEADING) & (share < largest[candidate])) | overhangs
              | (across & (share < LEAST_ACROSS)))
     gone = np.bincount(in_cell, weight * dissolved[leads], count) > 0.5 * np.bincount(in_cell, weight, count)
-    goal = _joined(leaders, cell, candidate, share, small, gone)
+    goal = _joined(leaders, cell, share, small, gone)
     left, cell[leads] = renumbered(goal[in_cell])
     return _LeadingCells(group, cell, stabilizer[left], candidate_there[left] >= 0)
 
@@ -230,16 +230,15 @@ def _connected_cells(leaders: FaceGraph, label: np.ndarray, leads: np.ndarray) -
 
 
 def _joined(
-    graph: FaceGraph, cell: np.ndarray, candidate: np.ndarray, area: np.ndarray, small: np.ndarray, gone: np.ndarray
+    graph: FaceGraph, cell: np.ndarray, area: np.ndarray, small: np.ndarray, gone: np.ndarray
 ) -> np.ndarray:
-    """Cell that each cell becomes, (c,) int64: small ones join a larger neighbor, if they can one of their candidate.
+    """Cell that each cell becomes, (c,) int64: small ones join a larger neighbor.
 
     Those that are gone join one that is not, whatever its size, those beside such a one first.
 
-    cell : (p,), of each face, -1 for none. candidate, area, small, gone : (c,).
+    cell : (p,), of each face, -1 for none. area, small, gone : (c,).
     """
     touching, length = graph.boundaries(cell)
-    length = length * np.where(candidate[touching[:, 0]] == candidate[touching[:, 1]], 1.0, 1e-6)
     goal = longest_neighbor(touching, length, len(area))
     goal = np.where(small & ~gone & (goal >= 0) & (area[goal] > area), goal, np.arange(len(area)))
     while (goal[goal] != goal).any():
