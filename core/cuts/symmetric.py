@@ -12,7 +12,8 @@ angles, as those of a star or a gear do, a wedge leads, and the shape is turned,
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import product
 
 import numpy as np
@@ -107,47 +108,98 @@ def _best(
 ) -> FaceCandidates | None:
     """The candidates that are most like those found, of those that some wedges make if they lead.
 
-    wedges : of (p,) bool, which faces lie in each. worst : bound of how unlike they may be; None if all are less alike.
+    wedges : of (p,) bool, which faces lie in each. worst : bound of how unlike they may be before crumbs are dissolved;
+    None if all are less alike.
     """
-    salience = candidates.hierarchy.salience_table(np.arange(int(candidates.label.max()) + 1))
-    found = [candidates.parts(detail) for detail in DETAILS]
-    concerned = _mirrored_area(candidates.graph, group.image)
-    best, least = None, worst
+    mirroring = _Mirroring(candidates, group)
+    best, least = None, np.inf
     for wedge in wedges:
-        made = _led_by(candidates, group, wedge, float(concerned.sum()), salience)
-        error = float(np.mean([_disagreement(made.parts(detail), parts, concerned)
-                               for detail, parts in zip(DETAILS, found, strict=True)]))
+        made = mirroring.led_by(wedge, np.zeros(len(wedge), bool))
+        if mirroring.error(made) >= worst - 1e-9:
+            continue
+        made = _without_crumbs(made, wedge, mirroring)
+        error = mirroring.error(made)
         if error < least - 1e-9:
             best, least = made, error
     return best
 
 
-def _led_by(
-    candidates: FaceCandidates, group: SymmetryGroup, wedge: np.ndarray, whole: float, salience: np.ndarray
-) -> FaceCandidates:
-    """The candidates that a wedge makes of those found if it leads, without crumbs.
+@dataclass(frozen=True, eq=False)
+class _Mirroring:
+    """What candidates found become under a group of symmetries."""
 
-    wedge : (p,) bool, which faces lie in it. whole : area of the pieces that are mirrored. salience : (c, c), of what
-    parts two candidates.
-    """
-    graph, touching, found = candidates.graph, candidates.with_contacts(), candidates.parts(0.5)
-    dissolved = np.zeros(graph.n_faces, bool)
+    found: FaceCandidates
+    group: SymmetryGroup
+
+    @cached_property
+    def concerned(self) -> np.ndarray:
+        """(p,) float64, area of the faces of pieces that are mirrored; 0 of others."""
+        return _mirrored_area(self.found.graph, self.group.image)
+
+    @cached_property
+    def whole(self) -> float:
+        """Area of the pieces that are mirrored."""
+        return float(self.concerned.sum())
+
+    @cached_property
+    def parts_found(self) -> list[np.ndarray]:
+        """The parts found, (p,) int64, at each of DETAILS."""
+        return [self.found.parts(detail) for detail in DETAILS]
+
+    @cached_property
+    def salience(self) -> np.ndarray:
+        """(c, c) float64, of what parts two of the candidates found."""
+        return self.found.hierarchy.salience_table(np.arange(int(self.found.label.max()) + 1))
+
+    @cached_property
+    def touching(self) -> FaceGraph:
+        """The graph of the faces, with contacts."""
+        return self.found.with_contacts()
+
+    def led_by(self, wedge: np.ndarray, dissolved: np.ndarray) -> FaceCandidates:
+        """The candidates if a wedge leads and some faces make none of their own; wedge, dissolved : (p,) bool."""
+        cells = make_cells(self.found.graph, self.found.label, self.group, wedge, self.whole, dissolved)
+        tree = symmetric_linkage(cells, self.touching, self.salience)
+        return replace(self.found, label=cells.label, hierarchy=tree)
+
+    def error(self, made: FaceCandidates) -> float:
+        """How unlike the parts of some candidates are to those found, the mean over DETAILS."""
+        return float(np.mean([_disagreement(made.parts(detail), parts, self.concerned)
+                              for detail, parts in zip(DETAILS, self.parts_found, strict=True)]))
+
+    def leaders(self, wedge: np.ndarray) -> np.ndarray:
+        """Of each face the first image in a wedge, (p,) int64; the face itself where it has none."""
+        image, faces = self.group.image, np.arange(len(wedge))
+        leader = image[(wedge[image] & (image >= 0)).argmax(axis=0), faces]
+        return np.where(leader >= 0, leader, faces)
+
+
+def _without_crumbs(made: FaceCandidates, wedge: np.ndarray, mirroring: _Mirroring) -> FaceCandidates:
+    """Candidates that a wedge has made, (p,) bool, with crumbs dissolved."""
+    found, leader = mirroring.found.parts(0.5), mirroring.leaders(wedge)
+    dissolved = np.zeros(len(wedge), bool)
     for _ in range(MOST_ROUNDS):
-        cells = make_cells(graph, candidates.label, group, wedge, whole, dissolved)
-        made = replace(candidates, label=cells.label, hierarchy=symmetric_linkage(cells, touching, salience))
-        more = _are_crumbs(graph, made.parts(0.5), found) & wedge & ~dissolved
+        more = _are_crumbs(made.graph, made.parts(0.5), found, leader) & ~dissolved
         if not more.any():
             break
         dissolved |= more
+        made = mirroring.led_by(wedge, dissolved)
     return made
 
 
-def _are_crumbs(graph: FaceGraph, part: np.ndarray, found: np.ndarray) -> np.ndarray:
-    """Faces of parts that are small beside the part found in which most of them lies, (p,) bool; part, found : (p,)."""
+def _are_crumbs(graph: FaceGraph, part: np.ndarray, found: np.ndarray, leader: np.ndarray) -> np.ndarray:
+    """Faces of parts that are small beside the part found in which most of them lies, (p,) bool.
+
+    On a side that follows only where the image is no such part: what is small there may be whole on the leading side.
+
+    part, found, leader : (p,), of each face the part now, the one found, and the image on the leading side.
+    """
     weight = graph.area + 1e-12 * graph.area.sum()
     area = np.bincount(part, weight)
-    whole = np.bincount(found, weight)[majority(part, found, weight, len(area))]
-    return (area < CRUMB * whole)[part]
+    area_found = np.bincount(found, weight)[majority(part, found, weight, len(area))]
+    area_of_image = area[majority(part, part[leader], weight, len(area))]
+    leads = leader == np.arange(len(leader))
+    return (area < CRUMB * area_found)[part] & (leads | (area < 0.5 * area_of_image)[part])
 
 
 def _mirrored_area(graph: FaceGraph, image: np.ndarray) -> np.ndarray:

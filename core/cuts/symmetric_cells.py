@@ -70,7 +70,8 @@ def make_cells(
     whole : float
         Area of the pieces that the planes mirror.
     dissolved : (p,) bool
-        Faces that make no cells of their own on the leading side: what mostly consists of them joins a neighbor.
+        Faces that make no cells of their own: on the leading side what mostly consists of them joins a neighbor, on
+        others they get the cells around them.
 
     Returns
     -------
@@ -80,7 +81,7 @@ def make_cells(
     least = LEAST_ALONE * whole
     images = _leading_images(graph, group, side, least)
     leading = _leading_cells(graph, label, images, whole, dissolved)
-    name = _label_by_leader(graph, images, leading)
+    name = _label_by_leader(graph, images, leading, dissolved)
     name = _without_unmirrored(graph, name, leading, least)
     return _cell_tables(graph, label, images, leading, name)
 
@@ -262,9 +263,12 @@ def _beside(touching: np.ndarray, length: np.ndarray, gone: np.ndarray) -> np.nd
         inside &= ~now
 
 
-def _label_by_leader(graph: FaceGraph, images: _LeadingImages, leading: _LeadingCells) -> np.ndarray:
+def _label_by_leader(
+    graph: FaceGraph, images: _LeadingImages, leading: _LeadingCells, dissolved: np.ndarray
+) -> np.ndarray:
     """Name of the cell of each face, (p,) int64: that of its leader, mirrored back, or for some the one around them."""
-    name = np.where(images.surrounded, -1, leading.names(leading.cell[images.leader], images.element))
+    around = images.surrounded | dissolved & ~images.leads
+    name = np.where(around, -1, leading.names(leading.cell[images.leader], images.element))
     return connect(graph, fill_unlabeled(graph, name))
 
 

@@ -141,7 +141,8 @@ def test_no_cut_of_a_hint_is_more_certain_than_the_last():
 def test_pieces_that_share_no_edge_merge_by_their_contacts():
     """Three loose pieces in a row, of two hints, with a contact between each two: all of them merge in the end."""
     graph = FaceGraph(6, np.array([[0, 1], [2, 3], [4, 5]]), np.ones(3), np.ones(6))
-    label, hierarchy = hinted_candidates(graph, np.array([[1, 2], [3, 4]]), np.array([0, 0, 1, 1, 2, 2]),
-                                         Hierarchy.of(3, [(0, 1), (0, 2)], [0.4, 0.6]), np.array([0, 0, 1, 1, 0, 0]))
-    assert same_partition(label, np.array([0, 0, 1, 1, 2, 2]))
-    assert len(hierarchy.merges) == 2
+    candidates = FaceCandidates(graph, np.array([[1, 2], [3, 4]]), np.array([0, 0, 1, 1, 2, 2]),
+                                Hierarchy.of(3, [(0, 1), (0, 2)], [0.4, 0.6]))
+    found = hinted_candidates(candidates, np.array([0, 0, 1, 1, 0, 0]))
+    assert same_partition(found.label, np.array([0, 0, 1, 1, 2, 2]))
+    assert len(found.hierarchy.merges) == 2

@@ -217,14 +217,15 @@ def test_twins_are_stored():
     assert np.array_equal(again.parts().side, found.parts().side)
 
 
-def areas_in_a_row(make, label, area, twin, height, merges, contacts=(), apart=()):
-    """Faces in a row of some areas. apart : faces that do not touch the ones before them."""
+def areas_in_a_row(make, label, area, twin, height, merges, contacts=(), apart=(), salience=(0.4, 0.8)):
+    """Faces in a row of some areas. apart : faces that do not touch the ones before them. salience : first and last."""
     n = len(label)
     graph = FaceGraph(n, np.array([(i, i + 1) for i in range(n - 1) if i + 1 not in apart]),
                       np.ones(n - 1 - len(apart)), np.array(area, float))
-    return make(graph, np.array(contacts, np.int64).reshape(-1, 2), np.array(label),
-                Hierarchy.of(max(label) + 1, merges, np.linspace(0.4, 0.8, len(merges))), np.array(twin),
-                np.array(height, float), 1.0)
+    candidates = FaceCandidates(graph, np.array(contacts, np.int64).reshape(-1, 2), np.array(label),
+                                Hierarchy.of(max(label) + 1, merges, np.linspace(*salience, len(merges))))
+    found = make(candidates, np.array(twin), np.array(height, float), 1.0)
+    return found.label, found.hierarchy
 
 
 @pytest.mark.parametrize(("area", "count"), [(0.4, 2), (0.6, 3)])
@@ -232,7 +233,7 @@ def test_what_little_lies_across_the_plane_joins_a_neighbor(make, area, count):
     """Two faces in the middle of a thousand times as much, 0.0008 or 0.0012 of it."""
     side = [50.0] * 10
     label, hierarchy = areas_in_a_row(make, [0] * 10 + [1, 1] + [2] * 10, [*side, area, area, *side],
-                                      np.arange(22)[::-1], np.arange(22) - 10.5, [(0, 1), (0, 2)])
+                                      np.arange(22)[::-1], np.arange(22) - 10.5, [(0, 1), (0, 2)], salience=(0.6, 0.8))
     assert len(np.unique(label)) == hierarchy.n_candidates == count
     assert same(label, [0] * 11 + [2] * 11 if count == 2 else [0] * 10 + [1, 1] + [2] * 10)
 
@@ -267,10 +268,9 @@ def test_where_the_second_plane_is_wrong_the_first_still_holds():
     label = np.where(y < 3, 0, 1)
     label[(x == 0) & (y == 9)] = 2
     twin = np.stack([square[::-1].ravel(), square[:, ::-1].ravel()])
-    found, hierarchy = symmetric_candidates(
-        FaceGraph(100, pairs, np.ones(len(pairs)), np.ones(100)), np.empty((0, 2), np.int64), label,
-        Hierarchy.of(3, [(1, 2), (0, 1)], [0.2, 0.9]), twin, np.stack([x, y]) - 4.5, np.ones(2))
+    graph = FaceGraph(100, pairs, np.ones(len(pairs)), np.ones(100))
+    found = symmetric_candidates(of_faces(graph, label, Hierarchy.of(3, [(1, 2), (0, 1)], [0.2, 0.9])), twin,
+                                 np.stack([x, y]) - 4.5, np.ones(2))
     for detail in (0.05, 0.3, 0.5, 0.9):
-        shown = hierarchy.parts(hierarchy.n_parts(detail))[found]
-        assert same(shown, shown[twin[0]])
-    assert same(parts((found, hierarchy), 0.5), np.where(y < 3, 0, 1))
+        assert same(found.parts(detail), found.parts(detail)[twin[0]])
+    assert same(found.parts(0.5), np.where(y < 3, 0, 1))
