@@ -139,6 +139,7 @@ def twisted(angle: float):
 
 
 CHANGES = {
+    "noise, 0.1 % of an edge": with_noise(0.001),
     "noise, 5 % of an edge": with_noise(0.05),
     "noise, 20 % of an edge": with_noise(0.2),
     "10 steps of smoothing": smoothed,

@@ -82,7 +82,10 @@ def lines_in_sight(mesh: TriMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         if not len(windows.source):
             break
         corner, place = _behind(mesh, windows)
-        inside = (_cross(windows.from_, place) > 0) & (_cross(place, windows.to) > 0)
+        # Lines along a limit count, despite rounding: what lies there is on one with the vertex that limits the window.
+        least = -TIE * lengths(place)
+        inside = ((_cross(windows.from_, place) >= least * lengths(windows.from_))
+                  & (_cross(place, windows.to) >= least * lengths(windows.to)))
         if step:  # the first lines cross one edge
             found.append((windows.source[inside], corner[inside], lengths(place[inside])))
         windows = _next_windows(mesh, across, windows, corner, place)
@@ -106,10 +109,10 @@ def _first_windows(mesh: TriMesh, across: np.ndarray) -> _Windows:
     far, near = lengths(left), lengths(right)
     safe = np.where(near > 0, near, 1.0)
     along = row_products(left, right) / safe
-    height = np.sqrt(np.maximum(far * far - along * along, 0.0))
+    height = lengths(left - (along / safe)[:, None] * right)  # of squares, a difference of 1e-16 would leave 1e-8
     right, left = np.stack([near, np.zeros_like(near)], axis=1), np.stack([along, height], axis=1)
     longest = np.repeat(mesh.edge_length[mesh.edges.face_edges].max(axis=1), 3)
-    needle = (height > ON_A_LINE * far) & (longest * longest >= NEEDLE * near * height)
+    needle = (height > ON_A_LINE * far) & (longest * longest >= (1 - TIE) * NEEDLE * near * height)
     side = np.where(needle, across.reshape(-1, 3)[:, [1, 2, 0]].ravel(), -1)
     return _open(_Windows(source, side, np.stack([begin, end], axis=1), right, left, right, left))
 

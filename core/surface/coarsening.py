@@ -216,7 +216,7 @@ def _near(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray,
     """
     length = lengths(points[a] - points[b])
     shortest = np.minimum.reduceat(length, np.searchsorted(a, np.arange(len(points))))
-    short = length <= SLIM * np.maximum(shortest[a], shortest[b])
+    short = length <= (1 + TIE) * SLIM * np.maximum(shortest[a], shortest[b])
     return a[short], b[short]
 
 

@@ -82,6 +82,25 @@ def test_no_line_runs_over_an_edge_of_three_faces():
     assert (np.sign(fin[lines_in_sight(mesh)[0], 0] - 10) * np.sign(fin[lines_in_sight(mesh)[1], 0] - 10) < 0).any()
 
 
+def test_a_triangle_without_height_opens_no_window():
+    # Its height came of a difference of squares: rounding made it one, and its vertex saw all that lies behind.
+    places = [(0, 0, 0), (1, 0, 0), (0.37, 0, 0), (0.5, 0.3, 0), (0.5, -0.3, 0), (0.1, 0.9, 0), (0.9, 0.9, 0)]
+    vertices = np.array(places)
+    faces = np.array([(0, 1, 3), (1, 0, 2), (0, 4, 2), (2, 4, 1), (0, 3, 5), (3, 1, 6), (3, 6, 5)])
+    rng = np.random.default_rng(0)
+    for _ in range(40):
+        moved = vertices @ shapes.rotation(rng).T * rng.uniform(0.01, 30)
+        assert not len(lines_in_sight(TriMesh(moved, faces))[0])
+
+
+@pytest.mark.parametrize("scale", [0.0254, 1.37, 25.4])
+def test_lines_along_vertices_do_not_depend_on_the_unit(scale):
+    mesh = stretched(24, 3, 6.0)
+    found, again = (set(zip(*(ends.tolist() for ends in lines_in_sight(TriMesh(s * mesh.vertices, mesh.faces))[:2]),
+                            strict=True)) for s in (1.0, scale))
+    assert found == again
+
+
 @pytest.mark.parametrize("sides", [16, 48, 96, 200])
 def test_the_field_of_a_cylinder_does_not_depend_on_its_sides(sides):
     angle = np.arange(sides) / sides * 2 * np.pi
