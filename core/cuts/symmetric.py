@@ -167,16 +167,11 @@ class _Mirroring:
         return float(np.mean([_disagreement(made.parts(detail), parts, self.concerned)
                               for detail, parts in zip(DETAILS, self.parts_found, strict=True)]))
 
-    def leaders(self, wedge: np.ndarray) -> np.ndarray:
-        """Of each face the first image in a wedge, (p,) int64; the face itself where it has none."""
-        image, faces = self.group.image, np.arange(len(wedge))
-        leader = image[(wedge[image] & (image >= 0)).argmax(axis=0), faces]
-        return np.where(leader >= 0, leader, faces)
-
 
 def _without_crumbs(made: FaceCandidates, wedge: np.ndarray, mirroring: _Mirroring) -> FaceCandidates:
     """Candidates that a wedge has made, (p,) bool, with crumbs dissolved."""
-    found, leader = mirroring.found.parts(0.5), mirroring.leaders(wedge)
+    found, group = mirroring.found.parts(0.5), mirroring.group
+    leader = group.image[group.first_onto(wedge), np.arange(len(wedge))]
     dissolved = np.zeros(len(wedge), bool)
     for _ in range(MOST_ROUNDS):
         more = _are_crumbs(made.graph, made.parts(0.5), found, leader) & ~dissolved
@@ -194,10 +189,9 @@ def _are_crumbs(graph: FaceGraph, part: np.ndarray, found: np.ndarray, leader: n
 
     part, found, leader : (p,), of each face the part now, the one found, and the image on the leading side.
     """
-    weight = graph.area + 1e-12 * graph.area.sum()
-    area = np.bincount(part, weight)
-    area_found = np.bincount(found, weight)[majority(part, found, weight, len(area))]
-    area_of_image = area[majority(part, part[leader], weight, len(area))]
+    area = np.bincount(part, graph.weight)
+    area_found = np.bincount(found, graph.weight)[majority(part, found, graph.weight, len(area))]
+    area_of_image = area[majority(part, part[leader], graph.weight, len(area))]
     leads = leader == np.arange(len(leader))
     return (area < CRUMB * area_found)[part] & (leads | (area < 0.5 * area_of_image)[part])
 

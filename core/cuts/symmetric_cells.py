@@ -164,10 +164,10 @@ def _leading_images(graph: FaceGraph, group: SymmetryGroup, side: np.ndarray, le
     """The images of the faces. side : (p,) bool, the leading one. least : area from which regions are not small."""
     has = group.image >= 0
     image = np.where(has, group.image, np.arange(len(side)))
-    on_side = has & side[image]
-    without = ~has.all(axis=0) & ~on_side.any(axis=0)
+    element = group.first_onto(side)
+    without = ~has.all(axis=0) & ~side[image[element, np.arange(len(side))]]
     surrounded = without & ~_in_large_regions(graph, without, least)
-    return _LeadingImages(group, has, image, on_side.argmax(axis=0), surrounded)
+    return _LeadingImages(group, has, image, element, surrounded)
 
 
 def _in_large_regions(graph: FaceGraph, chosen: np.ndarray, least: float) -> np.ndarray:
@@ -192,7 +192,7 @@ def _leading_cells(
     count = int(in_cell.max()) + 1
     candidate = np.empty(count, np.int64)
     candidate[in_cell] = label[leads]
-    weight = _weight(graph)[leads]
+    weight = graph.weight[leads]
     candidate_there = np.stack([majority(in_cell, there[leads] + 1, weight, count) - 1
                                 for there in np.where(images.has, label[images.image], -1)], axis=1)
     stabilizer = group.generated_subgroups(candidate[:, None] == candidate_there)
@@ -222,9 +222,7 @@ def _graph_of_leaders(graph: FaceGraph, images: _LeadingImages) -> FaceGraph:
 
 def _connected_cells(leaders: FaceGraph, label: np.ndarray, leads: np.ndarray) -> np.ndarray:
     """Connected places of one candidate, (p,) int64, numbered from 0, of the faces that lead; -1 for others."""
-    a, b = leaders.pairs.T
-    same = np.flatnonzero(label[a] == label[b])
-    place = components(len(label), a[same], b[same])[1]
+    _, place = leaders.regions(label)
     cell = np.full(len(label), -1)
     cell[leads] = renumbered(place[leads])[1]
     return cell
@@ -312,7 +310,7 @@ def _cell_tables(
     graph: FaceGraph, label: np.ndarray, images: _LeadingImages, leading: _LeadingCells, name: np.ndarray
 ) -> Cells:
     """The cells of faces, by the names of these, (p,), and what was found of them; label : (p,), candidates found."""
-    group, weight = images.group, _weight(graph)
+    group, weight = images.group, graph.weight
     names, cell = renumbered(name)
     every = np.arange(len(names))
     image = _places(names, leading.name_of_image(names[:, None], group.elements))
@@ -344,8 +342,3 @@ def _shares(cell: np.ndarray, candidate_there: np.ndarray, weight: np.ndarray) -
     row = cell + n_cells * np.arange(order)[:, None]
     size = order * n_cells, int(candidate_there.max()) + 1
     return csr_array((np.tile(weight / area[cell], order), (row.ravel(), candidate_there.ravel())), size)
-
-
-def _weight(graph: FaceGraph) -> np.ndarray:
-    """Weight of the vote of each face, (p,): its area; faces without one vote after all others."""
-    return graph.area + 1e-12 * graph.area.sum()

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..surface.arrays import components
 from ..surface.labels import FaceGraph, majority
 from .face_candidates import FaceCandidates
 from .symmetric import symmetric_candidates
@@ -42,9 +41,7 @@ def symmetric_on_regions(
     graph, label = candidates.graph, candidates.label
     image = np.append(label, -1)[twin] + 1
     kind = (label * (int(label.max()) + 2) + image) * 3 + np.sign(height).astype(np.int64)
-    a, b = graph.pairs.T
-    same = np.flatnonzero(kind[a] == kind[b])
-    count, region = components(graph.n_faces, a[same], b[same])
+    count, region = graph.regions(kind)
     of_region = np.zeros(count, np.int64)
     of_region[region] = np.arange(graph.n_faces)  # any face of it
     has = np.flatnonzero(twin >= 0)
@@ -53,7 +50,7 @@ def symmetric_on_regions(
     regions = FaceCandidates(FaceGraph(count, *graph.boundaries(region), area),
                              touching[touching[:, 0] != touching[:, 1]], label[of_region], candidates.hierarchy)
     image_of_region = majority(
-        region[has], region[twin[has]], graph.area[has] + 1e-12 * graph.area.sum(), count)
+        region[has], region[twin[has]], graph.weight[has], count)
     made = symmetric_candidates(regions, image_of_region, height[of_region], first, exact)
     if made is regions:
         return candidates

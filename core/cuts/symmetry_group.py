@@ -64,6 +64,13 @@ class SymmetryGroup:
         """(g,) int64, the inverse of each element."""
         return (self.composition == 0).argmax(axis=1)
 
+    def first_onto(self, side: np.ndarray) -> np.ndarray:
+        """The first element that takes each face to a side, (p,) int64; 0, the identity, where none does.
+
+        side : (p,) bool.
+        """
+        return ((self.image >= 0) & side[self.image]).argmax(axis=0)
+
     def generated_subgroups(self, chosen: np.ndarray) -> np.ndarray:
         """For each row of ``chosen``, the smallest subgroup that contains it (the identity included), (c, g) bool.
 

@@ -259,9 +259,7 @@ def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.nda
 def _with_loose_apart(candidates: FaceCandidates, working: WorkingMesh) -> FaceCandidates:
     """Make candidates of their own, which merge first, of what lies apart from the rest of its candidate."""
     graph, label, hierarchy = candidates.graph, candidates.label, candidates.hierarchy
-    a, b = graph.pairs.T
-    same = np.flatnonzero(label[a] == label[b])
-    count, piece = components(graph.n_faces, a[same], b[same])
+    count, piece = graph.regions(label)
     solid = np.zeros(count, bool)  # a face that the copy lacks and that touches nothing stays where it is
     solid[piece[working.polygon]] = True
     name = np.empty(count, np.int64)

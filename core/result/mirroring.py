@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..surface.arrays import components, last_of_each
+from ..surface.arrays import last_of_each
 from ..surface.labels import FaceGraph, connect
 from .numbering import NumberedParts
 
@@ -42,7 +42,7 @@ def without_crumbs(graph: FaceGraph, before: np.ndarray, asked: np.ndarray, both
         Regions in which a face was changed stay.
     """
     extra = both != asked
-    region = _regions(graph, both)
+    region = graph.regions(both)[1]
     small = np.bincount(region, graph.area)[region] < CRUMB * np.bincount(both, graph.area)[both]
     concerned = np.isin(both, np.concatenate([asked[extra], both[extra]]))
     left = np.bincount(region, both != before)[region] == 0
@@ -86,8 +86,8 @@ def _without_strays(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, be
     extra = both != asked
     if not extra.any():
         return both
-    region = _regions(graph, both)
-    stray = _strays(graph.area, region, _regions(graph, before), _regions(graph, asked), twin, extra)
+    region = graph.regions(both)[1]
+    stray = _strays(graph.area, region, graph.regions(before)[1], graph.regions(asked)[1], twin, extra)
     if image_only:
         stray[region[~extra]] = False
     number, area = np.zeros(len(stray), np.int64), np.bincount(region, graph.area)
@@ -102,13 +102,6 @@ def _without_strays(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, be
     weight = np.where(stray[region], 1e-9, 1.0) * graph.area  # so that it is the strays that move
     around = FaceGraph(graph.n_faces, touching.pairs[near], touching.length[near], weight)
     return number[connect(around, np.where(stray, main, np.arange(len(stray)))[region])]
-
-
-def _regions(graph: FaceGraph, number: np.ndarray) -> np.ndarray:
-    """The connected region of one number that each face is in, (p,) int64."""
-    first, second = graph.pairs.T
-    same = number[first] == number[second]
-    return components(graph.n_faces, first[same], second[same])[1]
 
 
 def _strays(area: np.ndarray, region: np.ndarray, former: np.ndarray, wanted: np.ndarray, twin: np.ndarray,

@@ -140,6 +140,17 @@ class FaceGraph:
     length: np.ndarray
     area: np.ndarray
 
+    @cached_property
+    def weight(self) -> np.ndarray:
+        """(n_faces,) float64, weight of the vote of each face: its area; faces without one vote after all others."""
+        return self.area + 1e-12 * self.area.sum()
+
+    def regions(self, label: np.ndarray) -> tuple[int, np.ndarray]:
+        """How many connected regions of one label there are, and which each face is in, (n_faces,) int64."""
+        first, second = self.pairs.T
+        same = np.flatnonzero(label[first] == label[second])
+        return components(self.n_faces, first[same], second[same])
+
     def with_contacts(self, contacts: np.ndarray) -> FaceGraph:
         """The graph with pairs of faces that touch along no length, (k, 2) int64."""
         length = np.concatenate([self.length, np.zeros(len(contacts))])
@@ -196,9 +207,7 @@ def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
     label : (n_faces,) int64
         A label stays in several components only where these touch no other label.
     """
-    first, second = graph.pairs.T
-    same = np.flatnonzero(label[first] == label[second])
-    count, part = components(graph.n_faces, first[same], second[same])
+    count, part = graph.regions(label)
     name = np.empty(count, np.int64)
     name[part] = label
     area = np.bincount(part, graph.area, count)
