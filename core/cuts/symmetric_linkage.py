@@ -181,7 +181,7 @@ class _Clusters:
             self.costs[a][b] = about, b, cost
 
     def merge_(self, a: int, b: int, strength: float) -> None:
-        """Let cluster b become part of cluster a; the means are weighted by area."""
+        """Let cluster b become part of cluster a, which is to be measured anew; the means are weighted by area."""
         self.merges.append((a, b))
         self.strength.append(strength)
         share = self.area[a] / (self.area[a] + self.area[b])
@@ -189,15 +189,13 @@ class _Clusters:
         self.mean[a] = self.mean[:, a] = mean
         for other in self.touching[b]:
             self.touching[other].discard(b)
-            del self.costs[other][b]
+            self.costs[other].pop(b, None)  # none yet, if both have changed
             self.touching[other].add(a)
         self.touching[a] |= self.touching[b]
         self.touching[a] -= {a, b}
         self.touching[b], self.costs[b], self.nearest[b] = set(), {}, None
         self.area[a] += self.area[b]
         self.of[self.of == b] = a
-        self.measure_([a, *(other for other in self.image[a][1:] if other >= 0)])
-        self.find_nearest_([a, *self.touching[a]])
 
 
 def _mean(values: list[float], chosen: tuple[int, ...]) -> float:
@@ -229,4 +227,6 @@ def _merge_with_images_(clusters: _Clusters, a: int, b: int, strength: float) ->
     for element, mirrored in enumerate(union):
         if mirrored >= 0:
             image[mirrored] = [union[further[element]] for further in clusters.composition]
-    clusters.measure_({a, *(int(clusters.of[k]) for k in (*images_a, *images_b) if k >= 0)})
+    changed = {a, *(int(clusters.of[k]) for k in (*images_a, *images_b) if k >= 0)}
+    clusters.measure_(changed)
+    clusters.find_nearest_(changed.union(*(clusters.touching[k] for k in changed)))
