@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -23,12 +24,13 @@ from .result.assemble import assemble
 from .result.decomposition import Decomposition
 from .result.found import ComponentResult
 from .result.half import of_half
+from .result.mirrors import Mirror, find_mirrors
 from .surface.arguments import hints_of
 from .surface.coarsening import Pyramid
 from .surface.halves import completed, plane_of
 from .surface.ordering import sorted_by_place
 from .surface.polygons import PolygonMesh
-from .surface.preparation import Component, bodies, repair
+from .surface.preparation import Component, WorkingMesh, bodies, repair
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -116,18 +118,36 @@ def decompose(
         working = repair(given)
         done_of_mesh(0.9)
         chosen = bodies(working, parameters.pieces == TOGETHER, parameters.loose_part)
-    results = []
-    for done, component in enumerate(chosen):
-        width = (PARTS_SHARE - MESH_SHARE) / len(chosen)
-        begin = MESH_SHARE + done * width
-        watch.share = begin
-        found = decompose_component(component, parameters, watch, begin, width, model)
-        results.append(join_pieces(found, parameters, join_model))
-    with watch.stage("parts", 1.0):
-        result = assemble(given, working, results, parameters, watch.seconds, hint)
-        result = result.scaled(given.exponent).reordered(ordering)
+    # Planes of symmetry are asked for by the mesh alone, and late: a second thread finds them meanwhile.
+    with ThreadPoolExecutor(1) as meanwhile:
+        mirrors = meanwhile.submit(_mirrors, working, chosen, given.n_polygons, parameters)
+        results = _on_bodies(chosen, parameters, watch, model, join_model)
+        with watch.stage("parts", 1.0):
+            result = assemble(given, working, results, mirrors.result(), parameters, watch.seconds, hint)
+            result = result.scaled(given.exponent).reordered(ordering)
     watch.progress("done", 1.0)
     return result
+
+
+def _mirrors(
+    working: WorkingMesh, chosen: list[Component], n_polygons: int, parameters: Parameters
+) -> list[Mirror]:
+    """The planes of symmetry, if the parameters ask for them."""
+    return find_mirrors(working, chosen, n_polygons) if parameters.symmetry else []
+
+
+def _on_bodies(
+    chosen: list[Component], parameters: Parameters, watch: Stopwatch, model: BoostedTrees | None,
+    join_model: JoinModel | None,
+) -> list[ComponentResult]:
+    """What is found on each of the bodies, one after the other."""
+    results = []
+    width = (PARTS_SHARE - MESH_SHARE) / max(len(chosen), 1)
+    for done, component in enumerate(chosen):
+        watch.share = begin = MESH_SHARE + done * width
+        found = decompose_component(component, parameters, watch, begin, width, model)
+        results.append(join_pieces(found, parameters, join_model))
+    return results
 
 
 def decompose_component(

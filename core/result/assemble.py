@@ -26,7 +26,7 @@ from ..surface.preparation import WorkingMesh
 from .decomposition import Decomposition
 from .fans import boundaries
 from .found import LEAST_WEIGHT, ComponentResult, FoundCandidates
-from .mirrors import Mirror, find_mirrors
+from .mirrors import Mirror
 from .slivers import without_slivers
 from .votes import WIDTH, FaceVotes
 from .within_faces import symmetric_within_faces
@@ -36,6 +36,7 @@ def assemble(
     given: PolygonMesh,
     working: WorkingMesh,
     results: list[ComponentResult],
+    mirrors: list[Mirror],
     parameters: Parameters,
     seconds: dict[str, float],
     hint: np.ndarray,
@@ -50,6 +51,8 @@ def assemble(
         Repaired copy of the caller's mesh.
     results : list of ComponentResult
         One for each component that was decomposed; every other component becomes one candidate.
+    mirrors : list of Mirror
+        Planes in which the parts are to be symmetric, as ``find_mirrors`` finds them.
     parameters : Parameters
     seconds : dict of str -> float
         Seconds that each stage has taken so far.
@@ -60,7 +63,6 @@ def assemble(
     -------
     decomposition : Decomposition
     """
-    mirrors = find_mirrors(working, [r.component for r in results], given.n_polygons) if parameters.symmetry else []
     candidates = _face_candidates(given, working, results, mirrors, parameters, hint)
     tables = tables_of(given, working, candidates)
     values, notes = _vertex_field(given, working, results, parameters)
