@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +17,7 @@ from .field.agd import protrusion_field
 from .graph.level_sets import cut_at_levels, uniform_levels
 from .graph.reeb import reeb_graph, reeb_topology
 from .graph.simplify import without_ripples
+from .meanwhile import meanwhile
 from .parameters import TOGETHER, Parameters
 from .progress import Progress, Stopwatch
 from .result.assemble import assemble
@@ -118,13 +118,12 @@ def decompose(
         working = repair(given)
         done_of_mesh(0.9)
         chosen = bodies(working, parameters.pieces == TOGETHER, parameters.loose_part)
-    # Planes of symmetry are asked for by the mesh alone, and late: a second thread finds them meanwhile.
-    with ThreadPoolExecutor(1) as meanwhile:
-        mirrors = meanwhile.submit(_mirrors, working, chosen, given.n_polygons, parameters)
-        results = _on_bodies(chosen, parameters, watch, model, join_model)
-        with watch.stage("parts", 1.0):
-            result = assemble(given, working, results, mirrors.result(), parameters, watch.seconds, hint)
-            result = result.scaled(given.exponent).reordered(ordering)
+    # Planes of symmetry follow from the mesh alone, and are not asked for before the end.
+    mirrors = meanwhile(_mirrors, working, chosen, given.n_polygons, parameters)
+    results = _on_bodies(chosen, parameters, watch, model, join_model)
+    with watch.stage("parts", 1.0):
+        result = assemble(given, working, results, mirrors.result(), parameters, watch.seconds, hint)
+        result = result.scaled(given.exponent).reordered(ordering)
     watch.progress("done", 1.0)
     return result
 
