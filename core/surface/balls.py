@@ -7,6 +7,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from .arrays import lengths, row_products
+from .nearest import nearest
 
 STEPS = 12  # upper bound of the number of times that a ball shrinks
 # Cosine of the smallest angle between the two points that a ball touches, seen from its center. A ball stops shrinking
@@ -41,8 +42,8 @@ def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest
         # A little before the center: of points that are equally far from it, as around the axis of a tube, the one
         # that makes the smallest ball is then the nearest.
         center = p + BEFORE * radius[active, None] * d
-        distance, nearest = tree.query(center)
-        offset = tree.data[nearest] - p
+        distance, touched = nearest(tree, center)
+        offset = tree.data[touched] - p
         height = row_products(offset, d)
         smaller = row_products(offset, offset) / np.maximum(2 * height, 1e-12)
         shrinks = (distance < radius[active] * (1 - 1e-3)) & (height > 1e-9)

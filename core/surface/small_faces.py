@@ -13,7 +13,7 @@ from .arrays import even_steps, lengths, rounded_order, row_products, weighted_s
 from .contact import diameter
 from .mesh import TriMesh
 from .mirror_plane import MirrorPlane
-from .nearest import search_tree
+from .nearest import nearest, search_tree
 
 # How much a turned normal counts where the nearest face is searched, in units of the size, so that the two sides of a
 # wall are told apart.
@@ -24,8 +24,6 @@ SAME = 1e-6  # difference of distances, in units of the size, that is a rounding
 NEAR = 0.02
 # Number of faces from which on their centers alone are compared: faces are then much smaller than walls are thick.
 DENSE = 100_000
-# Number of points from which on it takes longer to search for their nearest than to start threads for it.
-WORTH_THREADS = 5_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,17 +72,16 @@ class Elements:
         Of elements equally far, as on a regular grid, the first: rounding must not choose.
         """
         if self._centers_alone:
-            return self.tree.query(image.position, workers=-1)
-        workers = -1 if len(image.position) > WORTH_THREADS else 1
+            return nearest(self.tree, image.position)
         place = image._place
-        distance, nearest = self.tree.query(place, k=[1, 2], workers=workers)
+        distance, near = nearest(self.tree, place, [1, 2])
         several = np.flatnonzero(distance[:, 1] <= distance[:, 0] + SAME)
-        distance, nearest = distance[:, 0], nearest[:, 0]
+        distance, near = distance[:, 0], near[:, 0]
         if len(several):  # to search for four takes a third longer
-            further, near = self.tree.query(place[several], k=[1, 2, 3, 4])
+            further, few = nearest(self.tree, place[several], [1, 2, 3, 4])
             equal = further <= further[:, :1] + SAME
-            nearest[several] = np.where(equal, near, len(self.position)).min(axis=1)
-        return distance, nearest
+            near[several] = np.where(equal, few, len(self.position)).min(axis=1)
+        return distance, near
 
     def matched(self, image: Elements, nearest: np.ndarray, most: float) -> np.ndarray:
         """Whether images lie on the surface, or beside it by so much, at the element nearest to each, (k,) bool."""

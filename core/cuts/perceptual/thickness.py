@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from ...surface.arrays import TIE, spread_evenly
 from ...surface.balls import ball_radius
 from ...surface.mesh import TriMesh
-from ...surface.nearest import search_tree
+from ...surface.nearest import nearest, search_tree
 
 LARGEST_BALL = 0.2  # radius at which balls begin to shrink, in units of the square root of the area
 N_SURFACE = 12_000  # upper bound of the number of points that represent the surface
@@ -55,7 +55,7 @@ def _nearest(tree: cKDTree, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
     The first three count, and others as near as the third: on a regular grid, rounding must not choose.
     """
-    distance, near = tree.query(place, k=list(range(1, min(AMONG, tree.n) + 1)))
+    distance, near = nearest(tree, place, list(range(1, min(AMONG, tree.n) + 1)))
     return near, distance <= (1 + TIE) * distance[:, min(2, tree.n - 1), None] + TIE
 
 
