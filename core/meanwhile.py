@@ -38,7 +38,7 @@ def meanwhile(
     def work() -> None:
         try:
             future.set_result(function(*args, **kwargs))
-        except BaseException as error:
+        except BaseException as error:  # noqa: BLE001 - whatever it is, it is the caller's
             future.set_exception(error)
 
     try:

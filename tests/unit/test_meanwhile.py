@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapes
+
 from core import decompose
 from core.meanwhile import meanwhile
 
