@@ -17,7 +17,6 @@ from .field.agd import protrusion_field
 from .graph.level_sets import cut_at_levels, uniform_levels
 from .graph.reeb import reeb_graph, reeb_topology
 from .graph.simplify import without_ripples
-from .meanwhile import meanwhile
 from .parameters import TOGETHER, Parameters
 from .progress import Progress, Stopwatch
 from .result.assemble import assemble
@@ -31,6 +30,7 @@ from .surface.halves import completed, plane_of
 from .surface.ordering import sorted_by_place
 from .surface.polygons import PolygonMesh
 from .surface.preparation import Component, WorkingMesh, bodies, repair
+from .threads import meanwhile
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

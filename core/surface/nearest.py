@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 from scipy.spatial import cKDTree
+
+from ..threads import n_processors
 
 # Points in a leaf; SciPy takes 16. With 32, and boxes that are not fitted to their points, medial balls take a
 # third less time and 36,000 vertices 6 % less in all; 24 to 64 make no difference.
@@ -50,7 +50,7 @@ def nearest(tree: cKDTree, point: np.ndarray, k: int | list[int] = 1) -> tuple[n
     index : (m,) or (m, k) int64
         Which points; n where the tree has fewer.
     """
-    workers = max(1, min(os.cpu_count() or 1, len(point) // PER_THREAD))
+    workers = max(1, min(n_processors(), len(point) // PER_THREAD))
     try:
         return tree.query(point, k, workers=workers)
     except RuntimeError:  # no thread is to be had, as while the interpreter ends

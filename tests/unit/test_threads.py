@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Work in a second thread: its result, its errors, and runs in which no thread is to be had."""
 
+import os
 import subprocess
 import sys
 import threading
@@ -12,9 +13,37 @@ import pytest
 import shapes
 
 from core import decompose
-from core.meanwhile import meanwhile
+from core.threads import meanwhile, n_processors
 
 ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(autouse=True)
+def _two_processors(monkeypatch):
+    monkeypatch.setattr("core.threads.n_processors", lambda: 2)
+
+
+@pytest.mark.parametrize(("asked", "found"), [("1", 1), ("", None), ("0", None), ("4,2", None), ("100000", None)])
+def test_a_run_keeps_no_more_processors_busy_than_asked(monkeypatch, asked, found):
+    monkeypatch.setenv("OMP_NUM_THREADS", asked)
+    own = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    assert n_processors() == (found or own)
+
+
+@pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="processes are not bound to processors here")
+def test_a_process_bound_to_one_processor_has_one(monkeypatch):
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(before)})
+    try:
+        assert n_processors() == 1
+    finally:
+        os.sched_setaffinity(0, before)
+
+
+def test_on_one_processor_there_is_no_second_thread(monkeypatch):
+    monkeypatch.setattr("core.threads.n_processors", lambda: 1)
+    assert meanwhile(threading.get_ident).result() == threading.get_ident()
 
 
 def test_the_caller_goes_on_and_gets_the_result():
@@ -41,6 +70,7 @@ def test_an_error_reaches_the_caller():
 
 
 def test_the_same_parts_where_no_thread_is_to_be_had(monkeypatch):
+    monkeypatch.setattr("core.surface.nearest.n_processors", lambda: 2)
     shape = shapes.mirrored_figure()
     found = decompose(*shape)
 
