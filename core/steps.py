@@ -2,7 +2,7 @@
 """Long work in steps: a generator that yields how far it is, 0..1, and returns what comes of it.
 
 A script runs through it at once. In Blender's window a step is taken whenever there is time, see scene/stepped.py and
-viewport/settling.py; to close the generator ends the work, and a transaction around it takes back what was done.
+viewport/idle.py; to close the generator ends the work, and a transaction around it takes back what was done.
 """
 
 from __future__ import annotations

@@ -20,8 +20,8 @@ from ..scene import bridge, cut_curves, explode, graph_objects, mesh_arrays, sel
 from ..scene.errors import SceneError
 from ..scene.part_list import chosen_numbers
 from ..scene.seen_points import seen_points, version
+from .idle import IdleSearch
 from .lines import Lines, Surface
-from .settling import Settling
 from .view_tool import CHANGED
 
 if TYPE_CHECKING:
@@ -40,14 +40,14 @@ _built = None  # what the lines and the surface below were built of
 _lines: Lines | None = None
 _cuts: Lines | None = None
 _surface: Surface | None = None
-_settling: Settling[Curves] = Settling(keep=4)
+_searches: IdleSearch[Curves] = IdleSearch(keep=4)
 
 
 def forget() -> None:
     """Free what is kept in memory."""
     global _built, _lines, _cuts, _surface
     _built = _lines = _cuts = _surface = None
-    _settling.forget()
+    _searches.forget()
 
 
 def curves_of(obj: bpy.types.Object, cut: str) -> Curves | None:
@@ -62,7 +62,7 @@ def curves_of(obj: bpy.types.Object, cut: str) -> Curves | None:
     result = obj.data.reeb_parts
     stretch = bridge.world_stretch(obj)
     key = (obj.data.session_uid, result.fingerprint, result.numbers, stretch.tobytes(), cut)
-    return _settling.of(key, partial(_finding, obj.name, obj.data.session_uid, cut), len(obj.data.polygons) <= AT_ONCE)
+    return _searches.of(key, partial(_finding, obj.name, obj.data.session_uid, cut), len(obj.data.polygons) <= AT_ONCE)
 
 
 def _finding(name: str, uid: int, cut: str) -> Steps[Curves]:

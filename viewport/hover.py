@@ -16,7 +16,7 @@ import numpy as np
 from ..scene import explode, mesh_arrays, part_names, store
 from ..scene.errors import SceneError
 from ..scene.seen_points import seen_points, version
-from . import pointing, settling
+from . import idle, pointing
 from .lines import Surface
 
 FILL = (1.0, 1.0, 1.0, 0.35)
@@ -70,7 +70,7 @@ def number(obj: bpy.types.Object) -> int:
 def point(context: bpy.types.Context, mouse: tuple[int, int]) -> None:
     """The pointer has moved to a place of the region."""
     global _pointed, _mouse
-    settling.moved()
+    idle.moved()
     obj, _mouse = context.view_layer.objects.active, (mouse[0], mouse[1])
     try:
         model = pointing.model_of(obj)

@@ -16,10 +16,10 @@ from ..scene import redraw
 from ..scene.errors import SceneError
 from ..scene.reporting import ReportingOperator
 from ..scene.transaction import transaction
-from . import hover, pointing, settling
+from . import hover, idle, pointing
+from .idle import IdleSearch
 from .lines import Lines, fill
 from .pointing import Target
-from .settling import Settling
 
 _CONFIRM = {"RET", "NUMPAD_ENTER"}
 _CANCEL = {"ESC", "RIGHTMOUSE"}
@@ -35,7 +35,7 @@ class Preview:
         self._lines: np.ndarray | None = None  # (k, 2, 3) float, in coordinates of the mesh
         self._smoothing: Callable[[], Steps[np.ndarray]] | None = None  # makes the steps that find better ones
         self._shown = 0  # how often lines were shown
-        self._settling: Settling[np.ndarray] = Settling()
+        self._search: IdleSearch[np.ndarray] = IdleSearch()
         self.faint_lines = None  # as the lines, of what comes next
         self.disc = None  # (t, 3) float, corners around its middle, which comes first
         self.disc_color = (1.0, 1.0, 1.0, 1.0)
@@ -45,7 +45,7 @@ class Preview:
 
     def remove(self) -> None:
         bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
-        self._settling.forget()
+        self._search.forget()
 
     def show(self, lines: np.ndarray | None, smoothing: Callable[[], Steps[np.ndarray]] | None = None) -> None:
         """Draw lines, (k, 2, 3) in coordinates of the mesh, and others in their place once the view rests.
@@ -58,7 +58,7 @@ class Preview:
     @property
     def lines(self) -> np.ndarray | None:
         """The lines that are drawn now; asked for at each redraw."""
-        smooth = self._settling.of(self._shown, self._smoothing) if self._smoothing is not None else None
+        smooth = self._search.of(self._shown, self._smoothing) if self._smoothing is not None else None
         return self._lines if smooth is None else smooth
 
     def _draw(self) -> None:
@@ -159,7 +159,7 @@ class ViewTool(ReportingOperator):
 
     def _use(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> set[str]:
         if event.type in _MOVES:
-            settling.moved()
+            idle.moved()
             self.hover(context, target, event)
             redraw.viewports()
             return {"RUNNING_MODAL"}

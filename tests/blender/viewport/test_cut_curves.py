@@ -84,7 +84,7 @@ MESHES = {
 def modules(package):
     names = {"core": ("steps",),
              "scene": ("cut_curves", "part_meshes", "bridge", "mesh_arrays", "errors", "seen_points"),
-             "viewport": ("highlight", "knife", "pointing", "ring_tool", "settling")}
+             "viewport": ("highlight", "idle", "knife", "pointing", "ring_tool")}
     return SimpleNamespace(**{name: importlib.import_module(f"{package}.{folder}.{name}")
                               for folder, several in names.items() for name in several})
 
@@ -288,33 +288,33 @@ def test_what_takes_long_is_found_bit_by_bit_once_the_view_rests(modules):
     def steps(result):
         for step in range(3):
             taken.append(step)
-            time.sleep(modules.settling._BREATH)
+            time.sleep(modules.idle._BREATH)
             yield step / 3
         return result
 
-    settling = modules.settling.Settling(keep=2)
-    assert settling.of("a", lambda: steps("A")) is None
-    assert bpy.app.timers.is_registered(settling._timer)
-    assert settling._go_on() > 0
+    search = modules.idle.IdleSearch(keep=2)
+    assert search.of("a", lambda: steps("A")) is None
+    assert bpy.app.timers.is_registered(search._timer)
+    assert search._go_on() > 0
     assert not taken  # it is asked for just now
-    modules.settling._last -= modules.settling.REST
-    assert settling._go_on() == 0.0
+    modules.idle._last -= modules.idle.REST
+    assert search._go_on() == 0.0
     assert taken == [0]
-    assert settling.of("b", lambda: steps("B")) is None  # something else: the first is given up
-    modules.settling._last -= modules.settling.REST
-    while settling._go_on() is not None:
+    assert search.of("b", lambda: steps("B")) is None  # something else: the first is given up
+    modules.idle._last -= modules.idle.REST
+    while search._go_on() is not None:
         pass
     assert taken == [0, 0, 1, 2]
-    assert settling.of("b", lambda: steps("C")) == "B"
-    assert settling.of("a", lambda: steps("A"), at_once=True) == "A"
-    assert (settling.of("b", None), settling.of("c", lambda: steps("C"), at_once=True)) == ("B", "C")
-    assert settling.of("b", lambda: steps("D"), at_once=True) == "D"  # two are remembered
-    assert settling.of("e", lambda: steps("E")) is None
-    modules.settling._last -= modules.settling.REST
-    modules.settling.moved()  # the pointer
-    assert settling._go_on() > 0
-    settling.forget()
-    assert not bpy.app.timers.is_registered(settling._timer)
+    assert search.of("b", lambda: steps("C")) == "B"
+    assert search.of("a", lambda: steps("A"), at_once=True) == "A"
+    assert (search.of("b", None), search.of("c", lambda: steps("C"), at_once=True)) == ("B", "C")
+    assert search.of("b", lambda: steps("D"), at_once=True) == "D"  # two are remembered
+    assert search.of("e", lambda: steps("E")) is None
+    modules.idle._last -= modules.idle.REST
+    modules.idle.moved()  # the pointer
+    assert search._go_on() > 0
+    search.forget()
+    assert not bpy.app.timers.is_registered(search._timer)
 
 
 def test_what_cannot_be_found_is_not_looked_for_again(modules, tree):
@@ -322,14 +322,14 @@ def test_what_cannot_be_found_is_not_looked_for_again(modules, tree):
         raise modules.errors.SceneError("gone")
         yield
 
-    settling = modules.settling.Settling()
-    assert settling.of("a", fails, at_once=True) is None
-    assert settling.of("a", None) is None
+    search = modules.idle.IdleSearch()
+    assert search.of("a", fails, at_once=True) is None
+    assert search.of("a", None) is None
     # An object that was edited, renamed or deleted since: nothing is raised, and lines run along faces.
-    settling = modules.settling.Settling()
+    search = modules.idle.IdleSearch()
     for change in (lambda: setattr(tree.data.vertices[0].co, "x", 9.0), lambda: setattr(tree, "name", "Other"),
                    lambda: bpy.data.objects.remove(tree)):
         uid = tree.data.session_uid
         change()
         key = object()
-        assert settling.of(key, lambda uid=uid: modules.highlight._finding("Tree", uid, "SMOOTH"), True) is None
+        assert search.of(key, lambda uid=uid: modules.highlight._finding("Tree", uid, "SMOOTH"), True) is None

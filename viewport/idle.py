@@ -40,7 +40,7 @@ def _drawn() -> None:
         moved()
 
 
-class Settling(Generic[Result]):
+class IdleSearch(Generic[Result]):
     """Looks for one thing at a time whenever all rests, and has the view drawn again once it is found.
 
     Parameters
