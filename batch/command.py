@@ -28,9 +28,9 @@ from typing import Any, TextIO
 import bpy
 
 from ..core.errors import ReebError
+from ..core.file_names import readable
 from ..core.options import chosen_parameters
 from ..core.parameters import Parameters
-from ..core.whole_files import readable
 from ..scene import (
     armature,
     bridge,
@@ -46,9 +46,9 @@ from ..scene import (
 )
 from ..scene.compute import compute_all
 from ..scene.errors import SceneError, load_core
+from ..scene.run_files import RunFiles, reason, scene_files, together
 from ..scene.settings import closes_holes
 from ..scene.transaction import transaction
-from ..scene.whole_files import WholeFiles, reason, scene_files, together
 from .interrupt import Interrupted, Interrupts
 from .options import MODELS, UNITS, WITHOUT_UNIT, parser, separate_style
 
@@ -124,7 +124,7 @@ def _in_a_window() -> AbstractContextManager:
     return bpy.context.temp_override(window=window)
 
 
-def _claim(options: argparse.Namespace, files: WholeFiles) -> None:
+def _claim(options: argparse.Namespace, files: RunFiles) -> None:
     """Say which files will be written; raises SceneError where one cannot be."""
     # The standard streams may lead to files, too.
     files.protect([1, 2])
@@ -320,7 +320,7 @@ def is_separated(options: argparse.Namespace) -> bool:
     return bool(options.separate or options.rigid_bodies or closes_holes(separate_style(options)))
 
 
-def write_files(options: argparse.Namespace, files: WholeFiles, objects: list[bpy.types.Object], reports: list[dict],
+def write_files(options: argparse.Namespace, files: RunFiles, objects: list[bpy.types.Object], reports: list[dict],
                 problems: list[dict]) -> dict:
     """Write what is asked for; returns the JSON with what was written."""
     from ..core.uses.report import document

@@ -14,8 +14,8 @@ from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import wanted_numbers
 from ..scene.reporting import ReportingOperator
+from ..scene.run_files import together
 from ..scene.settings import SeparateProperties, WhichProperties
-from ..scene.whole_files import together
 
 # Since Blender 4.5 a path may only begin with "//" where that is said.
 _FROM_FILE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5) else set()

@@ -15,11 +15,12 @@ from pathlib import Path
 
 import numpy as np
 
+from .core.atomic_files import HIDDEN
 from .core.errors import ReebError
+from .core.file_names import readable
 from .core.memory import lacks_memory
 from .core.sentence import Sentence
 from .core.surface.ears import without_folds
-from .core.whole_files import HIDDEN, readable
 
 #: Files that Blender alone can read, see ``blender_export``.
 BY_BLENDER = (".blend", ".fbx")

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from .core.file_names import file_name
 from .core.result.decomposition import Decomposition, Parts
 from .core.surface.mesh import TriMesh
 from .core.uses.colors import linear, part_colors
 from .core.uses.pictures import picture, png
 from .core.uses.report import bounding_boxes, document, report
-from .core.whole_files import file_name
 from .meshes import face_colors
 from .model_files import Model
 

@@ -12,15 +12,15 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.file_names import file_name
 from ..core.uses.threemf import Assembly, Body, write_3mf
-from ..core.whole_files import file_name
 from . import bridge, complete, mesh_arrays, part_names, piece_objects, placing, store
 from .errors import SceneError
 from .part_meshes import piece_meshes
+from .run_files import RunFiles
 from .selection import nothing_selected
 from .temporary import removed
 from .units import millimeters
-from .whole_files import WholeFiles
 
 EXPORTERS = {
     "obj": lambda path: bpy.ops.wm.obj_export(filepath=path, export_selected_objects=True),
@@ -34,14 +34,14 @@ _PLAIN = (0.8, 0.8, 0.8)
 FORMATS = (*EXPORTERS, "3mf")
 
 
-def export_parts(files: WholeFiles, objects: Iterable[tuple[bpy.types.Object, Iterable[int] | None]], folder: Path,
+def export_parts(files: RunFiles, objects: Iterable[tuple[bpy.types.Object, Iterable[int] | None]], folder: Path,
                  kind: str, close: bool = False, one_file: bool = False, separated: bool = False,
                  cut: str = "FACES") -> list[Path]:
     """Write each part of some objects as a file of its own, or each object as one; the scene stays as it is.
 
     Parameters
     ----------
-    files : WholeFiles
+    files : RunFiles
         Puts the files in their places when all is written.
     objects : iterable of (bpy.types.Object, iterable of int or None)
         In Object Mode, with parts; which parts, None for all.
@@ -127,7 +127,7 @@ def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str,
     return copies
 
 
-def _write(files: WholeFiles, path: Path, obj: bpy.types.Object, pieces: dict[str, bpy.types.Object],
+def _write(files: RunFiles, path: Path, obj: bpy.types.Object, pieces: dict[str, bpy.types.Object],
            kind: str) -> Path:
     """Write pieces, by their names, as one file; returns its path."""
     with files.writing(path, complete.model([piece.data for piece in pieces.values()], kind), alone=True) as place:
@@ -154,7 +154,7 @@ def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object]) -> tuple
     return tuple(bodies)
 
 
-def write_assemblies(files: WholeFiles, objects: Iterable[bpy.types.Object], path: Path,
+def write_assemblies(files: RunFiles, objects: Iterable[bpy.types.Object], path: Path,
                      separated: bool = False, cut: str = "FACES") -> None:
     """Write the parts of some objects, closed, as one 3MF file with an assembly for each object.
 

@@ -186,7 +186,7 @@ class ModelProcess:
 
 def _write_failure(job: dict[str, Any], status: str, reason: str) -> None:
     """Write the record of a model that the process ended at; raises OSError."""
-    from ..whole_files import write_folder
+    from ..output_files import write_folder
     from .records import RECORD
 
     record = failure(job["name"], status, reason, Settings.from_dict(job["settings"]).digest,

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from ..whole_files import write_files
+from ..output_files import write_files
 
 PAGE = "index.html"
 #: Models whose pictures are in the page itself; a page of more shows them from their folders, or it would not open.

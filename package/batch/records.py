@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
+from ..core.file_names import readable
 from ..core.parameters import Parameters
 from ..core.result.decomposition import VERSION
-from ..core.whole_files import readable
 
 FORMAT = 1  # version of what a record holds
 RECORD = "record.json"

@@ -11,8 +11,8 @@ from functools import cache
 from pathlib import Path
 
 from ..core.errors import ReebError
+from ..core.file_names import readable
 from ..core.sentence import Sentence
-from ..core.whole_files import readable
 from .records import RECORD, read_record
 
 

@@ -11,8 +11,9 @@ from typing import Any
 import pyarrow as pa
 from pyarrow import parquet
 
-from ..core.whole_files import hidden_place, put_in_place, readable
-from ..whole_files import as_output_error
+from ..core.atomic_files import hidden_place, put_in_place
+from ..core.file_names import readable
+from ..output_files import as_output_error
 from .records import RECORD
 
 ROWS = 5_000  # rows that are kept in memory before they are written

@@ -17,8 +17,8 @@ from ..core.sentence import Sentence
 from ..core.uses.descriptors import part_descriptors
 from ..meshes import decompose
 from ..model_files import Model, ModelFileError, NoReaderError, read_model
+from ..output_files import OutputFileError, as_output_error, write_folder
 from ..outputs import colored_bytes, json_bytes, labels_bytes, model_document, part_files, picture_bytes
-from ..whole_files import OutputFileError, as_output_error, write_folder
 from .records import DONE, ERROR, FORMAT, READER, RECORD, REFUSED, UNREADABLE, Settings, digest_of, failure
 
 

@@ -26,12 +26,12 @@ from typing import Any
 from ..batch.records import CRASH, DONE, OPEN, RECORD, Settings, failure, is_done, records
 from ..batch.sources import Source, find_sources, read_list
 from ..core.errors import ReebError
+from ..core.file_names import readable
 from ..core.options import add_parameters, chosen_parameters, number
 from ..core.sentence import Sentence
-from ..core.whole_files import readable
 from ..model_files import BY_BLENDER, formats
+from ..output_files import as_output_error, remove_leftovers, write_folder
 from ..outputs import COLORED, LABELS, PARTS
-from ..whole_files import as_output_error, remove_leftovers, write_folder
 from .words import print_answer, say
 
 NEEDED = ("distributed", "pyarrow", "tqdm", "psutil")

@@ -15,12 +15,13 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
+from ..core.file_names import readable
 from ..core.memory import keep_freed_memory
 from ..core.options import add_parameters, chosen_parameters, number
 from ..core.sentence import Sentence
-from ..core.whole_files import readable
 from ..meshes import decompose
 from ..model_files import read_model
+from ..output_files import OutputFileError, write_files
 from ..outputs import (
     COLORED,
     LABELS,
@@ -32,7 +33,6 @@ from ..outputs import (
     part_files,
     picture_bytes,
 )
-from ..whole_files import OutputFileError, write_files
 from .words import print_answer, say
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ..core.options import number as number_option
 from ..core.sentence import Sentence
-from ..whole_files import OutputFileError, write_files
+from ..output_files import OutputFileError, write_files
 from .batch import MissingPackageError
 from .decompose import file_of
 from .words import print_answer

@@ -8,7 +8,7 @@ import sys
 from contextlib import suppress
 
 from ..core.sentence import Sentence
-from ..whole_files import OutputFileError
+from ..output_files import OutputFileError
 
 
 def say(text: str) -> None:

@@ -27,7 +27,7 @@ from reeb_parts.batch.sources import SourceError, find_sources
 from reeb_parts.batch.tables import MODELS, PARTS
 from reeb_parts.batch.work import do_model
 from reeb_parts.command import batch as command
-from reeb_parts.whole_files import remove_leftovers
+from reeb_parts.output_files import remove_leftovers
 
 from core import Parameters, decompose
 from core.uses.descriptors import distances, part_descriptors

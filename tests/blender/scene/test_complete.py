@@ -95,7 +95,7 @@ def test_materials_that_are_cut_off(complete, obj, tmp_path):
 
 @pytest.mark.parametrize("way", ["folder", "alone"])
 def test_an_interruption_just_when_a_folder_is_made_leaves_none(package, tmp_path, monkeypatch, way):
-    whole_files = import_module(f"{package}.scene.whole_files")
+    run_files = import_module(f"{package}.scene.run_files")
     mkdir = Path.mkdir
 
     def interrupted(folder, *arguments, **options):
@@ -103,7 +103,7 @@ def test_an_interruption_just_when_a_folder_is_made_leaves_none(package, tmp_pat
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Path, "mkdir", interrupted)
-    with pytest.raises(KeyboardInterrupt), whole_files.together() as files:
+    with pytest.raises(KeyboardInterrupt), run_files.together() as files:
         if way == "folder":
             files.folder(tmp_path / "new" / "deep")
         with files.writing(tmp_path / "x.stl", lambda place: True, alone=True):
@@ -113,13 +113,13 @@ def test_an_interruption_just_when_a_folder_is_made_leaves_none(package, tmp_pat
 
 def test_none_of_several_files_is_in_place_if_one_cannot_be_moved(package, tmp_path):
     """Such as one that another program has open on Windows; here a folder took its place meanwhile."""
-    whole_files = import_module(f"{package}.scene.whole_files")
+    run_files = import_module(f"{package}.scene.run_files")
     first, second = tmp_path / "a.json", tmp_path / "b.json"
     for path in (first, second):
         path.write_text("old")
 
     def write():
-        with whole_files.together() as files:
+        with run_files.together() as files:
             for path in (first, second):
                 with files.writing(path, lambda place: True) as place:
                     place.write_text("new")

@@ -1,41 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names of files, and how files and folders that were written under hidden names get to their places: all or none."""
+"""How files and folders that were written under hidden names get to their places: all or none."""
 
 from __future__ import annotations
 
 import os
-import re
 import secrets
 import shutil
-import unicodedata
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, suppress
 from pathlib import Path
 
 HIDDEN = ".reeb_parts_"  # how names begin under which files and folders are written
 FORMER = f"{HIDDEN}former_"  # how those of folders begin that keep what was in a place before
-#: Names that stand for devices on Windows, whatever follows a first dot.
-DEVICES = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9¹²³])\s*(\.|$)", re.IGNORECASE)
-
-
-def readable(name: str | Path) -> str:
-    """A name of a file as a text for JSON and tables: the same if it can be, else with its strange bytes as \\xdf.
-
-    Systems other than Windows allow names that are no UTF-8, such as those that old archives bring along.
-    """
-    text = str(name)
-    try:
-        text.encode()
-    except UnicodeEncodeError:
-        return os.fsencode(text).decode(errors="backslashreplace")
-    return text
-
-
-def file_name(text: str, default: str) -> str:
-    """A text without what a file system might not like, with room for a suffix. default : str, where nothing is left"""
-    plain = re.sub(r"[^\w .()+-]", "_", unicodedata.normalize("NFC", text))
-    plain = plain.encode()[:200].decode(errors="ignore").strip(" .") or default
-    return f"_{plain}" if DEVICES.match(plain) else plain
 
 
 def hidden_place(target: Path, suffix: str = "", beginning: str = HIDDEN) -> Path:

@@ -5,8 +5,8 @@ import os
 
 import pytest
 from reeb_parts.batch.tables import write_tables
-from reeb_parts.core.whole_files import FORMER, HIDDEN
-from reeb_parts.whole_files import OutputFileError, remove_leftovers, write_files, write_folder
+from reeb_parts.core.atomic_files import FORMER, HIDDEN
+from reeb_parts.output_files import OutputFileError, remove_leftovers, write_files, write_folder
 
 
 def content(folder):

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 
+from .core.atomic_files import FORMER, HIDDEN, hidden_place, put_in_place, restore_former
 from .core.errors import ReebError
 from .core.sentence import Sentence
-from .core.whole_files import FORMER, HIDDEN, hidden_place, put_in_place, restore_former
 
 
 class OutputFileError(ReebError, OSError):

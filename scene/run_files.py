@@ -19,11 +19,11 @@ from pathlib import Path
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.whole_files import HIDDEN, hidden_place, put_in_place, sync
+from ..core.atomic_files import HIDDEN, hidden_place, put_in_place, sync
 from .errors import SceneError
 
 
-class WholeFiles:
+class RunFiles:
     """The files of one run; ``together`` makes it and puts them in place."""
 
     def __init__(self) -> None:
@@ -192,9 +192,9 @@ class WholeFiles:
 
 
 @contextmanager
-def together() -> Iterator[WholeFiles]:
+def together() -> Iterator[RunFiles]:
     """Files that appear when the block ends, all of them; none if it raises. What the open scene reads is protected."""
-    files = WholeFiles()
+    files = RunFiles()
     files.protect(scene_files())
     try:
         yield files

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names of files, and files that get to their places all together or not at all."""
+"""Files that get to their places all together or not at all."""
 
 import os
 import sys
-import unicodedata
 from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
 
-from core.whole_files import FORMER, HIDDEN, file_name, hidden_place, put_in_place, readable, restore_former
+from core.atomic_files import FORMER, HIDDEN, hidden_place, put_in_place, restore_former
 
 
 def content(folder):
@@ -177,17 +176,3 @@ def test_hidden_places_cannot_be_guessed():
     assert first.parent == target.parent
     assert first.name.startswith(HIDDEN)
     assert first.suffix == ".json"
-
-
-@pytest.mark.parametrize(("text", "name"), [
-    ("Spot", "Spot"), ("a/b:c*d", "a_b_c_d"), (" .. ", "part"), ("trailing. ", "trailing"), ("x" * 300, "x" * 200),
-    ("CON", "_CON"), ("nul", "_nul"), ("Aux.L", "_Aux.L"), ("com1", "_com1"), ("LPT9 .x", "_LPT9 .x"),
-    ("Console", "Console"), ("com", "com"), ("com10", "com10"), (unicodedata.normalize("NFD", "ähre"), "ähre"),
-])  # fmt: skip
-def test_names_are_such_as_every_file_system_takes(text, name):
-    assert file_name(text, "part") == name
-
-
-def test_names_that_are_no_utf8_are_readable():
-    assert readable("plain ä") == "plain ä"
-    assert readable(os.fsdecode(b"stra\xdfe.obj")) == "stra\\xdfe.obj"
