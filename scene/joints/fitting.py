@@ -12,32 +12,14 @@ import numpy as np
 
 from ...core.steps import Steps
 from .. import bridge, mesh_arrays, piece_checks
-from .cuts import Cut
+from .planning import Plan
 from .solids import solid_of, with_solids
 
 if TYPE_CHECKING:
-    from ...core.uses.joint_places import Joint, Places, Wanted
+    from ...core.uses.joint_places import Joint, Wanted
 
 # A joint that the solver fails at is tried again, so much smaller, and so often.
 _AGAIN, _TRIES = 0.93, 2
-
-
-@dataclass(frozen=True, eq=False)
-class Plan:
-    """What a cut is to have, or why it has nothing; tries : how often it has been made smaller."""
-
-    cut: Cut
-    wanted: Wanted | None
-    places: Places | None
-    why: str
-    tries: int = 0
-
-    def smaller(self) -> Plan:
-        """The same with smaller joints, as a solver may stumble over one place; without, after so many times."""
-        if self.tries >= _TRIES or self.places is None:
-            return replace(self, why="RESULT")
-        joints = tuple(replace(joint, radius=_AGAIN * joint.radius) for joint in self.places.joints)
-        return replace(self, places=replace(self.places, joints=joints), tries=self.tries + 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,9 +52,17 @@ def fitting(work: Work, planned: list[Plan]) -> Steps[tuple[dict[int, bpy.types.
             continue
         wrong = [i for i in mine if len(mine) == 1 or not _alone(work, key, planned[i])] or mine
         for i in wrong:
-            planned[i] = planned[i].smaller()
+            planned[i] = _smaller(planned[i])
             again |= set(planned[i].cut.keys)
     return made, planned
+
+
+def _smaller(plan: Plan) -> Plan:
+    """The same with smaller joints, as a solver may stumble over one place; without, after so many times."""
+    if plan.tries >= _TRIES or plan.places is None:
+        return replace(plan, why="RESULT")
+    joints = tuple(replace(joint, radius=_AGAIN * joint.radius) for joint in plan.places.joints)
+    return replace(plan, places=replace(plan.places, joints=joints), tries=plan.tries + 1)
 
 
 def _alone(work: Work, key: int, plan: Plan) -> bool:

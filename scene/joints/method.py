@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The method: plan joints for all cuts, one after the other, then fit them into the pieces."""
+"""The method: plan joints for all cuts, then fit them into the pieces."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import bpy
@@ -14,10 +14,11 @@ from ...core.steps import Steps, stretched
 from .. import bridge, mesh_arrays, piece_checks
 from ..temporary import removed
 from ..units import millimeters
-from .bodies import Body, Side
+from .bodies import Body
 from .cuts import shared_cuts
-from .fitting import Plan, Work, fitting
-from .solids import dowel, solid_of
+from .fitting import Work, fitting
+from .planning import Plan, Room, planning
+from .solids import dowel
 
 if TYPE_CHECKING:
     from ...core.graph.reeb import ReebGraph
@@ -110,40 +111,27 @@ def joining(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stret
     -------
     joined : Joined
     """
-    from ...core.uses.joint_places import arc_direction, joint_places
-    from ...core.uses.joint_shapes import Kind
-
     cuts = shared_cuts(meshes, stretch)
     keys = sorted({key for cut in cuts for key in cut.keys})
     checks = {key: piece_checks.check(meshes[key], stretch)[0] for key in keys}
-    bodies = {key: Body(meshes[key], stretch) for key, found in checks.items() if found.volume and found.volume > 0}
-    planned: list[Plan] = []
-    for cut in sorted(cuts, key=lambda cut: -cut.cap.area()):
-        yield 0.5 * len(planned) / len(cuts)
-        kind = kind_of(*cut.keys) or wanted.kind.name
-        own = replace(wanted, kind=Kind(kind)) if kind != "NONE" else None
-        if own is None or not all(key in bodies for key in cut.keys):
-            planned.append(Plan(cut, own, None, "BODY" if own else "NONE"))
-            continue
-        # The smaller piece has the peg, the larger one has room for it.
-        first = int(checks[cut.keys[0]].volume < checks[cut.keys[1]].volume)  # type: ignore[operator]
-        pair = (Side(bodies, cut, 0), Side(bodies, cut, 1))
-        along = arc_direction(graph, cut.cap.corners().mean(axis=(0, 1))) if graph is not None else None
-        places = joint_places(cut.cap, pair, own, first, along)
-        planned.append(Plan(cut, own, places, "" if places.joints else "BENT" if places.bent else "ROOM"))
-        for joint in places.joints:
-            for side in (0, 1):
-                if side == places.into or own.kind.both_sides:
-                    bodies[cut.keys[side]].add_hole(solid_of(joint, own, True))
+    volumes = {key: found.volume for key, found in checks.items() if found.volume and found.volume > 0}
+    room = Room({key: Body(meshes[key], stretch) for key in volumes}, volumes, graph)
+    planned = yield from stretched(planning(cuts, room, wanted, kind_of), 0.0, 0.5)
     made, planned = yield from stretched(fitting(Work(context, meshes, checks, stretch), planned), 0.5, 1.0)
     for key, mesh in made.items():
         _spread_shape_keys(meshes[key], mesh)
         mesh.name = meshes[key].name
     bpy.data.batch_remove([meshes[key] for key in made])
-    loose = [Dowel(dowel(joint, plan.wanted, bridge.unstretch(stretch)), plan.cut.keys) for plan in planned
-             if not plan.why and plan.places and plan.wanted and plan.wanted.kind is Kind.DOWEL
-             for joint in plan.places.joints]
-    return Joined({**meshes, **made}, loose, [_said(plan) for plan in planned])
+    return Joined({**meshes, **made}, _dowels(planned, stretch), [_said(plan) for plan in planned])
+
+
+def _dowels(planned: list[Plan], stretch: np.ndarray) -> list[Dowel]:
+    """The loose dowels of all cuts that have some."""
+    from ...core.uses.joint_shapes import Kind
+
+    return [Dowel(dowel(joint, plan.wanted, bridge.unstretch(stretch)), plan.cut.keys) for plan in planned
+            if not plan.why and plan.places and plan.wanted and plan.wanted.kind is Kind.DOWEL
+            for joint in plan.places.joints]
 
 
 def _said(plan: Plan) -> CutJoints:
