@@ -40,6 +40,7 @@ from ..scene import (
     hulls,
     piece_objects,
     results,
+    separation,
     store,
     targets,
     uv_map,
@@ -296,7 +297,7 @@ def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:
     if is_separated(options):
         style = separate_style(options)
         numbers = stored.shown_parts().numbers.tolist()
-        separated = piece_objects.separate(bpy.context, obj, stored, numbers, style)
+        separated = separation.separate(bpy.context, obj, stored, numbers, style)
         piece_objects.hide_original(bpy.context, obj)
         if closes_holes(style):
             said["unjoined"] = separated.n_apart

@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..scene import piece_objects, store, targets
+from ..scene import piece_objects, separation, store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
@@ -55,7 +55,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         with object_mode(context):
             found = targets.usable(objects, lambda obj: store.load(obj.data), self.report)
             for index, (obj, stored) in enumerate(found):
-                steps = piece_objects.separating(context, obj, stored, wanted_numbers(obj.data, self.which), self)
+                steps = separation.separating(context, obj, stored, wanted_numbers(obj.data, self.which), self)
                 separated = yield from stretched(steps, index / len(found), (index + 1) / len(found))
                 made.append((obj, separated))
         if self.hide:
@@ -80,7 +80,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         if context.mode == "OBJECT":
             select_objects(context, pieces, active=of_active[0] if self.hide and of_active else None)
 
-    def _report(self, obj: bpy.types.Object, separated: piece_objects.Separated) -> None:
+    def _report(self, obj: bpy.types.Object, separated: separation.Separated) -> None:
         self.report({"INFO"}, rpt_("{name}: {n} {n:part is an object|parts are objects} now").format(
             name=obj.name, n=Count(len(separated.pieces) - separated.more)))
         if separated.more:
@@ -115,7 +115,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
                 "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but "
                 "cannot be joined with them}: parts stay open there").format(n=Count(separated.n_apart)))
 
-    def _report_joints(self, separated: piece_objects.Separated) -> None:
+    def _report_joints(self, separated: separation.Separated) -> None:
         """Say how many cuts have joints, and of which others why not."""
         cuts = separated.cuts
         self.report({"INFO"}, rpt_("{n} of {total} {total:cut has|cuts have} joints").format(

@@ -1398,7 +1398,7 @@ def test_what_is_sculpted_with_multires_stays(obj, style):
 @pytest.mark.parametrize("style", [{"caps": True}, {"caps": False, "cut": "FACES"}])
 def test_to_end_it_at_any_step_leaves_everything_as_it_was(package, obj, style):
     """In the window it goes on in steps and Esc ends it; whichever step it is at, nothing is left of it."""
-    scene = importlib.import_module(f"{package}.scene.piece_objects")
+    scene = importlib.import_module(f"{package}.scene.separation")
     transaction = importlib.import_module(f"{package}.scene.transaction").transaction
     stored = importlib.import_module(f"{package}.scene.store")
     bpy.ops.reeb_parts.decompose()
