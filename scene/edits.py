@@ -297,15 +297,14 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         The part that each face was to be in, with the mirror image of the change; pieces have other numbers then.
     """
     from ..core.result.editing import split_candidates
-    from ..core.result.mirroring import gathered, without_crumbs
+    from ..core.result.mirroring import cleaned
 
     before, asked = stored.face_numbers, face_numbers
     face_numbers, also = _mirrored(obj.data, stored, before, asked, stored.decomposition.face_twin)
     if also:
         mesh_tables = mesh_tables or bridge.face_graph(obj)
         found = stored.decomposition
-        face_numbers = gathered(mesh_tables[0], found.contacts, found.face_twin, before, asked, face_numbers)
-        face_numbers = without_crumbs(mesh_tables[0], before, asked, face_numbers)
+        face_numbers = cleaned(mesh_tables[0], found.contacts, found.face_twin, before, asked, face_numbers)
     moved = face_numbers != before
     if not moved.any():
         return face_numbers

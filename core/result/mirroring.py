@@ -24,37 +24,12 @@ def twin_numbers(numbered: NumberedParts) -> dict[int, int]:
     return dict(zip(numbered.numbers[has].tolist(), numbered.numbers[twin[has]].tolist(), strict=True))
 
 
-def without_crumbs(graph: FaceGraph, before: np.ndarray, asked: np.ndarray, both: np.ndarray) -> np.ndarray:
-    """Give what the mirror image of a change cut off by chance to the part around it.
+def cleaned(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, before: np.ndarray, asked: np.ndarray,
+            both: np.ndarray) -> np.ndarray:
+    """Have the mirror image of a change consist of as few regions as the change itself, and leave as few.
 
-    Where faces have no exact images, the image of a cut may leave a few of them alone that the cut itself did not.
-
-    Parameters
-    ----------
-    graph : FaceGraph
-        Of p faces.
-    before, asked, both : (p,) int64
-        Number of the part of each face before a change, after it, and after its mirror image, too.
-
-    Returns
-    -------
-    both : (p,) int64
-        Regions in which a face was changed stay.
-    """
-    extra = both != asked
-    region = graph.regions(both)[1]
-    small = np.bincount(region, graph.area)[region] < CRUMB * np.bincount(both, graph.area)[both]
-    concerned = np.isin(both, np.concatenate([asked[extra], both[extra]]))
-    left = np.bincount(region, both != before)[region] == 0
-    return np.where(small & concerned & left, connect(graph, both), both)
-
-
-def gathered(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, before: np.ndarray, asked: np.ndarray,
-             both: np.ndarray) -> np.ndarray:
-    """Have the mirror image of a change in as many regions as the change itself.
-
-    Where faces have no exact images, as on surfaces that lie inside each other, the image of a region may be scattered:
-    the region that has most of it stays, and the others go to what is around them in the same part.
+    Where faces have no exact images the image may be scattered, see ``gathered``, or leave a few faces alone that the
+    change did not, see ``without_crumbs``.
 
     Parameters
     ----------
@@ -70,7 +45,35 @@ def gathered(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, before: n
     Returns
     -------
     both : (p,) int64
-        As asked, without an image, where less than half of the image would be left.
+        As asked where no more than half of the image would be left.
+    """
+    found = gathered(graph, contacts, twin, before, asked, both)
+    # What touches its part is in one region with it: to be alone is to have no contact, either.
+    return without_crumbs(graph.with_contacts(contacts), before, asked, found)
+
+
+def without_crumbs(graph: FaceGraph, before: np.ndarray, asked: np.ndarray, both: np.ndarray) -> np.ndarray:
+    """Give what the mirror image of a change cut off by chance to the part around it; regions that changed stay.
+
+    Where faces have no exact images, the image of a cut may leave a few of them alone that the cut itself did not.
+
+    graph : with its contacts. before, asked, both : as of ``cleaned``.
+    """
+    extra = both != asked
+    region = graph.regions(both)[1]
+    small = np.bincount(region, graph.area)[region] < CRUMB * np.bincount(both, graph.area)[both]
+    concerned = np.isin(both, np.concatenate([asked[extra], both[extra]]))
+    left = np.bincount(region, both != before)[region] == 0
+    return np.where(small & concerned & left, connect(graph, both), both)
+
+
+def gathered(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, before: np.ndarray, asked: np.ndarray,
+             both: np.ndarray) -> np.ndarray:
+    """Have the mirror image of a change in as many regions as the change itself; arguments as of ``cleaned``.
+
+    Where faces have no exact images, as on surfaces that lie inside each other, the image of a region may be scattered:
+    the region that has most of it stays, and the others go to what is around them in the same part. As asked, without
+    an image, where less than half of the image would be left.
     """
     extra = both != asked
     # Crumbs of the image first: what lies around one may be a single region without it.

@@ -6,7 +6,7 @@ from itertools import count
 import numpy as np
 import pytest
 
-from core.result.mirroring import gathered, on_both_sides, without_crumbs
+from core.result.mirroring import cleaned, gathered, on_both_sides, without_crumbs
 from core.surface.labels import FaceGraph
 
 BEFORE = [1, 1, 1, 3, 3, 3, 3, 2, 2, 2]
@@ -105,3 +105,18 @@ def gathered_row(image, twin):
 def test_an_image_is_in_as_many_regions_as_the_change(twin, expected):
     image = [5 if face < 4 else 2 for face in twin]
     assert gathered_row(image, twin) == [*CUT[:8], *expected]
+
+
+@pytest.mark.parametrize(("contacts", "last"), [([[7, 9]], 2), ([], 6)])
+def test_what_touches_its_part_is_no_crumb(contacts, last):
+    """The last face lies beside part 6, and belonged to part 2 before, which it touches: no image moved it."""
+    area, row = np.ones(10), np.arange(9)
+    area[9] = 0.01
+    graph = FaceGraph(10, np.stack([row, row + 1], axis=1), np.ones(9), area)
+    before = np.array([1, 1, 1, 1, 3, 3, 2, 2, 6, 2])
+    asked, both = before.copy(), before.copy()
+    asked[0] = both[0] = 4
+    both[6] = 5
+    twin = np.array([6, 7, -1, -1, -1, -1, 0, 1, -1, -1])
+    found = cleaned(graph, np.array(contacts, np.int64).reshape(-1, 2), twin, before, asked, both)
+    assert found.tolist() == [4, 1, 1, 1, 3, 3, 5, 2, 6, last]
