@@ -21,8 +21,6 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, redirect_stdout, suppress
-from itertools import takewhile
-from pathlib import Path
 from typing import Any, TextIO
 
 import bpy
@@ -51,16 +49,9 @@ from ..scene.run_files import RunFiles, reason, scene_files, together
 from ..scene.settings import closes_holes
 from ..scene.transaction import transaction
 from .interrupt import Interrupted, Interrupts
-from .options import MODELS, UNITS, WITHOUT_UNIT, parser, separate_style
-
-IMPORTERS = {
-    ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
-    ".ply": lambda path: bpy.ops.wm.ply_import(filepath=path),
-    ".stl": lambda path: bpy.ops.wm.stl_import(filepath=path),
-    ".glb": lambda path: bpy.ops.import_scene.gltf(filepath=path),
-    ".gltf": lambda path: bpy.ops.import_scene.gltf(filepath=path),
-    ".fbx": lambda path: bpy.ops.import_scene.fbx(filepath=path),
-}
+from .messages import problem, say
+from .models import find_objects
+from .options import parser, separate_style
 
 FAILED = 1
 
@@ -76,16 +67,16 @@ def main(arguments: list[str]) -> int:
         try:
             result = run(options, interrupts)
         except Interrupted as end:
-            _say("Interrupted; nothing was written.")
+            say("Interrupted; nothing was written.")
             return end.status
         except (SceneError, ReebError) as error:
-            _say(str(error))
+            say(str(error))
             return FAILED
         try:
             answer.write(_as_text(result))
             answer.flush()
         except OSError as error:
-            _say(f"Standard output could not be written: {reason(error)}")
+            say(f"Standard output could not be written: {reason(error)}")
             return FAILED
     return FAILED if result["problems"] else 0
 
@@ -96,7 +87,7 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
         _claim(options, files)
         parameters, notes = chosen_parameters(options)
         for note in notes:
-            _say(note)
+            say(note)
         with interrupts.allowed():
             load_core()
             objects, problems, sources = find_objects(options)
@@ -109,7 +100,7 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
                         reports.append(decompose_object(obj, parameters, options) | sources.get(obj, {}))
                         done.append(obj)
                     except (SceneError, ReebError, MemoryError) as error:
-                        problems.append(_problem(getattr(obj, "name", ""), error))
+                        problems.append(problem(getattr(obj, "name", ""), error))
             if not done:
                 raise SceneError("Nothing was decomposed.")
             with interrupts.allowed():
@@ -159,111 +150,6 @@ def _as_text(result: dict) -> str:
     return json.dumps(result, indent=2, allow_nan=False) + "\n"
 
 
-def _problem(name: str, error: Exception) -> dict:
-    """What the JSON says of an object that could not be decomposed; said at once, too."""
-    words = readable(str(error) or "There is not enough memory.")
-    _say(words if name in words else f"{name}: {words}")
-    return {"name": name, "problem": words}
-
-
-def find_objects(options: argparse.Namespace) -> tuple[list, list[dict], dict]:
-    """Open what is asked for.
-
-    Returns the objects to decompose, the problems with those that are not there, and what the JSON says of where an
-    object comes from, if there are several models.
-    """
-    meshes, problems, sources = _open(options.models, options.unit)
-    if not options.object:
-        return meshes or ([] if problems else [bpy.context.view_layer.objects.active]), problems, sources
-    names = list(dict.fromkeys(options.object))
-    problems += [_problem(name, SceneError(f"There is no object {name} in the scene."))
-                 for name in names if name not in bpy.data.objects]
-    return [bpy.data.objects[name] for name in names if name in bpy.data.objects], problems, sources
-
-
-def _open(models: list[Path], unit: str | None) -> tuple[list, list[dict], dict]:
-    """Open a scene, or import models into an empty one; the meshes of models and, of several, problems and sources."""
-    if len(models) == 1:
-        _check_model(models[0], (".blend", *MODELS))
-    is_scene = len(models) == 1 and models[0].suffix.lower() == ".blend"
-    if unit and (is_scene or not models):
-        raise SceneError("--unit is for models; a scene has its own.")
-    if unit and (own := [path for path in models if path.suffix.lower() not in WITHOUT_UNIT]):
-        raise SceneError(f"--unit is for {', '.join(WITHOUT_UNIT)}; {own[0]} has its own.")
-    if not models:
-        _check_opened(sys.argv)
-        return [], [], {}
-    if is_scene:
-        try:
-            bpy.ops.wm.open_mainfile(filepath=str(models[0].resolve()), load_ui=False)
-        except RuntimeError as error:  # what Blender's own operators report
-            raise SceneError(f"{models[0]} could not be read: {reason(error)}") from error
-        return [], [], {}
-    bpy.ops.wm.read_homefile(use_empty=True)
-    if unit:
-        units = bpy.context.scene.unit_settings
-        units.system, (units.scale_length, units.length_unit) = "METRIC", UNITS[unit]
-    meshes, problems, sources = [], [], {}
-    for path in models:
-        try:
-            found = _imported(path)
-        except SceneError as error:
-            if len(models) == 1:
-                raise
-            problems.append(_problem(readable(path), error))
-            continue
-        meshes += found
-        sources |= {obj: {"model": readable(path)} for obj in found if len(models) > 1}
-    return meshes, problems, sources
-
-
-def _check_opened(words: list[str]) -> None:
-    """Raise SceneError if Blender's own command line names a scene that it could not open: another one is open then."""
-    before = list(takewhile(lambda word: word not in ("-c", "--command"), words))
-    named = [Path(word) for word in before[1:] if word.lower().endswith(".blend")]
-    if len(before) == len(words) or not named:
-        return
-    _check_model(named[-1], (".blend",))
-    if not bpy.data.filepath:
-        raise SceneError(f"{named[-1]} could not be read.")
-
-
-def _check_model(path: Path, kinds: tuple[str, ...]) -> None:
-    """Raise SceneError if there is no file of that kind there."""
-    if path.is_dir():
-        raise SceneError(f"{path} is a folder, not a model.")
-    if not path.exists():
-        raise SceneError(f"There is no file {path}.")
-    if not path.is_file():
-        raise SceneError(f"{path} is no file but a pipe or a device: write the model to a file first.")
-    if path.suffix.lower() not in kinds:
-        raise SceneError(f"{path} is none of {', '.join(kinds)}.")
-
-
-def _imported(path: Path) -> list:
-    """Import a model into the scene; returns its meshes. Raises SceneError."""
-    _check_model(path, MODELS)
-    before = set(bpy.context.scene.objects)
-    try:
-        IMPORTERS[path.suffix.lower()](str(path.resolve()))
-    except RuntimeError as error:
-        raise SceneError(f"{path} could not be read: {reason(error)}") from error
-    bones = _leave_out_bones()
-    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and obj not in before and obj not in bones]
-    if not meshes:
-        raise SceneError(f"There is no mesh in {path}.")
-    return meshes
-
-
-def _leave_out_bones() -> set[bpy.types.Object]:
-    """Exclude what is no part of a model, but how Blender's importer of glTF shows bones; these objects."""
-    layers = [layer for layer in bpy.context.view_layer.layer_collection.children
-              if layer.name.startswith("glTF_not_exported")]
-    for layer in layers:
-        layer.exclude = True
-    return {obj for layer in layers for obj in layer.collection.objects}
-
-
 def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, options: argparse.Namespace) -> dict:
     """Read, compute and write one object, all that is asked for or nothing; its entry in the JSON.
 
@@ -279,7 +165,7 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
     def progress(stage: str, share: float) -> None:
         if round(20 * share) > last[0]:  # twenty lines at most
             last[0] = round(20 * share)
-            _say(f"{obj.name}: {stage} {share:.0%}")
+            say(f"{obj.name}: {stage} {share:.0%}")
 
     (outcome,) = compute_all([(obj.name, shape)], parameters, progress)
     if outcome.decomposition is None:
@@ -372,8 +258,3 @@ def _standard_output() -> Iterator[TextIO]:
     finally:
         with suppress(OSError):  # the command has said so
             answer.close()
-
-
-def _say(text: str) -> None:
-    with suppress(OSError):  # such as a terminal that was closed
-        print(f"reeb_parts: {text}", file=sys.stderr, flush=True)

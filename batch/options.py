@@ -14,7 +14,7 @@ from ..scene.settings import HintProperties, JointProperties, OutputProperties, 
 UNITS = {"m": (1.0, "METERS"), "cm": (0.01, "CENTIMETERS"), "mm": (0.001, "MILLIMETERS")}
 #: Models whose lengths are in no unit.
 WITHOUT_UNIT = (".obj", ".ply", ".stl")
-#: Models that can be read besides scenes, see command.IMPORTERS.
+#: Models that can be read besides scenes, see models.IMPORTERS.
 MODELS = (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
 PIXELS = number(16, 8192, int)
 

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The models and objects of a run: scenes are opened, models imported."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from itertools import takewhile
+from pathlib import Path
+
+import bpy
+
+from ..core.file_names import readable
+from ..scene.errors import SceneError
+from ..scene.run_files import reason
+from .messages import problem
+from .options import MODELS, UNITS, WITHOUT_UNIT
+
+IMPORTERS = {
+    ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
+    ".ply": lambda path: bpy.ops.wm.ply_import(filepath=path),
+    ".stl": lambda path: bpy.ops.wm.stl_import(filepath=path),
+    ".glb": lambda path: bpy.ops.import_scene.gltf(filepath=path),
+    ".gltf": lambda path: bpy.ops.import_scene.gltf(filepath=path),
+    ".fbx": lambda path: bpy.ops.import_scene.fbx(filepath=path),
+}
+
+
+def find_objects(options: argparse.Namespace) -> tuple[list, list[dict], dict]:
+    """Open what is asked for.
+
+    Returns the objects to decompose, the problems with those that are not there, and what the JSON says of where an
+    object comes from, if there are several models.
+    """
+    meshes, problems, sources = _open(options.models, options.unit)
+    if not options.object:
+        return meshes or ([] if problems else [bpy.context.view_layer.objects.active]), problems, sources
+    names = list(dict.fromkeys(options.object))
+    problems += [problem(name, SceneError(f"There is no object {name} in the scene."))
+                 for name in names if name not in bpy.data.objects]
+    return [bpy.data.objects[name] for name in names if name in bpy.data.objects], problems, sources
+
+
+def _open(models: list[Path], unit: str | None) -> tuple[list, list[dict], dict]:
+    """Open a scene, or import models into an empty one; the meshes of models and, of several, problems and sources."""
+    if len(models) == 1:
+        _check_model(models[0], (".blend", *MODELS))
+    is_scene = len(models) == 1 and models[0].suffix.lower() == ".blend"
+    if unit:
+        _check_unit([] if is_scene else models)
+    if not models:
+        _check_opened(sys.argv)
+        return [], [], {}
+    if is_scene:
+        _open_scene(models[0])
+        return [], [], {}
+    bpy.ops.wm.read_homefile(use_empty=True)
+    if unit:
+        units = bpy.context.scene.unit_settings
+        units.system, (units.scale_length, units.length_unit) = "METRIC", UNITS[unit]
+    return _import_all(models)
+
+
+def _check_unit(models: list[Path]) -> None:
+    """Raise SceneError unless there are models, and none of them says itself what unit it is in."""
+    if not models:
+        raise SceneError("--unit is for models; a scene has its own.")
+    if own := [path for path in models if path.suffix.lower() not in WITHOUT_UNIT]:
+        raise SceneError(f"--unit is for {', '.join(WITHOUT_UNIT)}; {own[0]} has its own.")
+
+
+def _open_scene(path: Path) -> None:
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False)
+    except RuntimeError as error:  # what Blender's own operators report
+        raise SceneError(f"{path} could not be read: {reason(error)}") from error
+
+
+def _import_all(models: list[Path]) -> tuple[list, list[dict], dict]:
+    """Import models; their meshes and, of several, the problems with those that cannot be read, and the sources."""
+    meshes, problems, sources = [], [], {}
+    for path in models:
+        try:
+            found = _imported(path)
+        except SceneError as error:
+            if len(models) == 1:
+                raise
+            problems.append(problem(readable(path), error))
+            continue
+        meshes += found
+        sources |= {obj: {"model": readable(path)} for obj in found if len(models) > 1}
+    return meshes, problems, sources
+
+
+def _check_opened(words: list[str]) -> None:
+    """Raise SceneError if Blender's own command line names a scene that it could not open: another one is open then."""
+    before = list(takewhile(lambda word: word not in ("-c", "--command"), words))
+    named = [Path(word) for word in before[1:] if word.lower().endswith(".blend")]
+    if len(before) == len(words) or not named:
+        return
+    _check_model(named[-1], (".blend",))
+    if not bpy.data.filepath:
+        raise SceneError(f"{named[-1]} could not be read.")
+
+
+def _check_model(path: Path, kinds: tuple[str, ...]) -> None:
+    """Raise SceneError if there is no file of that kind there."""
+    if path.is_dir():
+        raise SceneError(f"{path} is a folder, not a model.")
+    if not path.exists():
+        raise SceneError(f"There is no file {path}.")
+    if not path.is_file():
+        raise SceneError(f"{path} is no file but a pipe or a device: write the model to a file first.")
+    if path.suffix.lower() not in kinds:
+        raise SceneError(f"{path} is none of {', '.join(kinds)}.")
+
+
+def _imported(path: Path) -> list:
+    """Import a model into the scene; returns its meshes. Raises SceneError."""
+    _check_model(path, MODELS)
+    before = set(bpy.context.scene.objects)
+    try:
+        IMPORTERS[path.suffix.lower()](str(path.resolve()))
+    except RuntimeError as error:
+        raise SceneError(f"{path} could not be read: {reason(error)}") from error
+    bones = _leave_out_bones()
+    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and obj not in before and obj not in bones]
+    if not meshes:
+        raise SceneError(f"There is no mesh in {path}.")
+    return meshes
+
+
+def _leave_out_bones() -> set[bpy.types.Object]:
+    """Exclude what is no part of a model, but how Blender's importer of glTF shows bones; these objects."""
+    layers = [layer for layer in bpy.context.view_layer.layer_collection.children
+              if layer.name.startswith("glTF_not_exported")]
+    for layer in layers:
+        layer.exclude = True
+    return {obj for layer in layers for obj in layer.collection.objects}
