@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
@@ -12,6 +13,9 @@ from mathutils import Matrix
 
 from . import made, mesh_arrays, placing, transaction
 from .store import Stored
+
+if TYPE_CHECKING:
+    from ..core.uses.body_joints import BodyJoints
 
 #: How joints hold: the names of Blender's constraints.
 KINDS = ("HINGE", "POINT", "FIXED")
@@ -62,29 +66,61 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     table = mesh_arrays.joined_table(obj.data, points)
     hulls = [hull for (hull,) in part_hulls(table, numbered.parts.labels)]
     found = body_joints(table, numbered.parts.labels)
-    several = [pieces.get(number, []) for number in numbered.numbers.tolist()]
-    physics = _world(context)
-    volume = np.array([abs(hull.volume) for hull in hulls])
+    bodies = [pieces.get(number, []) for number in numbered.numbers.tolist()]
+    site = _Site(_world(context), collection, 0.05 * float(np.linalg.norm(np.ptp(points, axis=0))))
+    _add_bodies(site, bodies, np.array([abs(hull.volume) for hull in hulls]))
+    joints = [*_joints_at_cuts(site, bodies, found, kind), *_joints_within_parts(site, bodies)]
+    apart = _joints_that_hold_nothing(site, bodies, overlapping(hulls), found.pairs)
+    made.hand_on(earlier.gone, [(joint.name, joint) for joint in (*joints, *apart)])
+    return Joined([piece for some in bodies for piece in some], joints)
+
+
+@dataclass(frozen=True, eq=False)
+class _Site:
+    """Where bodies and joints are made; size : of the empty of a joint, in units of the world."""
+
+    physics: bpy.types.RigidBodyWorld
+    collection: bpy.types.Collection
+    size: float
+
+
+#: The pieces of each part.
+_Bodies = list[list[bpy.types.Object]]
+
+
+def _add_bodies(site: _Site, bodies: _Bodies, volume: np.ndarray) -> None:
+    """Make bodies of the pieces that are none. volume : (count,) float64, of the hull of each part."""
     masses = (volume / max(volume.mean(), np.finfo(float).tiny)).clip(_LIGHTEST, _HEAVIEST).tolist()
-    for some, mass in zip(several, masses, strict=True):
+    for some, mass in zip(bodies, masses, strict=True):
         for piece in [piece for piece in some if piece.rigid_body is None]:
-            _add_body(physics, piece, mass / len(some))
-    size = 0.05 * float(np.linalg.norm(np.ptp(points, axis=0)))
+            _add_body(site.physics, piece, mass / len(some))
+
+
+def _joints_at_cuts(site: _Site, bodies: _Bodies, found: BodyJoints, kind: str) -> list[bpy.types.Object]:
+    """A joint for each cut between parts that both have pieces."""
     joints = []
     for (a, b), center, axis, hinge in zip(found.pairs.tolist(), found.center, found.axis, found.hinge, strict=True):
-        if several[a] and several[b]:
-            ends = _nearest(several[a], center), _nearest(several[b], center)
-            joints.append(_joint(physics, collection, kind, ends, _place(center, axis, hinge), size))
-    for some in several:
-        for piece in some[1:]:  # what was cut to fit the bed
-            joints.append(_joint(physics, collection, "FIXED", (some[0], piece), piece.matrix_world.normalized(), size))
-    apart, held = [], {tuple(pair) for pair in found.pairs.tolist()}
-    for a, b in overlapping(hulls).tolist():
-        # Bodies that overlap at the start would push each other away.
-        for ends in ((x, y) for x in several[a] for y in several[b] if (a, b) not in held):
-            apart.append(_joint(physics, collection, "GENERIC", ends, ends[0].matrix_world.normalized(), 0.2 * size))
-    made.hand_on(earlier.gone, [(joint.name, joint) for joint in (*joints, *apart)])
-    return Joined([piece for some in several for piece in some], joints)
+        if bodies[a] and bodies[b]:
+            ends = _nearest(bodies[a], center), _nearest(bodies[b], center)
+            joints.append(_joint(site, kind, ends, _place(center, axis, hinge), site.size))
+    return joints
+
+
+def _joints_within_parts(site: _Site, bodies: _Bodies) -> list[bpy.types.Object]:
+    """What was cut to fit the bed is held by the first piece of its part."""
+    return [_joint(site, "FIXED", (some[0], piece), piece.matrix_world.normalized(), site.size)
+            for some in bodies for piece in some[1:]]
+
+
+def _joints_that_hold_nothing(site: _Site, bodies: _Bodies, overlaps: np.ndarray,
+                              pairs: np.ndarray) -> list[bpy.types.Object]:
+    """Joints by which bodies that overlap at the start do not push each other away.
+
+    overlaps, pairs : (k, 2) and (j, 2) int64, parts whose hulls overlap, and those that have joints.
+    """
+    held = {tuple(pair) for pair in pairs.tolist()}
+    return [_joint(site, "GENERIC", (one, other), one.matrix_world.normalized(), 0.2 * site.size)
+            for a, b in overlaps.tolist() if (a, b) not in held for one in bodies[a] for other in bodies[b]]
 
 
 def _world(context: bpy.types.Context) -> bpy.types.RigidBodyWorld:
@@ -135,14 +171,14 @@ def _place(center: np.ndarray, axis: np.ndarray, hinge: np.ndarray) -> Matrix:
     return place
 
 
-def _joint(physics: bpy.types.RigidBodyWorld, collection: bpy.types.Collection, kind: str,
-           ends: tuple[bpy.types.Object, bpy.types.Object], place: Matrix, size: float) -> bpy.types.Object:
+def _joint(site: _Site, kind: str, ends: tuple[bpy.types.Object, bpy.types.Object], place: Matrix,
+           size: float) -> bpy.types.Object:
     """An empty with a constraint between two bodies; one that is GENERIC holds nothing."""
     joint = bpy.data.objects.new(f"{ends[0].name} - {ends[1].name}", None)
     joint.matrix_world = place
     joint.empty_display_type, joint.empty_display_size = "ARROWS", size
-    collection.objects.link(joint)
-    physics.constraints.objects.link(joint)  # which makes it a constraint
+    site.collection.objects.link(joint)
+    site.physics.constraints.objects.link(joint)  # which makes it a constraint
     holds = joint.rigid_body_constraint
     holds.type, holds.object1, holds.object2 = kind, *ends
     holds.disable_collisions = True
