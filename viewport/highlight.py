@@ -141,14 +141,9 @@ def draw() -> None:
     """Draw the outline of the chosen parts, and the cuts, in the viewport that Blender is drawing."""
     context = bpy.context
     settings = context.scene.reeb_parts
-    obj = context.object
-    of_node = graph_objects.part_of(obj)  # a node that is selected lights its part
-    obj, chosen = (of_node[0], obj.select_get()) if of_node else (obj, obj is not None and obj.select_get())
-    if (obj is None or obj.type != "MESH" or obj.mode != "OBJECT" or not chosen
-            or not (settings.highlight or settings.show_cuts) or not context.space_data.overlay.show_overlays
-            or not obj.visible_in_viewport_get(context.space_data)
-            or not store.has_result(obj.data) or store.is_edited(obj.data)
-            or explode.find(obj)):  # the parts are elsewhere then
+    obj = _chosen(context.object)
+    if (obj is None or not (settings.highlight or settings.show_cuts) or not context.space_data.overlay.show_overlays
+            or not obj.visible_in_viewport_get(context.space_data) or not _shows_parts(obj)):
         return
     _build(obj, chosen_numbers(obj.data) if settings.highlight else [], settings.show_cuts,
            context.scene.reeb_parts_use.cut)
@@ -160,6 +155,20 @@ def draw() -> None:
     if _lines is not None:
         _lines.draw(obj.matrix_world, WIDTH, COLOR)
     gpu.state.blend_set("NONE")
+
+
+def _chosen(active: bpy.types.Object | None) -> bpy.types.Object | None:
+    """The selected object that is worked on, or that a selected node of a graph belongs to; in Object Mode."""
+    if active is None or not active.select_get():
+        return None
+    of_node = graph_objects.part_of(active)  # a node that is selected lights its part
+    obj = of_node[0] if of_node else active
+    return obj if obj.type == "MESH" and obj.mode == "OBJECT" else None
+
+
+def _shows_parts(obj: bpy.types.Object) -> bool:
+    """Whether an object has parts that are up to date and where the mesh is."""
+    return store.has_result(obj.data) and not store.is_edited(obj.data) and not explode.find(obj)
 
 
 def _build(obj: bpy.types.Object, numbers: list[int], show_cuts: bool, cut: str) -> None:
