@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from operator import itemgetter
 from typing import TYPE_CHECKING
 
@@ -138,23 +139,44 @@ def _several_middles(points: np.ndarray, starts: np.ndarray, stretches: list[lis
     through = np.append(sides, np.ones((1, len(starts)), bool), axis=0).T  # middles on the way from each place
     options = [_places(points[starts[own]], discs) for own in own_places(sides)]
     options = [[*own, *(other[0] for other in options if other is not own)] for own in options]
-    middles = np.array([own[0] for own in options])
-    least = 1 << 30
+
+    def faults(effort: int, tried: np.ndarray, most: int) -> int:
+        ways = dict(zip(starts.tolist(), (tried[here] for here in through), strict=True))
+        return _faults_if_closed(points, ways, stretches, discs, effort, most)
+
+    middles, least = np.array([own[0] for own in options]), 1 << 30
     for effort in (PLAIN, PLAIN, LED_IN):
         least = 1 << 30 if effort == LED_IN else least
         for index, own in enumerate(options):
-            for place in (middles[index], *own):
-                tried = middles.copy()
-                tried[index] = place
-                if len(np.unique(tried, axis=0)) < len(tried):
-                    continue  # a line between two of them would have no length
-                ways = dict(zip(starts.tolist(), (tried[here] for here in through), strict=True))
-                faults = _faults(points, ways, stretches, discs, effort, least)
-                if faults < least and all(discs.tried(_curve(points, ways, one)).disc is not None for one in stretches):
-                    middles, least = tried, faults
+            middles, least = _with_best(middles, index, own, partial(faults, effort), least)
         if not least:
             break
     return [middles[here] for here in through] if least < 1 << 30 else None
+
+
+def _with_best(middles: np.ndarray, index: int, options: list[np.ndarray], faults: Callable[[np.ndarray, int], int],
+               least: int) -> tuple[np.ndarray, int]:
+    """Middles, (m, 3), with one of them where the caps have fewest faults, and how many these are.
+
+    options : places for the one at ``index``. faults : of middles, not asked beyond a number, see ``_faults``.
+    """
+    for place in (middles[index], *options):
+        tried = middles.copy()
+        tried[index] = place
+        # A line between two middles in one place would have no length.
+        found = faults(tried, least) if len(np.unique(tried, axis=0)) == len(tried) else least
+        if found < least:
+            middles, least = tried, found
+    return middles, least
+
+
+def _faults_if_closed(points: np.ndarray, ways: dict[int, np.ndarray], stretches: list[list[int]], discs: Discs,
+                      effort: int, most: int) -> int:
+    """What ``_faults`` tells if all caps can be made; ``most`` if not."""
+    faults = _faults(points, ways, stretches, discs, effort, most)
+    if faults < most and all(discs.tried(_curve(points, ways, one)).disc is not None for one in stretches):
+        return faults
+    return most
 
 
 def _places(starts: np.ndarray, discs: Discs) -> list[np.ndarray]:
