@@ -51,43 +51,58 @@ def unfolded(graph: ReebGraph, node_part: np.ndarray, point_part: np.ndarray) ->
     -----
     O((k + q) log k).
     """
-    part = node_part.tolist()
     inside = node_part[graph.arcs[:, 0]] == node_part[graph.arcs[:, 1]]
     np.logical_and.at(inside, graph.point_arc, point_part == node_part[graph.arcs[graph.point_arc, 0]])
-    around: list[set[int]] = [set() for _ in part]
-    for arc, ends in enumerate(graph.arcs.tolist()):
-        for node in ends:
-            around[node].add(arc)
-    nodes, arcs = np.ones(graph.n_nodes, bool), np.ones(graph.n_arcs, bool)
-    lengths, branch = arc_lengths(graph).tolist(), [0.0] * len(part)
-    ends_in = Counter(part[node] for node in range(len(part)) if len(around[node]) < 2)
-    waiting: list[tuple[float, int]] = []
+    folding = _Folding(graph, node_part.tolist(), inside.tolist())
+    folding.fold_all()
+    return _without_passages(graph, node_part, folding.nodes, folding.around), folding.arcs
 
-    def wait(node: int) -> None:
-        """Look at the end of a branch, unless its arc reaches another part."""
-        if all(inside[arc] for arc in around[node]):
-            heapq.heappush(waiting, (branch[node] + sum(lengths[arc] for arc in around[node]), node))
 
-    for node in range(len(part)):
-        if len(around[node]) < 2:
-            wait(node)
-    while waiting:
-        reach, node = heapq.heappop(waiting)
-        if ends_in[part[node]] < 2:
-            continue
-        nodes[node] = False
-        ends_in[part[node]] -= 1
-        for arc in around[node]:
-            arcs[arc] = False
-            other = int(graph.arcs[arc].sum()) - node
-            around[other].discard(arc)
-            branch[other] = reach  # the longest branch so far: they come in the order of their lengths
-            if len(around[other]) == 1:  # it was in between, and is the end of a branch now
-                ends_in[part[other]] += 1
-            if len(around[other]) < 2:
-                wait(other)
-        around[node] = set()
-    return _without_passages(graph, node_part, nodes, around), arcs
+class _Folding:
+    """A graph of which the ends of branches are folded, those of the shortest branches first.
+
+    graph : ReebGraph. part : of each node. inside : of each arc, whether all of it is in one part.
+    """
+
+    def __init__(self, graph: ReebGraph, part: list[int], inside: list[bool]) -> None:
+        self.nodes, self.arcs = np.ones(graph.n_nodes, bool), np.ones(graph.n_arcs, bool)  # those that stay
+        self.around: list[set[int]] = [set() for _ in part]  # arcs of each node
+        self._ends, self._part, self._inside = graph.arcs.tolist(), part, inside
+        for arc, ends in enumerate(self._ends):
+            for node in ends:
+                self.around[node].add(arc)
+        self._length, self._branch = arc_lengths(graph).tolist(), [0.0] * len(part)
+        self._ends_in = Counter(part[node] for node in range(len(part)) if len(self.around[node]) < 2)
+        self._waiting: list[tuple[float, int]] = []
+
+    def fold_all(self) -> None:
+        """Fold ends until each part has one at the most, or those that reach other parts."""
+        for node in range(len(self._part)):
+            self._wait(node)
+        while self._waiting:
+            reach, node = heapq.heappop(self._waiting)
+            if self._ends_in[self._part[node]] > 1:
+                self._fold(node, reach)
+
+    def _wait(self, node: int) -> None:
+        """Look at a node in its turn if it is the end of a branch, unless its arc reaches another part."""
+        arcs = self.around[node]
+        if len(arcs) < 2 and all(self._inside[arc] for arc in arcs):
+            heapq.heappush(self._waiting, (self._branch[node] + sum(self._length[arc] for arc in arcs), node))
+
+    def _fold(self, node: int, reach: float) -> None:
+        """Leave out the end of a branch with its arc. reach : how long the branch is."""
+        self.nodes[node] = False
+        self._ends_in[self._part[node]] -= 1
+        for arc in self.around[node]:
+            self.arcs[arc] = False
+            other = sum(self._ends[arc]) - node
+            self.around[other].discard(arc)
+            self._branch[other] = reach  # the longest branch so far: they come in the order of their lengths
+            if len(self.around[other]) == 1:  # it was in between, and is the end of a branch now
+                self._ends_in[self._part[other]] += 1
+            self._wait(other)
+        self.around[node] = set()
 
 
 def _without_passages(graph: ReebGraph, part: np.ndarray, nodes: np.ndarray, around: list[set[int]]) -> np.ndarray:
