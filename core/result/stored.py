@@ -165,32 +165,49 @@ def check(arrays: dict[str, np.ndarray], counts: tuple[int, int] | None) -> None
 def _fits(a: dict[str, np.ndarray], counts: tuple[int, int] | None) -> bool:
     """Whether shapes, kinds, ranges and structure are those of a result."""
     (n,), (p,), (c,) = a["vertex_candidates"].shape, a["candidates"].shape, a["candidate_area"].shape
+    return (
+        counts in (None, (n, p)) and p > 0 and c > 0
+        and all(_is_whole(a[name], *limits) for name, limits in _whole_numbers(a).items())
+        and all(_is_real(a[name], shape, name != "field") for name, shape in _real_numbers(a).items())
+        and bool(np.bincount(a["candidates"], minlength=c).all()) and bool((a["candidate_area"] >= 0).all())
+        and 0 < a["candidate_area"].sum() < np.inf
+        # The merges are a forest, and the points of the arcs follow each other.
+        and components(c, *a["hierarchy.merges"].T)[0] == c - len(a["hierarchy.merges"])
+        and a["graph.arc_points"][0] == 0 and a["graph.arc_points"][-1] == len(a["graph.point_value"])
+        and bool((np.diff(a["graph.arc_points"]) > 0).all())
+    )
+
+
+def _whole_numbers(a: dict[str, np.ndarray]) -> dict[str, tuple[tuple[int, ...], int, int]]:
+    """Of each array of whole numbers the shape, the lowest value, and the first that is too high."""
+    (n,), (p,), (c,) = a["vertex_candidates"].shape, a["candidates"].shape, a["candidate_area"].shape
     (k,), (r,) = a["graph.node_kind"].shape, a["graph.point_value"].shape
     s, q, e, t = (len(a[name]) for name in ("hierarchy.merges", "graph.arcs", "candidate_pairs", "contacts"))
     mirrored = p if len(a["mirror"]) else 0
-    whole = {  # shape, lowest and highest value
+    return {
         "candidates": ((p,), 0, c), "vertex_candidates": ((n,), -1, c), "candidate_pairs": ((e, 2), 0, c),
         "node_candidate": ((k,), 0, c), "point_candidate": ((r,), 0, c), "contacts": ((t, 2), 0, p),
         "hierarchy.merges": ((s, 2), 0, c), "graph.node_kind": ((k,), 0, 3), "graph.arcs": ((q, 2), 0, k),
         "face_twin": ((mirrored,), -1, p), "face_side": ((mirrored,), -1, 2),
         "graph.arc_points": ((q + 1,), 0, r + 1), "graph.n_components": ((), 0, k + 1),
     }
-    real = {
-        "candidate_area": (c,), "candidate_pair_length": (e,), "hierarchy.salience": (s,), "graph.node_value": (k,),
-        "graph.node_position": (k, 3), "graph.point_position": (r, 3), "graph.point_radius": (r,),
-        "graph.point_length": (r,), "graph.point_value": (r,), "field": (n,),
-        "mirror": (4 if mirrored else 0,),
+
+
+def _real_numbers(a: dict[str, np.ndarray]) -> dict[str, tuple[int, ...]]:
+    """The shape of each array of other numbers."""
+    (n,), (c,) = a["vertex_candidates"].shape, a["candidate_area"].shape
+    (k,), (r,) = a["graph.node_kind"].shape, a["graph.point_value"].shape
+    return {
+        "candidate_area": (c,), "candidate_pair_length": (len(a["candidate_pairs"]),),
+        "hierarchy.salience": (len(a["hierarchy.merges"]),), "graph.node_value": (k,), "graph.node_position": (k, 3),
+        "graph.point_position": (r, 3), "graph.point_radius": (r,), "graph.point_length": (r,),
+        "graph.point_value": (r,), "field": (n,), "mirror": (4 if len(a["mirror"]) else 0,),
     }
-    return (
-        counts in (None, (n, p)) and p > 0 and c > 0
-        and all(a[name].shape == shape and a[name].dtype.kind == "i"
-                and bool(((a[name] >= low) & (a[name] < high)).all()) for name, (shape, low, high) in whole.items())
-        and all(a[name].shape == shape and a[name].dtype.kind == "f"
-                and bool((np.isfinite(a[name]) | (name == "field")).all()) for name, shape in real.items())
-        and bool(np.bincount(a["candidates"], minlength=c).all()) and bool((a["candidate_area"] >= 0).all())
-        and 0 < a["candidate_area"].sum() < np.inf
-        # The merges are a forest, and the points of the arcs follow each other.
-        and components(c, *a["hierarchy.merges"].T)[0] == c - s
-        and a["graph.arc_points"][0] == 0 and a["graph.arc_points"][-1] == r
-        and bool((np.diff(a["graph.arc_points"]) > 0).all())
-    )
+
+
+def _is_whole(array: np.ndarray, shape: tuple[int, ...], low: int, high: int) -> bool:
+    return array.shape == shape and array.dtype.kind == "i" and bool(((array >= low) & (array < high)).all())
+
+
+def _is_real(array: np.ndarray, shape: tuple[int, ...], finite: bool) -> bool:
+    return array.shape == shape and array.dtype.kind == "f" and (not finite or bool(np.isfinite(array).all()))
