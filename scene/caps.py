@@ -82,14 +82,9 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, joined: np.ndarray, way
         if not holes:
             return 0, left
         count, layer = len(holes), cap_layer(bm)
-        made = []
         # By their places in the table of vertices, which does not outlive the first new vertex.
-        for rims in [[[bm.verts[i] for i in rim.tolist()] for rim in ring] for ring in rings]:
-            found = _between_rims(bm, holes, rims, discs)
-            if found is not None:
-                polygons, used = found
-                made += _fill(bm, [vertex for rim in rims for vertex in rim], polygons)
-                holes = [hole for index, hole in enumerate(holes) if index not in used]
+        rims = [[[bm.verts[i] for i in rim.tolist()] for rim in ring] for ring in rings]
+        made, holes = _fill_between_rims(bm, holes, rims, discs)
         for hole in holes:
             for sheet in _sheets(bm, hole, meets, set(edges)):
                 made += _fill(bm, sheet, _polygons(bm, sheet, pairs, discs))
@@ -225,6 +220,19 @@ def _moved(bm: BMesh, vertex: BMVert, place: np.ndarray) -> BMVert:
 
 def _edge(vertex: BMVert, other: BMVert) -> BMEdge:
     return next(edge for edge in vertex.link_edges if edge.other_vert(vertex) == other)
+
+
+def _fill_between_rims(bm: BMesh, holes: list[list[BMVert]], rings: list[list[list[BMVert]]],
+                       discs: Discs) -> tuple[list[BMFace], list[list[BMVert]]]:
+    """Fill the holes between rims where one cap does; its faces, and the other holes."""
+    made = []
+    for rims in rings:
+        found = _between_rims(bm, holes, rims, discs)
+        if found is not None:
+            polygons, used = found
+            made += _fill(bm, [vertex for rim in rims for vertex in rim], polygons)
+            holes = [hole for index, hole in enumerate(holes) if index not in used]
+    return made, holes
 
 
 def _between_rims(bm: BMesh, holes: list[list[BMVert]], rims: list[list[BMVert]],
