@@ -72,26 +72,26 @@ def liu_candidates(
     progress(0.3)
     label = np.empty(len(graph.area), np.int64)
     merges, cost = [], []
-    pieces = graph.pieces(np.ones(len(graph.area), bool))
+    connected = graph.components_of(np.ones(len(graph.area), bool))
     first = 0
-    for done, piece in enumerate(pieces):
-        names, splits, costs = _split(graph, piece, outline_weight)
-        label[piece] = first + names
+    for done, patches in enumerate(connected):
+        names, splits, costs = _split(graph, patches, outline_weight)
+        label[patches] = first + names
         merges += [(first + a, first + b) for a, b in splits[::-1]]
         cost += costs[::-1]
         first += len(splits) + 1
-        progress(0.3 + 0.7 * (done + 1) / len(pieces))
+        progress(0.3 + 0.7 * (done + 1) / len(connected))
     salience = COST_AT_HALF / (COST_AT_HALF + np.array(cost))
     order = np.argsort(salience, kind="stable")
     return label[patch], Hierarchy.of(first, np.array(merges, np.int64).reshape(-1, 2)[order], salience[order])
 
 
 def _split(
-    graph: PatchGraph, piece: np.ndarray, outline_weight: float
+    graph: PatchGraph, connected: np.ndarray, outline_weight: float
 ) -> tuple[np.ndarray, list[tuple[int, int]], list[float]]:
-    """Cut a connected piece into parts: part of each patch, and the parts and the cost of each cut, cheapest first."""
+    """Cut connected patches into parts: part of each patch, and the parts and the cost of each cut, cheapest first."""
     label = np.full(len(graph.area), -1)
-    label[piece] = 0
+    label[connected] = 0
     splits, costs = [], []
     queue: list[tuple[float, int, Bisection]] = []
 
@@ -101,7 +101,7 @@ def _split(
             # What a dear cut has made possible is not cheaper than that cut.
             heapq.heappush(queue, (max(found.cost, least), name, found))
 
-    consider(piece, 0, 0.0)
+    consider(connected, 0, 0.0)
     while queue and len(splits) + 1 < MOST_PARTS:
         cost, name, found = heapq.heappop(queue)
         new = len(splits) + 1
@@ -110,7 +110,7 @@ def _split(
         costs.append(cost)
         consider(found.kept, name, cost)
         consider(found.parted, new, cost)
-    return label[piece], splits, costs
+    return label[connected], splits, costs
 
 
 def bisect(whole: PatchGraph, patches: np.ndarray, outline_weight: float) -> Bisection | None:
@@ -142,8 +142,8 @@ def bisect(whole: PatchGraph, patches: np.ndarray, outline_weight: float) -> Bis
     if not cost <= DEAREST:
         return None
     rest = np.ones(len(patches), bool)
-    rest[graph.pieces(side)[0]] = False
-    kept = graph.pieces(rest)[0]
-    # What hangs on neither of the two largest pieces goes to the side that surrounds it.
+    rest[graph.components_of(side)[0]] = False
+    kept = graph.components_of(rest)[0]
+    # What hangs on neither of the two largest components goes to the side that surrounds it.
     parted = np.setdiff1d(np.arange(len(patches)), kept)
     return Bisection(patches[kept], patches[parted], cost)

@@ -68,12 +68,13 @@ class PatchGraph:
         kept = (pairs >= 0).all(axis=1)
         return PatchGraph(self.area[chosen], pairs[kept], self.length[kept], self.way[kept], self.crease[kept])
 
-    def pieces(self, chosen: np.ndarray) -> list[np.ndarray]:
-        """Connected pieces of some patches, (k,) bool: the patches of each in rising order, the largest piece first."""
+    def components_of(self, chosen: np.ndarray) -> list[np.ndarray]:
+        """Connected components of some patches, (k,) bool: the patches of each in rising order, the largest one first.
+        """
         a, b = self.pairs[chosen[self.pairs].all(axis=1)].T
-        piece = renumbered(components(len(chosen), a, b)[1][chosen])[1]
+        component = renumbered(components(len(chosen), a, b)[1][chosen])[1]
         patches = np.flatnonzero(chosen)
-        area = np.bincount(piece, self.area[patches])
-        order = np.argsort(piece, kind="stable")
-        parts = np.split(patches[order], np.cumsum(np.bincount(piece))[:-1])
+        area = np.bincount(component, self.area[patches])
+        order = np.argsort(component, kind="stable")
+        parts = np.split(patches[order], np.cumsum(np.bincount(component))[:-1])
         return [parts[p] for p in np.argsort(-area, kind="stable")]

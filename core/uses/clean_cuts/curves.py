@@ -63,10 +63,10 @@ def curves_of(table: CornerTable, labels: np.ndarray, cuts: CleanCuts) -> Curves
     Returns
     -------
     curves : Curves
-        Its points are vertices of the pieces that the cuts leave, and its segments their edges.
+        Its points are vertices of the fragments that the cuts leave, and its segments their edges.
     """
-    n, pieces = len(table.vertices), np.bincount(cuts.face, minlength=table.n_faces)
-    divided = pieces > 1
+    n, fragments = len(table.vertices), np.bincount(cuts.face, minlength=table.n_faces)
+    divided = fragments > 1
     after = labels.copy()
     after[cuts.face] = cuts.label
     share = np.full(len(table.edges), np.nan)
@@ -77,7 +77,7 @@ def curves_of(table: CornerTable, labels: np.ndarray, cuts: CleanCuts) -> Curves
     crossed = ~np.isnan(share[edge])
     along = table.edges[edge].astype(np.int64)
     along[crossed, 1 - half[crossed]] = n + edge[crossed]
-    two, three = (np.flatnonzero(pieces[cuts.face] == count).reshape(-1, count) for count in (2, 3))
+    two, three = (np.flatnonzero(fragments[cuts.face] == count).reshape(-1, count) for count in (2, 3))
     center = n + len(table.edges) + np.repeat(np.arange(len(three)), 3)
     segments = np.concatenate([along, cuts.start[two], np.stack([center, cuts.start[three].ravel()], axis=1)])
     before = np.roll(cuts.label[three], 1, axis=1).ravel()
@@ -113,13 +113,13 @@ def _sides(table: CornerTable, cuts: CleanCuts, after: np.ndarray, divided: np.n
         (vertex, len(table.vertices) + edge[halved]),
         (2 * edge + (halved & ~forward), 2 * edge[halved] + forward[halved]),
         (face, face[halved])))
-    label = np.where(divided[face], _piece_labels(cuts, face, point, divided, len(table.vertices) + len(crossed)),
+    label = np.where(divided[face], _fragment_labels(cuts, face, point, divided, len(table.vertices) + len(crossed)),
                      after[face])
     order = np.lexsort((label, key))
     return key[order], label[order]
 
 
-def _piece_labels(cuts: CleanCuts, face: np.ndarray, point: np.ndarray, divided: np.ndarray,
+def _fragment_labels(cuts: CleanCuts, face: np.ndarray, point: np.ndarray, divided: np.ndarray,
                   n_points: int) -> np.ndarray:
     """The part of each stretch of the outlines of faces, (o,) int64; of faces that are not divided anything.
 

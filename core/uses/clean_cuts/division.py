@@ -33,9 +33,9 @@ class Division:
     label : (o,) int64
         Part on the side of the face.
     begins : (o,) bool
-        Whether the piece of the face that the portion is part of begins here.
-    piece : (o,) int64
-        Which piece, in the order of where they begin.
+        Whether the fragment of the face that the portion is part of begins here.
+    fragment : (o,) int64
+        Which fragment, in the order of where they begin.
     odd : (f,) bool
         Faces that have to be triangles before they can be divided.
     """
@@ -45,7 +45,7 @@ class Division:
     side: np.ndarray
     label: np.ndarray
     begins: np.ndarray
-    piece: np.ndarray
+    fragment: np.ndarray
     odd: np.ndarray
 
     @cached_property
@@ -63,7 +63,7 @@ def divide(band: Band, sides: Sides) -> Division:
     following = next_of_owner(face)
     changes = label != label[inverse(following)]
     count = np.bincount(face[changes], minlength=len(band.faces))
-    # A piece that is one portion only would lie between the portion and itself: the face stays whole.
+    # A fragment that is one portion only would lie between the portion and itself: the face stays whole.
     thin = changes & changes[following]
     slim = (count == 2) & (np.bincount(face[thin], minlength=len(count)) > 0)
     odd = (count > 1) & ~slim & (band.n_corners > 3) & (~band.convex | (count > 3))
@@ -74,9 +74,9 @@ def divide(band: Band, sides: Sides) -> Division:
     if len(face) and (face == face[0]).all():
         begins[0] |= not changes.any()
     last = np.searchsorted(face[begins], np.arange(len(count)), side="right") - 1
-    piece = np.cumsum(begins) - 1
-    wrapped = (piece < 0) | (face[np.flatnonzero(begins)[piece]] != face)
-    return Division(face, point, side, label, begins, np.where(wrapped, last[face], piece), odd)
+    fragment = np.cumsum(begins) - 1
+    wrapped = (fragment < 0) | (face[np.flatnonzero(begins)[fragment]] != face)
+    return Division(face, point, side, label, begins, np.where(wrapped, last[face], fragment), odd)
 
 
 def _portions(band: Band, sides: Sides) -> tuple[np.ndarray, ...]:

@@ -124,7 +124,7 @@ def _torn(band: Band, division: Division) -> np.ndarray:
     lost[largest] = ~alive[largest]
     label = division.label[division.begins]
     kept = division.label[one] == division.label[other]
-    count, after = components(len(label), division.piece[one[kept]], division.piece[other[kept]])
+    count, after = components(len(label), division.fragment[one[kept]], division.fragment[other[kept]])
     name = np.zeros(count, np.int64)
     name[after] = label
     # Of each part as many of the largest as there were before are what is left of it; others are torn off.
@@ -134,5 +134,5 @@ def _torn(band: Band, division: Division) -> np.ndarray:
     off = np.zeros(count, bool)
     off[order] = np.arange(count) - first >= n_before[name[order]]
     torn = lost[before]
-    torn[division.face[off[after[division.piece]]]] = True
+    torn[division.face[off[after[division.fragment]]]] = True
     return torn

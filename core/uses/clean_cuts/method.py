@@ -36,12 +36,12 @@ class CleanCuts:
     share : (k,) float64
         Where, from the first vertex of the edge, 0, to the second, 1.
     face : (q,) int64
-        Face of each piece, rising; faces that neither are divided nor change their part have none.
+        Face of each fragment, rising; faces that neither are divided nor change their part have none.
     start : (q,) int64
-        Point on the outline of the face at which the piece begins, in the direction of the face's corners; it ends
-        where the next piece of the face begins. Two pieces are divided by a chord, three meet inside the face.
+        Point on the outline of the face at which the fragment begins, in the direction of the face's corners; it ends
+        where the next fragment of the face begins. Two fragments are divided by a chord, three meet inside the face.
     label : (q,) int64
-        Part of each piece.
+        Part of each fragment.
     odd : (o,) int64
         Faces of more than three corners that must be triangles before they can be divided; if there are any, divide
         these and ask again.

@@ -114,13 +114,13 @@ def test_patches_cover_the_surface_and_know_their_borders():
     a, b = patch[mesh.edges.pairs].T
     assert graph.length.sum() == pytest.approx(mesh.pair_length[a != b].sum() / np.sqrt(mesh.area))
     chosen = graph.area > np.median(graph.area)
-    pieces = graph.pieces(chosen)
-    np.testing.assert_array_equal(np.sort(np.concatenate(pieces)), np.flatnonzero(chosen))
-    shares = [graph.area[piece].sum() for piece in pieces]
+    connected = graph.components_of(chosen)
+    np.testing.assert_array_equal(np.sort(np.concatenate(connected)), np.flatnonzero(chosen))
+    shares = [graph.area[patches].sum() for patches in connected]
     assert shares == sorted(shares, reverse=True)
-    for piece in pieces:
-        part = graph.within(piece)
-        assert components(len(piece), *part.pairs.T)[0] == 1
+    for patches in connected:
+        part = graph.within(patches)
+        assert components(len(patches), *part.pairs.T)[0] == 1
 
 
 def test_dumbbell_and_ball():
