@@ -120,7 +120,7 @@ def whole(obj: bpy.types.Object) -> bpy.types.Object:
 
 
 def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
-                kind: str) -> rigid_bodies.Joined:
+                kind: str) -> rigid_bodies.RigidBodies:
     """Make rigid bodies of an object's pieces, with joints of a kind, see rigid_bodies.make; Object Mode."""
     context.view_layer.update()  # pieces made just now do not know where they are
     pieces: dict[int, list[bpy.types.Object]] = {}

@@ -26,7 +26,7 @@ _LIGHTEST, _HEAVIEST = 0.1, 10.0
 
 
 @dataclass(frozen=True, eq=False)
-class Joined:
+class RigidBodies:
     """What was made: bodies and joints, without those that only keep bodies from pushing each other away."""
 
     bodies: list[bpy.types.Object]
@@ -34,7 +34,7 @@ class Joined:
 
 
 def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
-         pieces: dict[int, list[bpy.types.Object]], collection: bpy.types.Collection, kind: str) -> Joined:
+         pieces: dict[int, list[bpy.types.Object]], collection: bpy.types.Collection, kind: str) -> RigidBodies:
     """Make rigid bodies of pieces, and joints at the cuts in place of earlier ones; Object Mode.
 
     A piece that is a rigid body already stays as it is, and so does the rigid body world if there is one.
@@ -54,7 +54,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
 
     Returns
     -------
-    joined : Joined
+    joined : RigidBodies
     """
     from ..core.uses.body_joints import body_joints, overlapping  # imports SciPy
     from ..core.uses.hulls import part_hulls
@@ -72,7 +72,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     joints = [*_joints_at_cuts(site, bodies, found, kind), *_joints_within_parts(site, bodies)]
     apart = _joints_that_hold_nothing(site, bodies, overlapping(hulls), found.pairs)
     made.hand_on(earlier.gone, [(joint.name, joint) for joint in (*joints, *apart)])
-    return Joined([piece for some in bodies for piece in some], joints)
+    return RigidBodies([piece for some in bodies for piece in some], joints)
 
 
 @dataclass(frozen=True, eq=False)

@@ -193,10 +193,10 @@ def _fitted(run: _Run, meshes: dict[int, bpy.types.Mesh]) -> beds.Fitted:
     return fitted
 
 
-def _joining(run: _Run, meshes: dict[int, bpy.types.Mesh], part: dict[int, int]) -> Steps[joints.Joined]:
+def _joining(run: _Run, meshes: dict[int, bpy.types.Mesh], part: dict[int, int]) -> Steps[joints.JointedPieces]:
     """Give pieces the joints that are wanted, and list the cuts. part : see ``Separated``."""
     if run.style.joints == "NONE":
-        return joints.Joined(meshes, [], [])
+        return joints.JointedPieces(meshes, [], [])
     joined = yield from joints.joining(
         run.context, meshes, run.stretch, joints.wanted_joints(run.style), cut_list.chosen(run.obj, part),
         run.stored.decomposition.graph)

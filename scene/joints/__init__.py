@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Joints between pieces: pegs and what they go into, dowels and holes for magnets, by Blender's own booleans.
 
-``cuts`` finds what pieces share, ``bodies`` says how much room there is, ``planning`` asks core.uses.joint_places where
-joints go and how large they are, ``solids`` makes pegs and holes, ``fitting`` puts them in and checks every result: a
-cut whose joint would leave a piece open, crossing itself or pierced stays without one. ``method`` has the whole.
+``cuts`` finds what pieces share, ``piece_surfaces`` how much room there is, ``planning`` asks core.uses.joint_places
+where joints go and how large they are, ``solids`` makes pegs and holes, ``fitting`` puts them in and checks every
+result: a cut whose joint would leave a piece open, crossing itself or pierced stays without one. ``method`` has the
+whole.
 """
 
-from .method import CutJoints, Dowel, Joined, joining, wanted_joints
+from .method import CutJoints, Dowel, JointedPieces, joining, wanted_joints
 
-__all__ = ["CutJoints", "Dowel", "Joined", "joining", "wanted_joints"]
+__all__ = ["CutJoints", "Dowel", "JointedPieces", "joining", "wanted_joints"]

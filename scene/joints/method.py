@@ -14,10 +14,10 @@ from ...core.steps import Steps, stretched
 from .. import bridge, mesh_arrays, piece_checks
 from ..temporary import removed
 from ..units import millimeters
-from .bodies import Body
 from .cuts import shared_cuts
 from .fitting import Work, fitting
-from .planning import Plan, Room, planning
+from .piece_surfaces import PieceSurface
+from .planning import JointRoom, Plan, planning
 from .solids import dowel
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class Dowel:
 
 
 @dataclass(frozen=True, eq=False)
-class Joined:
+class JointedPieces:
     """Pieces with joints.
 
     Attributes
@@ -91,7 +91,7 @@ def wanted_joints(style: SeparateProperties) -> Wanted:
 
 
 def joining(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray, wanted: Wanted,
-            kind_of: Callable[[int, int], str], graph: ReebGraph | None) -> Steps[Joined]:
+            kind_of: Callable[[int, int], str], graph: ReebGraph | None) -> Steps[JointedPieces]:
     """Give pieces joints at the cuts between them, in steps; Object Mode.
 
     Parameters
@@ -109,20 +109,20 @@ def joining(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stret
 
     Returns
     -------
-    joined : Joined
+    joined : JointedPieces
     """
     cuts = shared_cuts(meshes, stretch)
     keys = sorted({key for cut in cuts for key in cut.keys})
     checks = {key: piece_checks.check(meshes[key], stretch)[0] for key in keys}
     volumes = {key: found.volume for key, found in checks.items() if found.volume and found.volume > 0}
-    room = Room({key: Body(meshes[key], stretch) for key in volumes}, volumes, graph)
+    room = JointRoom({key: PieceSurface(meshes[key], stretch) for key in volumes}, volumes, graph)
     planned = yield from stretched(planning(cuts, room, wanted, kind_of), 0.0, 0.5)
     made, planned = yield from stretched(fitting(Work(context, meshes, checks, stretch), planned), 0.5, 1.0)
     for key, mesh in made.items():
         _spread_shape_keys(meshes[key], mesh)
         mesh.name = meshes[key].name
     bpy.data.batch_remove([meshes[key] for key in made])
-    return Joined({**meshes, **made}, _dowels(planned, stretch), [_said(plan) for plan in planned])
+    return JointedPieces({**meshes, **made}, _dowels(planned, stretch), [_said(plan) for plan in planned])
 
 
 def _dowels(planned: list[Plan], stretch: np.ndarray) -> list[Dowel]:

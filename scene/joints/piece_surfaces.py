@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from .cuts import Cut
 
 
-class Body:
-    """The surface of a piece, for distances and for what is inside."""
+class PieceSurface:
+    """A piece for distances, for what is inside, and with the holes that it will have."""
 
     def __init__(self, mesh: bpy.types.Mesh, stretch: np.ndarray) -> None:
         self.points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
@@ -40,14 +40,14 @@ class Body:
 class Side:
     """A piece as seen from one of its cuts: all of its surface but the cap of that cut; see joint_places.Body."""
 
-    def __init__(self, bodies: dict[int, Body], cut: Cut, side: int) -> None:
-        body = bodies[cut.keys[side]]
-        self._whole = body.whole
-        self._trees = [body.sides, *body.holes]
-        others = body.is_cap & ~np.isin(body.polygon, cut.faces[side])
+    def __init__(self, surfaces: dict[int, PieceSurface], cut: Cut, side: int) -> None:
+        surface = surfaces[cut.keys[side]]
+        self._whole = surface.whole
+        self._trees = [surface.sides, *surface.holes]
+        others = surface.is_cap & ~np.isin(surface.polygon, cut.faces[side])
         if others.any():
-            self._trees.append(body.tree(others))
-        self._size = float(np.linalg.norm(np.ptp(body.points, axis=0)))
+            self._trees.append(surface.tree(others))
+        self._size = float(np.linalg.norm(np.ptp(surface.points, axis=0)))
 
     def distance(self, points: np.ndarray) -> np.ndarray:
         return np.min([[tree.find_nearest(point)[3] or 0.0 for point in points.tolist()] for tree in self._trees],
