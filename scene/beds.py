@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import bmesh
 import bpy
 import numpy as np
-from bmesh.types import BMesh, BMLoop, BMVert
+from bmesh.types import BMEdge, BMesh, BMLoop, BMVert
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils.bvhtree import BVHTree
 from mathutils.geometry import delaunay_2d_cdt
@@ -82,16 +83,17 @@ def fitted(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray, box: np.ndarr
     while todo:
         key, mesh, axes = todo.pop(0)
         found = planes_to_fit(*_surface(mesh, stretch), box, axes)
-        some, planes = _slices(mesh, stretch.T @ found[0], found[1]) if found is not None else ([mesh], [])
-        if found is None or len(some) == 1:
-            left += [key] if found is not None else []
+        if found is None:
+            done[key] = mesh
+            continue
+        some, planes = _slices(mesh, stretch.T @ found[0], found[1])
+        if len(some) == 1:
+            left.append(key)
             done[key] = some[0]
             continue
         if len(part) + len(some) > _MOST:
             raise _too_many()
-        shared = _cap_tree(mesh)
-        for other in (*done.values(), *(waiting for _, waiting, _ in todo)) if shared is not None else ():
-            _imprint(other, shared, planes)
+        _imprint_all((*done.values(), *(waiting for _, waiting, _ in todo)), mesh, planes)
         bpy.data.meshes.remove(mesh)
         keys = [key, *range(new, new + len(some) - 1)]
         part.update(dict.fromkeys(keys[1:], part.get(key, key)))
@@ -140,6 +142,15 @@ def _slices(mesh: bpy.types.Mesh, normal: np.ndarray,
     return [*made, *(_bodies(rest) if rest is not mesh else [mesh])], planes
 
 
+def _imprint_all(others: Iterable[bpy.types.Mesh], mesh: bpy.types.Mesh,
+                 planes: list[tuple[np.ndarray, float]]) -> None:
+    """Divide the caps that others have in common with a mesh that is cut in planes."""
+    shared = _cap_tree(mesh)
+    if shared is not None:
+        for other in others:
+            _imprint(other, shared, planes)
+
+
 def _cap_tree(mesh: bpy.types.Mesh) -> BVHTree | None:
     """The surface of the caps of a mesh, which other pieces share; None if it has none."""
     triangles, _ = _cap_triangles(mesh)
@@ -155,7 +166,7 @@ def _cap_triangles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _imprint(mesh: bpy.types.Mesh, shared: BVHTree, planes: list[tuple[np.ndarray, float]]) -> None:
-    """Divide the caps that a mesh has in common with one that is cut in planes, so that they stay alike."""
+    """Divide the caps of a mesh that lie on shared ones as these are, so that they stay alike."""
     triangles, face = _cap_triangles(mesh)
     points = mesh_arrays.basis_points(mesh)
     near = 1e-6 * float(np.linalg.norm(np.ptp(points, axis=0)))
@@ -217,9 +228,7 @@ def _halves(mesh: bpy.types.Mesh, normal: np.ndarray, level: float) -> tuple[bpy
         height = np.array([vertex.co[:] for vertex in bm.verts]) @ normal - level
         height[np.abs(height) <= 2 * near] = 0
         above = np.array([max((height[v.index] for v in face.verts), key=abs) for face in bm.faces])
-        section = [edge for edge in bm.edges if len(edge.link_faces) == 2 and not height[edge.verts[0].index]
-                   and not height[edge.verts[1].index]
-                   and above[edge.link_faces[0].index] * above[edge.link_faces[1].index] < 0]
+        section = [edge for edge in bm.edges if _is_section(edge, height, above)]
         cap = _cap([(edge.verts[0], edge.verts[1]) for edge in section], normal) if above.all() else None
         if cap is None:
             return None
@@ -227,6 +236,17 @@ def _halves(mesh: bpy.types.Mesh, normal: np.ndarray, level: float) -> tuple[bpy
         material = section[0].link_faces[0].material_index
         return (_half(mesh, bm, above < 0, cap, layer.name, material),
                 _half(mesh, bm, above > 0, cap[:, ::-1], layer.name, material))
+
+
+def _is_section(edge: BMEdge, height: np.ndarray, above: np.ndarray) -> bool:
+    """Whether an edge lies in the plane, and its faces on both sides.
+
+    height : (v,) float64, of each vertex. above : (f,) float64, less than 0 for a face below the plane.
+    """
+    if len(edge.link_faces) != 2 or any(height[vertex.index] for vertex in edge.verts):
+        return False
+    one, other = edge.link_faces
+    return bool(above[one.index] * above[other.index] < 0)
 
 
 def _cap(edges: list[tuple[BMVert, BMVert]], normal: np.ndarray) -> np.ndarray | None:
