@@ -67,12 +67,12 @@ def corners(faces: Any) -> tuple[np.ndarray, np.ndarray]:
         return array.ravel(), np.full(len(array), array.shape[1], np.int64)
     if isinstance(faces, np.ndarray) and faces.dtype.kind == "O" and faces.ndim == 1:
         faces = faces.tolist()
+    if array is None and isinstance(faces, Sequence) and not isinstance(faces, (str, bytes)):
+        return _rows(faces)
     if array is None and isinstance(faces, np.ndarray):
         raise MeshError(Sentence("Face indices must be whole numbers, not {type}.", type=faces.dtype))
-    if array is not None or not isinstance(faces, Sequence) or isinstance(faces, (str, bytes)):
-        shape = type(faces).__name__ if array is None else array.shape
-        raise MeshError(Sentence("Faces must have shape (m, corners), not {shape}.", shape=shape))
-    return _rows(faces)
+    shape = type(faces).__name__ if array is None else array.shape
+    raise MeshError(Sentence("Faces must have shape (m, corners), not {shape}.", shape=shape))
 
 
 def _rows(faces: Sequence) -> tuple[np.ndarray, np.ndarray]:
