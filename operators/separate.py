@@ -81,6 +81,22 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
             select_objects(context, pieces, active=of_active[0] if self.hide and of_active else None)
 
     def _report(self, obj: bpy.types.Object, separated: separation.Separated) -> None:
+        self._report_made(obj, separated)
+        if self.joints != "NONE":
+            self._report_joints(separated)
+        if closes_holes(self):
+            report_unsound(self, separated.pieces, just_made=True)
+        if separated.left_open:
+            self.report({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "
+                                          "{n:it|them}").format(n=Count(separated.left_open)))
+        self._report_modifiers(obj, separated)
+        if separated.n_apart:
+            self.report({"WARNING"}, rpt_(
+                "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but "
+                "cannot be joined with them}: parts stay open there").format(n=Count(separated.n_apart)))
+
+    def _report_made(self, obj: bpy.types.Object, separated: separation.Separated) -> None:
+        """Say how many pieces there are, of these how many for the bed, and what stayed as it was."""
         self.report({"INFO"}, rpt_("{name}: {n} {n:part is an object|parts are objects} now").format(
             name=obj.name, n=Count(len(separated.pieces) - separated.more)))
         if separated.more:
@@ -93,13 +109,9 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         if separated.along_faces:
             message = rpt_("{n} {n:border runs|borders run} along faces: a smooth cut would tear or cross a part there")
             self.report({"INFO"}, message.format(n=Count(separated.along_faces)))
-        if self.joints != "NONE":
-            self._report_joints(separated)
-        if closes_holes(self):
-            report_unsound(self, separated.pieces, just_made=True)
-        if separated.left_open:
-            self.report({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "
-                                          "{n:it|them}").format(n=Count(separated.left_open)))
+
+    def _report_modifiers(self, obj: bpy.types.Object, separated: separation.Separated) -> None:
+        """Say which modifiers shape the pieces otherwise than the whole."""
         if separated.by_extent:
             self.report({"WARNING"}, rpt_(
                 "The effect of {modifiers} depends on the extent of the mesh, which differs for each part of {name}: "
@@ -110,10 +122,6 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
                 "The effect of {modifiers} is made for all of {name}, and each part takes another shape: use Apply "
                 "Modifiers to keep the shape").format(
                     modifiers=", ".join(separated.made_for_all), name=obj.name))
-        if separated.n_apart:
-            self.report({"WARNING"}, rpt_(
-                "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but "
-                "cannot be joined with them}: parts stay open there").format(n=Count(separated.n_apart)))
 
     def _report_joints(self, separated: separation.Separated) -> None:
         """Say how many cuts have joints, and of which others why not."""
