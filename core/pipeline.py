@@ -30,10 +30,14 @@ from .surface.halves import completed, plane_of
 from .surface.ordering import sorted_by_place
 from .surface.polygons import PolygonMesh
 from .surface.preparation import Component, WorkingMesh, bodies, repair
-from .threads import meanwhile
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
+try:
+    from .second_thread import meanwhile
+except ModuleNotFoundError:  # as in Blender's extension: what is to be done meanwhile is done when it is asked for
+    from functools import partial as meanwhile  # type: ignore[assignment]
 
 # Shares of the time of a run, 0..1, at which the preparation of the whole mesh ends and at which the assembly of the
 # result begins; measured on a mesh of some 100,000 vertices. Progress is reported by them.
@@ -122,7 +126,7 @@ def decompose(
     mirrors = meanwhile(_mirrors, working, chosen, given.n_polygons, parameters)
     results = _on_bodies(chosen, parameters, watch, model, join_model)
     with watch.stage("parts", 1.0):
-        result = assemble(given, working, results, mirrors.result(), parameters, watch.seconds, hint)
+        result = assemble(given, working, results, mirrors(), parameters, watch.seconds, hint)
         result = result.scaled(given.exponent).reordered(ordering)
     watch.progress("done", 1.0)
     return result

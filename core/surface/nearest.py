@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..threads import n_processors
+from ..processors import n_processors
 
 # Points in a leaf; SciPy takes 16. With 32, and boxes that are not fitted to their points, medial balls take a
 # third less time and 36,000 vertices 6 % less in all; 24 to 64 make no difference.

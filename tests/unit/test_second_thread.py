@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Work in a second thread: its result, its errors, and runs in which no thread is to be had."""
 
-import os
 import subprocess
 import sys
 import threading
@@ -13,37 +12,19 @@ import pytest
 import shapes
 
 from core import decompose
-from core.threads import meanwhile, n_processors
+from core.second_thread import meanwhile
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(autouse=True)
 def _two_processors(monkeypatch):
-    monkeypatch.setattr("core.threads.n_processors", lambda: 2)
-
-
-@pytest.mark.parametrize(("asked", "found"), [("1", 1), ("", None), ("0", None), ("4,2", None), ("100000", None)])
-def test_a_run_keeps_no_more_processors_busy_than_asked(monkeypatch, asked, found):
-    monkeypatch.setenv("OMP_NUM_THREADS", asked)
-    own = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    assert n_processors() == (found or own)
-
-
-@pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="processes are not bound to processors here")
-def test_a_process_bound_to_one_processor_has_one(monkeypatch):
-    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
-    before = os.sched_getaffinity(0)
-    os.sched_setaffinity(0, {min(before)})
-    try:
-        assert n_processors() == 1
-    finally:
-        os.sched_setaffinity(0, before)
+    monkeypatch.setattr("core.second_thread.n_processors", lambda: 2)
 
 
 def test_on_one_processor_there_is_no_second_thread(monkeypatch):
-    monkeypatch.setattr("core.threads.n_processors", lambda: 1)
-    assert meanwhile(threading.get_ident).result() == threading.get_ident()
+    monkeypatch.setattr("core.second_thread.n_processors", lambda: 1)
+    assert meanwhile(threading.get_ident)() == threading.get_ident()
 
 
 def test_the_caller_goes_on_and_gets_the_result():
@@ -54,11 +35,10 @@ def test_the_caller_goes_on_and_gets_the_result():
         assert goes_on.wait(10)
         return of * by
 
-    future = meanwhile(work, 6, by=7)
+    result = meanwhile(work, 6, by=7)
     assert begun.wait(10)
-    assert not future.done()
     goes_on.set()
-    assert future.result() == 42
+    assert result() == 42
 
 
 def test_an_error_reaches_the_caller():
@@ -66,7 +46,7 @@ def test_an_error_reaches_the_caller():
         raise MemoryError("no room")
 
     with pytest.raises(MemoryError, match="no room"):
-        meanwhile(work).result()
+        meanwhile(work)()
 
 
 def test_the_same_parts_where_no_thread_is_to_be_had(monkeypatch):
@@ -82,6 +62,22 @@ def test_the_same_parts_where_no_thread_is_to_be_had(monkeypatch):
     np.testing.assert_array_equal(alone.candidates, found.candidates)
     np.testing.assert_array_equal(alone.face_twin, found.face_twin)
     assert len(found.mirror)
+
+
+def test_the_same_parts_without_the_module_as_in_blender():
+    program = """
+import sys
+sys.path[:0] = sys.argv[1:3]
+if sys.argv[3] == "without":
+    sys.modules["core.second_thread"] = None
+import shapes, threading
+from core import decompose, pipeline
+assert (pipeline.meanwhile.__module__ == "functools") == (sys.argv[3] == "without")
+print(decompose(*shapes.mirrored_figure()).candidates.tolist())
+"""
+    found = [subprocess.run([sys.executable, "-c", program, str(ROOT), str(ROOT / "tests"), way], capture_output=True,
+                            text=True, timeout=60, check=True).stdout for way in ("with", "without")]
+    assert found[0] == found[1]
 
 
 def test_a_cancelled_run_does_not_wait_for_the_planes(monkeypatch):
