@@ -16,7 +16,7 @@ from ..core.result.numbering import NumberedParts
 from . import graph_objects, outputs, part_names, quiet, store, targets, transaction
 from .errors import SceneError
 from .modes import object_mode
-from .outputs import vertex_groups
+from .outputs import materials, vertex_groups
 from .settled import reaction
 from .store import Stored
 from .transaction import keep_result
@@ -59,7 +59,7 @@ def _other_results(result: bpy.types.PropertyGroup, context: bpy.types.Context) 
 
 @reaction
 def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """A part was renamed: its vertex group and its number take the name."""
+    """A part was renamed: its vertex group, its material and its number take the name."""
     mesh = part.id_data
     with quiet.quiet():
         if not part.name.strip():
@@ -75,10 +75,11 @@ def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 
 
 def _take_name(part: bpy.types.PropertyGroup) -> None:
-    """Let the vertex group and the number of a part take its name."""
+    """Let the vertex group, the material and the number of a part take its name."""
     mesh = part.id_data
     for obj in targets.users(mesh)[:1]:
         vertex_groups.rename(obj, part)
+    materials.rename(part)
     part_names.keep_name(mesh, part.number, part.name)
 
 
@@ -95,6 +96,7 @@ def give_names(mesh: bpy.types.Mesh, names: dict[int, str]) -> int:
             part.name = naming.free(part.number, names[part.number])
             for obj in users[:1]:
                 vertex_groups.rename(obj, part)
+            materials.rename(part)
             naming.keep(part.number, part.name)
     naming.end()
     for obj in users:

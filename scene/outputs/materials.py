@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Container
 
 import bpy
@@ -15,7 +16,7 @@ from .kept_aside import PREFIX, bring_back, is_kept, keep_aside, remove_attribut
 
 _MATERIAL_INDEX = "material_index"
 _KEPT = f"{PREFIX}_material"
-_OURS = "reeb_parts_material"  # on a material: it was made for a part
+_OURS = "reeb_parts_material"  # on a material: it was made for a part; the name that we gave it
 
 
 def own_slots(mesh: bpy.types.Mesh) -> np.ndarray:
@@ -95,11 +96,12 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Give each part a material and a slot, in the part's color of the list, if the materials are ours."""
     if not mesh.reeb_parts.has_materials:
         return
+    _take_names(mesh)
     slots = np.zeros(numbered.parts.count, np.int32)
     for label, part in enumerate(mesh.reeb_parts.parts):
         if part.material is None:
             part.material = bpy.data.materials.new(part.name)
-            part.material[_OURS] = True
+            part.material[_OURS] = part.material.name
             if bpy.app.version < (5, 0):  # newer ones always do
                 part.material.use_nodes = True
         _color_material(part.material, linear(part.color))
@@ -107,6 +109,40 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
             mesh.materials.append(part.material)
         slots[label] = mesh.materials[:].index(part.material)
     mesh.polygons.foreach_set("material_index", slots[numbered.parts.labels])
+
+
+def _take_names(mesh: bpy.types.Mesh) -> None:
+    """Give the materials the names of their parts, which may have been those of each other."""
+    wrong = [part for part in mesh.reeb_parts.parts if _is_misnamed(part)]
+    for part in wrong:
+        _name(part.material, "Reeb Parts")  # no name is in the way of another one
+    for part in wrong:
+        rename(part)
+
+
+def rename(part: bpy.types.PropertyGroup) -> None:
+    """Give the part's material, if there is one, the part's name, unless the user has given it another."""
+    if _is_misnamed(part):
+        _name(part.material, part.name)
+
+
+def _is_misnamed(part: bpy.types.PropertyGroup) -> bool:
+    """Whether the part's material has a name that we gave it, and this is not the part's, be it with a number behind.
+
+    Materials of other models have their names, too: most have a number.
+    """
+    material = part.material
+    if material is None or not material.is_editable or material.get(_OURS) != material.name:
+        return False
+    return re.sub(r"\.\d{3,}$", "", material.name) != part.name != material.name
+
+
+def _name(material: bpy.types.Material, name: str) -> None:
+    """Give a material a name, or the nearest that is free, and remember that it is ours."""
+    transaction.keep_keys(material, _OURS)
+    transaction.keep(material, "name")
+    material.name = name
+    material[_OURS] = material.name
 
 
 def _color_material(material: bpy.types.Material, color: np.ndarray) -> None:

@@ -116,6 +116,7 @@ def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | N
     if not obj.data.reeb_parts.has_groups:
         return
     parts = {part.number: part for part in obj.data.reeb_parts.parts}
+    _take_names(obj)
     fresh = [number for number, part in parts.items() if part.group not in obj.vertex_groups]
     after = numbered.candidate_numbers
     made = grains(obj.data, numbered.candidates)
@@ -159,6 +160,17 @@ def remove(obj: bpy.types.Object) -> None:
         remove_one(obj, part.group)
         part.group = ""
     result.has_groups = False
+
+
+def _take_names(obj: bpy.types.Object) -> None:
+    """Give the groups that are there the names of their parts, which may have been those of each other."""
+    wrong = [part for part in obj.data.reeb_parts.parts if part.group != part.name and part.group in obj.vertex_groups]
+    for part in wrong:
+        group = obj.vertex_groups[part.group]
+        group.name = "\1Reeb Parts"  # no name is in the way of another one
+        part.group = group.name
+    for part in wrong:
+        rename(obj, part)
 
 
 def rename(obj: bpy.types.Object, part: bpy.types.PropertyGroup) -> None:

@@ -60,6 +60,38 @@ def test_images_have_one_number_and_a_side(mesh):
         assert center[:, 0].mean() > 0
 
 
+def test_groups_and_materials_have_the_names_in_the_list_whatever_the_detail(make):
+    """A part that has an image at one detail, and none at another, kept the group and material of its former name."""
+    obj = make(shapes.mirrored_figure(), "Figure")
+    bpy.ops.reeb_parts.decompose(materials=True)
+    result = obj.data.reeb_parts
+    next(entry for entry in result.parts if entry.name.endswith(".L")).name = "Arm.L"
+    names = {}
+    for count in (*range(1, 12), *range(12, 0, -1)):
+        result.n_parts = count
+        assert [entry.group for entry in result.parts] == [entry.name for entry in result.parts]
+        assert [entry.material.name for entry in result.parts] == [entry.name for entry in result.parts]
+        assert sorted(obj.vertex_groups.keys()) == sorted(entry.name for entry in result.parts)
+        for entry in result.parts:
+            names.setdefault(entry.number, set()).add(entry.name)
+    assert any(len(found) > 1 for found in names.values())
+
+
+def test_a_group_and_a_material_of_the_users_keep_their_names_when_parts_change_theirs(make):
+    obj = make(shapes.mirrored_figure(), "Figure")
+    bpy.ops.reeb_parts.decompose(materials=True, n_parts=1)
+    result = obj.data.reeb_parts
+    result.n_parts = 2
+    number, plain = result.parts[1].number, result.parts[1].name
+    obj.vertex_groups.new(name=f"{plain}.L")
+    result.parts[1].material.name = "Bark"
+    result.n_parts = 6
+    (found,) = [entry for entry in result.parts if entry.number == number]
+    assert (found.name, found.group, found.material.name) == (f"{plain}.L", f"{plain}.L.001", "Bark")
+    kept = next(group for group in obj.vertex_groups if group.name == f"{plain}.L")
+    assert not any(entry.group == kept.index for vertex in obj.data.vertices for entry in vertex.groups)
+
+
 def test_a_name_with_a_side_is_given_to_the_image_too(mesh):
     left, right = part(mesh, ".L"), part(mesh, ".L").name[:-1] + "R"
     right = next(entry for entry in mesh.reeb_parts.parts if entry.name == right)
