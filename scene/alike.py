@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -111,15 +113,74 @@ def _carry(names: dict[int, str], source: bpy.types.Object, target: bpy.types.Ob
     """Name the parts of a target; how many got a name."""
     numbered = store.load(target.data).shown_parts()
     found, share = _corresponding(source, target)
-    wanted = {number: names[other] for number, other in zip(numbered.numbers.tolist(), found, strict=True)
-              if other in names}
-    surest = dict(zip(numbered.numbers.tolist(), (share * numbered.parts.share).tolist(), strict=True))
+    numbers, sure = numbered.numbers.tolist(), share * numbered.parts.share
+    # Of several parts that come from one, the one that most of it goes to has the plain name.
+    origin = {numbers[label]: found[label] for label in np.argsort(-sure, kind="stable") if found[label] in names}
     mesh = target.data
     # Their former names are free for others.
-    reactions.give_names(mesh, {number: part_names.own_name(mesh, number) for number in wanted})
-    # Of several parts that come from one, the one that most of it goes to has the plain name.
-    return reactions.give_names(
-        mesh, {number: wanted[number] for number in sorted(wanted, key=lambda number: -surest[number])})
+    reactions.give_names(mesh, {number: part_names.own_name(mesh, number) for number in origin})
+    return reactions.give_names(mesh, _distinct_names(names, source.data, mesh, origin))
+
+
+def _distinct_names(names: dict[int, str], source: bpy.types.Mesh, target: bpy.types.Mesh,
+                    origin: dict[int, int]) -> dict[int, str]:
+    """A name that no other part has for each part of a target; those of mirror images are mirror images.
+
+    names : of the parts of the source, by number. origin : the source's part for each of the target's, by numbers, the
+    surest first: of two images the surer one decides.
+    """
+    result = target.reeb_parts
+    images, source_images = part_names.twins(target), part_names.twins(source)
+    carried = {names[other] for other in origin.values()}
+    taken = {entry.name for entry in (*result.parts, *result.names) if entry.number not in origin}
+    sides = {part.number: 1 if part.own_name.endswith(".L") else -1 for part in result.parts}
+    given: dict[int, str] = {}
+    for number, other in origin.items():
+        if number in given:
+            continue
+        image = images.get(number)
+        fresh: tuple[str, ...]
+        if image in origin and image not in given and _is_one_name(names, other, origin[image], source_images):
+            fresh = _free_pair(names[other], sides[number], taken, carried)
+            given |= dict(zip((number, image), fresh, strict=True))
+        else:
+            fresh = (_free(names[other], taken, carried),)
+            given[number] = fresh[0]
+        taken.update(fresh)
+    return given
+
+
+def _is_one_name(names: dict[int, str], one: int, other: int, images: dict[int, int]) -> bool:
+    """Whether parts that are mirror images have one name with two sides, by the parts of the source they come from.
+
+    Where these are mirror images, too, or have no side, they may have two names, which the user has given them.
+    """
+    words = [part_names.without_number(names[number]) for number in (one, other)]
+    mirrored = [bpy.utils.flip_name(word) for word in words]
+    if images.get(one) == other:
+        return words[0] == mirrored[1] != mirrored[0]
+    return words != mirrored or words[0] == words[1]
+
+
+def _free(name: str, taken: set[str], carried: set[str]) -> str:
+    """A name that is not taken, or with a number behind it, and then none that is carried to another part."""
+    return name if name not in taken else part_names.distinct(part_names.without_number(name), taken | carried)
+
+
+def _free_pair(name: str, side: int, taken: set[str], carried: set[str]) -> tuple[str, str]:
+    """A name for a part and the one for its mirror image, neither taken, with one number behind both.
+
+    side : of the part, 1 for left, -1 for right, if the name has none.
+    """
+    stem = part_names.of_side(part_names.without_number(name), side, is_image=False)
+    forms = chain((name,), (part_names.with_ending(stem, count) for count in range(len(taken | carried) + 1)))
+    for index, form in enumerate(forms):
+        pair = form, bpy.utils.flip_name(form)
+        if form != pair[1] and not taken.intersection(pair) and not (index and carried.intersection(pair)):
+            return pair
+    # So long a name that its side is cut off where a number comes behind it.
+    found = _free(name, taken, carried)
+    return found, _free(name, taken | {found}, carried)
 
 
 def _corresponding(source: bpy.types.Object, target: bpy.types.Object) -> tuple[list[int], np.ndarray]:

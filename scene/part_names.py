@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Container
 
@@ -113,6 +114,18 @@ def with_ending(name: str, count: int) -> str:
         return name
     ending = f".{count:03d}"
     return name.encode()[: _LONGEST - len(ending)].decode(errors="ignore") + ending
+
+
+def without_number(name: str) -> str:
+    """A name without the number that Blender, or ``distinct``, has put behind it."""
+    return re.sub(r"\.\d{3,}$", "", name)
+
+
+def twins(mesh: bpy.types.Mesh) -> dict[int, int]:
+    """The number of the mirror image of each part of the list that has one there."""
+    numbers = {part.own_name: part.number for part in mesh.reeb_parts.parts}
+    images = {number: numbers.get(bpy.utils.flip_name(name), number) for name, number in numbers.items()}
+    return {number: image for number, image in images.items() if image != number}
 
 
 def of_side(name: str, side: int, is_image: bool) -> str:

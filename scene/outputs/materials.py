@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Container
 
 import bpy
@@ -11,7 +10,7 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
-from .. import mesh_arrays, transaction
+from .. import mesh_arrays, part_names, transaction
 from .kept_aside import PREFIX, bring_back, is_kept, keep_aside, remove_attribute
 
 _MATERIAL_INDEX = "material_index"
@@ -134,7 +133,7 @@ def _is_misnamed(part: bpy.types.PropertyGroup) -> bool:
     material = part.material
     if material is None or not material.is_editable or material.get(_OURS) != material.name:
         return False
-    return re.sub(r"\.\d{3,}$", "", material.name) != part.name != material.name
+    return part_names.without_number(material.name) != part.name != material.name
 
 
 def _name(material: bpy.types.Material, name: str) -> None:

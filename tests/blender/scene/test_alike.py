@@ -79,6 +79,66 @@ def test_several_parts_that_come_from_one_get_names_that_differ(figures):
     assert "Whole" in names
 
 
+def pairs(mesh):
+    """Names of the parts that are mirror images, left and right."""
+    names = {part.own_name: part.name for part in mesh.reeb_parts.parts}
+    return [(name, names[f"{own[:-1]}R"]) for own, name in names.items() if own.endswith(".L")]
+
+
+def check_images(mesh):
+    """No two parts have one name, and those of mirror images are mirror images, with one number behind them at most."""
+    names = [part.name for part in mesh.reeb_parts.parts]
+    assert len(set(names)) == len(names)
+    assert not any(name.count(".0") > 1 for name in names)
+    assert pairs(mesh)
+    for left, right in pairs(mesh):
+        assert left != right == bpy.utils.flip_name(left)
+
+
+@pytest.mark.parametrize("name", ["Whole.001", "Back.L.001"])
+def test_images_that_come_from_one_part_get_names_that_are_images(figures, name):
+    """Each was named alone: the surest of several got the plain name, the others Back.L.001.001 and so on."""
+    first, second = figures
+    second.select_set(False)
+    first.data.reeb_parts.n_parts = 1
+    first.data.reeb_parts.parts[0].name = name
+    second.select_set(True)
+    bpy.ops.reeb_parts.names_from_active()
+    check_images(second.data)
+
+
+def test_images_get_one_number_where_those_of_the_source_have_two(figures):
+    first, second = figures
+    bpy.context.scene.reeb_parts.symmetry = False
+    crossed = {".L": iter(("Leg.L", "Leg.L.001", "Leg.L.002")), ".R": iter(("Leg.R.002", "Leg.R.001", "Leg.R"))}
+    for part in first.data.reeb_parts.parts:
+        if part.own_name[-2:] in crossed:
+            part.name = next(crossed[part.own_name[-2:]])
+    bpy.ops.reeb_parts.names_from_active()
+    check_images(second.data)
+
+
+def test_mirror_images_that_the_user_has_given_two_names_keep_them(figures):
+    first, second = figures
+    given = {part.name: f"Own {index}" for index, part in enumerate(first.data.reeb_parts.parts)}
+    for part in first.data.reeb_parts.parts:
+        part.name = given[part.name]
+    bpy.ops.reeb_parts.names_from_active()
+    assert sorted(pairs(second.data)) == sorted(pairs(first.data))
+
+
+def test_a_name_that_leaves_no_room_for_a_number_and_a_side_is_given_all_the_same(figures):
+    first, second = figures
+    second.select_set(False)
+    first.data.reeb_parts.n_parts = 1
+    second.select_set(True)
+    first.data.reeb_parts.parts[0].name = 61 * "x" + ".L"
+    bpy.ops.reeb_parts.names_from_active()
+    names = [part.name for part in second.data.reeb_parts.parts]
+    assert len(set(names)) == len(names)
+    assert all(name.startswith(59 * "x") for name in names)
+
+
 @pytest.mark.parametrize(("prepare", "words"), [
     (lambda first, second: None, "No part of First has a name of its own"),
     (lambda first, second: (setattr(first.data.reeb_parts.parts[0], "name", "Body"), second.select_set(False)),
