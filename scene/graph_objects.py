@@ -7,8 +7,7 @@ carries them along. They are recognized by custom properties, never by name.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Collection, Container, Iterator
+from collections.abc import Collection, Container, Iterable, Iterator
 from typing import Any
 
 import bpy
@@ -28,6 +27,7 @@ SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1
 _DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
 _WORDS = {"minimum": "middle", "saddle": "joint", "maximum": "tip"}  # behind the name of the part
 _ARCS = "arcs"  # the role of the curve
+_STRETCHES = "stretches"  # on the curve: what its splines are, see ``_stretches``
 FOLDED = "folded"  # on a node: the parts that are shown do not need it
 _SIZE, _NOTHING = "reeb_parts_size", 1e-4  # its size when it is not folded, and when it is
 _LOCKS = ("lock_location", "lock_rotation", "lock_scale")
@@ -126,7 +126,7 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
         empty["kind"], empty["value"], empty["part"] = kind, float(graph.node_value[index]), numbers[index]
         empty["node"], empty[FOLDED] = index, False
         _place(empty, "node", obj, collection)
-    curve = _curve(graph, back, np.ones(graph.n_arcs, bool))
+    curve = _curve(graph, back, _whole(graph, range(graph.n_arcs)))
     _place(bpy.data.objects.new("Reeb arcs", curve), _ARCS, obj, collection)
     restyle(obj, style)
     made.hand_on(earlier.gone, [(_stands_for(item), item) for item in collection.objects])
@@ -152,21 +152,23 @@ def _place(item: bpy.types.Object, role: str, obj: bpy.types.Object, collection:
     collection.objects.link(item)
 
 
-def _curve(graph: ReebGraph, back: np.ndarray, shown: np.ndarray) -> bpy.types.Curve:
-    """A poly spline for each arc that is shown, from its lower node through its center points to its upper node.
+def _curve(graph: ReebGraph, back: np.ndarray, stretches: np.ndarray) -> bpy.types.Curve:
+    """A poly spline for each stretch of an arc.
 
-    back : (3, 3) float64, takes the graph's positions to the mesh's. shown : (q,) bool.
+    back : (3, 3) float64, takes the graph's positions to the mesh's. stretches : (s, 3) int64, see ``_stretches``.
     """
     curve = bpy.data.curves.new("Reeb arcs", "CURVE")
     curve.dimensions = "3D"
     scale = float(np.cbrt(abs(np.linalg.det(back)))) or 1.0
-    for arc, line in _lines(graph, places(graph, back), shown):
+    lines = _lines(graph, places(graph, back), stretches)
+    for line, (arc, first, last) in zip(lines, stretches.tolist(), strict=True):
         radius = graph.point_radius[graph.arc_points[arc] : graph.arc_points[arc + 1]] * scale
+        if len(radius):
+            radius = np.concatenate([radius[:1], radius, radius[-1:]])[first : last + 1]
         spline = curve.splines.new("POLY")
         spline.points.add(len(line) - 1)
         spline.points.foreach_set("co", line.ravel())
-        ends = np.concatenate([radius[:1], radius, radius[-1:]]).astype(np.float32)
-        spline.points.foreach_set("radius", ends if len(ends) == len(line) else np.zeros(len(line), np.float32))
+        spline.points.foreach_set("radius", radius.astype(np.float32) if len(radius) else np.zeros(2, np.float32))
     return curve
 
 
@@ -175,13 +177,56 @@ def places(graph: ReebGraph, back: np.ndarray) -> np.ndarray:
     return np.concatenate([graph.node_position, graph.point_position]) @ back
 
 
-def _lines(graph: ReebGraph, points: np.ndarray, shown: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
-    """Each arc that is shown, with its points in Blender's four coordinates; points : as of ``places``."""
-    for arc in np.flatnonzero(shown).tolist():
-        low, high = graph.arcs[arc]
-        inner = graph.n_nodes + np.arange(graph.arc_points[arc], graph.arc_points[arc + 1])
-        line = points[np.concatenate([[low], inner, [high]])]
-        yield arc, np.concatenate([line, np.ones((len(line), 1))], axis=1).astype(np.float32)
+def _chain(graph: ReebGraph, arc: int) -> np.ndarray:
+    """An arc from its lower node through its center points to its upper node: rows of ``places``, (m,) int64."""
+    low, high = graph.arcs[arc]
+    inner = graph.n_nodes + np.arange(graph.arc_points[arc], graph.arc_points[arc + 1])
+    return np.concatenate([[low], inner, [high]])
+
+
+def _lines(graph: ReebGraph, points: np.ndarray, stretches: np.ndarray) -> Iterator[np.ndarray]:
+    """The points of each stretch of an arc in Blender's four coordinates; points : as of ``places``."""
+    for arc, first, last in stretches.tolist():
+        line = points[_chain(graph, arc)[first : last + 1]]
+        yield np.concatenate([line, np.ones((len(line), 1))], axis=1).astype(np.float32)
+
+
+def _whole(graph: ReebGraph, arcs: Iterable[int]) -> np.ndarray:
+    """Some arcs as stretches from end to end, (s, 3) int64."""
+    counts = np.diff(graph.arc_points)
+    return np.array([(arc, 0, counts[arc] + 1) for arc in arcs], np.int64).reshape(-1, 3)
+
+
+def _stretches(graph: ReebGraph, arcs: Iterable[int], seen: np.ndarray) -> np.ndarray:
+    """The stretches of some arcs that are seen: as far as the overlay draws them, to the first point that is not.
+
+    Parameters
+    ----------
+    graph : ReebGraph
+    arcs : of int
+    seen : (k + r,) bool
+        Whether each node and each center point is seen.
+
+    Returns
+    -------
+    stretches : (s, 3) int64
+        The arc, and the first and the last of its points, see ``_chain``.
+    """
+    found = []
+    for arc in arcs:
+        chain = seen[_chain(graph, arc)]
+        drawn = np.concatenate([[False], chain[:-1] | chain[1:], [False]])
+        found += [(arc, first, last) for first, last in np.flatnonzero(drawn[1:] != drawn[:-1]).reshape(-1, 2)]
+    return np.array(found, np.int64).reshape(-1, 3)
+
+
+def _drawn(item: bpy.types.Object, graph: ReebGraph) -> np.ndarray:
+    """The stretches that the curve of a graph consists of, (s, 3) int64."""
+    if _STRETCHES in item:
+        kept = np.array(list(item[_STRETCHES]), np.int64).reshape(-1, 3)
+        return kept[kept[:, 0] < graph.n_arcs]
+    # An earlier version has told the arcs.
+    return _whole(graph, [arc for arc in item.get("arcs", range(graph.n_arcs)) if arc < graph.n_arcs])
 
 
 def shift(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, seen: np.ndarray) -> bool:
@@ -197,8 +242,7 @@ def shift(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, seen: np.nd
     for node in moved:
         node.delta_location = offset[node["node"]]
     if item is not None and (moved or not nodes):
-        shown = np.isin(np.arange(graph.n_arcs), item.get("arcs", range(graph.n_arcs)))
-        for spline, (_, line) in zip(item.data.splines, _lines(graph, seen, shown), strict=False):
+        for spline, line in zip(item.data.splines, _lines(graph, seen, _drawn(item, graph)), strict=False):
             if len(spline.points) == len(line):
                 spline.points.foreach_set("co", line.ravel())
         item.data.update_tag()
@@ -229,10 +273,8 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     graph = parts.decomposition.graph
     shown, arcs_shown = unfolded(graph, parts.node_part, parts.point_part)
     hidden = hidden_parts(obj.data, numbered.numbers[parts.labels])
-    if hidden:
-        seen, points_seen = (~np.isin(numbered.numbers[part], hidden) for part in (parts.node_part, parts.point_part))
-        shown &= seen
-        arcs_shown &= seen[graph.arcs].any(axis=1) | np.isin(np.arange(graph.n_arcs), graph.point_arc[points_seen])
+    seen = ~np.isin(numbered.numbers[np.concatenate([parts.node_part, parts.point_part])], hidden)
+    shown &= seen[: graph.n_nodes]
     colors = part_names.number_colors(obj.data)
     for node in nodes:
         transaction.keep_keys(node, "part")
@@ -240,7 +282,7 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
         node["part"] = numbers[node["node"]]
         node.color = (*linear(colors[node["part"], :3]), 1.0)
         _fold(node, not shown[node["node"]])
-    _show_arcs(obj, graph, arcs_shown)
+    _show_arcs(obj, graph, _stretches(graph, np.flatnonzero(arcs_shown).tolist(), seen))
     update_names(obj)
 
 
@@ -266,19 +308,18 @@ def is_folded(node: bpy.types.Object) -> bool:
     return bool(node.get(FOLDED, False))
 
 
-def _show_arcs(obj: bpy.types.Object, graph: ReebGraph, shown: np.ndarray) -> None:
-    """Let the curve have some of the arcs. shown : (q,) bool."""
+def _show_arcs(obj: bpy.types.Object, graph: ReebGraph, stretches: np.ndarray) -> None:
+    """Let the curve have some stretches of the arcs, (s, 3) int64: see ``_stretches``."""
     item = arcs(obj)
-    wanted = np.flatnonzero(shown).tolist()
-    if item is None or list(item.get("arcs", range(graph.n_arcs))) == wanted:
+    if item is None or np.array_equal(_drawn(item, graph), stretches):
         return
-    transaction.keep_keys(item, "arcs")
+    transaction.keep_keys(item, _STRETCHES)
     transaction.keep(item, "data")
     before = item.data
     name, thickness = before.name, before.bevel_depth
-    curve = _curve(graph, bridge.unstretch(store.stretch_of(obj.data)).T, shown)
+    curve = _curve(graph, bridge.unstretch(store.stretch_of(obj.data)).T, stretches)
     curve.bevel_depth = thickness
-    item["arcs"], item.data = wanted, curve
+    item[_STRETCHES], item.data = stretches.ravel().tolist(), curve
     if before.users == 0:
         transaction.discard(before)
         curve.name = name
@@ -289,17 +330,13 @@ def update_names(obj: bpy.types.Object) -> None:
     nodes = list(_items(obj, "node"))
     names = {part.number: part.name for part in obj.data.reeb_parts.parts}
     wanted = [f"{names.get(node['part'], '')} {_WORDS.get(node['kind'], node['kind'])}".strip() for node in nodes]
-    changed = [(node, name) for node, name in zip(nodes, wanted, strict=True) if _plain(node.name) != name]
+    changed = [(node, name) for node, name in zip(nodes, wanted, strict=True)
+               if part_names.without_number(node.name) != name]
     for node, _ in changed:
         transaction.keep(node, "name")
         node.name = "Reeb node"  # no name is in the way of another one
     for node, name in changed:
         node.name = name
-
-
-def _plain(name: str) -> str:
-    """A name without the number that Blender puts behind it."""
-    return re.sub(r"\.\d{3,}$", "", name)
 
 
 def is_crowded(graph: ReebGraph, shown: np.ndarray) -> bool:

@@ -133,3 +133,26 @@ def test_the_graph_of_hidden_parts_is_hidden_and_not_pointed_at(obj, result, pac
     bpy.ops.reeb_parts.isolate(show_all=True)
     assert len(pointing.model_of(obj).shown_lines.segments) == shown
     assert [node.name for node in nodes if not node["folded"]] == seen
+
+
+@pytest.mark.parametrize("way", ["hide", "isolate"])
+def test_the_curve_ends_where_the_overlay_of_the_graph_does(obj, result, package, way):
+    """Blender draws the curve's own wire, which led on to hidden parts as a thin black line."""
+    overlay = importlib.import_module(f"{package}.viewport.graph_overlay")
+    (arcs,) = [item for item in obj.children if item.get("reeb_parts_role") == "arcs"]
+
+    def places(points):
+        return {tuple(np.round(point, 4).tolist()) for point in np.asarray(points, np.float64)}
+
+    def curve():
+        return places([point.co[:3] for spline in arcs.data.splines for point in spline.points])
+
+    whole = curve()
+    for index in range(len(result.parts)):
+        choose(result, index)
+        getattr(bpy.ops.reeb_parts, way)()
+        # The overlay has points in the middle of segments, too.
+        assert curve() == places(overlay.colored_arcs(obj.data)[0].reshape(-1, 4, 3)[:, [0, 3]].reshape(-1, 3))
+        assert all(len(spline.points) > 1 for spline in arcs.data.splines)
+        bpy.ops.reeb_parts.isolate(show_all=True)
+        assert curve() == whole
