@@ -32,14 +32,12 @@ class Pointed:
     key : tuple
         Of the object and its parts, see pointing.result_key.
     number : int
-    name : str
     triangles : (t, 3, 3) float32
         In coordinates of the mesh; none where the parts are seen elsewhere.
     """
 
     key: tuple
     number: int
-    name: str
     triangles: np.ndarray
     surface: Surface | None = None
 
@@ -67,6 +65,12 @@ def number(obj: bpy.types.Object) -> int:
     return _pointed.number if _pointed is not None and _pointed.key == _key(obj) else 0
 
 
+def name(obj: bpy.types.Object) -> str:
+    """What the part of an object that is filled is called now, "" for none."""
+    found = number(obj)
+    return part_names.part_name(obj.data, found) if found else ""
+
+
 def point(context: bpy.types.Context, mouse: tuple[int, int]) -> None:
     """The pointer has moved to a place of the region."""
     global _pointed, _mouse
@@ -82,7 +86,7 @@ def point(context: bpy.types.Context, mouse: tuple[int, int]) -> None:
         return
     key, part = _key(obj), model.number(target)
     if _pointed is None or (_pointed.key, _pointed.number) != (key, part):
-        _pointed = Pointed(key, part, part_names.part_name(obj.data, part), _triangles(obj, key, model, part))
+        _pointed = Pointed(key, part, _triangles(obj, key, model, part))
 
 
 def _key(obj: bpy.types.Object) -> tuple:
@@ -122,15 +126,15 @@ def draw_name() -> None:
     if _pointed is None or context.region is None or _named_in != context.region.as_pointer():
         return
     _named_in = 0
-    scale = context.preferences.system.ui_scale
+    words, scale = name(context.view_layer.objects.active), context.preferences.system.ui_scale
     blf.size(0, TEXT * scale)
     blf.color(0, 1.0, 1.0, 1.0, 1.0)
     blf.enable(0, blf.SHADOW)
     blf.shadow(0, 5, 0.0, 0.0, 0.0, 1.0)
-    width, _ = blf.dimensions(0, _pointed.name)
+    width, _ = blf.dimensions(0, words)
     left = min(_mouse[0] + 18 * scale, context.region.width - width - 4 * scale)
     blf.position(0, left, _mouse[1] + 12 * scale, 0)
-    blf.draw(0, _pointed.name)
+    blf.draw(0, words)
     blf.disable(0, blf.SHADOW)
 
 

@@ -71,6 +71,7 @@ def test_f2_renames_the_part_under_the_pointer(seen):
     assert "Head" in names
     assert "Part 06" not in names
     assert active == "Head"
+    assert seen["name beside the pointer"] == "Head"
 
 
 def test_h_hides_and_alt_h_shows(seen):

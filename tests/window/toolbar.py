@@ -194,6 +194,8 @@ def renamed():
     yield from pointer.write("Head")
     yield from pointer.tap("Return")
     yield 0.4
+    note("name beside the pointer", pointed())
+    pointer.shot("6_named.png")
     yield from pointer.rest(*pointer.in_view(0.1, 0.1))
     yield 0.4
     note("renamed", [sorted(shares()), chosen()[0]])
@@ -276,9 +278,8 @@ def hidden_parts():
 
 
 def pointed():
-    """The part that is filled."""
-    hover = sys.modules["bl_ext.user_default.reeb_parts.viewport.hover"]
-    return hover._pointed.name if hover._pointed is not None else None
+    """The name of the part that is filled, None for none."""
+    return sys.modules["bl_ext.user_default.reeb_parts.viewport.hover"].name(spot()) or None
 
 
 def active_tool():

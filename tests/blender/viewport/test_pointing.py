@@ -45,6 +45,17 @@ def test_a_place_on_the_surface_picks_its_part(obj, result, tip):
     assert not any(part.selected for part in result.parts)
 
 
+def test_the_part_under_the_pointer_is_called_by_its_new_name_at_once(obj, result, package):
+    """After F2 the former name stayed beside the pointer until it moved to another part."""
+    hover = importlib.import_module(f"{package}.viewport.hover")
+    hover._pointed = hover.Pointed(hover._key(obj), result.parts[1].number, np.empty((0, 3, 3), np.float32))
+    assert hover.name(obj) == result.parts[1].name
+    result.parts[1].name = "Arm"
+    assert hover.name(obj) == "Arm"
+    hover.clear()
+    assert hover.name(obj) == ""
+
+
 def test_extending_adds_and_takes_away(obj, result):
     faces = [np.linalg.norm(centers(obj) - tip, axis=1).argmin() for tip in shapes.TREE_TIPS]
     wanted = [int(numbers(obj.data)[face]) for face in faces]
