@@ -105,7 +105,7 @@ class Room:
                    expanded: Collection[str] = ()) -> None:
         """Properties below each other, their names before them; above them where that is too narrow.
 
-        expanded : those that show all their choices.
+        expanded : those that show all their choices, if the words of these fit beside each other.
         """
         kinds = [data.bl_rna.properties[name] for name in names]
         words = {kind: iface_(kind.name, kind.translation_context) for kind in kinds}
@@ -125,8 +125,14 @@ class Room:
                 column.prop(data, kind.identifier, text="")
             else:
                 column.use_property_split = not (whole and kind.type == "BOOLEAN")
-                expand = kind.identifier in expanded
+                expand = kind.identifier in expanded and self.less(_NAMES * self.width)._has_choices(kind)
                 (column.row() if expand else column).prop(data, kind.identifier, expand=expand)
+
+
+    def _has_choices(self, kind: bpy.types.EnumProperty) -> bool:
+        """Whether all choices of a property fit beside each other, each as wide as the widest."""
+        words = [iface_(item.name, kind.translation_context) for item in kind.enum_items]
+        return self.has(*len(words) * [max(words, key=self.text)])
 
 
 def _label(name: str) -> str:

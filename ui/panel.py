@@ -23,6 +23,7 @@ BUTTONS_BESIDE = 150  # the buttons beside the list stand below it
 LOCKS = 150  # no locks in the list
 WIDE_CHIPS = 120  # colors are stripes only
 TICKS = 90  # no boxes to tick: parts are marked with the tool, or by the menu
+FOLD = 18  # what folds a panel, before its words
 # What a row of the list has besides a part's name and share: its frame, and the bar that scrolls it.
 FRAME, BESIDE = 30, 28
 
@@ -164,7 +165,10 @@ def _draw_notes(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup, roo
     if not found:
         return
     header, body = layout.panel("REEB_PARTS_notes", default_closed=True)
-    header.label(text=iface_("{n} {n:note|notes} on the mesh").format(n=Count(len(found))))
+    words = iface_("{n} {n:note|notes} on the mesh").format(n=Count(len(found)))
+    if not room.less(FOLD).has(words):
+        words = iface_("{n} {n:note|notes}").format(n=Count(len(found)))
+    header.label(text=words, translate=False)
     if body is not None:
         column = body.column(align=True)
         column.scale_y = 0.8

@@ -180,6 +180,7 @@ TEXTS = {
     "Select a mesh, then press Decompose.": "Bitte ein Mesh auswählen, dann „Zerlegen“ drücken.",
     "The mesh was edited since. Decompose it again.": "Das Mesh wurde seither bearbeitet. Bitte erneut zerlegen.",
     "{n} {n:note|notes} on the mesh": "{n} {n:Hinweis|Hinweise} zum Mesh",
+    "{n} {n:note|notes}": "{n} {n:Hinweis|Hinweise}",
     "{n} {n:part|parts} cannot be had, only {fewest} to {most}":
         "{n} {n:Teil|Teile} gibt es nicht, nur {fewest} bis {most}",
     "Go to the next number of parts that stands out, such as all limbs, or all fingers":

@@ -194,6 +194,7 @@ TEXTS = {
     "Select a mesh, then press Decompose.": "请选择一个网格，然后按“分解”。",
     "The mesh was edited since. Decompose it again.": "网格在此之后被编辑过。请重新分解。",
     "{n} {n:note|notes} on the mesh": "关于网格的 {n} 条说明",
+    "{n} {n:note|notes}": "{n} 条说明",
     "{n} {n:part|parts} cannot be had, only {fewest} to {most}": "无法得到 {n} 个部件，只能为 {fewest} 到 {most} 个",
     "Go to the next number of parts that stands out, such as all limbs, or all fingers":
         "前往下一个明显的部件数量，例如全部肢体或全部手指",
