@@ -62,6 +62,10 @@ class Room:
         needed = sum(self.text(word) + _PADDING for word in words) + _ICON * icons + _ARROWS * fields
         return needed <= self.width
 
+    def share(self, words: str) -> float:
+        """The share of a row that a button of some words needs."""
+        return (self.text(words) + _PADDING) / self.width
+
     def row(self, layout: bpy.types.UILayout, *words: str, icons: int = 0, fields: int = 0) -> bpy.types.UILayout:
         """A row for buttons that fit beside each other, or else a column."""
         return layout.row(align=True) if self.has(*words, icons=icons, fields=fields) else layout.column(align=True)

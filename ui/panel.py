@@ -268,7 +268,8 @@ def _draw_parts(layout: bpy.types.UILayout, context: bpy.types.Context, room: Ro
     room.operator(row, "reeb_parts.isolate", text="Show All", spare="HIDE_OFF").show_all = True
     suggest, separate = iface_("Suggest Names", "Operator"), iface_("Separate", "Operator")
     beside = room.has(suggest, separate, icons=1)
-    row = layout.split(factor=0.42, align=True) if beside else layout.column(align=True)
+    share = max(0.42, room.share(suggest))  # Separate is the larger one, as far as the words of both fit
+    row = layout.split(factor=share, align=True) if beside else layout.column(align=True)
     row.scale_y = 1.2
     room.operator(row, "reeb_parts.suggest_names", spare="SORTALPHA")
     room.operator(row, "reeb_parts.separate", text="Separate", icon="OUTLINER_OB_GROUP_INSTANCE")
