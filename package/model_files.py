@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Models read from files: by trimesh, and what only Blender reads by Blender."""
+"""Models read from files: .obj and arrays here, what only Blender reads by Blender, all others by trimesh."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import subprocess
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +19,7 @@ from .core.errors import ReebError
 from .core.file_names import readable
 from .core.memory import lacks_memory
 from .core.sentence import Sentence
-from .core.surface.ears import without_folds
+from .obj_files import parse_obj
 
 #: Files that Blender alone can read, see ``blender_export``.
 BY_BLENDER = (".blend", ".fbx")
@@ -138,29 +137,8 @@ def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _read_obj(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices, triangles and their polygons of an .obj.
-
-    trimesh cuts polygons into fans and puts all second halves of quads behind the first; it gets triangles, which are
-    cut again where a fan is folded.
-    """
-    sizes: list[int] = []
-
-    def fan(face: re.Match[bytes]) -> bytes:
-        """Lines of the triangles of a line with a face."""
-        first, *others = face[1].split() or (b"",)
-        if len(others) < 2:
-            return b""
-        sizes.append(1 + len(others))
-        return b"\n".join(b"f %b %b %b" % (first, *two) for two in pairwise(others))
-
-    # Lines that go on in the next one are one; materials and groups would sort the faces.
-    text = re.sub(rb"\\\r?\n", b"", _plain(path))
-    text = re.sub(rb"(?m)^[ \t]*(usemtl|mtllib|g|o|s)\b.*$", b"", text)
-    if not re.search(rb"(?m)^f(?:[ \t]+[^\s]+){4}", text):
-        return _read_by_trimesh(path, text)
-    vertices, faces, _ = _read_by_trimesh(path, re.sub(rb"(?m)^f[ \t](.*)$", fan, text))
-    corners = np.array(sizes)
-    return vertices, without_folds(vertices, faces, corners), np.repeat(np.arange(len(corners)), corners - 2)
+    """Vertices, triangles and their polygons of an .obj."""
+    return parse_obj(path.read_bytes())
 
 
 def _plain(path: Path) -> bytes:
@@ -189,19 +167,18 @@ def _text_of_ply(data: bytes) -> int:
 
 
 #: How many bytes at the beginning of files are text, by the kinds of files that may have text in them that is no UTF-8.
-_TEXT: dict[str, Callable[[bytes], int]] = {".obj": len, ".off": len, ".stl": _text_of_stl, ".ply": _text_of_ply}
+_TEXT: dict[str, Callable[[bytes], int]] = {".off": len, ".stl": _text_of_stl, ".ply": _text_of_ply}
 _ASCII = bytes(range(128)) + b"?" * 128
 
 
-def _read_by_trimesh(path: Path, data: bytes | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices and triangles of all meshes of a file, in its order, each a polygon. data : what is in it."""
+def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices and triangles of all meshes of a file, in its order, each a polygon."""
     import trimesh
 
     # It takes names of meshes from that of the file, and not every one is UTF-8.
     resolver = trimesh.resolvers.FilePathResolver(path)
     resolver.file_name = readable(path.name)
-    if data is None:
-        data = _plain(path) if path.suffix.lower() in _TEXT else path.read_bytes()
+    data = _plain(path) if path.suffix.lower() in _TEXT else path.read_bytes()
     with io.BytesIO(data) as stream:
         # Neither cleaned nor split at texture seams: labels are for the faces that are in the file.
         scene = trimesh.load_scene(stream, path.suffix[1:].lower(), resolver, process=False, maintain_order=True)
