@@ -27,8 +27,8 @@ from ..surface.ordering import principal_axes
 
 #: How many corners a hull has at most; game engines take 255, and are faster with fewer.
 MOST_CORNERS = 64
-# A part that is flatter than this share of its size gets a hull that is so thick.
-_THIN = 0.01
+# A part that is flat but for its rounding, below the first share of its extent, gets a hull as thick as the second.
+_FLAT, _THIN = 1e-4, 0.01
 # Planes that are tried for each axis are at the ends of so many slabs of equal width.
 _SLABS = 16
 # A part is divided further only where that takes off this share of its hulls, and as long as these are so much larger
@@ -90,7 +90,7 @@ def part_hulls(
     hulls = []
     for triangles, volume in zip(groups, volumes.tolist(), strict=True):
         pieces = _divided(_Surface(closed.points, triangles).used(), count, volume)
-        hulls.append(tuple(_hull(_solid(piece.points, _THIN * size), most) for piece in pieces))
+        hulls.append(tuple(_hull(_solid(piece.points, size), most) for piece in pieces))
     return hulls
 
 
@@ -301,14 +301,15 @@ def _hull(points: np.ndarray, most: int) -> Hull:
     return Hull(points[used], triangles.astype(np.int64))
 
 
-def _solid(points: np.ndarray, thickness: float) -> np.ndarray:
-    """Points that do not lie in a plane: those given, and moved to both sides where they are thinner than that."""
+def _solid(points: np.ndarray, size: float) -> np.ndarray:
+    """Points that do not lie in a plane: those given, moved to both sides where they are flat. size : of the model."""
     middle = points.mean(axis=0)
     _, _, axes = np.linalg.svd(points - middle, full_matrices=len(points) < 3)
-    for axis in axes:
-        more = thickness - np.ptp((points - middle) @ axis)
-        if more > 0:
-            points = np.concatenate([points + 0.5 * more * axis, points - 0.5 * more * axis])
+    extent = np.ptp((points - middle) @ axes.T, axis=0)
+    own = extent.max() or size  # a point has none
+    for axis, thickness in zip(axes, extent.tolist(), strict=True):
+        if thickness < _FLAT * own:
+            points = np.concatenate([points + 0.5 * _THIN * own * axis, points - 0.5 * _THIN * own * axis])
     return points
 
 

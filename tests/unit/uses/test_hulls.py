@@ -66,6 +66,33 @@ def test_what_is_flat_gets_a_thin_one(points):
     assert 0 < hull.volume < 0.1
 
 
+def thin_boxes(sizes, place=100.0):
+    """Boxes of such sizes in one model, each part of it, turned so that none is along the axes."""
+    vertices, faces = shapes.box_quads()
+    vertices = (vertices - vertices.min(axis=0)) / np.ptp(vertices, axis=0)
+    turn = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
+    every = np.concatenate([(vertices * size + (0, 0, place * k)) @ turn.T for k, size in enumerate(sizes)])
+    count = len(sizes)
+    return (every, np.concatenate([faces + k * len(vertices) for k in range(count)])), np.repeat(np.arange(count), 6)
+
+
+def test_what_is_thin_keeps_its_thickness():
+    """A pane beside a rod, in a model 100 times as large: hulls were as thick as a share of the whole model."""
+    sizes = [(2, 1, 0.005), (0.006, 0.006, 1.5), (1, 1, 1)]
+    for hull, size in zip(hulls(*thin_boxes(sizes)), sizes, strict=True):
+        check(hull)
+        assert hull.volume == pytest.approx(np.prod(size))
+
+
+@pytest.mark.parametrize("place", [0.0, 1.0, 1000.0])
+def test_what_is_flat_is_as_thick_as_a_share_of_itself(place):
+    """However large the model around it is: a sheet of 2 x 1, and one that is flat but for its rounding."""
+    sizes = [(2, 1, 0), (2, 1, 1e-6), (1, 1, 1)]
+    for hull in hulls(*thin_boxes(sizes, place))[:2]:
+        check(hull)
+        assert hull.volume == pytest.approx(0.01 * 2 * (2 * 1), rel=1e-3)
+
+
 def angle(size=1.0):
     """Two bars, 4 x 1 x 1 and 1 x 3 x 1, that make an L: a volume of 7 in a hull of 11.5."""
     outline = np.array([[0, 0], [4, 0], [4, 1], [1, 1], [1, 4], [0, 4]], float)
