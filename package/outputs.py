@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import io
 import json
-from typing import Any
+import re
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +18,10 @@ from .core.uses.pictures import picture, png
 from .core.uses.report import bounding_boxes, document, report
 from .meshes import face_colors
 from .model_files import Model
+from .rounding import Rounding
+
+if TYPE_CHECKING:
+    import trimesh
 
 #: Kinds of files for labels, colored models and parts, by their suffixes.
 LABELS = (".npy", ".txt", ".seg")
@@ -66,7 +71,7 @@ def colored_bytes(model: Model, parts: Parts, kind: str) -> bytes:
     """
     import trimesh
 
-    label = parts.labels[model.polygon]
+    label, rounding = parts.labels[model.polygon], Rounding.of(model)
     if kind == ".glb":
         scene = trimesh.Scene()
         colors = part_colors(parts.count, parts.cuts)
@@ -75,20 +80,21 @@ def colored_bytes(model: Model, parts: Parts, kind: str) -> bytes:
             material = trimesh.visual.material.PBRMaterial(
                 name=parts.names[part], baseColorFactor=[*linear(colors[part]), 1.0], metallicFactor=0.0,
                 roughnessFactor=0.8)
-            mesh = trimesh.Trimesh(vertices, faces, process=False,
+            mesh = trimesh.Trimesh(vertices - rounding.origin, faces, process=False,
                                    visual=trimesh.visual.TextureVisuals(material=material))
-            scene.add_geometry(mesh, node_name=parts.names[part], geom_name=parts.names[part])
+            scene.add_geometry(mesh, node_name=parts.names[part], geom_name=parts.names[part],
+                               transform=trimesh.transformations.translation_matrix(rounding.origin))
         return scene.export(file_type="glb")
     if kind == ".ply":
         mesh = trimesh.Trimesh(model.vertices, model.faces, process=False,
                                face_colors=face_colors(parts)[model.polygon],
                                face_attributes={"reeb_part": label.astype(np.int32) + 1})
-        return mesh.export(file_type="ply")
+        return _ply_bytes(mesh, rounding)
     pairs, corner = np.unique(np.stack([np.repeat(label, 3), model.faces.ravel()], 1), axis=0, return_inverse=True)
     first = np.unique(label, return_index=True)[1]
     colors = face_colors(parts)[model.polygon][first][pairs[:, 0]]
     mesh = trimesh.Trimesh(model.vertices[pairs[:, 1]], corner.reshape(-1, 3), process=False, vertex_colors=colors)
-    return mesh.export(file_type="obj", header=None).encode()
+    return mesh.export(file_type="obj", header=None, digits=rounding.digits("obj")).encode()
 
 
 def part_arrays(model: Model, parts: Parts) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -106,13 +112,38 @@ def part_files(model: Model, parts: Parts, kind: str) -> dict[str, bytes]:
 
     kind : str, of PARTS. Returns a dict of str -> bytes.
     """
+    files, stem, rounding = {}, file_name(model.name, "model"), Rounding.of(model)
+    for name, (vertices, faces) in zip(parts.names, part_arrays(model, parts), strict=True):
+        files[f"{stem} {name}.{kind}"] = _part_bytes(vertices, faces, kind, rounding)
+    return files
+
+
+def _part_bytes(vertices: np.ndarray, faces: np.ndarray, kind: str, rounding: Rounding) -> bytes:
+    """A part, (k, 3) and (t, 3), as a file of a kind of PARTS; all of a model are rounded alike, so that they fit."""
     import trimesh
 
-    files, stem = {}, file_name(model.name, "model")
-    for name, (vertices, faces) in zip(parts.names, part_arrays(model, parts), strict=True):
-        data = trimesh.Trimesh(vertices, faces, process=False).export(file_type=kind)
-        files[f"{stem} {name}.{kind}"] = data.encode() if isinstance(data, str) else data
-    return files
+    mesh = trimesh.Trimesh(vertices, faces, process=False)
+    if kind == "ply":
+        return _ply_bytes(mesh, rounding)
+    if kind == "glb":
+        scene = trimesh.Scene()
+        mesh.vertices = vertices - rounding.origin
+        scene.add_geometry(mesh, transform=trimesh.transformations.translation_matrix(rounding.origin))
+        return scene.export(file_type=kind)
+    if kind == "stl":
+        return mesh.export(file_type=kind)
+    return mesh.export(file_type=kind, digits=rounding.digits(kind)).encode()
+
+
+def _ply_bytes(mesh: trimesh.Trimesh, rounding: Rounding) -> bytes:
+    """A .ply with positions in double precision where single, all that trimesh writes, is not enough."""
+    data = mesh.export(file_type="ply", vertex_normal=False)
+    if rounding.single:
+        return data
+    head, end, body = data.partition(b"end_header\n")
+    head = re.sub(rb"property float ([xyz])\b", rb"property double \1", head)
+    positions = np.ascontiguousarray(mesh.vertices, "<f8").tobytes()
+    return head + end + positions + body[len(positions) // 2 :]  # vertices come first, and have nothing else
 
 
 def picture_bytes(model: Model, result: Decomposition, parts: Parts, size: int, graph: bool = True) -> bytes:

@@ -19,6 +19,7 @@ from ..meshes import decompose
 from ..model_files import Model, ModelFileError, NoReaderError, read_model
 from ..output_files import OutputFileError, as_output_error, write_folder
 from ..outputs import colored_bytes, json_bytes, labels_bytes, model_document, part_files, picture_bytes
+from ..rounding import Rounding
 from .records import DONE, ERROR, FORMAT, READER, RECORD, REFUSED, UNREADABLE, Settings, digest_of, failure
 
 
@@ -107,7 +108,7 @@ def _results(job: dict[str, Any], settings: Settings) -> tuple[dict[str, Any], d
     (entry,) = document["objects"]
     record = {"format": FORMAT, "name": job["name"], "status": DONE, "reason": "", "settings": settings.digest,
               "files": {file: len(files[file]) for file in sorted(files)},
-              "model": _model_row(model, result, parts), "parts": entry["parts"]}
+              "model": _model_row(model, result, parts, settings), "parts": entry["parts"]}
     described = part_descriptors(model.vertices, model.faces, parts, model.polygon)
     for part, row in zip(record["parts"], described.round(6).tolist(), strict=True):
         part["descriptor"] = row
@@ -124,9 +125,10 @@ def _model(job: dict[str, Any]) -> Model:
     return read_model(job["path"], job["blender"], place)
 
 
-def _model_row(model: Model, result: Decomposition, parts: Parts) -> dict[str, Any]:
+def _model_row(model: Model, result: Decomposition, parts: Parts, settings: Settings) -> dict[str, Any]:
     """What the table of models has of one."""
+    notes = result.notes + (Rounding.of(model).notes(settings.parts) if settings.parts else ())
     return {"vertices": result.n_vertices, "faces": result.n_faces, "n_parts": parts.count,
             "area": float(parts.area.sum()), "nodes": result.graph.n_nodes, "arcs": result.graph.n_arcs,
             "loops": int(result.graph.n_loops), "components": result.graph.n_components, "up": model.up,
-            "notes": [str(note) for note in result.notes]}
+            "notes": [str(note) for note in notes]}

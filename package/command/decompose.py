@@ -33,6 +33,7 @@ from ..outputs import (
     part_files,
     picture_bytes,
 )
+from ..rounding import Rounding
 from .words import print_answer, say
 
 
@@ -106,6 +107,8 @@ def _run(options: argparse.Namespace) -> str:
         data = picture_bytes(model, result, parts, options.picture_size)
         written["picture"] = add(options.picture, data)
     if options.parts:
+        for note in Rounding.of(model).notes(options.parts_format):
+            say(note)
         made = part_files(model, parts, options.parts_format)
         written["parts"] = [add(options.parts / name, data) for name, data in made.items()]
     if options.json:
