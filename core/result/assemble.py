@@ -24,7 +24,7 @@ from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, strai
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh
 from .decomposition import Decomposition
-from .fans import boundaries
+from .fans import boundaries, junctions
 from .found import LEAST_WEIGHT, ComponentResult, FoundCandidates
 from .mirrors import Mirror
 from .slivers import without_slivers
@@ -71,7 +71,8 @@ def assemble(
     return Decomposition(
         candidates=candidates.label, vertex_candidates=tables.vertex_candidate,
         candidate_area=tables.candidate_area, candidate_pairs=tables.pairs,
-        candidate_pair_length=tables.pair_length, hierarchy=candidates.hierarchy, field=values,
+        candidate_pair_length=tables.pair_length, junctions=tables.junctions, junction_length=tables.junction_length,
+        hierarchy=candidates.hierarchy, field=values,
         graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
         point_candidate=points, contacts=candidates.contacts, mirror=mirror.plane, face_twin=mirror.twin,
         face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters,
@@ -132,6 +133,9 @@ class CandidateTables:
         Candidates that touch, smaller index first.
     pair_length : (e,) float64
         Of the boundary between them.
+    junctions : (m, 2) int64
+    junction_length : (j,) float64
+        Candidates that meet at edges, three and more, see ``fans.junctions``.
     """
 
     face_area: np.ndarray
@@ -139,6 +143,8 @@ class CandidateTables:
     candidate_area: np.ndarray
     pairs: np.ndarray
     pair_length: np.ndarray
+    junctions: np.ndarray
+    junction_length: np.ndarray
 
 
 def tables_of(given: PolygonMesh, working: WorkingMesh, candidates: FaceCandidates) -> CandidateTables:
@@ -163,7 +169,8 @@ def tables_of(given: PolygonMesh, working: WorkingMesh, candidates: FaceCandidat
     corners = given.triangles.faces.ravel()
     weight = np.repeat(given.triangles.face_area + LEAST_WEIGHT * given.triangles.area, 3)
     vertex = majority(corners, np.repeat(label[given.polygon], 3), weight, given.triangles.n_vertices)
-    return CandidateTables(graph.area, vertex, np.bincount(label, graph.area), pairs, length)
+    return CandidateTables(graph.area, vertex, np.bincount(label, graph.area), pairs, length,
+                           *junctions(label, *sides, working.mesh.edge_length))
 
 
 def _in_field(graph: ReebGraph, field: ScalarField) -> ReebGraph:

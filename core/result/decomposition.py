@@ -7,6 +7,7 @@ import io
 import json
 import zipfile
 from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import field as attribute
 from functools import cached_property
 from typing import Any
 
@@ -22,6 +23,7 @@ from ..surface.arrays import distinct_pairs, inverse, renumbered, sums_by
 from ..surface.labels import majority
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
+from .fans import counted_again
 from .stored import DamagedError, NewerError, check, is_newer, read_archive, read_head
 
 VERSION = "0.2.0"
@@ -103,7 +105,13 @@ class Parts:
         cuts, cut = distinct_pairs(low[apart], high[apart])
         salience = np.zeros(len(cuts))
         np.maximum.at(salience, cut, d.pair_salience[apart])
-        return cuts, sums_by(cut, d.candidate_pair_length[apart], len(cuts)), salience
+        length = sums_by(cut, d.candidate_pair_length[apart], len(cuts))
+        if len(d.junctions):
+            pairs, more = counted_again(d.junctions, d.junction_length, self.candidate_part)
+            places, place = distinct_pairs(*np.concatenate([cuts, pairs]).T)
+            if len(places) == len(cuts):  # as in any result that was not made by hand
+                length -= sums_by(place[len(cuts):], more, len(cuts))
+        return cuts, length, salience
 
     @property
     def cuts(self) -> np.ndarray:
@@ -181,6 +189,10 @@ class Decomposition:
         Seconds that each stage took.
     version : str
         Version of Reeb Parts that made the result.
+    junctions : (m, 2) int64
+        Three candidates and more that meet at edges: junctions, 0..j-1, and their candidates, see ``core.result.fans``.
+    junction_length : (j,) float64
+        Length of the edges of each junction, in units of the vertices.
     """
 
     candidates: np.ndarray
@@ -201,6 +213,8 @@ class Decomposition:
     notes: tuple[str, ...]
     seconds: dict[str, float]
     version: str = VERSION
+    junctions: np.ndarray = attribute(default_factory=lambda: np.empty((0, 2), np.int64))
+    junction_length: np.ndarray = attribute(default_factory=lambda: np.empty(0))
 
     @property
     def n_faces(self) -> int:
@@ -323,7 +337,8 @@ class Decomposition:
             for name in ("node_position", "point_position", "point_radius", "point_length")})
         mirror = np.concatenate([self.mirror[:3], np.ldexp(self.mirror[3:], exponent)])
         return replace(self, graph=graph, mirror=mirror, candidate_area=np.ldexp(self.candidate_area, 2 * exponent),
-                       candidate_pair_length=np.ldexp(self.candidate_pair_length, exponent))
+                       candidate_pair_length=np.ldexp(self.candidate_pair_length, exponent),
+                       junction_length=np.ldexp(self.junction_length, exponent))
 
     def reordered(self, ordering: Ordering) -> Decomposition:
         """Copy the result of a mesh that was sorted as that of the mesh in the caller's order.
@@ -405,10 +420,10 @@ class Decomposition:
 
 _ARRAYS = ("candidates", "vertex_candidates", "candidate_area", "candidate_pairs",
            "candidate_pair_length", "field", "node_candidate", "point_candidate", "contacts", "mirror",
-           "face_twin", "face_side")
+           "face_twin", "face_side", "junctions", "junction_length")
 _UNKNOWN_TO_0_1_0: dict[str, np.ndarray] = {
     "contacts": np.empty((0, 2), np.int64), "mirror": np.empty(0), "face_twin": np.empty(0, np.int64),
-    "face_side": np.empty(0, np.int8)}
+    "face_side": np.empty(0, np.int8), "junctions": np.empty((0, 2), np.int64), "junction_length": np.empty(0)}
 
 
 #: All arrays that ``to_bytes`` writes.

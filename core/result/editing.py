@@ -19,7 +19,7 @@ from ..surface.arrays import both_ways, components, symmetric_matrix
 from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, label_boundaries, majority, spread
 from .decomposition import Decomposition
-from .fans import boundaries
+from .fans import boundaries, junctions
 
 
 def components_of(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
@@ -308,8 +308,9 @@ def split_candidates(
     half[cut] = decomposition.n_candidates + np.arange(len(cut))
     candidates = np.where(faces, half[old], old)
     count = decomposition.n_candidates + len(cut)
-    pairs, length = boundaries(graph.with_contacts(decomposition.contacts), candidates, table.corner_face,
-                               table.corner_edge, table.edge_length(np.arange(len(table.edges))))
+    sides = table.corner_face, table.corner_edge, table.edge_length(np.arange(len(table.edges)))
+    pairs, length = boundaries(graph.with_contacts(decomposition.contacts), candidates, *sides)
+    members, at_junction = junctions(candidates, *sides)
     area = np.bincount(candidates, graph.area, count)
     area *= decomposition.candidate_area.sum() / area.sum()
     hierarchy = decomposition.hierarchy
@@ -320,7 +321,7 @@ def split_candidates(
         decomposition, candidates=candidates, candidate_area=area, candidate_pairs=pairs,
         vertex_candidates=_vertex_halves(decomposition, candidates, graph.area, table),
         candidate_pair_length=length, hierarchy=Hierarchy.of(count, merges, salience),
-        node_candidate=nodes, point_candidate=points)
+        node_candidate=nodes, point_candidate=points, junctions=members, junction_length=at_junction)
 
 
 def _vertex_halves(

@@ -49,7 +49,8 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
     found = whole.scaled(-given.exponent)
     return replace(
         found, candidates=label, vertex_candidates=tables.vertex_candidate, candidate_area=tables.candidate_area,
-        candidate_pairs=tables.pairs, candidate_pair_length=tables.pair_length, hierarchy=candidates.hierarchy,
+        candidate_pairs=tables.pairs, candidate_pair_length=tables.pair_length, junctions=tables.junctions,
+        junction_length=tables.junction_length, hierarchy=candidates.hierarchy,
         field=whole.field[:given.triangles.n_vertices], node_candidate=home[whole.node_candidate],
         point_candidate=home[whole.point_candidate], contacts=contacts, mirror=np.empty(0), face_twin=nothing,
         face_side=nothing.astype(np.int8),

@@ -171,6 +171,7 @@ def _fits(a: dict[str, np.ndarray], counts: tuple[int, int] | None) -> bool:
         and all(_is_real(a[name], shape, name != "field") for name, shape in _real_numbers(a).items())
         and bool(np.bincount(a["candidates"], minlength=c).all()) and bool((a["candidate_area"] >= 0).all())
         and 0 < a["candidate_area"].sum() < np.inf
+        and bool((a["junctions"] < (len(a["junction_length"]), c)).all())
         # The merges are a forest, and the points of the arcs follow each other.
         and components(c, *a["hierarchy.merges"].T)[0] == c - len(a["hierarchy.merges"])
         and a["graph.arc_points"][0] == 0 and a["graph.arc_points"][-1] == len(a["graph.point_value"])
@@ -184,12 +185,14 @@ def _whole_numbers(a: dict[str, np.ndarray]) -> dict[str, tuple[tuple[int, ...],
     (k,), (r,) = a["graph.node_kind"].shape, a["graph.point_value"].shape
     s, q, e, t = (len(a[name]) for name in ("hierarchy.merges", "graph.arcs", "candidate_pairs", "contacts"))
     mirrored = p if len(a["mirror"]) else 0
+    m, j = len(a["junctions"]), len(a["junction_length"])
     return {
         "candidates": ((p,), 0, c), "vertex_candidates": ((n,), -1, c), "candidate_pairs": ((e, 2), 0, c),
         "node_candidate": ((k,), 0, c), "point_candidate": ((r,), 0, c), "contacts": ((t, 2), 0, p),
         "hierarchy.merges": ((s, 2), 0, c), "graph.node_kind": ((k,), 0, 3), "graph.arcs": ((q, 2), 0, k),
         "face_twin": ((mirrored,), -1, p), "face_side": ((mirrored,), -1, 2),
-        "graph.arc_points": ((q + 1,), 0, r + 1), "graph.n_components": ((), 0, k + 1),
+        "junctions": ((m, 2), 0, max(j, c)), "graph.arc_points": ((q + 1,), 0, r + 1),
+        "graph.n_components": ((), 0, k + 1),
     }
 
 
@@ -202,6 +205,7 @@ def _real_numbers(a: dict[str, np.ndarray]) -> dict[str, tuple[int, ...]]:
         "hierarchy.salience": (len(a["hierarchy.merges"]),), "graph.node_value": (k,), "graph.node_position": (k, 3),
         "graph.point_position": (r, 3), "graph.point_radius": (r,), "graph.point_length": (r,),
         "graph.point_value": (r,), "field": (n,), "mirror": (4 if len(a["mirror"]) else 0,),
+        "junction_length": (len(a["junction_length"]),),
     }
 
 

@@ -9,8 +9,9 @@ import shapes
 
 from core.parameters import PRESETS, Parameters
 from core.pipeline import decompose
+from core.result.decomposition import Decomposition
 from core.result.editing import split_candidates
-from core.result.fans import boundaries
+from core.result.fans import boundaries, counted_again, junctions
 from core.surface.corners import CornerTable
 from core.surface.labels import FaceGraph
 
@@ -49,12 +50,73 @@ def test_every_page_touches_every_other_along_the_spine(n_pages):
 
 
 def touching_pairs(faces, label):
-    """Pairs of labels of faces that share an edge, found edge by edge."""
+    """Pairs of labels of faces that share an edge."""
+    return sorted(edge_lengths(np.zeros((faces.max() + 1, 3)), faces, label))
+
+
+def edge_lengths(vertices, faces, label):
+    """Length of the edges that pairs of labels share, each edge once, found edge by edge."""
     around = {}
     for face, corners in zip(label.tolist(), faces.tolist(), strict=True):
         for edge in zip(corners, [*corners[1:], corners[0]], strict=True):
             around.setdefault(tuple(sorted(edge)), set()).add(face)
-    return sorted({pair for labels in around.values() for pair in combinations(sorted(labels), 2)})
+    found = {}
+    for (a, b), labels in around.items():
+        for pair in combinations(sorted(labels), 2):
+            found[pair] = found.get(pair, 0.0) + np.linalg.norm(vertices[a] - vertices[b])
+    return found
+
+
+def cut_lengths(parts):
+    return dict(zip(map(tuple, parts.cuts.tolist()), parts.cut_length.tolist(), strict=True))
+
+
+def test_labels_that_take_turns_around_an_edge_meet_there_once():
+    vertices, faces = book(4)
+    label = np.repeat([0, 1, 0, 1], len(faces) // 4)
+    graph, *rest = sides(faces, vertices)
+    touching, length = boundaries(graph, label, *rest)
+    assert touching.tolist() == [[0, 1]]
+    assert length == pytest.approx([1.0])
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("n_labels", [2, 3, 8])
+def test_boundaries_have_each_edge_once_also_after_labels_became_one(n_labels, seed):
+    vertices, faces = book(5)
+    random = np.random.default_rng(seed)
+    label = random.integers(n_labels, size=len(faces))
+    graph, *rest = sides(faces, vertices)
+    touching, length = boundaries(graph, label, *rest)
+    assert dict(zip(map(tuple, touching.tolist()), length.tolist(), strict=True)) == pytest.approx(
+        edge_lengths(vertices, faces, label))
+    group = random.integers(3, size=n_labels)
+    low, high = np.sort(group[touching], axis=1).T
+    total = {}
+    members, at_junction = junctions(label, *rest)
+    assert (at_junction > 0).all()
+    for pair, part in [*zip(zip(low.tolist(), high.tolist(), strict=True), length, strict=True),
+                       *((tuple(pair), -more) for pair, more in
+                         zip(*(array.tolist() for array in counted_again(members, at_junction, group)), strict=True))]:
+        if pair[0] < pair[1]:
+            total[pair] = total.get(pair, 0.0) + part
+    assert total == pytest.approx(edge_lengths(vertices, faces, group[label]))
+
+
+def test_sheets_that_cross_have_cuts_of_the_length_of_their_line():
+    """Four half sheets meet along a line of length 1: it was counted for each pair of faces there."""
+    vertices, faces = book(4)
+    result = decompose(vertices, faces, hints=np.repeat([0, 1, 0, 1], len(faces) // 4))
+    for count in range(2, result.n_candidates + 1):
+        parts = result.parts(n_parts=count)
+        assert cut_lengths(parts) == pytest.approx(edge_lengths(vertices, faces, parts.labels))
+    crossing = result.group(np.repeat([0, 1, 0, 1], len(faces) // 4)[
+        np.unique(result.candidates, return_index=True)[1]])
+    assert crossing.cut_length == pytest.approx([1.0])
+    again = Decomposition.from_bytes(result.to_bytes())
+    assert (again.group(crossing.candidate_part).cut_length == crossing.cut_length).all()
+    larger = result.scaled(3).group(crossing.candidate_part)
+    assert larger.cut_length == pytest.approx([8.0])
 
 
 @pytest.mark.parametrize("preset", PRESETS)
@@ -67,6 +129,7 @@ def test_the_cuts_are_the_pairs_of_parts_that_share_an_edge(preset, n_pages):
     for count in range(2, result.n_candidates + 1):
         parts = result.parts(n_parts=count)
         assert [tuple(cut) for cut in parts.cuts.tolist()] == touching_pairs(faces, parts.labels)
+        assert cut_lengths(parts) == pytest.approx(edge_lengths(vertices, faces, parts.labels))
 
 
 def test_the_cuts_after_faces_were_given_to_other_parts():
@@ -77,3 +140,6 @@ def test_the_cuts_after_faces_were_given_to_other_parts():
     finer = split_candidates(result, chosen, graph, CornerTable.of(vertices, faces))
     assert finer.n_candidates > result.n_candidates
     assert [tuple(pair) for pair in finer.candidate_pairs.tolist()] == touching_pairs(faces, finer.candidates)
+    for count in (2, finer.n_candidates // 2, finer.n_candidates):
+        parts = finer.parts(n_parts=count)
+        assert cut_lengths(parts) == pytest.approx(edge_lengths(vertices, faces, parts.labels))

@@ -78,7 +78,7 @@ def test_bytes_that_changed():
 NAMES = sorted(np.load(io.BytesIO(DATA)).files)
 
 
-UNKNOWN_TO_0_1_0 = ("contacts", "mirror", "face_twin", "face_side")
+UNKNOWN_TO_0_1_0 = ("contacts", "mirror", "face_twin", "face_side", "junctions", "junction_length")
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name not in (*UNKNOWN_TO_0_1_0, "head")])
@@ -105,6 +105,20 @@ def test_a_plane_of_symmetry_of_another_shape_or_kind(name):
             continue  # a plane far away is a plane
         with pytest.raises(DamagedError):
             Decomposition.from_bytes(stream.getvalue())
+
+
+@pytest.mark.parametrize("wrong", [
+    {"junctions": [[1, 0]]}, {"junctions": [[0, 10**9]]}, {"junctions": [[-1, 0]]}, {"junctions": [0, 1]},
+    {"junctions": [[0.5, 0.0]]}, {"junction_length": [np.nan]}, {"junction_length": 1.0}, {"junction_length": [[1.0]]}])
+def test_junctions_that_are_none(wrong):
+    fitting = {"junctions": [[0, 0]], "junction_length": [1.0]}
+    for arrays, fits in ((fitting, True), (fitting | wrong, False)):
+        data = changed(**{name: np.array(array) for name, array in arrays.items()})
+        if fits:
+            assert Decomposition.from_bytes(data).parts().count
+        else:
+            with pytest.raises(DamagedError):
+                Decomposition.from_bytes(data)
 
 
 @pytest.mark.parametrize(("name", "values"), [
