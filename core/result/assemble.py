@@ -67,6 +67,7 @@ def assemble(
     tables = tables_of(given, working, candidates)
     values, notes = _vertex_field(given, working, results, parameters)
     nodes, points = _graph_candidates(results, candidates.label)
+    n_contacts = sum(len(r.contacts) for r in results)  # all others are links
     mirror = Mirror.joined(mirrors)
     return Decomposition(
         candidates=candidates.label, vertex_candidates=tables.vertex_candidate,
@@ -74,7 +75,8 @@ def assemble(
         candidate_pair_length=tables.pair_length, junctions=tables.junctions, junction_length=tables.junction_length,
         hierarchy=candidates.hierarchy, field=values,
         graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
-        point_candidate=points, contacts=candidates.contacts, mirror=mirror.plane, face_twin=mirror.twin,
+        point_candidate=points, contacts=candidates.contacts, links=candidates.contacts[n_contacts:],
+        mirror=mirror.plane, face_twin=mirror.twin,
         face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters,
         notes=working.notes + notes + _too_many(parameters.n_parts, candidates.hierarchy.n_candidates),
         seconds=seconds)
@@ -286,7 +288,7 @@ def _with_loose_apart(candidates: FaceCandidates, working: WorkingMesh) -> FaceC
 
 
 def _contacts(working: WorkingMesh, results: list[ComponentResult], graph: FaceGraph) -> np.ndarray:
-    """(k, 2) int64, faces of the caller that touch without an edge; bodies hang on the nearest that is larger."""
+    """(k, 2) int64, faces of the caller that touch without an edge; then the links of bodies to larger ones."""
     inside = [r.component.polygon[r.contacts] for r in results]
     pairs = np.concatenate([np.empty((0, 2), np.int64), *inside])
     count, piece = graph.pieces

@@ -98,7 +98,7 @@ class Parts:
 
     @cached_property
     def _boundaries(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Pairs of parts that touch, and length and salience of the cut between them."""
+        """Pairs of parts, and length and salience of the cut between them."""
         d = self.decomposition
         low, high = np.sort(self.candidate_part[d.candidate_pairs], axis=1).reshape(-1, 2).T
         apart = low != high
@@ -115,8 +115,18 @@ class Parts:
 
     @property
     def cuts(self) -> np.ndarray:
-        """(e, 2) int64, parts that touch, the smaller number first."""
+        """(e, 2) int64, parts that touch or that only a link joins, see ``cut_touches``; the smaller number first."""
         return self._boundaries[0]
+
+    @cached_property
+    def cut_touches(self) -> np.ndarray:
+        """(e,) bool, whether the two parts of each cut touch; else a link joins them.
+
+        A cut of length 0 may be either: parts of separate pieces can touch without an edge.
+        """
+        pairs = self.candidate_part[self.decomposition.candidate_pairs[self.decomposition.pair_touches]]
+        place = distinct_pairs(*np.concatenate([self.cuts, np.sort(pairs[pairs[:, 0] != pairs[:, 1]], axis=1)]).T)[1]
+        return np.isin(place[: len(self.cuts)], place[len(self.cuts) :])
 
     @property
     def cut_length(self) -> np.ndarray:
@@ -160,7 +170,7 @@ class Decomposition:
     candidate_area : (c,) float64
         Area of each candidate, in squared units of the vertices.
     candidate_pairs : (e, 2) int64
-        Candidates that touch, smaller index first.
+        Candidates that touch or that a link joins, smaller index first.
     candidate_pair_length : (e,) float64
         Length of the boundary between the two candidates of each pair, in units of the vertices.
     hierarchy : Hierarchy
@@ -174,7 +184,7 @@ class Decomposition:
     point_candidate : (r,) int64
         Candidate in which each center point of the graph lies.
     contacts : (t, 2) int64
-        Faces that touch, or nearly so, though they share no edge.
+        Faces that touch, or nearly so, though they share no edge, and ``links``.
     mirror : (4,) float64 or (0,)
         Normal of the plane of symmetry and its distance from the origin along it; empty if none was found.
     face_twin : (p,) int64 or (0,)
@@ -189,6 +199,9 @@ class Decomposition:
         Seconds that each stage took.
     version : str
         Version of Reeb Parts that made the result.
+    links : (l, 2) int64
+        Those of ``contacts`` whose faces do not touch: each body hangs on the nearest that is larger, so that all can
+        be one part. Where pieces are decomposed separately, each is a body.
     junctions : (m, 2) int64
         Three candidates and more that meet at edges: junctions, 0..j-1, and their candidates, see ``core.result.fans``.
     junction_length : (j,) float64
@@ -213,6 +226,7 @@ class Decomposition:
     notes: tuple[str, ...]
     seconds: dict[str, float]
     version: str = VERSION
+    links: np.ndarray = attribute(default_factory=lambda: np.empty((0, 2), np.int64))
     junctions: np.ndarray = attribute(default_factory=lambda: np.empty((0, 2), np.int64))
     junction_length: np.ndarray = attribute(default_factory=lambda: np.empty(0))
 
@@ -256,6 +270,17 @@ class Decomposition:
         if not len(self.face_side):
             return np.zeros(self.n_candidates)
         return np.bincount(self.candidates, self.face_side, self.n_candidates)
+
+    @cached_property
+    def pair_touches(self) -> np.ndarray:
+        """(e,) bool, whether the candidates of each pair touch; else only a link joins them."""
+        e, t = len(self.candidate_pairs), len(self.contacts)
+        joined = np.sort(self.candidates[np.concatenate([self.contacts, self.links])], axis=1)
+        places, place = distinct_pairs(*np.concatenate([self.candidate_pairs, joined]).T)
+        n_contacts, n_links = (np.bincount(own, minlength=len(places))[place[:e]]
+                               for own in (place[e : e + t], place[e + t :]))
+        # On half a model a link may be the image of one between what touches here.
+        return (n_links == 0) | (n_contacts > n_links) | (self.candidate_pair_length > 0)
 
     @cached_property
     def pair_merge(self) -> np.ndarray:
@@ -350,8 +375,8 @@ class Decomposition:
         if len(twin):
             twin, side = np.append(ordering.polygon, -1)[twin[face]], side[face]
         return replace(self, candidates=self.candidates[face], vertex_candidates=self.vertex_candidates[vertex],
-                       field=self.field[vertex], contacts=ordering.polygon[self.contacts], face_twin=twin,
-                       face_side=side)
+                       field=self.field[vertex], contacts=ordering.polygon[self.contacts],
+                       links=ordering.polygon[self.links], face_twin=twin, face_side=side)
 
     def to_arrays(self) -> dict[str, np.ndarray]:
         """All arrays by name, those of hierarchy and graph as "hierarchy.merges" and so on; not copied."""
@@ -420,10 +445,11 @@ class Decomposition:
 
 _ARRAYS = ("candidates", "vertex_candidates", "candidate_area", "candidate_pairs",
            "candidate_pair_length", "field", "node_candidate", "point_candidate", "contacts", "mirror",
-           "face_twin", "face_side", "junctions", "junction_length")
+           "face_twin", "face_side", "links", "junctions", "junction_length")
 _UNKNOWN_TO_0_1_0: dict[str, np.ndarray] = {
     "contacts": np.empty((0, 2), np.int64), "mirror": np.empty(0), "face_twin": np.empty(0, np.int64),
-    "face_side": np.empty(0, np.int8), "junctions": np.empty((0, 2), np.int64), "junction_length": np.empty(0)}
+    "face_side": np.empty(0, np.int8), "links": np.empty((0, 2), np.int64),
+    "junctions": np.empty((0, 2), np.int64), "junction_length": np.empty(0)}
 
 
 #: All arrays that ``to_bytes`` writes.

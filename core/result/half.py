@@ -37,8 +37,7 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
     """
     count, working = given.n_polygons, repair(given)
     graph = face_graph_of(given, working)
-    contacts = whole.contacts % count
-    contacts = contacts[contacts[:, 0] != contacts[:, 1]]
+    contacts, links = (pairs[pairs[:, 0] != pairs[:, 1]] for pairs in (whole.contacts % count, whole.links % count))
     candidates = settle(FaceCandidates(graph, contacts, connect(graph, whole.candidates[:count]), whole.hierarchy))
     label = candidates.label
     tables = tables_of(given, working, candidates)
@@ -52,8 +51,8 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
         candidate_pairs=tables.pairs, candidate_pair_length=tables.pair_length, junctions=tables.junctions,
         junction_length=tables.junction_length, hierarchy=candidates.hierarchy,
         field=whole.field[:given.triangles.n_vertices], node_candidate=home[whole.node_candidate],
-        point_candidate=home[whole.point_candidate], contacts=contacts, mirror=np.empty(0), face_twin=nothing,
-        face_side=nothing.astype(np.int8),
+        point_candidate=home[whole.point_candidate], contacts=contacts, links=links, mirror=np.empty(0),
+        face_twin=nothing, face_side=nothing.astype(np.int8),
         notes=(Sentence("The mesh was decomposed together with its mirror image."), *_of_one_side(whole, working)),
     ).scaled(given.exponent)
 

@@ -189,6 +189,7 @@ def _whole_numbers(a: dict[str, np.ndarray]) -> dict[str, tuple[tuple[int, ...],
     return {
         "candidates": ((p,), 0, c), "vertex_candidates": ((n,), -1, c), "candidate_pairs": ((e, 2), 0, c),
         "node_candidate": ((k,), 0, c), "point_candidate": ((r,), 0, c), "contacts": ((t, 2), 0, p),
+        "links": ((len(a["links"]), 2), 0, p),
         "hierarchy.merges": ((s, 2), 0, c), "graph.node_kind": ((k,), 0, 3), "graph.arcs": ((q, 2), 0, k),
         "face_twin": ((mirrored,), -1, p), "face_side": ((mirrored,), -1, 2),
         "junctions": ((m, 2), 0, max(j, c)), "graph.arc_points": ((q + 1,), 0, r + 1),

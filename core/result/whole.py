@@ -112,5 +112,5 @@ def _decomposition(parts: Parts, twin: np.ndarray, image: np.ndarray, mirror: Mi
         candidate_area=np.where(twin == np.arange(len(twin)), 2.0, 1.0) * area[np.minimum(twin, np.arange(len(twin)))],
         candidate_pairs=pairs, candidate_pair_length=length, hierarchy=Hierarchy.of(len(twin), [], []),
         field=np.append(half.field, half.field[beside]), contacts=np.empty((0, 2), np.int64),
-        junctions=np.empty((0, 2), np.int64), junction_length=np.empty(0),
+        links=np.empty((0, 2), np.int64), junctions=np.empty((0, 2), np.int64), junction_length=np.empty(0),
         mirror=np.append(mirror.normal, mirror.offset), face_twin=np.concatenate([face + len(face), face]))

@@ -98,8 +98,8 @@ def report(
         "area": float(parts.area.sum()),
         "parts": _parts(parts, numbers, names, colors, boxes),
         "cuts": [{"parts": pair, "length": length, "salience": salience}
-                 for pair, length, salience in zip(parts.cuts.tolist(), parts.cut_length.tolist(),
-                                                   parts.cut_salience.tolist(), strict=True)],
+                 for pair, length, salience in zip(*(of_cuts[parts.cut_touches].tolist() for of_cuts in (
+                     parts.cuts, parts.cut_length, parts.cut_salience)), strict=True)],
         "graph": _graph(decomposition.graph, parts, transform),
         "parameters": asdict(decomposition.parameters),
         "notes": list(decomposition.notes),
@@ -144,7 +144,7 @@ def _parts(
     colors = part_colors(parts.count, parts.cuts) if colors is None else np.asarray(colors)
     faces = np.bincount(parts.labels, minlength=parts.count)
     beside = [[] for _ in range(parts.count)]
-    for a, b in parts.cuts.tolist():
+    for a, b in parts.cuts[parts.cut_touches].tolist():
         beside[a].append(b)
         beside[b].append(a)
     return [

@@ -78,7 +78,7 @@ def test_bytes_that_changed():
 NAMES = sorted(np.load(io.BytesIO(DATA)).files)
 
 
-UNKNOWN_TO_0_1_0 = ("contacts", "mirror", "face_twin", "face_side", "junctions", "junction_length")
+UNKNOWN_TO_0_1_0 = ("contacts", "mirror", "face_twin", "face_side", "links", "junctions", "junction_length")
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name not in (*UNKNOWN_TO_0_1_0, "head")])
@@ -105,6 +105,13 @@ def test_a_plane_of_symmetry_of_another_shape_or_kind(name):
             continue  # a plane far away is a plane
         with pytest.raises(DamagedError):
             Decomposition.from_bytes(stream.getvalue())
+
+
+@pytest.mark.parametrize("wrong", [[[0, RESULT.n_faces]], [[-1, 0]], [0, 1], [[0.0, 1.0]], [["a", "b"]]])
+def test_links_that_are_none(wrong):
+    assert len(Decomposition.from_bytes(changed(links=np.array([[0, 1]]))).links) == 1
+    with pytest.raises(DamagedError):
+        Decomposition.from_bytes(changed(links=np.array(wrong)))
 
 
 @pytest.mark.parametrize("wrong", [

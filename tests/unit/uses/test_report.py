@@ -9,6 +9,7 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
+from core.result.decomposition import Decomposition
 from core.uses.report import SCHEMA_VERSION, bounding_boxes, document, report
 
 SCHEMA = Path(__file__).resolve().parents[3] / "docs" / "reeb_parts.schema.json"
@@ -48,6 +49,38 @@ def test_numbers_agree_with_the_arrays(result):
     assert made["labels"] == parts.labels.tolist()
     beside = {(a, b) for part in made["parts"] for a in [part["index"]] for b in part["neighbours"]}
     assert beside == {tuple(p) for c in made["cuts"] for p in (c["parts"], c["parts"][::-1])}
+
+
+@pytest.mark.parametrize("pieces", ["together", "separate"])
+def test_what_is_far_away_is_no_neighbor(pieces, validator):
+    """Balls far apart: each hangs on the nearest larger one, so that all can be one part, but none touches another."""
+    ball = shapes.icosphere(2)
+    balls = shapes.together(*(shapes.moved(ball, place) for place in ((0, 0, 0), (100, 0, 0), (0, 300, 0))))
+    result = decompose(*balls, Parameters(pieces=pieces))
+    made = report(result)
+    assert (len(made["parts"]), made["cuts"]) == (3, [])
+    assert [part["neighbours"] for part in made["parts"]] == [[], [], []]
+    assert result.parts(detail=0.0).count == 1
+    assert len(result.parts().cuts) == len(result.links) == 2
+    again = Decomposition.from_bytes(result.to_bytes())
+    assert report(again, again.parts())["cuts"] == []
+    validator.validate(document([made]))
+
+
+def test_pieces_that_touch_without_an_edge_are_neighbors():
+    """A beam in a tower and a ball far away from both."""
+    tower = shapes.subdivide(shapes.subdivide(shapes.box((1.0, 1.0, 3.0))))
+    beam = shapes.moved(shapes.subdivide(shapes.box((3.0, 0.5, 0.5))), (1.0, 0.2, 1.0))
+    ball = shapes.moved(shapes.icosphere(2), (50.0, 0.0, 0.0))
+    vertices, faces = shapes.together(tower, beam, ball)
+    result = decompose(vertices, faces)
+    piece = np.repeat([0, 1, 2], [len(shape.faces) for shape in (tower, beam, ball)])
+    parts = result.group(piece[np.unique(result.candidates, return_index=True)[1]])
+    name = dict(zip(parts.labels.tolist(), piece.tolist(), strict=True))
+    made = report(result, parts)
+    assert [{name[part] for part in cut["parts"]} for cut in made["cuts"]] == [{0, 1}]
+    assert {name[part["index"]]: [name[other] for other in part["neighbours"]] for part in made["parts"]} == {
+        0: [1], 1: [0], 2: []}
 
 
 def test_graph_is_whole(result):
