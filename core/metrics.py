@@ -19,6 +19,7 @@ judged, the second is the one with which it is compared.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -77,7 +78,10 @@ class Overlap:
         pair = np.stack(np.divmod(cell, width), axis=1)
         if weight is None:
             return cls(pair, count, count)
-        weight = np.asarray(weight, np.float64).ravel()
+        try:
+            weight = np.asarray(weight, np.float64).ravel()
+        except (TypeError, ValueError):  # such as texts: no numbers
+            weight = np.full(len(first), np.nan)
         _check_count(len(weight), len(first), "weight")
         if not ((weight >= 0).all() and 0 < weight.sum() < np.inf):
             raise ParameterError(Sentence("Weights must be 0 or more, finite, and not all of them 0."), "weight")
@@ -314,14 +318,17 @@ def _pairs(count: np.ndarray) -> np.ndarray:
     return count * (count - 1.0) / 2
 
 
-def _numbered(labels: ArrayLike) -> np.ndarray:
+def _numbered(labels: Any) -> np.ndarray:
     """Labels renumbered to 0..k-1, (n,); ParameterError if they are not whole numbers or there are none."""
-    labels = np.asarray(labels)
-    if labels.ndim != 1 or not labels.size or not np.issubdtype(labels.dtype, np.integer):
+    try:
+        row = np.asarray(labels)
+    except ValueError:  # rows of different lengths
+        row = np.empty(len(labels), object)
+    if row.ndim != 1 or not row.size or not np.issubdtype(row.dtype, np.integer):
         raise ParameterError(
             Sentence("Labels must be a row of whole numbers, at least one, not {type} of shape {shape}.",
-                     type=labels.dtype, shape=labels.shape), "labels")
-    return np.unique(labels, return_inverse=True)[1].reshape(-1).astype(np.int64)
+                     type=row.dtype, shape=row.shape), "labels")
+    return np.unique(row, return_inverse=True)[1].reshape(-1).astype(np.int64)
 
 
 def _check_count(n: int, total: int, name: str) -> None:

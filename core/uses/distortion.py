@@ -22,7 +22,7 @@ class Distortion:
     ----------
     scale : (p,) float64
         Area of each face in the map over its area on the surface, divided by the same of the whole: 1 is even, and
-        less than 0 is turned over. nan for a face without an area.
+        less than 0 is turned over. nan for a face without an area, and 0 where the whole map has none.
     angle : float
         By how much the angle at a corner changes, averaged over all corners, in radians.
     """
@@ -60,7 +60,9 @@ def distortion(table: CornerTable, flat: np.ndarray) -> Distortion:
     """
     area = np.linalg.norm(table.face_vectors(), axis=1)
     mapped = _areas(table, flat)
-    whole = area.sum() / max(np.abs(mapped).sum(), np.finfo(float).tiny)
+    total = np.abs(mapped).sum()
+    # A map into a point or a line has areas of rounding only.
+    whole = area.sum() / total if total > 1e-12 * np.abs(flat).max(initial=0.0) ** 2 else 0.0
     has_area = area > 1e-9 * area.max(initial=0.0)
     scale = np.full(len(area), np.nan)
     scale[has_area] = whole * mapped[has_area] / area[has_area]

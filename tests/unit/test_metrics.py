@@ -157,7 +157,7 @@ def test_a_single_element_has_no_pairs():
     assert rand_index_error([3], [8]) == 0.0
 
 
-@pytest.mark.parametrize("labels", [[], [0.5, 1.0], [[0, 1]], np.zeros(3, bool)])
+@pytest.mark.parametrize("labels", [[], [0.5, 1.0], [[0, 1]], np.zeros(3, bool), [[0], [0, 1]], ["a", "b"]])
 @pytest.mark.parametrize("measure", ALL)
 def test_labels_are_a_row_of_whole_numbers(measure, labels):
     with pytest.raises(ParameterError, match="Labels must be a row of whole numbers"):
@@ -174,7 +174,7 @@ def test_as_many_labels_of_each(measure):
 def test_weights_are_checked(measure):
     with pytest.raises(ParameterError, match="There are 4 values for 5 elements"):
         measure(A, B, AREA[:4])
-    for wrong in (-AREA, 0 * AREA, AREA * np.nan, np.append(AREA[:-1], np.inf)):
+    for wrong in (-AREA, 0 * AREA, AREA * np.nan, np.append(AREA[:-1], np.inf), ["a"] * len(AREA), [[1], [2, 3]]):
         with pytest.raises(ParameterError, match="Weights must be 0 or more"):
             measure(A, B, wrong)
 

@@ -45,6 +45,17 @@ def test_faces_that_grow_and_that_are_turned_over():
     assert found.even == 0.5
 
 
+@pytest.mark.parametrize("direction", [(0.0, 0.0), (1.0, 0.0), (0.3, 0.7)])
+@pytest.mark.parametrize("place", [0.0, 0.3])
+@pytest.mark.filterwarnings("error")
+def test_nothing_is_even_in_a_map_into_a_point_or_a_line(direction, place):
+    table = grid()
+    along = table.vertices @ (1.0, 0.1, 0.0)
+    found = distortion(table, at_corners(table, place + along[:, None] * direction))
+    assert found.scale == pytest.approx(0, abs=1e-9)
+    assert (found.even, found.range) == (0, pytest.approx((0, 0), abs=1e-9))
+
+
 def test_a_face_without_an_area_counts_for_nothing():
     vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0.5, 0, 0]])
     table = CornerTable.of(vertices, np.array([[0, 1, 2], [0, 3, 1]]))
