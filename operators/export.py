@@ -74,6 +74,8 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         with object_mode(context), together() as files:
             if not self.separated:
                 objects = [obj for obj, _ in targets.usable(objects, lambda obj: store.load(obj.data), self.report)]
-            paths = export_parts(files, [(obj, wanted_numbers(obj.data, self.which)) for obj in objects], folder,
-                                 self.format, self.caps, self.one_file, self.separated, self.cut)
+            # Pieces may be of other parts than those in the list, which are of the detail that is shown now.
+            every = self.separated and self.which == "ALL"
+            wanted = [(obj, None if every else wanted_numbers(obj.data, self.which)) for obj in objects]
+            paths = export_parts(files, wanted, folder, self.format, self.caps, self.one_file, self.separated, self.cut)
         self.report({"INFO"}, rpt_("{n} {n:file|files} in {folder}").format(n=Count(len(paths)), folder=folder))

@@ -11,6 +11,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
+from mathutils import Color
 
 from ..core.file_names import file_name
 from ..core.uses.threemf import Assembly, Body, write_3mf
@@ -142,16 +143,24 @@ def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object]) -> tuple
     """Pieces in the place of an object as bodies of a 3MF file, in the colors of their parts."""
     world = np.array(placing.world_matrix(obj), np.float64)
     mirrored = np.linalg.det(world[:3, :3]) < 0
-    colors = {part_names.piece_name(obj, part.number): part.color[:] for part in obj.data.reeb_parts.parts}
-    numbers = {piece.name: piece[piece_objects.NUMBER] for piece in piece_objects.piece_objects(obj)}
-    of_number = part_names.number_colors(obj.data)
+    colors = _colors(obj)
     bodies = []
     for name, piece in pieces.items():
         points = mesh_arrays.shown_points(piece).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
-        triangles = mesh_arrays.triangles(piece.data)[0].astype(np.int64)
-        color = colors.get(name) or tuple(of_number[numbers[name], :3].tolist() if name in numbers else _PLAIN)
-        bodies.append(Body(name, color, points * millimeters(), triangles[:, ::-1] if mirrored else triangles))
+        triangles = mesh_arrays.triangles(piece.data)[0].astype(np.int64)[:, :: -1 if mirrored else 1]
+        bodies.append(Body(name, colors.get(name, _PLAIN), points * millimeters(), triangles))
     return tuple(bodies)
+
+
+def _colors(obj: bpy.types.Object) -> dict[str, tuple[float, ...]]:
+    """The color, sRGB, of each part and of each piece of an object, by the name that it has as an object."""
+    listed = {part.number: part.color[:] for part in obj.data.reeb_parts.parts}
+    colors = {}
+    for piece in piece_objects.piece_objects(obj):
+        # Parts that are not shown now are not in the list; pieces of them have the color that these had.
+        own = Color(piece.color[:3]).from_scene_linear_to_srgb()[:]
+        colors[piece.name] = listed.get(piece[piece_objects.NUMBER], own)
+    return colors | {part_names.piece_name(obj, number): color for number, color in listed.items()}
 
 
 def write_assemblies(files: RunFiles, objects: Iterable[bpy.types.Object], path: Path,

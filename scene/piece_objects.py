@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Collection, Iterator
 
 import bpy
@@ -31,7 +32,9 @@ from .temporary import remove_object
 
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: the object that the pieces come from; once it was its name
 NUMBER = "reeb_parts_number"  # on a piece: of its part
+FACES = "reeb_parts_faces"  # on a piece: which faces of the original were its part, as a short text
 DOWEL = "reeb_parts_dowel"  # on a loose dowel: the numbers of the two parts that it joins; once it was 1
+
 
 def collection_of(obj: bpy.types.Object) -> bpy.types.Collection | None:
     """The collection with the pieces of an object, or None."""
@@ -101,6 +104,11 @@ def part_stands_for(number: int) -> str:
     return f"part {number}"
 
 
+def faces_of(face_numbers: np.ndarray, number: int) -> str:
+    """A short text that tells which faces are a part's. face_numbers : (p,) int64, the part of each face."""
+    return hashlib.blake2b(np.packbits(face_numbers == number).tobytes(), digest_size=8).hexdigest()
+
+
 def active_piece(context: bpy.types.Context) -> bpy.types.Object:
     """The active object, in Object Mode; raises SceneError unless it is a piece that was separated."""
     piece = targets.active_object(context)
@@ -121,7 +129,14 @@ def whole(obj: bpy.types.Object) -> bpy.types.Object:
 
 def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
                 kind: str) -> rigid_bodies.RigidBodies:
-    """Make rigid bodies of an object's pieces, with joints of a kind, see rigid_bodies.make; Object Mode."""
+    """Make rigid bodies of an object's pieces, with joints of a kind, see rigid_bodies.make; Object Mode.
+
+    Raises
+    ------
+    SceneError
+        Pieces are of other parts than are shown now.
+    """
+    _check_current(obj, stored)
     context.view_layer.update()  # pieces made just now do not know where they are
     pieces: dict[int, list[bpy.types.Object]] = {}
     for piece in piece_objects(obj):
@@ -132,6 +147,20 @@ def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
         transaction.keep_keys(piece, made.MADE)
         made.mark(piece)
     return joined
+
+
+def _check_current(obj: bpy.types.Object, stored: Stored) -> None:
+    """Raise SceneError if a piece is of a part that is not shown now, or has other faces now.
+
+    Of pieces that earlier versions made the numbers are known alone.
+    """
+    face_numbers = stored.face_numbers
+    now = {number: faces_of(face_numbers, number) for number in np.unique(face_numbers).tolist()}
+    for piece in piece_objects(obj):
+        number = piece[NUMBER]
+        if number not in now or piece.get(FACES, now[number]) != now[number]:
+            raise SceneError(rpt_("The pieces of {name} are of other parts than are shown now: separate them again."
+                                  ).format(name=obj.name))
 
 
 def check_pieces(pieces: list[bpy.types.Object], stretch: np.ndarray | None = None) -> None:
@@ -188,7 +217,7 @@ def removing_earlier(obj: bpy.types.Object, numbers: list[int], coming: Collecti
         if piece not in needed and made.is_untouched(piece, former_looks):
             gone.append((stands_for(piece), piece))
         else:
-            made.hand_over(piece, NUMBER, made.MADE, DOWEL)
+            made.hand_over(piece, NUMBER, FACES, made.MADE, DOWEL)
     earlier = [piece for _, piece in gone]
     if earlier:
         rigid_bodies.remove_joints(collection_of(obj), earlier)

@@ -34,9 +34,11 @@ from . import (
 from .part_meshes import making_pieces
 from .piece_objects import (
     DOWEL,
+    FACES,
     NUMBER,
     check_pieces,
     dowels,
+    faces_of,
     make_collection,
     part_stands_for,
     removing_earlier,
@@ -252,13 +254,14 @@ def _objects(run: _Run, meshes: dict[int, bpy.types.Mesh], names: dict[int, str]
     collection = make_collection(run.context, obj)
     colors = {listed.number: listed.color[:] for listed in obj.data.reeb_parts.parts}
     offsets = by_extent.array_offsets(run.context, obj) if _keeps_modifiers(style) else {}
+    face_numbers = run.stored.face_numbers
     pieces = []
     for key, mesh in meshes.items():
         number = part.get(key, key)
         piece = _piece(obj, mesh, part_names.with_object(obj, names[key]), style)
         by_extent.set_offsets(piece, offsets)
         piece.color = (*linear(colors[number]), 1.0)
-        piece[NUMBER] = number
+        piece[NUMBER], piece[FACES] = number, faces_of(face_numbers, number)
         collection.objects.link(piece)
         pieces.append(piece)
     return pieces

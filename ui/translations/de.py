@@ -1050,4 +1050,6 @@ TEXTS = {
     "Esc: cancel":
         "{rings} {rings:Ring|Ringe}, {low} bis {high}    Rad, Zahl: Ringe, minus nach innen    Klick, Enter: fertig   "
         " Esc: zurück",
+    "The pieces of {name} are of other parts than are shown now: separate them again.":
+        "Die Stücke von {name} sind von anderen Teilen, als jetzt zu sehen sind: bitte neu trennen.",
 }

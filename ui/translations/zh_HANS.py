@@ -935,4 +935,6 @@ TEXTS = {
     "  "
     "Esc: cancel":
         "{rings} 圈，{low} 至 {high}    滚轮或数字：圈数，负数向内    单击、回车：确认    Esc：取消",
+    "The pieces of {name} are of other parts than are shown now: separate them again.":
+        "{name} 的各块不属于当前显示的部件：请重新分离。",
 }

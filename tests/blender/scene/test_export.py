@@ -232,6 +232,34 @@ def test_pieces_are_written_as_they_were_separated(obj, tmp_path):
         assert np.sort(found, axis=0)[[0, -1]] == pytest.approx(np.sort(wanted, axis=0)[[0, -1]], abs=1e-4)
 
 
+@pytest.mark.parametrize("kind", ["stl", "3mf"])
+@pytest.mark.parametrize(("before", "after"), [(5, 2), (2, 5)])
+def test_all_pieces_are_written_whatever_the_detail_is_now(obj, tmp_path, kind, before, after):
+    """Where the list had other parts by now, those of the pieces that it does not show were missing, or an error."""
+    bpy.ops.reeb_parts.decompose(n_parts=before)
+    bpy.ops.reeb_parts.separate(hide=False)
+    there = {piece.name: piece.color[:3] for piece in bpy.data.collections["Parts of Tree"].objects}
+    assert len(there) == before
+    obj.data.reeb_parts.n_parts = after
+    activate(obj)
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format=kind, separated=True)
+    if kind == "stl":
+        assert {path.stem for path in tmp_path.iterdir()} == set(there)
+        return
+    bodies, _ = read_3mf(tmp_path / "Tree.3mf")
+    assert {body.name for body in bodies} == set(there)
+    assert len({body.color for body in bodies}) == before
+
+
+def test_of_chosen_parts_only_their_pieces_are_written(obj, tmp_path):
+    bpy.ops.reeb_parts.decompose(n_parts=5)
+    bpy.ops.reeb_parts.separate(hide=False)
+    activate(obj)
+    obj.data.reeb_parts.parts[1].selected = True
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format="stl", separated=True, which="CHOSEN")
+    assert [file.name for file in tmp_path.iterdir()] == [f"Tree {obj.data.reeb_parts.parts[1].name}.stl"]
+
+
 def bounds_of(points):
     return np.sort(points, axis=0)[[0, -1]]
 

@@ -128,6 +128,36 @@ def test_parts_that_are_not_separated_are_refused(obj):
     assert not bpy.ops.reeb_parts.rigid_bodies.poll()
 
 
+@pytest.mark.parametrize(("before", "after"), [(5, 2), (2, 5)])
+def test_pieces_of_other_parts_than_are_shown_are_refused(obj, before, after):
+    """Where the detail had changed, bodies or joints were missing without a word."""
+    bpy.ops.reeb_parts.decompose(n_parts=before)
+    bpy.ops.reeb_parts.separate()
+    obj.data.reeb_parts.n_parts = after
+    there = snapshot()
+    with pytest.raises(RuntimeError, match="of Tree are of other parts than are shown now"):
+        bpy.ops.reeb_parts.rigid_bodies()
+    assert snapshot() == there
+    obj.data.reeb_parts.n_parts = before
+    assert bpy.ops.reeb_parts.rigid_bodies() == {"FINISHED"}
+    assert len(bodies()) == before
+
+
+def test_some_of_the_pieces_become_bodies(obj):
+    """Of chosen parts alone, and where one is deleted; also if they are of a version that kept numbers only."""
+    bpy.ops.reeb_parts.decompose(n_parts=5)
+    for part in obj.data.reeb_parts.parts[:3]:
+        part.selected = True
+    bpy.ops.reeb_parts.separate(which="CHOSEN")
+    pieces = [o for o in bpy.data.objects if "reeb_parts_number" in o]
+    activate(pieces[1])
+    bpy.data.objects.remove(pieces[0])
+    for piece in pieces[1:]:
+        del piece["reeb_parts_faces"]
+    assert bpy.ops.reeb_parts.rigid_bodies() == {"FINISHED"}
+    assert set(bodies()) == set(pieces[1:])
+
+
 def test_undo(obj):
     separated(obj)
     check_undo(bpy.ops.reeb_parts.rigid_bodies)
