@@ -19,7 +19,6 @@ from . import bridge, complete, mesh_arrays, part_names, piece_objects, placing,
 from .errors import SceneError
 from .part_meshes import piece_meshes
 from .run_files import RunFiles
-from .selection import nothing_selected
 from .temporary import removed
 from .units import millimeters
 
@@ -27,7 +26,8 @@ EXPORTERS = {
     "obj": lambda path: bpy.ops.wm.obj_export(filepath=path, export_selected_objects=True),
     "ply": lambda path: bpy.ops.wm.ply_export(filepath=path, export_selected_objects=True),
     "stl": lambda path: bpy.ops.wm.stl_export(filepath=path, export_selected_objects=True),
-    "glb": lambda path: bpy.ops.export_scene.gltf(filepath=path, use_selection=True, export_format="GLB"),
+    "glb": lambda path: bpy.ops.export_scene.gltf(filepath=path, use_selection=True, use_active_scene=True,
+                                                  export_format="GLB"),
 }
 # The color of a dowel.
 _PLAIN = (0.8, 0.8, 0.8)
@@ -72,15 +72,35 @@ def export_parts(files: RunFiles, objects: Iterable[tuple[bpy.types.Object, Iter
     files.folder(folder)
     names = FileNames()
     paths = []
-    for obj, wanted in objects:
-        pieces = _separated(obj, wanted) if separated else _parts(obj, wanted, close, cut)
-        with _removed(pieces), nothing_selected(bpy.context.view_layer):
-            if kind == "3mf" or one_file:
-                paths.append(_write(files, folder / f"{names.free(obj.name)}.{kind}", obj, pieces, kind))
-                continue
-            for name, piece in pieces.items():
-                paths.append(_write(files, folder / f"{names.free(name)}.{kind}", obj, {name: piece}, kind))
+    with _stage() as stage:
+        for obj, wanted in objects:
+            pieces = _separated(obj, wanted) if separated else _parts(obj, wanted, close, cut)
+            with _removed(pieces):
+                if kind == "3mf" or one_file:
+                    paths.append(_write(files, folder / f"{names.free(obj.name)}.{kind}", obj, pieces, kind, stage))
+                    continue
+                for name, piece in pieces.items():
+                    paths.append(_write(files, folder / f"{names.free(name)}.{kind}", obj, {name: piece}, kind, stage))
     return paths
+
+
+@contextmanager
+def _stage() -> Iterator[bpy.types.Scene]:
+    """A scene for nothing but what goes into a file: exporters evaluate all that is in the scene, for each file anew.
+
+    It has the time and the units of the one that is open, on which shapes and their keyframes depend.
+    """
+    scene = bpy.context.scene
+    stage = bpy.data.scenes.new(scene.name)
+    with removed(bpy.data.scenes, stage):
+        for name in ("frame_start", "frame_end", "frame_step"):
+            setattr(stage, name, getattr(scene, name))
+        stage.frame_set(scene.frame_current, subframe=scene.frame_subframe)
+        for name in ("fps", "fps_base"):
+            setattr(stage.render, name, getattr(scene.render, name))
+        for name in ("system", "scale_length"):
+            setattr(stage.unit_settings, name, getattr(scene.unit_settings, name))
+        yield stage
 
 
 def _parts(obj: bpy.types.Object, wanted: Iterable[int] | None, close: bool,
@@ -129,13 +149,13 @@ def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str,
 
 
 def _write(files: RunFiles, path: Path, obj: bpy.types.Object, pieces: dict[str, bpy.types.Object],
-           kind: str) -> Path:
-    """Write pieces, by their names, as one file; returns its path."""
+           kind: str, stage: bpy.types.Scene) -> Path:
+    """Write pieces, by their names, as one file; returns its path. stage : a scene with nothing in it."""
     with files.writing(path, complete.model([piece.data for piece in pieces.values()], kind), alone=True) as place:
         if kind == "3mf":
             write_3mf(place, [Assembly(obj.name, _bodies(obj, pieces))])
         else:
-            _export(obj, pieces, place, kind)
+            _export(obj, pieces, place, kind, stage)
     return path
 
 
@@ -183,20 +203,25 @@ def write_assemblies(files: RunFiles, objects: Iterable[bpy.types.Object], path:
         write_3mf(place, assemblies)
 
 
-def _export(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object], path: Path, kind: str) -> None:
-    """Write pieces in the place of an object as a file."""
-    scene = bpy.context.scene.collection
+def _export(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object], path: Path, kind: str,
+            stage: bpy.types.Scene) -> None:
+    """Write pieces in the place of an object as a file, by way of a scene with nothing in it."""
+    layer, world = stage.view_layers[0], placing.world_matrix(obj)
     with _named(pieces):
         for piece in pieces.values():
-            scene.objects.link(piece)
-            placing.put(piece, placing.world_matrix(obj))
-            piece.select_set(True)
-            bpy.context.view_layer.objects.active = piece
+            stage.collection.objects.link(piece)
+            placing.put(piece, world)
+            if kind == "ply" and piece.matrix_basis.determinant() < 0:
+                # The other exporters turn the faces of what is mirrored by themselves.
+                piece.data.flip_normals()
+            piece.select_set(True, view_layer=layer)
+            layer.objects.active = piece
         try:
-            EXPORTERS[kind](str(path))
+            # On one line, so that nothing can be raised before the override ends, see modes.call_with.
+            with bpy.context.temp_override(scene=stage, view_layer=layer): EXPORTERS[kind](str(path))  # noqa: E701
         finally:
             for piece in pieces.values():
-                scene.objects.unlink(piece)
+                stage.collection.objects.unlink(piece)
 
 
 @contextmanager

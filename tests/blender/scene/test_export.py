@@ -260,6 +260,82 @@ def test_of_chosen_parts_only_their_pieces_are_written(obj, tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == [f"Tree {obj.data.reeb_parts.parts[1].name}.stl"]
 
 
+@pytest.mark.parametrize("separated", [False, True])
+@pytest.mark.parametrize("sheared", [False, True])
+@pytest.mark.parametrize("kind", IMPORT)
+def test_mirrored_objects_are_not_inside_out_in_files(obj, tmp_path, kind, sheared, separated):
+    """A .ply was, whose exporter leaves the order of the corners as it is."""
+    obj.scale = (-1, 1, 1)
+    if sheared:
+        parent = bpy.data.objects.new("Parent", None)
+        bpy.context.scene.collection.objects.link(parent)
+        obj.parent, obj.rotation_euler, parent.scale = parent, (0.3, 0.4, 0.5), (1, 2, 3)
+    bpy.context.view_layer.update()
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    if separated:
+        bpy.ops.reeb_parts.separate(caps=True, hide=False)
+        activate(obj)
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format=kind, caps=True, separated=separated)
+    files = sorted(tmp_path.glob(f"*.{kind}"))
+    assert len(files) == 2
+    for file in files:
+        bpy.ops.wm.read_homefile(use_empty=True)
+        IMPORT[kind](str(file))
+        (piece,) = [item for item in bpy.data.objects if item.type == "MESH"]
+        piece.data.transform(piece.matrix_world)
+        piece.data.calc_loop_triangles()
+        triangles = np.array([triangle.vertices[:] for triangle in piece.data.loop_triangles])
+        # A matrix that mirrors turns faces inside out without a word.
+        turned = -1 if piece.matrix_world.determinant() < 0 else 1
+        assert turned * volume(np.array([vertex.co for vertex in piece.data.vertices]), triangles) > 0
+
+
+@pytest.mark.parametrize("kind", IMPORT)
+def test_what_else_is_in_the_scene_is_not_evaluated_for_each_file(obj, make, tree, tmp_path, kind):
+    """It was, which took most of the time in scenes with much in them."""
+    bpy.ops.reeb_parts.decompose(n_parts=5)
+    others = make(tree, "Others")
+    others.modifiers.new("Array", "ARRAY").count = 50
+    activate(obj)
+    seen = []
+    watch = lambda scene, graph: seen.append("Others" in graph.objects)  # noqa: E731
+    bpy.app.handlers.depsgraph_update_post.append(watch)
+    try:
+        bpy.ops.reeb_parts.export(directory=str(tmp_path), format=kind)
+    finally:
+        bpy.app.handlers.depsgraph_update_post.remove(watch)
+    assert sum(seen) <= 2  # before the first and after the last, of five
+
+
+def test_shape_keys_are_written_as_they_are_at_the_frame_that_is_seen(obj, tmp_path):
+    obj.shape_key_add(name="Basis")
+    stretched = obj.shape_key_add(name="Stretched")
+    for point, vertex in zip(stretched.data, obj.data.vertices, strict=True):
+        point.co = vertex.co * 3
+    for frame, value in ((1, 0.0), (21, 1.0)):
+        stretched.value = value
+        stretched.keyframe_insert("value", frame=frame)
+    bpy.context.scene.frame_set(21)
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    wanted = bounds_of(np.array([obj.matrix_world @ vertex.co for vertex in seen.data.vertices]))
+    bpy.ops.reeb_parts.export(directory=str(tmp_path), format="stl", one_file=True)
+    bpy.ops.wm.stl_import(filepath=str(tmp_path / "Tree.stl"))
+    assert bounds_of(np.array([vertex.co for vertex in bpy.context.object.data.vertices])) == pytest.approx(
+        wanted, abs=1e-4)
+
+
+@pytest.mark.parametrize("kind", IMPORT)
+def test_no_scene_is_left_where_a_file_cannot_be_written(obj, tmp_path, kind):
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    (tmp_path / f"Tree Part 02.{kind}").mkdir()
+    before = snapshot(), len(bpy.data.scenes)
+    with pytest.raises(RuntimeError, match="Part 02"):
+        bpy.ops.reeb_parts.export(directory=str(tmp_path), format=kind)
+    assert (snapshot(), len(bpy.data.scenes)) == before
+    assert [path.name for path in tmp_path.iterdir()] == [f"Tree Part 02.{kind}"]
+
+
 def bounds_of(points):
     return np.sort(points, axis=0)[[0, -1]]
 
