@@ -7,7 +7,9 @@
 
 One JSON object goes to standard output, progress and Blender's own messages to standard error. Files appear when all
 of them are complete, or not at all, and none is written over that is read. An object that cannot be decomposed, or
-one of several models that cannot be read, is named in the JSON, and costs only itself.
+one of several models that cannot be read, is named in the JSON, and costs only itself. Objects that share a mesh have
+the same parts, those of the first. With -b, Blender prints its version to standard output first; "blender -q -b ..."
+leaves that out where something reads from a pipe, and --json OUT.json has the JSON alone.
 
 The exit status is 0 only if every object was decomposed and every file written, and 130 after Ctrl+C; an OUT.json of
 an earlier run does not outlast one that failed.
@@ -20,7 +22,7 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager, redirect_stdout, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, redirect_stdout, suppress
 from typing import Any, TextIO
 
 import bpy
@@ -43,7 +45,7 @@ from ..scene import (
     targets,
     uv_map,
 )
-from ..scene.compute import compute_all
+from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core
 from ..scene.run_files import RunFiles, reason, scene_files, together
 from ..scene.settings import closes_holes
@@ -96,8 +98,12 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
         with _in_a_window():
             with interrupts.allowed():
                 for obj in objects:
+                    # What is written to a mesh is written to all objects that share it.
+                    twin = next((other for other in done if obj is not None and other.data == obj.data), None)
                     try:
-                        reports.append(decompose_object(obj, parameters, options) | sources.get(obj, {}))
+                        with _in_its_scene(obj):
+                            report = decompose_object(obj, parameters, options, twin)
+                        reports.append(report | sources.get(obj, {}))
                         done.append(obj)
                     except (SceneError, ReebError, MemoryError) as error:
                         problems.append(problem(getattr(obj, "name", ""), error))
@@ -114,6 +120,18 @@ def _in_a_window() -> AbstractContextManager:
     """
     window = bpy.context.window or next(iter(bpy.context.window_manager.windows), None)
     return bpy.context.temp_override(window=window)
+
+
+def _in_its_scene(obj: bpy.types.Object | None) -> AbstractContextManager:
+    """A context with the scene of an object that is not in the one that is open: what is made of it goes there."""
+    scenes = obj.users_scene if obj is not None else ()
+    if not scenes or bpy.context.scene in scenes:
+        return nullcontext()
+    layers = scenes[0].view_layers
+    for layer in layers:
+        layer.update()  # one that nobody has looked at does not know its objects
+    layer = next((layer for layer in layers if obj in layer.objects.values()), layers[0])
+    return bpy.context.temp_override(scene=scenes[0], view_layer=layer)
 
 
 def _claim(options: argparse.Namespace, files: RunFiles) -> None:
@@ -150,8 +168,11 @@ def _as_text(result: dict) -> str:
     return json.dumps(result, indent=2, allow_nan=False) + "\n"
 
 
-def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, options: argparse.Namespace) -> dict:
+def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, options: argparse.Namespace,
+                     twin: bpy.types.Object | None = None) -> dict:
     """Read, compute and write one object, all that is asked for or nothing; its entry in the JSON.
+
+    twin : an object that shares its mesh and was decomposed before; then the parts are those that are there.
 
     Raises what the user should hear.
     """
@@ -159,6 +180,21 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
 
     targets.check_object(obj)
     assert obj is not None
+    outcome = None if twin else _computed(obj, parameters, options)
+    with transaction():
+        if outcome is not None:
+            results.write_result(bpy.context, obj, outcome, options)
+        elif options.graph:
+            results.draw_graph(bpy.context, obj, store.load(obj.data).shown_parts(), options)
+        made = make_uses(obj, options)
+        found = object_report(obj, options.labels, options.check)
+        if twin:
+            found["notes"].append(f"It shares the mesh of {twin.name}, and so its parts.")
+        return found | made
+
+
+def _computed(obj: bpy.types.Object, parameters: Parameters, options: argparse.Namespace) -> Outcome:
+    """The decomposition of one object; nothing is written. Raises what the user should hear."""
     shape = bridge.read_shape(obj, options.hints.upper())
     last = [-1]
 
@@ -170,10 +206,7 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
     (outcome,) = compute_all([(obj.name, shape)], parameters, progress)
     if outcome.decomposition is None:
         raise SceneError(f"{obj.name}: {outcome.problem}")
-    with transaction():
-        results.write_result(bpy.context, obj, outcome, options)
-        made = make_uses(obj, options)
-        return object_report(obj, options.labels, options.check) | made
+    return outcome
 
 
 def make_uses(obj: bpy.types.Object, options: argparse.Namespace) -> dict:

@@ -143,7 +143,7 @@ def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str,
     copies = {}
     for piece in (*pieces, *dowels):
         mesh = piece.data.copy()
-        mesh.transform(to_object @ piece.matrix_world, shape_keys=True)
+        mesh.transform(to_object @ placing.world_matrix(piece), shape_keys=True)
         copies[piece.name] = _stand_in(piece.name, mesh, piece)
     return copies
 

@@ -102,11 +102,20 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
     # Other objects of the mesh show its parts, and a graph of theirs is that of the result before.
     for user in targets.users(mesh):
         if settings.graph and (user == obj or graph_objects.find(user)):
-            kept += graph_objects.draw_graph(context, user, numbered, outcome.shape.stretch, settings)
-            graph_objects.update_parts(user, numbered)
-            graph_objects.set_hidden(context, user, shows_clutter(numbered))
+            kept += draw_graph(context, user, numbered, settings)
         else:
             graph_objects.remove(user)
+    return kept
+
+
+def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: NumberedParts, settings: Any) -> int:
+    """Draw the graph of parts that are stored with an object's mesh, hidden at first where it would cover the model.
+
+    settings : has the values of OverlayProperties. Returns how many nodes of an earlier graph were left alone.
+    """
+    kept = graph_objects.draw_graph(context, obj, numbered, store.stretch_of(obj.data), settings)
+    graph_objects.update_parts(obj, numbered)
+    graph_objects.set_hidden(context, obj, shows_clutter(numbered))
     return kept
 
 

@@ -331,3 +331,65 @@ def test_an_object_of_which_not_all_can_be_made_is_left_as_it_was(run, obj, make
     assert not left.hide_render
     assert len(bpy.data.collections["Parts of Tree"].objects) > 1
     assert "Parts of Other" not in bpy.data.collections
+
+
+USES = ("--separate", "--rigid-bodies", "--unwrap", "--hulls", "unreal")
+
+
+@pytest.mark.parametrize("first", ["Tree", "Flat"])
+def test_objects_that_share_a_mesh_have_the_parts_of_the_first(run, obj, tmp_path, first):
+    """Each was decomposed, the later over the earlier: an error, or fewer parts in the answer than files."""
+    flat = bpy.data.objects.new("Flat", obj.data)
+    flat.scale, flat.location = (1, 1, 0.05), (5, 0, 0)
+    bpy.context.scene.collection.objects.link(flat)
+    other = "Flat" if first == "Tree" else "Tree"
+    ended = run("--object", first, "--object", other, *USES, "--parts", tmp_path / "parts", "--parts-format", "stl",
+                "--threemf", tmp_path / "x.3mf", "--picture", tmp_path / "x.png", "--picture-size", "64x64")
+    assert (ended.status, ended.answer["problems"]) == (0, [])
+    reports = {report["name"]: report for report in ended.answer["objects"]}
+    assert [part["name"] for part in reports["Tree"]["parts"]] == [part["name"] for part in reports["Flat"]["parts"]]
+    assert [f"It shares the mesh of {first}, and so its parts." in reports[name]["notes"]
+            for name in (first, other)] == [False, True]
+    files = [path.stem for path in (tmp_path / "parts").iterdir()]
+    bodies, places = read_3mf(tmp_path / "x.3mf")
+    assert len(places) == 2
+    for name, report in reports.items():
+        names = {f"{name} {part['name']}" for part in report["parts"]}
+        assert {stem for stem in files if stem.startswith(name)} == names
+        assert {body.name for body in bodies if body.name.startswith(name)} == names
+        assert f"Reeb Graph {name}" in bpy.data.collections
+    assert reports["Flat"]["parts"][0]["bounding_box"] != reports["Tree"]["parts"][0]["bounding_box"]
+
+
+@pytest.mark.parametrize("uses", [USES, ("--armature",)])
+def test_what_is_made_of_an_object_is_in_its_scene(run, obj, make, tree, tmp_path, uses):
+    """It was in the scene that was open, with the pieces at the origin."""
+    own = bpy.context.scene
+    second = bpy.data.scenes.new("Second")
+    second.view_layers.new("With it")
+    within = bpy.data.collections.new("Within")
+    second.collection.children.link(within)
+    second.view_layers[0].update()
+    second.view_layers[0].layer_collection.children["Within"].exclude = True
+    there = make((tree[0] * [1, 1, 2], tree[1]), "There")
+    own.collection.objects.unlink(there)
+    within.objects.link(there)
+    parent = bpy.data.objects.new("Parent", None)
+    within.objects.link(parent)
+    there.parent, parent.location = parent, (7, 0, 0)
+    before = set(own.collection.all_objects), set(own.collection.children_recursive)
+    ended = run("--object", "There", *uses, "--parts", tmp_path, "--parts-format", "ply")
+    assert ended.status == 0
+    assert bpy.context.scene == own
+    assert (set(own.collection.all_objects), set(own.collection.children_recursive)) == before
+    assert own.rigidbody_world is None
+    made = set(second.collection.all_objects) - {there, parent}
+    assert made == set(bpy.data.objects) - {there, parent, obj}
+    assert "Reeb Graph There" in second.collection.children
+    if "--separate" in uses:
+        assert there.hide_get(view_layer=second.view_layers["With it"])
+        assert second.rigidbody_world is not None
+    for path in ended.answer["files"]["parts"]:
+        bpy.ops.wm.read_homefile(use_empty=True)
+        bpy.ops.wm.ply_import(filepath=path)
+        assert min(vertex.co.x for vertex in bpy.context.object.data.vertices) > 4
