@@ -6,16 +6,17 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..scene import armature
-from ..scene.reporting import PartOperator
+from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
 from .checks import report_kept
 
 
-class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
+class REEB_PARTS_OT_armature(SelectedPartsOperator, bpy.types.Operator):
     """Make an armature with a bone for each part, along the part's center line, that moves the mesh smoothly"""
 
     bl_idname = "reeb_parts.armature"
     bl_label = "Make Armature from Parts"
+    one_per_mesh = False
 
     deform: bpy.props.BoolProperty(
         name="Move the Mesh", default=True,
@@ -28,6 +29,10 @@ class REEB_PARTS_OT_armature(PartOperator, bpy.types.Operator):
                ("PARTS", "Parts", "Each part moves as a whole, by its own vertex group")],
         description="How much each bone moves each vertex; at most four bones move one",
     )
+
+    def look(self, obj: bpy.types.Object) -> Stored:
+        armature.check_alone(obj)
+        return super().look(obj)
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         rig, stiff, kept = armature.make(context, obj, stored, self.deform, self.weights)

@@ -6,16 +6,17 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..scene import hulls
-from ..scene.reporting import PartOperator
+from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
 from .checks import report_kept
 
 
-class REEB_PARTS_OT_hulls(PartOperator, bpy.types.Operator):
+class REEB_PARTS_OT_hulls(SelectedPartsOperator, bpy.types.Operator):
     """Make convex hulls of each part, of at most 64 corners, with which games and simulations collide"""
 
     bl_idname = "reeb_parts.hulls"
     bl_label = "Make Collision Hulls of Parts"
+    one_per_mesh = False
 
     engine: bpy.props.EnumProperty(
         name="Names", default="UNREAL",

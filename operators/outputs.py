@@ -10,11 +10,11 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.sentence import Count
 from ..scene import outputs, quiet, targets
 from ..scene.outputs import face_sets, materials, seams
-from ..scene.reporting import PartOperator
+from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
 
 
-class OutputOperator(PartOperator):
+class OutputOperator(SelectedPartsOperator):
     """For operators that write one thing more to the mesh, which then follows the parts until it is taken back.
 
     A class that inherits gives ``output``: the module of scene.outputs, and the sentences said of it when it was

@@ -115,7 +115,7 @@ class REEB_PARTS_OT_suggest_names(ReportingOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> None:
         objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
         with object_mode(context):
-            found = targets.usable(objects, lambda obj: store.load(obj.data), self.report)
+            found = list(targets.usable(objects, lambda obj: store.load(obj.data), self.report))
             count = sum(self._named(obj, stored) for obj, stored in found)
         total = sum(len(obj.data.reeb_parts.parts) for obj, _ in found)
         if count or not total:

@@ -8,7 +8,8 @@ from ..core.sentence import Count
 from ..scene import piece_objects, store, targets
 from ..scene.modes import object_mode
 from ..scene.part_list import check_parts
-from ..scene.reporting import ReportingOperator
+from ..scene.reporting import ReportingOperator, named
+from ..scene.store import Stored
 
 
 class REEB_PARTS_OT_rigid_bodies(ReportingOperator, bpy.types.Operator):
@@ -31,8 +32,22 @@ class REEB_PARTS_OT_rigid_bodies(ReportingOperator, bpy.types.Operator):
         check_parts(piece_objects.whole(targets.active_object(context)))
 
     def run(self, context: bpy.types.Context) -> None:
-        obj = piece_objects.whole(targets.active_object(context))
+        chosen = targets.chosen_objects(context, self.report, one_per_mesh=False)
+        active, *others = dict.fromkeys(piece_objects.original(obj) or obj for obj in chosen)
+        objects = [active, *(obj for obj in others if piece_objects.piece_objects(obj) and store.has_result(obj.data))]
+        n_bodies = n_joints = 0
         with object_mode(context):
-            made = piece_objects.make_bodies(context, obj, store.load(obj.data), self.joints)
+            for obj, stored in targets.usable(objects, _current, self.report):
+                with named(obj, len(objects) > 1):
+                    made = piece_objects.make_bodies(context, obj, stored, self.joints)
+                n_bodies, n_joints = n_bodies + len(made.bodies), n_joints + len(made.joints)
         self.report({"INFO"}, rpt_("{n} {n:rigid body|rigid bodies}, {total} {total:joint|joints}").format(
-            n=Count(len(made.bodies)), total=Count(len(made.joints))))
+            n=Count(n_bodies), total=Count(n_joints)))
+
+
+def _current(obj: bpy.types.Object) -> Stored:
+    """The parts of an object; raises SceneError if they are out of date, or its pieces are of other parts."""
+    check_parts(obj)
+    stored = store.load(obj.data)
+    piece_objects.check_current(obj, stored)
+    return stored

@@ -53,7 +53,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         objects = [obj for obj in chosen if store.has_result(obj.data)]
         made = []
         with object_mode(context):
-            found = targets.usable(objects, lambda obj: store.load(obj.data), self.report)
+            found = list(targets.usable(objects, lambda obj: store.load(obj.data), self.report))
             for index, (obj, stored) in enumerate(found):
                 steps = separation.separating(context, obj, stored, wanted_numbers(obj.data, self.which), self)
                 separated = yield from stretched(steps, index / len(found), (index + 1) / len(found))

@@ -7,11 +7,11 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import uv_map
-from ..scene.reporting import PartOperator
+from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
 
 
-class REEB_PARTS_OT_unwrap(PartOperator, bpy.types.Operator):
+class REEB_PARTS_OT_unwrap(SelectedPartsOperator, bpy.types.Operator):
     """Unwrap the mesh along the cuts between parts and your own seams, into a UV map of its own"""
 
     bl_idname = "reeb_parts.unwrap"

@@ -94,7 +94,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     SceneError
         Blender finds no weights, or an armature of ours moves another object of the same mesh.
     """
-    _check_alone(obj)
+    check_alone(obj)
     numbered = stored.shown_parts()
     found = skeleton(obj, numbered, limbs=weights != "PARTS")
     # The parts' own groups have no sides, by which the mirrored half of a half model would follow other bones.
@@ -128,7 +128,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     return Made(rig, found.n_stiff, earlier.kept)
 
 
-def _check_alone(obj: bpy.types.Object) -> None:
+def check_alone(obj: bpy.types.Object) -> None:
     """Raise SceneError where new weights, which belong to the mesh, would take those of another object's armature."""
     for other in targets.users(obj.data):
         if other != obj and _modifier(other) is not None:

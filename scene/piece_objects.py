@@ -136,7 +136,7 @@ def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     SceneError
         Pieces are of other parts than are shown now.
     """
-    _check_current(obj, stored)
+    check_current(obj, stored)
     context.view_layer.update()  # pieces made just now do not know where they are
     pieces: dict[int, list[bpy.types.Object]] = {}
     for piece in piece_objects(obj):
@@ -149,7 +149,7 @@ def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     return joined
 
 
-def _check_current(obj: bpy.types.Object, stored: Stored) -> None:
+def check_current(obj: bpy.types.Object, stored: Stored) -> None:
     """Raise SceneError if a piece is of a part that is not shown now, or has other faces now.
 
     Of pieces that earlier versions made the numbers are known alone.

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import bpy
@@ -80,3 +81,40 @@ class PartOperator(ReportingOperator):
             message = self.work(context, obj, store.load(obj.data))
         if message:
             self.report({"INFO"}, message)
+
+
+class SelectedPartsOperator(PartOperator):
+    """For operators on the parts of all selected objects, the active one first: of all, or of none if one fails.
+
+    An object whose parts are out of date is left out, and it is said why, unless it is the active one. A class that
+    inherits gives ``work``.
+    """
+
+    #: Whether what is made belongs to the mesh, so that objects that share one are a single one.
+    one_per_mesh = True
+
+    def look(self, obj: bpy.types.Object) -> Stored:
+        """The parts of an object whose turn has come; raises SceneError where it has to be left out."""
+        return store.load(obj.data)
+
+    def run(self, context: bpy.types.Context) -> None:
+        chosen = targets.chosen_objects(context, self.report, self.one_per_mesh)
+        objects = [obj for obj in chosen if store.has_result(obj.data)]
+        with object_mode(context):
+            for obj, stored in targets.usable(objects, self.look, self.report):
+                with named(obj, len(objects) > 1):
+                    message = self.work(context, obj, stored)
+                if message:
+                    self.report({"INFO"}, f"{obj.name}: {message}" if len(objects) > 1 else message)
+
+
+@contextmanager
+def named(obj: bpy.types.Object, several: bool) -> Iterator[None]:
+    """Put the name of an object before the sentence that is raised, if there are several and it does not say it."""
+    try:
+        yield
+    except (SceneError, ReebError) as error:
+        words = translated(error)
+        if not several or obj.name in words:
+            raise
+        raise SceneError(f"{obj.name}: {words}") from error

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 import bpy
@@ -59,21 +59,25 @@ def chosen_objects(
 
 
 def usable(objects: list[bpy.types.Object], look: Callable[[bpy.types.Object], _Found],
-           report: Callable[[set[str], str], None]) -> list[tuple[bpy.types.Object, _Found]]:
-    """What is found of objects, the active one first; others of which that cannot be are left out, and it is said why.
+           report: Callable[[set[str], str], None]) -> Iterator[tuple[bpy.types.Object, _Found]]:
+    """Yield what is found of objects, each when its turn comes, the active one first.
+
+    Others of which that cannot be are left out, and it is said why.
 
     Raises
     ------
     SceneError
         By ``look``, of the first object.
     """
-    found = [(obj, look(obj)) for obj in objects[:1]]
-    for obj in objects[1:]:
+    for index, obj in enumerate(objects):
         try:
-            found.append((obj, look(obj)))
+            found = look(obj)
         except SceneError as error:
+            if index == 0:
+                raise
             report({"WARNING"}, str(error))
-    return found
+        else:
+            yield obj, found
 
 
 def _in_another_mode(obj: bpy.types.Object) -> str:
