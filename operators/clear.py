@@ -2,6 +2,7 @@
 """Clear: remove exactly what was made."""
 
 import bpy
+from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..scene import graph_objects, leavings, results, store, targets
@@ -12,10 +13,12 @@ from ..viewport import shading
 
 
 class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
-    """Remove everything that Reeb Parts has added to the selected meshes; what was there before is back"""
+    """Remove exactly what was added; what is separate stays"""
 
     bl_idname = "reeb_parts.clear"
     bl_label = "Clear Parts"
+    bl_description = n_("Remove everything that Reeb Parts has added to the selected meshes; what was there before is "
+                        "back. Separated pieces stay, as objects of your own that do not lead back to the mesh")
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:

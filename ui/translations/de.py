@@ -468,8 +468,10 @@ TEXTS = {
     "Cut the selected mesh into the parts a person would name, and show its Reeb graph":
         "Das ausgewählte Mesh in die Teile zerlegen, die ein Mensch benennen würde, und seinen Reeb-Graphen zeigen",
     "Stop computing; the scene is as it was before": "Die Berechnung beenden; die Szene ist wie zuvor",
-    "Remove everything that Reeb Parts has added to the selected meshes; what was there before is back":
-        "Alles entfernen, was Reeb Parts den ausgewählten Meshs hinzugefügt hat; was vorher da war, ist wieder da",
+    "Remove everything that Reeb Parts has added to the selected meshes; what was there before is back. Separated "
+    "pieces stay, as objects of your own that do not lead back to the mesh":
+        "Alles entfernen, was Reeb Parts den ausgewählten Meshs hinzugefügt hat; was vorher da war, ist wieder da. "
+        "Getrennte Stücke bleiben, als eigene Objekte, die nicht zum Mesh zurückführen",
     "Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons":
         "Vorgabe, Ausgabe und Überlagerung dieser Szene wie in neuen Szenen setzen; siehe Einstellungen, Add-ons",
     "Set the parameters back to those of the preset; some of them were changed":

@@ -449,8 +449,9 @@ TEXTS = {
     "Cut the selected mesh into the parts a person would name, and show its Reeb graph":
         "将所选网格切割为人会命名的部件，并显示其 Reeb 图",
     "Stop computing; the scene is as it was before": "停止计算；场景与之前相同",
-    "Remove everything that Reeb Parts has added to the selected meshes; what was there before is back":
-        "移除 Reeb Parts 添加到所选网格的一切；恢复之前的内容",
+    "Remove everything that Reeb Parts has added to the selected meshes; what was there before is back. Separated "
+    "pieces stay, as objects of your own that do not lead back to the mesh":
+        "移除 Reeb Parts 添加到所选网格的一切；恢复之前的内容。已分离的各块保留为您自己的物体，不再与原网格关联",
     "Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons":
         "将此场景的预设、输出和叠加设为与新场景相同；参见偏好设置的“插件”",
     "Set the parameters back to those of the preset; some of them were changed":
