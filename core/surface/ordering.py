@@ -18,7 +18,6 @@ from .arrays import (
     DENSE,
     TIE,
     components,
-    first_largest,
     frozen,
     inner_products,
     inverse,
@@ -206,12 +205,12 @@ def principal_axes(moments: np.ndarray, toward: np.ndarray) -> np.ndarray:
 
 
 def _across(toward: np.ndarray, axes: np.ndarray) -> np.ndarray:
-    """Unit vector, (3,), to that of some directions, (k, 3), which is longest across the axes, the first of equals."""
+    """Unit vector, (3,), to the first of some directions, (k, 3), that is at least half as long across the axes."""
     for axis in axes:
         toward = toward - inner_products(toward, axis)[:, None] * axis
     length = np.linalg.norm(toward, axis=1)
-    longest = first_largest(length)
-    return toward[longest] / max(length[longest], 1e-300)
+    first = (length >= 0.5 * length.max()).argmax()
+    return toward[first] / max(length[first], 1e-300)
 
 
 def rank_by_place(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -269,19 +268,14 @@ def _own_axes(
 
     Each points to where the farther positions are, or away from there; where both sides of the shape are alike, to
     where the points, (k, 3), have more of another weight, (k,), as the faces of symmetric shapes often differ; where
-    these are alike, too, so that a shape that winds, as a propeller does, winds the same way; and where it does not,
-    the first point that is clearly on one side decides.
+    these are alike, too, the first point that is clearly on one side decides.
     """
     axes = principal_axes(second_moments(position, weight), points)
-    for k, axis in enumerate(axes):
-        along = inner_products(position, axis)
-        lean = _lean(along, weight)
+    for axis in axes:
+        lean = _lean(inner_products(position, axis), weight)
         if abs(lean) < TIE:
             height = inner_products(points, axis)
             lean = _lean(height, point_weight())
-            for before in axes[:k]:
-                if abs(lean) < TIE:
-                    lean = _winding(along, inner_products(position, before), weight)
             if abs(lean) < TIE:
                 lean = height[(np.abs(height) >= 0.5 * np.abs(height).max()).argmax()]
         axis *= -1.0 if lean < 0 else 1.0
@@ -293,15 +287,6 @@ def _lean(height: np.ndarray, weight: np.ndarray) -> float:
     """Third moment of heights, (k,), by weight, (k,), from -1, all below the middle, to 1."""
     cubes = height * height * height  # powers of NumPy take twenty times as long
     return float((weight * cubes).sum() / max((weight * np.abs(cubes)).sum(), 1e-300))
-
-
-def _winding(x: np.ndarray, y: np.ndarray, weight: np.ndarray) -> float:
-    """How a shape winds in a plane, from -1 to 1, by the moment x y (y^2 - x^2), which a quarter turn leaves as it is.
-
-    x, y, weight : (k,).
-    """
-    mixed = weight * x * y * (y * y - x * x)
-    return float(mixed.sum() / max(np.abs(mixed).sum(), 1e-300))
 
 
 def _order(place: np.ndarray, beside: Callable[[], np.ndarray]) -> np.ndarray:

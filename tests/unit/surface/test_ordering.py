@@ -50,27 +50,6 @@ def test_of_symmetric_shapes_the_order_of_the_faces_changes_nothing(shape):
     np.testing.assert_array_equal(one.triangles.vertices, two.triangles.vertices)
 
 
-def pinwheel():
-    """A sheet of quads which a quarter turn leaves as it is, and no mirror does."""
-    n = 9
-    x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n), indexing="ij")
-    vertices = np.stack([x, y, x * y * (y**2 - x**2) + 0.3 * (x**2 + y**2) ** 2], axis=-1).reshape(-1, 3)
-    corner = np.arange(n * n).reshape(n, n)
-    around = corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]
-    return vertices, np.stack(around, axis=-1).reshape(-1, 4)
-
-
-def test_what_winds_is_sorted_alike_but_for_its_own_turns():
-    vertices, faces = pinwheel()
-    first = sorted_by_place(PolygonMesh.of(vertices, faces))[0].triangles.vertices
-    quarter = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-    turned = [first @ np.linalg.matrix_power(quarter, k) for k in range(4)]
-    for seed in range(20):
-        place = np.random.default_rng(seed).permutation(len(vertices))
-        again = sorted_by_place(PolygonMesh.of(vertices[place], np.argsort(place)[faces]))[0].triangles.vertices
-        assert any(np.allclose(again, like, atol=1e-9) for like in turned), seed
-
-
 def test_polygons_stay_whole():
     _, ordering = sorted_mesh(LOPSIDED["grid"])
     faces = LOPSIDED["grid"].faces
