@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Models read from files: .obj and arrays here, what only Blender reads by Blender, all others by trimesh."""
+"""Models read from files: .obj, .ply and arrays here, what only Blender reads by Blender, all others by trimesh."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from .core.file_names import readable
 from .core.memory import lacks_memory
 from .core.sentence import Sentence
 from .obj_files import parse_obj
+from .ply_files import read_ply
 
 #: Files that Blender alone can read, see ``blender_export``.
 BY_BLENDER = (".blend", ".fbx")
@@ -49,8 +50,8 @@ class Model:
     faces : (m, 3) int64
         Triangles; in the order of the file, polygons cut into triangles.
     polygon : (m,) int64
-        Face of the file to which each triangle belongs; in files other than .obj, .blend and .fbx, whose readers cut
-        polygons themselves, each triangle is a face.
+        Face of the file to which each triangle belongs; in files other than .obj, .ply, .blend and .fbx, whose readers
+        cut polygons themselves, each triangle is a face.
     up : str
         "y" or "z", the axis that is up in files of its kind.
     """
@@ -115,7 +116,7 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
 
 def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of a file that needs no Blender; raises ModelFileError."""
-    reader = {ARRAYS: _read_arrays, ".obj": _read_obj}.get(path.suffix.lower(), _read_by_trimesh)
+    reader = {ARRAYS: _read_arrays, ".obj": _read_obj, ".ply": _read_ply}.get(path.suffix.lower(), _read_by_trimesh)
     try:
         return reader(path)
     except MemoryError:
@@ -139,6 +140,16 @@ def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def _read_obj(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of an .obj."""
     return parse_obj(path.read_bytes())
+
+
+def _read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and their polygons of a .ply."""
+    from plyfile import PlyHeaderParseError
+
+    try:
+        return read_ply(path)
+    except PlyHeaderParseError:  # trimesh knows more types of numbers
+        return _read_by_trimesh(path)
 
 
 def _plain(path: Path) -> bytes:

@@ -65,8 +65,10 @@ def test_a_file_that_was_cut_off_is_no_lack_of_a_package(tree, tmp_path):
 
 
 def test_a_package_that_is_not_there_is_a_lack_of_a_reader(tree, tmp_path, monkeypatch):
-    trimesh.Trimesh(*tree, process=False).export(tmp_path / "tree.ply")
-    monkeypatch.setattr(reeb_parts.model_files, "formats", lambda: (".ply",))
-    monkeypatch.setitem(sys.modules, "trimesh", None)
-    with pytest.raises(reeb_parts.model_files.NoReaderError, match="needs a package that is not there"):
-        reeb_parts.read_model(tmp_path / "tree.ply")
+    monkeypatch.setattr(reeb_parts.model_files, "formats", lambda: (".ply", ".stl"))
+    for kind, package in (("ply", "plyfile"), ("stl", "trimesh")):
+        trimesh.Trimesh(*tree, process=False).export(tmp_path / f"tree.{kind}")
+        with monkeypatch.context() as without:
+            without.setitem(sys.modules, package, None)
+            with pytest.raises(reeb_parts.model_files.NoReaderError, match="needs a package that is not there"):
+                reeb_parts.read_model(tmp_path / f"tree.{kind}")

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertices and faces of .ply files, of words or binary, by plyfile. Colors, normals and other elements do not matter.
+
+trimesh takes all faces of a binary file to have as many corners as the first, cuts quads apart so that their second
+halves stand behind all others, and splits vertices where a texture has a seam.
+"""
+
+from __future__ import annotations
+
+import re
+import tempfile
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import takewhile
+from pathlib import Path
+from typing import IO, TYPE_CHECKING
+
+import numpy as np
+
+from .core.surface.arrays import expanded
+from .core.surface.ears import without_folds
+
+if TYPE_CHECKING:
+    from plyfile import PlyData, PlyElement
+
+#: What programs call the list of a face's vertices.
+_CORNERS = ("vertex_indices", "vertex_index")
+_BINARY = re.compile(rb"[\r\n]format[ \t]+binary")
+_ASCII = bytes(range(128)) + b"?" * 128
+
+
+def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Read a .ply.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    vertices : (n, 3) float64
+        All of the file, also those of no face.
+    triangles : (m, 3) int64
+        In the order of the faces; of a polygon its fan, or other triangles where that is folded.
+    polygon : (m,) int64
+        Face of each triangle, from 0; lists of less than three vertices are no faces.
+
+    Raises
+    ------
+    plyfile.PlyHeaderParseError
+        The header is damaged, or has a type of numbers that plyfile does not know.
+    plyfile.PlyElementParseError
+        The rest is damaged, or a part of it is missing.
+    ValueError
+        A vertex has no position, or a face has a vertex that is not there.
+    OSError
+        The file cannot be read.
+    """
+    data = _data(path)
+    if "vertex" not in data or "face" not in data:
+        return np.empty((0, 3)), np.empty((0, 3), np.int64), np.empty(0, np.int64)
+    vertices = np.stack([data["vertex"][axis] for axis in "xyz"], axis=1).astype(np.float64)
+    corner, sizes = _corners(data["face"])
+    if ((corner < 0) | (corner >= len(vertices))).any():
+        raise ValueError("a face has a vertex that is not there")
+    first = np.cumsum(sizes) - sizes
+    polygon, second = expanded(first + 1, sizes - 2)
+    triangles = corner[np.stack([first[polygon], second, second + 1], axis=1)]
+    return vertices, without_folds(vertices, triangles, sizes), polygon
+
+
+def _data(path: Path) -> PlyData:
+    """All elements of a file."""
+    from plyfile import PlyData, PlyElementParseError
+
+    header = _header(path)
+    if not _BINARY.search(header):
+        # What is not ASCII is in names and comments.
+        with path.open(encoding="ascii", errors="ignore") as text, warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of lists without numbers
+            return PlyData.read(text)
+    with _with_ascii(path, header) as file:
+        # plyfile reads faces of equal sizes at once, if it is told the size, and others one by one.
+        for size in (3, 4):
+            try:
+                return PlyData.read(file, known_list_len={
+                    "face": {**dict.fromkeys(_CORNERS, size), "texcoord": 2 * size}})
+            except PlyElementParseError:
+                file.seek(0)
+        return PlyData.read(file)
+
+
+def _header(path: Path) -> bytes:
+    """The header of a file, all of the file if it has no end."""
+    with path.open("rb") as file:
+        lines = takewhile(lambda line: not line.startswith(b"end_header"), file)
+        return b"".join(lines).partition(b"end_header")[0]  # of old Macs' files all is one line
+
+
+@contextmanager
+def _with_ascii(path: Path, header: bytes) -> Iterator[IO[bytes]]:
+    """A binary file with question marks for what is not ASCII in its header, open."""
+    with path.open("rb") as file:
+        if header.isascii():
+            yield file
+            return
+        data = file.read()
+    with tempfile.TemporaryFile() as copy:  # plyfile maps it into memory
+        copy.write(header.translate(_ASCII) + data[len(header):])
+        copy.seek(0)
+        yield copy
+
+
+def _corners(face: PlyElement) -> tuple[np.ndarray, np.ndarray]:
+    """Vertex of each corner of all polygons, (c,), and how many corners each polygon has, (p,), 3 or more."""
+    from plyfile import PlyListProperty
+
+    lists = [entry.name for entry in face.properties if isinstance(entry, PlyListProperty)]
+    name = next((name for name in (*_CORNERS, *lists) if name in lists), None)
+    rows = face[name] if name and len(face) else np.empty((0, 3), np.int64)
+    if rows.ndim == 2:
+        corner, sizes = rows.ravel(), np.full(len(rows), rows.shape[1])
+    else:
+        corner, sizes = np.concatenate(rows), np.array([len(row) for row in rows])
+    is_polygon = sizes > 2
+    return corner[np.repeat(is_polygon, sizes)].astype(np.int64), sizes[is_polygon]
