@@ -3,7 +3,9 @@
 
     blender --background --factory-startup --python blender_export.py -- MODEL OUT.npz
 
-Meshes are those of the objects themselves, without their modifiers, in the places that the scene gives them.
+Meshes are those of the objects themselves, without their modifiers, in the places that the scene gives them, once more
+for each instance of a collection. What Reeb Parts has made of a model that is there - pieces, dowels, hulls - is that
+model a second time, and left out.
 """
 
 import sys
@@ -11,6 +13,10 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+
+#: Custom properties by which Reeb Parts knows what it made, as in its scene/: on hulls and all that helps; on pieces
+#: and dowels; on collections of these, the object that they come from, or its name.
+ROLE, PIECES, PIECES_OF = "reeb_parts_role", ("reeb_parts_number", "reeb_parts_dowel"), "reeb_parts_pieces_of"
 
 
 def _include_all(layer: bpy.types.LayerCollection) -> None:
@@ -23,6 +29,27 @@ def _include_all(layer: bpy.types.LayerCollection) -> None:
         layer.collection.hide_viewport = layer.exclude = False
         open_ += layer.children
     bpy.context.view_layer.update()
+    for obj in bpy.context.view_layer.objects:  # hidden ones show no instances
+        obj.hide_set(False)
+
+
+def _is_made_of_another(obj: bpy.types.Object) -> bool:
+    """Whether Reeb Parts has made an object of another one that is in the scene."""
+    if ROLE in obj:
+        return True
+    there = bpy.context.scene.objects
+    sources = [collection.get(PIECES_OF) for collection in obj.users_collection]
+    return any(mark in obj for mark in PIECES) and any(
+        source in there.keys() if isinstance(source, str) else source in there.values() for source in sources)
+
+
+def _placed() -> list[tuple[bpy.types.Object, np.ndarray]]:
+    """Objects with meshes, and their places as matrices, (4, 4): those of the scene, then those of instances."""
+    found = [(obj, np.array(obj.matrix_world)) for obj in bpy.context.scene.objects]
+    for instance in bpy.context.evaluated_depsgraph_get().object_instances:
+        if instance.is_instance and instance.parent.instance_type == "COLLECTION":
+            found.append((instance.object.original, np.array(instance.matrix_world)))
+    return [(obj, matrix) for obj, matrix in found if obj.type == "MESH" and not _is_made_of_another(obj)]
 
 
 def export(path: str, out: str) -> None:
@@ -47,9 +74,7 @@ def _export(path: str, out: str) -> None:
     _include_all(bpy.context.view_layer.layer_collection)
     vertices, triangles, polygons = [np.empty((0, 3))], [np.empty((0, 3), np.int64)], [np.empty(0, np.int64)]
     n_vertices = n_polygons = 0
-    for obj in bpy.context.scene.objects:
-        if obj.type != "MESH":
-            continue
+    for obj, matrix in _placed():
         mesh = obj.data
         mesh.calc_loop_triangles()
         place, corner = np.empty(3 * len(mesh.vertices), np.float32), np.empty(3 * len(mesh.loop_triangles), np.int32)
@@ -57,7 +82,6 @@ def _export(path: str, out: str) -> None:
         mesh.vertices.foreach_get("co", place)
         mesh.loop_triangles.foreach_get("vertices", corner)
         mesh.loop_triangles.foreach_get("polygon_index", polygon)
-        matrix = np.array(obj.matrix_world)
         if np.linalg.det(matrix[:3, :3]) < 0:  # a mirror image would look inwards
             corner = corner.reshape(-1, 3)[:, ::-1]
         vertices.append(place.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3])

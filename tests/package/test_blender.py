@@ -28,6 +28,13 @@ bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
 
 
+def made_by_blender(script, path):
+    """The file that a script makes."""
+    subprocess.run([os.environ["BLENDER"], "--background", "--factory-startup", "--python-exit-code", "1",
+                    "--python-expr", script, "--", str(path)], check=True, capture_output=True)
+    return path
+
+
 def test_a_blend_file_has_the_faces_of_blender(reeb_parts_command, tmp_path):
     done = reeb_parts_command("decompose", DATA / "saved_by_0_1_0.blend", "--blender", os.environ["BLENDER"],
                               "--labels", tmp_path / "labels.npy")
@@ -83,3 +90,88 @@ def test_why_blender_could_not_read_is_said(name, make, words, tmp_path):
         reeb_parts.read_model(path, os.environ["BLENDER"])
     for strange in ("script failed", "RuntimeError", "[", "Traceback"):
         assert strange not in str(raised.value)
+
+
+#: A cube with what Reeb Parts marks as made of it, one thing of the user's among that, and pieces whose model is gone.
+MADE = """
+import bpy, sys
+bpy.ops.wm.read_homefile(use_empty=True)
+scene = bpy.context.scene
+def cube(x, collection, **marks):
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(x, 0, 0))
+    obj = bpy.context.object
+    for mark, value in marks.items():
+        obj["reeb_parts_" + mark] = value
+    collection.objects.link(obj)
+    if collection != scene.collection:
+        scene.collection.objects.unlink(obj)
+    return obj
+def pieces(of):
+    made = bpy.data.collections.new("Parts")
+    scene.collection.children.link(made)
+    made["reeb_parts_pieces_of"] = of
+    return made
+def original(x):
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(x, 0, 0))
+    return bpy.context.object
+named = original(0)
+for place, source in ((10, named), (20, named.name)):
+    made = pieces(source)
+    cube(place, made, number=1)
+    cube(place + 1, made, dowel=[1, 2])
+    cube(place + 2, made, hull_of=1, role="hull")
+cube(30, made)
+left = original(0)
+made = pieces(left)
+bpy.data.objects.remove(left)
+cube(40, made, number=1)
+cube(41, made, number=1, role="hull")
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
+"""
+
+
+def test_what_was_made_of_a_model_is_not_the_model_again(tmp_path):
+    """Pieces and hulls that were saved with their original were decomposed with it, as one mesh."""
+    path = made_by_blender(MADE, tmp_path / "pieces.blend")
+    model = reeb_parts.read_model(path, os.environ["BLENDER"])
+    assert sorted(set(model.vertices[:, 0].round().astype(int).tolist())) == [0, 30, 40]
+
+
+def test_the_marks_are_those_of_the_extension():
+    root = DATA.parents[1]
+    marks = (root / "package" / "blender_export.py").read_text(encoding="utf-8")
+    scene = "".join((root / "scene" / f"{name}.py").read_text(encoding="utf-8") for name in ("made", "piece_objects"))
+    for mark in ("reeb_parts_role", "reeb_parts_number", "reeb_parts_dowel", "reeb_parts_pieces_of"):
+        assert f'"{mark}"' in marks
+        assert f'= "{mark}"' in scene
+
+
+#: A cube in a collection that is in no scene, shown by three empties, of which one is hidden and one shows another.
+INSTANCES = """
+import bpy, sys
+bpy.ops.wm.read_homefile(use_empty=True)
+bpy.ops.mesh.primitive_cube_add(size=1, location=(1, 0, 0))
+cube = bpy.context.object
+inner, outer = bpy.data.collections.new("inner"), bpy.data.collections.new("outer")
+inner.objects.link(cube)
+bpy.context.scene.collection.objects.unlink(cube)
+def show(collection, x, into):
+    empty = bpy.data.objects.new("empty", None)
+    empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", collection, (x, 0, 0)
+    into.objects.link(empty)
+    return empty
+show(inner, 10, bpy.context.scene.collection)
+show(inner, 20, bpy.context.scene.collection).hide_set(True)
+show(inner, 30, outer)
+show(outer, 100, bpy.context.scene.collection)
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
+"""
+
+
+def test_instances_of_collections_come_in_their_places(tmp_path):
+    """Meshes that are seen through them alone were no meshes of the file."""
+    path = made_by_blender(INSTANCES, tmp_path / "instances.blend")
+    model = reeb_parts.read_model(path, os.environ["BLENDER"])
+    assert len(model.faces) == 36
+    center = model.vertices.reshape(3, 8, 3).mean(axis=1)
+    assert sorted(center[:, 0].tolist()) == pytest.approx([11, 21, 131])
