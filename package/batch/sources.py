@@ -46,7 +46,7 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     kinds : tuple of str
         Suffixes of models in folders, small letters. A file that is named or fits a pattern may have any.
     out : Path
-        Folder of the results, which are no models, as those of earlier runs elsewhere are none.
+        Folder of the results. It may have models in it; what runs made, there and elsewhere, is none.
     root : Path, optional
         What names begin below; the innermost folder that holds all models without.
 
@@ -58,10 +58,10 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     Raises
     ------
     SourceError
-        A place is none, there is no model anywhere, or a model lies outside the root.
+        A place is none, there is no model anywhere, a model lies outside the root, or where its results belong.
     """
     out = Path(os.path.abspath(out))
-    paths = {path for place in places for path in _paths(place, kinds) if out not in path.parents}
+    paths = {path for place in places for path in _paths(place, kinds)}
     if not paths:
         raise SourceError(Sentence("There is no model to decompose."))
     if root is None:
@@ -72,7 +72,23 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
         raise SourceError(Sentence("{n} {n:model is|models are} not in {root} (first: {first}).", n=len(outside),
                                    root=root, first=outside[0]))
     named = (Source(path, readable(path.relative_to(root).as_posix())) for path in paths)
-    return sorted(named, key=lambda source: source.name)
+    sources = sorted(named, key=lambda source: source.name)
+    _check_folders(sources, out)
+    return sources
+
+
+def folder_of(out: Path, name: str) -> Path:
+    """Where the results of the model of a name are."""
+    return out / "models" / name
+
+
+def _check_folders(sources: list[Source], out: Path) -> None:
+    """Raise SourceError if the results of a model would take the place of one."""
+    folders = {folder_of(out, source.name) for source in sources}
+    lost = [source.path for source in sources if not folders.isdisjoint((source.path, *source.path.parents))]
+    if lost:
+        raise SourceError(Sentence("Results would take the place of {n} {n:model|models} (first: {first}). Choose "
+                                   "another folder for --out.", n=len(lost), first=lost[0]))
 
 
 def _paths(place: str, kinds: tuple[str, ...]) -> Iterator[Path]:

@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from ..batch.records import CRASH, DONE, OPEN, RECORD, Settings, failure, is_done, records
-from ..batch.sources import Source, find_sources, read_list
+from ..batch.sources import Source, find_sources, folder_of, read_list
 from ..core.errors import ReebError
 from ..core.file_names import readable
 from ..core.options import add_parameters, chosen_parameters, number
@@ -120,7 +120,7 @@ class _Batch:
 
     def folder(self, source: Source) -> Path:
         """Where the results of a model are."""
-        return self.out / "models" / source.name
+        return folder_of(self.out, source.name)
 
     def run(self) -> None:
         """Do all models that are not done yet; raises KeyboardInterrupt after Ctrl+C."""

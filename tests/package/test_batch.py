@@ -571,7 +571,7 @@ def test_folders_patterns_lists_and_files_are_found_once_each(models, tmp_path, 
     assert [source.name for source in find_sources(["deep"], kinds, tmp_path)] == ["dumb bell.obj"]
     assert [source.name for source in find_sources(["deep"], kinds, tmp_path, models)] == ["deep/dumb bell.obj"]
     assert [source.name for source in find_sources(["**/*.obj"], kinds, tmp_path)] == ["dumb bell.obj"]
-    assert [source.name for source in find_sources(["."], kinds, models / "deep")] == ["damaged.ply", "tree.ply"]
+    assert [source.name for source in find_sources(["."], kinds, models / "deep")] == names
 
 
 def test_what_an_earlier_run_made_is_no_model(batch, models, tmp_path):
@@ -587,6 +587,27 @@ def test_what_an_earlier_run_made_is_no_model(batch, models, tmp_path):
         assert [name for name in found if name.endswith(kinds)] == names
     named = archive / "results" / "models" / "tree.ply" / "colored.ply"
     assert [source.path for source in find_sources([str(named)], kinds, tmp_path / "out")] == [named]
+
+
+def test_models_in_the_folder_of_the_results_are_models(tree, reeb_parts_command, tmp_path):
+    """They were left out without a word; in the second run, what the first made is none."""
+    for name in ("here.ply", "models/deep/there.ply", "b/beside.ply"):
+        save(tree, tmp_path / name)
+    for place, out, names in ((".", ".", ["b/beside.ply", "here.ply", "models/deep/there.ply"]),
+                              (".", ".", ["b/beside.ply", "here.ply", "models/deep/there.ply"]),
+                              ("b", "b", ["beside.ply"])):
+        done = reeb_parts_command("batch", place, "--out", out, "--colored", "ply", *LOCAL, cwd=tmp_path)
+        assert json.loads(done.stdout)["models"] == {"done": len(names)}, done.stderr
+        assert [row["name"] for row in rows(tmp_path / out / "models.parquet")] == names
+
+
+@pytest.mark.parametrize("place", ["models", "models/*.ply", "models/tree.ply"])
+def test_results_do_not_take_the_place_of_models(place, tree, tmp_path, monkeypatch):
+    """It was said that there is no model."""
+    save(tree, tmp_path / "models" / "tree.ply")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SourceError, match="Results would take the place of 1 model .*tree.ply.* another folder"):
+        find_sources([place], (".ply",), Path())
 
 
 @pytest.mark.parametrize(("places", "root", "words"), [
