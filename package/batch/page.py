@@ -26,7 +26,7 @@ figure { margin: 0; border: 1px solid #ddd; border-radius: 6px; padding: 8px; ov
 figure img { display: block; width: 128px; height: 128px; margin: 0 auto }
 figcaption { font-size: 12px; overflow-wrap: anywhere } figcaption b { font-weight: 600 }
 .failed { background: #fff4f0 }
-.reason { display: block; color: #a33; font-size: 11px; max-height: 9em; overflow: auto }
+.reason { display: block; color: #a33; font-size: 11px; max-height: calc(7 * 1.4em); overflow: auto } /* whole lines */
 .none { height: 128px; display: grid; place-items: center; color: #a33 }
 """
 SCRIPT = """
@@ -55,7 +55,7 @@ function card(model) {
   caption.append(text('b', model.name), document.createElement('br'));
   if (model.status === 'done')
     caption.append(`${model.parts} ${model.parts === 1 ? 'part' : 'parts'}, ` +
-                   `${model.faces.toLocaleString('en')} faces, ${seconds(model.seconds)} s`);
+                   `${model.faces.toLocaleString('en')} faces, ${seconds(model.seconds)}\\u00a0s`);
   else { figure.className = 'failed'; caption.append(text('span', model.status + ': ' + model.reason, 'reason')); }
   figure.append(link, caption);
   return figure;

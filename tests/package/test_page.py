@@ -57,7 +57,8 @@ def test_a_model_says_its_parts_faces_and_seconds(tmp_path):
         for parts, seconds in ((1, 0.4832), (2, 1.2345), (3, 345.6789))
     ]), encoding="utf-8")
     dom = after(path, "")
-    for words in ("1 part, 5,804 faces, 0.48 s", "2 parts, 5,804 faces, 1.2 s", "3 parts, 5,804 faces, 346 s"):
+    for words in ("1 part, 5,804 faces, 0.48&nbsp;s", "2 parts, 5,804 faces, 1.2&nbsp;s",
+                  "3 parts, 5,804 faces, 346&nbsp;s"):
         assert f"<br>{words}<" in dom
 
 
@@ -65,6 +66,17 @@ def test_what_models_say_is_text_and_not_part_of_the_page(shown):
     names, _, main = shown("nothing")
     assert names == ["torn.ply"]
     assert "unreadable: There is no mesh in it: &lt;b&gt;nothing&lt;/b&gt;" in main
+
+
+def test_a_long_reason_ends_with_a_whole_line(tmp_path):
+    """It was cut through the middle of one."""
+    path = tmp_path / "index.html"
+    path.write_text(page("1 model", [{"name": "torn.ply", "status": "unreadable", "reason": "no mesh in it " * 20,
+                                      "notes": [], "image": "", "link": ""}]), encoding="utf-8")
+    dom = after(path, "const reason = document.querySelector('.reason'), style = getComputedStyle(reason);"
+                      "document.title = reason.clientHeight < reason.scrollHeight ? "
+                      "parseFloat(style.maxHeight) / parseFloat(style.lineHeight) : 'all';")
+    assert float(re.search("<title>(.*?)</title>", dom).group(1)) == pytest.approx(7, abs=0.01)
 
 
 def test_a_picture_of_it_can_be_taken(shown):
