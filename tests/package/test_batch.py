@@ -10,6 +10,8 @@ import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 
 import jsonschema
@@ -293,6 +295,25 @@ def test_a_model_that_needs_too_much_memory_costs_only_itself(large, models, tmp
         assert small.run(job(models / "tree.ply", tmp_path / "tree"), 60.0)["status"] == "done"
     finally:
         small.close()
+
+
+def test_a_model_keeps_one_processor_busy(tmp_path, monkeypatch):
+    """There is a process for each; threads of one would get in the way of the others."""
+    monkeypatch.setenv("OMP_NUM_THREADS", "2")
+    path = save(shapes.subdivide(shapes.surface_of_genus(3, 0.1)), tmp_path / "model.ply")
+    alone, counts = ModelProcess(), []
+    with ThreadPoolExecutor(1) as pool:
+        try:
+            answer = pool.submit(alone.run, job(path, tmp_path / "out"), 100.0)
+            while not answer.done():
+                with suppress(AttributeError, psutil.Error):  # it is about to start, or has just ended
+                    counts.append(psutil.Process(alone._process.pid).num_threads())
+                time.sleep(0.001)
+            assert answer.result()["status"] == "done"
+        finally:
+            alone.close()
+    assert len(counts) > 100
+    assert max(counts) == 2  # that which computes, and that which waits for the next model
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems limit no process")
