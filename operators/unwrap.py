@@ -10,6 +10,9 @@ from ..scene import uv_map
 from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
 
+# Share of the faces with even areas below which the report is a warning: a texture would show it.
+_FEW_EVEN = 0.75
+
 
 class REEB_PARTS_OT_unwrap(SelectedPartsOperator, bpy.types.Operator):
     """Unwrap the mesh along the cuts between parts and your own seams, into a UV map of its own"""
@@ -35,9 +38,13 @@ class REEB_PARTS_OT_unwrap(SelectedPartsOperator, bpy.types.Operator):
         description="How faces are laid flat",
     )
 
-    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
         name, distortion = uv_map.unwrap(context, obj, stored, self.open_parts, self.method, self.stack)
         low, high = distortion.range
-        return rpt_("Unwrapped into the UV map {name}: areas {low:.1f} to {high:.1f} times their size, "
+        told = rpt_("Unwrapped into the UV map {name}: areas {low:.1f} to {high:.1f} times their size, "
                     "{share:.0%} of the faces within 0.3 to 3; angles {angle:.0f}° off on average").format(
             name=name, low=low, high=high, share=distortion.even, angle=degrees(distortion.angle))
+        if distortion.even >= _FEW_EVEN:
+            return told
+        self.report({"WARNING"}, told)
+        return None

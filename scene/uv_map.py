@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.surface.arrays import renumbered
+from ..core.uses.stacking import double_corners
 from . import mesh_arrays, part_meshes, store, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
@@ -51,6 +54,8 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, op
            stack: bool) -> tuple[str, Distortion]:
     """Unwrap an object into our UV map, which becomes the active one; Object Mode.
 
+    Faces that lie on others, as on both sides of cloth and leaves, share the place of these in the map.
+
     Parameters
     ----------
     context : bpy.types.Context
@@ -75,14 +80,42 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, op
             rpt_("{name} has as many UV maps as Blender allows. Remove one and try again.").format(name=mesh.name))
     table = mesh_arrays.corner_table(mesh, mesh_arrays.shown_points(obj) @ store.stretch_of(mesh).T)
     image = _images(table, stored) if stack else np.full(len(mesh.loops), -1)
-    seams = mesh_arrays.read(mesh.edges, "use_seam", bool) | mesh_arrays.cut_edges(mesh, stored.face_numbers)
+    double = double_corners(table, ~_left_out(table, image))
+    seams = mesh_arrays.read(mesh.edges, "use_seam", bool)
+    seams |= mesh_arrays.cut_edges(mesh, _of_faces_below(table, stored.face_numbers, double))
     if open_parts:
-        from ..core.uses.unfold import unfolding_seams  # imports SciPy
-
-        seams |= unfolding_seams(table, seams)
+        seams |= _unfolding_seams(table, seams, _left_out(table, double))
+    image = np.where(double >= 0, double, image)
+    image = np.where((image >= 0) & (double[image] >= 0), double[image], image)  # images of doubles
     flat = _unwrapped(context, obj, table, seams, method, image)
     flat = np.where(image[:, None] >= 0, flat[image], flat)
     return _write(mesh, flat), _distortion(table, flat, image)
+
+
+def _left_out(table: CornerTable, image: np.ndarray) -> np.ndarray:
+    """Faces that share the place of others, (p,) bool. image : (c,) int64, the corner that each is laid on, or -1."""
+    left_out = np.zeros(table.n_faces, bool)
+    left_out[table.corner_face[image >= 0]] = True
+    return left_out
+
+
+def _of_faces_below(table: CornerTable, numbers: np.ndarray, double: np.ndarray) -> np.ndarray:
+    """Numbers of faces, (p,), where faces that lie on others have those of these. double : (c,) int64, or -1."""
+    numbers, corner = numbers.copy(), np.flatnonzero(double >= 0)
+    numbers[table.corner_face[corner]] = numbers[table.corner_face[double[corner]]]
+    return numbers
+
+
+def _unfolding_seams(table: CornerTable, cut: np.ndarray, left_out: np.ndarray) -> np.ndarray:
+    """Edges to be cut so that all lies flat but for some faces, (e,) bool. cut : (e,) bool. left_out : (p,) bool."""
+    from ..core.uses.unfold import unfolding_seams  # imports SciPy
+
+    rest = table.within(~left_out)
+    faces, corner_face = renumbered(rest.corner_face)
+    edges = np.unique(table.corner_edge[~left_out[table.corner_face]])
+    seams = np.zeros(len(cut), bool)
+    seams[edges] = unfolding_seams(replace(rest, corner_face=corner_face, n_faces=len(faces)), cut[edges])
+    return seams
 
 
 def _images(table: CornerTable, stored: Stored) -> np.ndarray:
@@ -96,11 +129,10 @@ def _images(table: CornerTable, stored: Stored) -> np.ndarray:
 
 
 def _distortion(table: CornerTable, flat: np.ndarray, image: np.ndarray) -> Distortion:
-    """What the map does, without parts that lie over their twins."""
+    """What the map does, without faces that share the place of others."""
     from ..core.uses.distortion import distortion
 
-    alone = np.ones(table.n_faces, bool)
-    alone[table.corner_face[image >= 0]] = False
+    alone = ~_left_out(table, image)
     return distortion(table.within(alone), flat[alone[table.corner_face]].astype(np.float64))
 
 
@@ -127,9 +159,7 @@ def _unwrapped(context: bpy.types.Context, obj: bpy.types.Object, table: CornerT
     copy = part_meshes.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
     with removed(bpy.data.meshes, copy), removed(bpy.data.objects, twin):
-        left_out = np.zeros(table.n_faces, bool)
-        left_out[table.corner_face[image >= 0]] = True
-        _prepare(twin, table.vertices, seams, left_out)
+        _prepare(twin, table.vertices, seams, _left_out(table, image))
         context.scene.collection.objects.link(twin)
         with nothing_selected(context.view_layer):
             _unwrap_all(context, twin, method)

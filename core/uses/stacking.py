@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which corner of a mesh is the mirror image of which, for parts that can share their place in a map."""
+"""Which corners can share their place in a map: those of mirror images, and of faces that lie on each other."""
 
 from __future__ import annotations
 
@@ -56,3 +56,37 @@ def image_corners(
     incomplete[labels[corner_face[image < 0]]] = True
     image[incomplete[labels[corner_face]]] = -1
     return image
+
+
+def double_corners(table: CornerTable, among: np.ndarray) -> np.ndarray:
+    """Find the faces that lie on earlier ones: they have the same vertices, in any order.
+
+    Parameters
+    ----------
+    table : CornerTable
+        p faces with c corners, all of whose faces have corners.
+    among : (p,) bool
+        Faces that count.
+
+    Returns
+    -------
+    first : (c,) int64
+        For each corner of a face with the vertices of an earlier one, the corner of the first such face that has the
+        same vertex; -1 for all other corners.
+    """
+    owner = table.corner_face
+    # Faces of the same vertices have the same sum of scattered numbers.
+    scattered = np.random.default_rng(0).integers(0, 1 << 63, len(table.vertices), dtype=np.uint64)
+    total = np.zeros(table.n_faces, np.uint64)
+    np.add.at(total, owner, scattered[table.corner_vertex])
+    faces = np.flatnonzero(among)
+    _, earliest, group = np.unique(total[faces], return_index=True, return_inverse=True)
+    original = np.arange(table.n_faces)
+    original[faces] = faces[earliest[group.ravel()]]
+    # By vertex, the corners of both faces are in the same order.
+    order = np.lexsort((table.corner_vertex, owner))
+    start = np.searchsorted(owner, np.arange(table.n_faces))
+    corner = np.flatnonzero((original != np.arange(table.n_faces))[owner])
+    first = np.full(len(owner), -1)
+    first[order[corner]] = order[corner - start[owner[corner]] + start[original[owner[corner]]]]
+    return first

@@ -104,6 +104,37 @@ def test_the_report_says_how_even_the_map_is(obj, method, capfd):
     assert f"areas {low:.1f} to {high:.1f} times their size, {even:.0%} of the faces" in capfd.readouterr().out
 
 
+@pytest.mark.parametrize("stack", [False, True])
+@pytest.mark.parametrize("method", ["MINIMUM_STRETCH", "ANGLE_BASED", "CONFORMAL"])
+def test_faces_that_lie_on_others_share_their_place(make, method, stack, capfd):
+    """Blender leaves out the second of two faces with the same vertices: each kept the whole square, and all else had
+    next to nothing. Manes, leaves and cloth of games have faces for either side.
+    """
+    vertices, faces = shapes.mirrored_figure()
+    far = np.abs(vertices[faces].mean(axis=1)[:, 0]) > 0.6 * np.abs(vertices[:, 0]).max()
+    assert 0.05 < far.mean() < 0.5
+    obj = make((vertices, np.concatenate([faces, faces[far][:, ::-1]])), "Figure")
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.unwrap(method=method, stack=stack)
+    assert "Warning" not in capfd.readouterr().out
+    uv = read(obj.data.uv_layers[MAP].uv, "vector", np.float32, 2).reshape(-1, 3, 2)
+    assert (uv[len(faces):] == uv[: len(faces)][far][:, ::-1]).all()
+    area = np.abs(face_areas(obj.data))[: len(faces)]
+    ratio = area / read(obj.data.polygons, "area")[: len(faces)]
+    ratio /= np.median(ratio)
+    assert np.mean((ratio > 0.3) & (ratio < 3)) > (0.97 if method == "MINIMUM_STRETCH" else 0.9)
+
+
+def test_an_uneven_map_is_a_warning(make, capfd):
+    """A ball with a small hole, without Open Tubes, has no even map that keeps angles."""
+    vertices, faces = shapes.icosphere(3)
+    make((vertices, faces[1:]))
+    bpy.ops.reeb_parts.decompose(n_parts=1)
+    for open_parts in (False, True):
+        bpy.ops.reeb_parts.unwrap(open_parts=open_parts, method="CONFORMAL")
+        assert ("Warning: Unwrapped" in capfd.readouterr().out) != open_parts
+
+
 def test_twins_lie_over_each_other(make):
     """Left and right parts that are mirror images share their place; all else has more of the map than before."""
     obj = make(shapes.mirrored_figure(), "Figure")
