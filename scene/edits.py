@@ -373,13 +373,12 @@ def _part_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, numb
 
 
 def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: Iterable[int]) -> None:
-    """Let the detail decide about parts again; locked parts stay pinned."""
+    """Let the detail, or the number of parts that was typed, decide about parts again; locked parts stay pinned."""
     result = mesh.reeb_parts
     locked = {part.number for part in result.parts if part.locked}
     pinned = np.where(np.isin(stored.pinned, list(set(numbers) - locked)), 0, stored.pinned)
     with quiet.quiet():
         store.save_numbers(mesh, replace(stored, pinned=pinned))
-    result.by_number = False
     reactions.show(result, context)
 
 

@@ -223,6 +223,24 @@ def test_release_gives_back_to_the_detail(obj, result):
     check(obj)
 
 
+@pytest.mark.parametrize("everything", [True, False])
+def test_release_keeps_the_number_of_parts_that_was_typed(obj, result, everything):
+    """The detail at which there are so many with pinned parts stayed, at which there are others without: 84 for 20."""
+    result.n_parts = 3
+    choose(result, *[p.number for p in result.parts if p.number != 1])
+    bpy.ops.reeb_parts.split()
+    result.n_parts = 8
+    choose(result, *[p.number for p in result.parts if p.pinned])
+    bpy.ops.reeb_parts.release(everything=everything)
+    assert not any(p.pinned for p in result.parts)
+    assert (len(result.parts), result.n_parts, result.by_number) == (8, 8, True)
+    released, by_release = numbers(obj.data), result.detail
+    result.n_parts = 8
+    assert (numbers(obj.data) == released).all()
+    assert result.detail == by_release
+    check(obj)
+
+
 def test_grow_and_shrink_move_the_boundary(obj, result):
     result.n_parts = 3
     number = result.parts[-1].number
