@@ -137,10 +137,9 @@ class REEB_PARTS_OT_assign(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         mesh = obj.data
         number = edits.free_number(mesh, stored) if self.new else part_list.active_number(mesh)
-        count = edits.assign_selected(context, obj, stored, number)
+        told = edits.assign_selected(context, obj, stored, number)
         part_list.make_active(mesh, number)
-        return rpt_("{n} {n:face is|faces are} {name} now").format(
-            n=Count(count), name=part_names.part_name(mesh, number))
+        return told
 
 
 class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):

@@ -20,6 +20,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts
+from ..core.sentence import Count
 from ..core.surface.arrays import components
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
@@ -236,23 +237,29 @@ def _own_side(stored: Stored, number: int) -> np.ndarray:
 
 
 def _moved(mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int) -> Stored:
-    """The result with a candidate in a part; what it leaves behind stays in one piece, or becomes several parts."""
-    giver = int(stored.shown[candidate])
+    """The result with a candidate in a part; small pieces that it cuts off go along, large ones become parts."""
+    from ..core.result.remainders import with_small_pieces
+
+    found, giver = stored.decomposition, int(stored.shown[candidate])
     numbers = stored.shown.copy()
     numbers[candidate] = number
+    graph = FaceGraph(found.n_candidates, found.candidate_pairs, found.candidate_pair_length, found.candidate_area)
+    numbers = with_small_pieces(graph, stored.shown, numbers)
     changed = {giver, number} | _part_pieces(mesh, stored, numbers, giver)
     return _pinned(mesh, stored, numbers, changed)
 
 
-def assign_selected(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, number: int) -> int:
-    """Give the selected faces to a part; how many faces these are."""
+def assign_selected(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, number: int) -> str:
+    """Give the selected faces to a part; what happened, in a sentence."""
     faces = selected_faces(obj.data)
     if not faces.any():
         raise SceneError(rpt_("No faces are selected. Select some in Edit Mode."))
     before = stored.face_numbers
     check_unlocked(obj.data, {number, *before[faces].tolist()})
-    assign_faces(context, obj, stored, np.where(faces, number, before))
-    return int(faces.sum())
+    wanted = assign_faces(context, obj, stored, np.where(faces, number, before))
+    told = rpt_("{n} {n:face is|faces are} {name} now").format(
+        n=Count(int(faces.sum())), name=part_names.part_name(obj.data, number))
+    return "; ".join(filter(None, (told, told_of_rest(obj.data, before, wanted))))
 
 
 def assign_face_sets(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> int:
@@ -278,7 +285,7 @@ def assign_face_sets(context: bpy.types.Context, obj: bpy.types.Object, stored: 
 
 
 def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, face_numbers: np.ndarray,
-                 mesh_tables: tuple[FaceGraph, CornerTable] | None = None) -> np.ndarray:
+                 mesh_tables: tuple[FaceGraph, CornerTable] | None = None, beside_taken: float = 0.0) -> np.ndarray:
     """Give faces to parts, and pin all parts concerned; what falls apart becomes several parts.
 
     Parameters
@@ -290,11 +297,15 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         The part of each face from now on.
     mesh_tables : optional
         What ``bridge.face_graph`` gives for the object, if it is known already.
+    beside_taken : float
+        Small pieces that the change cuts off go along with it, see core.result.remainders.with_small_pieces; 0 for
+        none.
 
     Returns
     -------
     wanted : (p,) int64
-        The part that each face was to be in, with the mirror image of the change; pieces have other numbers then.
+        The part that each face was to be in, with what goes along and the mirror image of the change; pieces have
+        other numbers then.
     """
     from ..core.result.editing import split_candidates
     from ..core.result.mirroring import cleaned
@@ -305,6 +316,9 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         mesh_tables = mesh_tables or bridge.face_graph(obj)
         found = stored.decomposition
         face_numbers = cleaned(mesh_tables[0], found.contacts, found.face_twin, before, asked, face_numbers)
+    if beside_taken:  # last, as a part and its image may cut off together what neither does alone
+        mesh_tables = mesh_tables or bridge.face_graph(obj)
+        face_numbers = _with_small_pieces(stored, mesh_tables[0], face_numbers, beside_taken)
     moved = face_numbers != before
     if not moved.any():
         return face_numbers
@@ -325,6 +339,40 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
             concerned |= _part_pieces(obj.data, stored, numbers, number)
     write(context, obj.data, stored, _with_pins(obj.data, stored, numbers, concerned))
     return face_numbers
+
+
+def _with_small_pieces(stored: Stored, graph: FaceGraph, after: np.ndarray, beside_taken: float) -> np.ndarray:
+    """The part of each face after a change, (p,), with small pieces that it cuts off; on both sides alike."""
+    from ..core.result.mirroring import twin_numbers
+    from ..core.result.remainders import halved_between_images, with_small_pieces
+
+    found, numbered = stored.decomposition, stored.shown_parts()
+    touching = graph.with_contacts(found.contacts)
+    along = with_small_pieces(touching, stored.face_numbers, after, beside_taken)
+    if not bpy.context.scene.reeb_parts.symmetry or not len(found.face_side):
+        return along
+    image = np.arange(int(max(along.max(), numbered.numbers.max())) + 1)
+    own_side = np.zeros_like(image)
+    twin = twin_numbers(numbered)
+    image[list(twin)] = list(twin.values())
+    own_side[numbered.numbers] = numbered.parts.side
+    return halved_between_images(touching, after, along, found.face_twin, found.face_side, own_side, image)
+
+
+def told_of_rest(mesh: bpy.types.Mesh, before: np.ndarray, wanted: np.ndarray) -> str:
+    """What is left of the parts that faces were taken from, in a sentence; "" unless it is in more parts than before.
+
+    before, wanted : (p,) int64, the part of each face before a change, and what ``assign_faces`` gave.
+    """
+    after, stays = store.load(mesh).face_numbers, wanted == before
+    more = np.setdiff1d(after[stays], before)
+    if not len(more):
+        return ""
+    givers = np.unique(before[stays & np.isin(after, more)])
+    old, new = (", ".join(part_names.part_name(mesh, number) for number in numbers.tolist())
+                for numbers in (givers, more))
+    return rpt_("what is left of {givers} is in {n} {n:part|parts} more: {names}").format(
+        givers=old, n=Count(len(more)), names=new)
 
 
 def _finer(stored: Stored, decomposition: Decomposition) -> Stored:

@@ -124,10 +124,11 @@ def write_moved(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     numbers : (p,) int64, the part of each face from now on.
     """
     before = stored.face_numbers
-    count = int((numbers != before).sum())
-    if not count:
+    if (numbers == before).all():
         return None
-    edits.assign_faces(context, obj, stored, numbers)
-    grew = np.isin(numbers, parts).sum() > np.isin(before, parts).sum()
+    wanted = edits.assign_faces(context, obj, stored, numbers, beside_taken=1.0)
+    count = int(((wanted != before) & (np.isin(wanted, parts) | np.isin(before, parts))).sum())
+    grew = np.isin(wanted, parts).sum() > np.isin(before, parts).sum()
     text = rpt_("{names} took {n} {n:face|faces}") if grew else rpt_("{names} gave away {n} {n:face|faces}")
-    return text.format(names=", ".join(part_names.part_name(obj.data, number) for number in parts), n=Count(count))
+    told = text.format(names=", ".join(part_names.part_name(obj.data, number) for number in parts), n=Count(count))
+    return "; ".join(filter(None, (told, edits.told_of_rest(obj.data, before, wanted))))

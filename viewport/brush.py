@@ -12,6 +12,10 @@ from ..scene import edits, mesh_arrays, part_names, store
 from ..scene.errors import SceneError
 from .pointing import Model, check_place
 
+# What a stroke leaves of a part between itself and others goes along if it is smaller than this share of what it took;
+# a hand beyond a painted bracelet does not.
+_SPECK = 0.1
+
 START_SIZE = 0.04  # radius of the brush, as a share of the object's size
 
 
@@ -78,7 +82,7 @@ def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> st
         raise SceneError(_why_nothing(brush).format(name=name))
     before = brush.model.numbers
     givers = ", ".join(part_names.part_name(obj.data, number) for number in np.unique(before[moved]).tolist())
-    stays = edits.assign_faces(context, obj, brush.model.stored, brush.numbers()) == before  # on both sides
+    wanted = edits.assign_faces(context, obj, brush.model.stored, brush.numbers(), beside_taken=_SPECK)
     after = store.load(obj.data).face_numbers
     joined = int((after[moved] == brush.number).sum())
     told = []
@@ -90,9 +94,8 @@ def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> st
         apart = rpt_("{n} {n:face|faces} of {givers} {n:does|do} not touch {name}: a part apart")
     if joined < moved.sum():
         told.append(apart.format(n=Count(int(moved.sum()) - joined), givers=givers, name=name))
-    left = len(np.setdiff1d(after[stays], before))
-    if left:
-        told.append(rpt_("what is left is in {n} {n:part|parts} more").format(n=Count(left)))
+    if rest := edits.told_of_rest(obj.data, before, wanted):
+        told.append(rest)
     if brush.n_locked:
         told.append(rpt_("{n} {n:is locked and stays|are locked and stay}").format(n=Count(brush.n_locked)))
     return "; ".join(told)

@@ -1038,6 +1038,8 @@ TEXTS = {
         "Nummer des Teils, an dem die Grenze geschoben wird; 0 für die ganze Grenze",
     "Rings": "Ringe",
     "what is left is in {n} {n:part|parts} more": "der Rest zerfiel in {n} {n:Teil|Teile} mehr",
+    "what is left of {givers} is in {n} {n:part|parts} more: {names}":
+        "der Rest von {givers} zerfiel in {n} {n:Teil|Teile} mehr: {names}",
     "{names} gave away {n} {n:face|faces}": "{names}: {n} {n:Fläche|Flächen} abgegeben",
     "{names} took {n} {n:face|faces}": "{names}: {n} {n:Fläche|Flächen} dazugekommen",
     "{n} {n:is locked and stays|are locked and stay}": "{n} {n:ist gesperrt und bleibt|sind gesperrt und bleiben}",

@@ -291,6 +291,47 @@ def test_faces_are_assigned(obj, result, new):
     check(obj)
 
 
+def test_assigned_faces_are_those_that_were_selected_and_what_they_cut_off_is_named(obj, capfd):
+    bpy.context.scene.reeb_parts.symmetry = False
+    bpy.ops.reeb_parts.decompose(n_parts=1)  # of many candidates
+    result = obj.data.reeb_parts
+    center = np.array([p.center[:] for p in obj.data.polygons])
+    from_tip = np.linalg.norm(center - shapes.TREE_TIPS[1], axis=1)
+    band = (from_tip > 0.5) & (from_tip < 1.0)
+    obj.data.polygons.foreach_set("select", band)
+    name = result.parts[0].name
+    capfd.readouterr()
+    bpy.ops.reeb_parts.assign(new=True)
+    after = numbers(obj.data)
+    ring, tip, rest = (set(after[faces].tolist()) for faces in (band, from_tip <= 0.5, from_tip >= 1.0))
+    assert len(ring) == len(tip) == len(rest) == 1
+    assert len(ring | tip | rest) == 3
+    told = f"what is left of {name} is in 1 part more: {part(result, *tip).name}"
+    assert told in capfd.readouterr().out
+    check(obj)
+
+
+def test_a_stroke_takes_specks_along_and_leaves_what_lies_beyond(obj):
+    """A ring painted around a branch cuts its tip off, which stays; a speck that the stroke leaves out goes along."""
+    bpy.context.scene.reeb_parts.symmetry = False
+    bpy.ops.reeb_parts.decompose(n_parts=1)  # of many candidates
+    result = obj.data.reeb_parts
+    center = np.array([p.center[:] for p in obj.data.polygons])
+    from_tip = np.linalg.norm(center - shapes.TREE_TIPS[1], axis=1)
+    band = np.flatnonzero((from_tip > 0.5) & (from_tip < 1.0))
+    obj.data.polygons.foreach_set("select", np.isin(np.arange(len(center)), band[:1]))
+    bpy.ops.reeb_parts.assign(new=True)
+    ring = result.parts[result.active].number
+    left_out = band[len(band) // 2]
+    stroke = [{"name": "", "location": center[face], "radius": 1e-4} for face in band if face != left_out]
+    bpy.ops.reeb_parts.paint(stroke=stroke)
+    after = numbers(obj.data)
+    assert (after[band] == ring).all()
+    assert len({ring, *after[from_tip <= 0.5].tolist()}) == 2
+    assert len(result.parts) == 3
+    check(obj)
+
+
 @pytest.mark.parametrize("offset", [0.3, -0.3])
 def test_a_boundary_slides_by_a_distance(obj, result, offset):
     number = next(p.number for p in result.parts if len(neighbours(obj.data, p.number)) == 1)

@@ -173,6 +173,38 @@ def test_parts_that_grow_stay_on_their_side(name):
     assert done > 6
 
 
+@pytest.mark.parametrize(("place", "rings", "more"), [(3, 4, 0), (4, 4, 1), (4, -2, 0)])
+def test_neighbors_do_not_crumble(make, capfd, place, rings, more):
+    """Each piece that was cut off from a neighbor became a pinned part, down to 0.04 % of the surface, and nothing was
+    said. What stays apart, as too large to be taken along, is named.
+    """
+    mesh = make(shapes.mirrored_figure(0.25), "Figure").data
+    bpy.ops.reeb_parts.decompose()
+    result = mesh.reeb_parts
+    before, count, numbers = face_numbers(mesh), len(result.parts), {entry.number for entry in result.parts}
+    choose(mesh, result.parts[place])
+    capfd.readouterr()
+    bpy.ops.reeb_parts.grow(rings=rings)
+    said = capfd.readouterr().out
+    assert (face_numbers(mesh) != before).any()
+    assert len(result.parts) == count + more
+    assert paired(mesh)
+    made = [entry.name for entry in result.parts if entry.number not in numbers]
+    assert ("what is left of" in said) == bool(made)
+    assert not made or f"is in {len(made)} part more: {', '.join(made)}" in said
+
+
+def test_grow_to_the_next_crease_takes_crumbs_along(make):
+    """The next candidate cut a neighbor in pieces as small as can be."""
+    mesh = make(shapes.insect(0.15), "Insect").data
+    bpy.ops.reeb_parts.decompose()
+    result = mesh.reeb_parts
+    numbers = {entry.number for entry in result.parts}
+    choose(mesh, result.parts[5])
+    bpy.ops.reeb_parts.shrink()
+    assert {entry.number for entry in result.parts} == numbers
+
+
 def test_the_report_of_paint_does_not_count_the_mirror_image_as_what_is_left(mesh, capfd):
     """A dab on one of two limbs, into the other: a part of its own on each side, and nothing else."""
     bpy.context.scene.reeb_parts.symmetry = True
