@@ -126,6 +126,9 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
     def _report_joints(self, separated: separation.Separated) -> None:
         """Say how many cuts have joints, and of which others why not."""
         cuts = separated.cuts
+        if not cuts:
+            self.report({"WARNING"}, rpt_("No joints: there is no cut that could have one."))
+            return
         self.report({"INFO"}, rpt_("{n} of {total} {total:cut has|cuts have} joints").format(
             n=Count(sum(cut.count > 0 for cut in cuts)), total=Count(len(cuts))))
         for why, sentence in (

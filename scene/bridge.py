@@ -151,6 +151,9 @@ def _notes(obj: bpy.types.Object, is_half: bool) -> tuple[Sentence, ...]:
     elif count:
         notes.append(Sentence("{name} was decomposed as it is before its {n} modifiers were applied.",
                               name=obj.name, n=count))
+    if any(modifier.type == "BOOLEAN" for modifier in obj.modifiers):
+        notes.append(Sentence("Faces that a Boolean modifier adds to {name} are in no part and have no color.",
+                              name=obj.name))
     if obj.data.users > 1 and (users := len(targets.users(obj.data))) > 1:
         notes.append(Sentence("{n} objects share this mesh; all of them show its parts.", n=users))
     return tuple(notes)

@@ -55,9 +55,11 @@ def _ensure(obj: bpy.types.Object) -> None:
         # A copy of the object comes with the group of the original, which listens to the original.
         transaction.keep(modifier, "node_group")
         modifier.node_group = group = _node_group(obj)
-    socket = group.nodes["Part"].inputs["Name"]
-    transaction.keep(socket, "default_value")
-    socket.default_value = name
+    for node in (group.nodes["Part"], group.nodes.get("Number")):
+        if node is not None:  # files of before have no such node
+            socket = node.inputs["Name"]
+            transaction.keep(socket, "default_value")
+            socket.default_value = name
 
 
 def _face_attribute(obj: bpy.types.Object) -> str:
@@ -81,17 +83,36 @@ def _node_group(obj: bpy.types.Object) -> bpy.types.NodeTree:
     start, end = made.new("NodeGroupInput"), made.new("NodeGroupOutput")
     part = made.new("GeometryNodeInputNamedAttribute", "Part", data_type="INT")
     amount = made.new("ShaderNodeValue", "Amount")
+    numbered = _with_all_numbered(made, start.outputs[0], part.outputs[0])
     # Areas as weights, so that dense stretches do not draw the middle towards them.
     area = made.new("GeometryNodeInputMeshFaceArea").outputs[0]
     moment = made.math("SCALE", made.new("GeometryNodeInputPosition").outputs[0], area)
     offset = made.math("SUBTRACT", made.middle(moment, area, part.outputs[0]), made.middle(moment, area))
     edges = made.new("GeometryNodeMeshFaceSetBoundaries", inputs=[part.outputs[0]])
-    split = made.new("GeometryNodeSplitEdges", inputs=[start.outputs[0], edges.outputs[0]])
+    split = made.new("GeometryNodeSplitEdges", inputs=[numbered, edges.outputs[0]])
     move = made.new("GeometryNodeSetPosition", inputs=[split.outputs[0]])
     made.link(made.math("SCALE", offset, amount.outputs[0]), move.inputs["Offset"])
     made.link(move.outputs[0], end.inputs[0])
     _drive(amount.outputs[0], obj)
     return group
+
+
+def _with_all_numbered(made: _Nodes, geometry: bpy.types.NodeSocket, part: bpy.types.NodeSocket
+                       ) -> bpy.types.NodeSocket:
+    """Nodes that give faces without a number, which a Boolean modifier adds, that of the nearest face with one."""
+    has_none = made.new("FunctionNodeCompare", data_type="INT", operation="EQUAL")
+    made.link(part, next(socket for socket in has_none.inputs if socket.type == "INT"))  # the other one is 0
+    others = made.new("GeometryNodeSeparateGeometry", domain="FACE", inputs=[geometry, has_none.outputs[0]])
+    nearest = made.new("GeometryNodeSampleNearest", domain="FACE", inputs=[others.outputs["Inverted"]])
+    number = made.new("GeometryNodeSampleIndex", data_type="INT", domain="FACE", inputs=[others.outputs["Inverted"]])
+    made.link(part, next(socket for socket in number.inputs if socket.name == "Value" and socket.enabled))
+    made.link(nearest.outputs[0], number.inputs["Index"])
+    # Written, and only where it is missing: so the nearest are not looked for on meshes whose faces all have numbers.
+    store = made.new("GeometryNodeStoreNamedAttribute", "Number", data_type="INT", domain="FACE", inputs=[geometry])
+    made.link(has_none.outputs[0], store.inputs["Selection"])
+    made.link(next(socket for socket in number.outputs if socket.enabled),
+              next(socket for socket in store.inputs if socket.name == "Value" and socket.enabled))
+    return store.outputs[0]
 
 
 def _drive(socket: bpy.types.NodeSocket, obj: bpy.types.Object) -> None:

@@ -754,6 +754,10 @@ TEXTS = {
         "Das Mesh wurde zusammen mit seinem Spiegelbild zerlegt.",
     "A mirror plane is four numbers: its normal, and its distance from the origin.":
         "Eine Spiegelebene sind vier Zahlen: ihre Normale und ihr Abstand vom Ursprung.",
+    "Faces that a Boolean modifier adds to {name} are in no part and have no color.":
+        "Flächen, die ein Boolesch-Modifikator zu {name} hinzufügt, sind in keinem Teil und haben keine Farbe.",
+    "No joints: there is no cut that could have one.":
+        "Keine Verbinder: Es gibt keinen Schnitt, der einen haben könnte.",
     "{name} was decomposed as it is before its modifier was applied.":
         "{name} wurde zerlegt, wie es vor Anwendung seines Modifikators ist.",
     "{name} was decomposed as it is before its {n} modifiers were applied.":

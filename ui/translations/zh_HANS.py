@@ -695,6 +695,9 @@ TEXTS = {
     "The mesh was decomposed together with its mirror image.": "网格已与其镜像一起分解。",
     "A mirror plane is four numbers: its normal, and its distance from the origin.":
         "镜像平面由四个数字表示：法向及其到原点的距离。",
+    "Faces that a Boolean modifier adds to {name} are in no part and have no color.":
+        "布尔修改器为 {name} 添加的面不属于任何部件，也没有颜色。",
+    "No joints: there is no cut that could have one.": "没有接头：没有可以设接头的切口。",
     "{name} was decomposed as it is before its modifier was applied.": "{name} 按应用其修改器之前的状态分解。",
     "{name} was decomposed as it is before its {n} modifiers were applied.":
         "{name} 按应用其 {n} 个修改器之前的状态分解。",

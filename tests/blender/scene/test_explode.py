@@ -4,6 +4,7 @@
 import bpy
 import numpy as np
 import pytest
+import shapes
 from snapshot import activate, changes, snapshot
 
 
@@ -43,6 +44,52 @@ def test_each_part_moves_away_from_the_middle(obj, amount):
     bpy.ops.reeb_parts.decompose()
     obj.reeb_parts_made.explode = amount
     assert shown(obj) == pytest.approx(expected(obj, amount), abs=1e-4)
+
+
+def with_ball(obj, operation="UNION"):
+    """Give an object a Boolean modifier with a ball at a tip of the tree; the ball's place and radius."""
+    tip = shapes.TREE_TIPS[1]
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, radius=0.6, location=tip)
+    ball = bpy.context.object
+    ball.hide_set(True)
+    activate(obj)
+    modifier = obj.modifiers.new("Boolean", "BOOLEAN")
+    modifier.operation, modifier.object = operation, ball
+    return tip
+
+
+@pytest.mark.parametrize("operation", ["UNION", "DIFFERENCE"])
+@pytest.mark.parametrize("n_parts", [1, 5])
+def test_faces_that_a_modifier_adds_go_with_the_nearest_part(obj, operation, n_parts):
+    """They have no number: they counted as a part of their own, which drifted off a model of one part."""
+    tip = with_ball(obj, operation)
+    bpy.ops.reeb_parts.decompose(n_parts=n_parts)
+    assert "Faces that a Boolean modifier adds to Tree are in no part" in obj.data.reeb_parts.notes
+    before = shown(obj)
+    obj.reeb_parts_made.explode = 0.5
+    moved = shown(obj) - before
+    assert len(moved) == len(before)
+    near = np.linalg.norm(before - tip, axis=1) < 0.8  # the ball, and what of the branch is beside it
+    assert near.sum() > 100
+    assert np.ptp(moved[near], axis=0).max() < 1e-4
+    assert (np.abs(moved[near]).max() > 0.1) == (n_parts > 1)
+
+
+@pytest.mark.parametrize(("kind", "values"), [
+    ("SUBSURF", {}), ("SOLIDIFY", {"thickness": 0.02}), ("ARRAY", {"count": 2, "relative_offset_displace": (2, 0, 0)}),
+    ("MIRROR", {"use_mirror_merge": False}), ("BOOLEAN", {}),
+])
+def test_one_part_stays_where_it_is_with_modifiers(obj, kind, values):
+    if kind == "BOOLEAN":
+        with_ball(obj)
+    else:
+        modifier = obj.modifiers.new("Mine", kind)
+        for key, value in values.items():
+            setattr(modifier, key, value)
+    bpy.ops.reeb_parts.decompose(n_parts=1)
+    before = shown(obj)
+    obj.reeb_parts_made.explode = 1.0
+    assert shown(obj) == pytest.approx(before, abs=1e-5)
 
 
 def test_the_slider_moves_what_is_there(obj):

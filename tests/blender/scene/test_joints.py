@@ -239,6 +239,16 @@ def test_parts_that_are_not_closed_stay_without_and_it_is_said(make, capfd):
     assert "Warning: No joint where a part is not closed or crosses itself: Part 01 - Part 02" in out
 
 
+def test_without_any_cut_it_is_said_that_there_are_no_joints(make, capfd):
+    """It was reported as if all were well: 0 of 0 cuts have joints."""
+    make(shapes.cylinder(40, 24, 0.5, 6.0), "Tree")
+    bpy.ops.reeb_parts.decompose(n_parts=1)
+    bpy.ops.reeb_parts.separate(joints="ROUND", **KEEP)
+    out = capfd.readouterr().out
+    assert "Warning: No joints: there is no cut that could have one." in out
+    assert "0 of 0" not in out
+
+
 def test_a_second_run_makes_the_same_again(make):
     obj = make(shapes.dumbbell(), "Tree")
     bpy.ops.reeb_parts.decompose(n_parts=3)
