@@ -58,6 +58,7 @@ def choose(mesh: bpy.types.Mesh, numbers: list[int]) -> None:
             part.selected = part.number in numbers and len(numbers) > 1
             if part.number == numbers[0]:
                 result.active = index
+    _show_group(mesh)
 
 
 def make_active(mesh: bpy.types.Mesh, number: int) -> None:
@@ -67,6 +68,7 @@ def make_active(mesh: bpy.types.Mesh, number: int) -> None:
         for index, part in enumerate(mesh.reeb_parts.parts):
             if part.number == number:
                 mesh.reeb_parts.active = index
+    _show_group(mesh)
 
 
 def toggle(mesh: bpy.types.Mesh, number: int) -> None:
@@ -80,6 +82,7 @@ def toggle(mesh: bpy.types.Mesh, number: int) -> None:
             if part.number == number:
                 part.selected = not part.selected
                 result.active = index
+    _show_group(mesh)
 
 
 def choose_more(mesh: bpy.types.Mesh, numbers: list[int], mode: str) -> None:
@@ -185,7 +188,7 @@ def mark_numbers(mesh: bpy.types.Mesh, numbers: Container[int]) -> None:
 def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The user has clicked a part in the list: only it is chosen.
 
-    In Edit Mode its faces are selected, in Weight Paint its vertex group is the one that is seen.
+    In Edit Mode its faces are selected. Its vertex group becomes the active one, see ``_show_group``.
     """
     mesh = result.id_data
     if not len(result.parts):
@@ -196,10 +199,22 @@ def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -
     mark(mesh, "NONE")
     if mesh.is_editmode:
         _select_in_edit_mode(mesh, active_number(mesh))
-    elif (obj := context.object) is not None and obj.mode == "WEIGHT_PAINT" and obj.data == mesh:
-        group = obj.vertex_groups.get(result.parts[result.active].group)
-        if group is not None:
-            obj.vertex_groups.active_index = group.index
+    _show_group(mesh)
+
+
+def _show_group(mesh: bpy.types.Mesh) -> None:
+    """Make the vertex group of the active part the active one, which Weight Paint shows.
+
+    In other modes one of the user's own stays active.
+    """
+    result = mesh.reeb_parts
+    ours = [part.group for part in result.parts]
+    for obj in targets.users(mesh)[:1]:  # which group is active is of the mesh
+        groups = obj.vertex_groups
+        own = groups.active is not None and groups.active.name not in ours
+        if (shown := groups.get(ours[result.active])) and not (own and obj.mode != "WEIGHT_PAINT"):
+            transaction.keep(groups, "active_index")
+            groups.active_index = shown.index
 
 
 def _select_in_edit_mode(mesh: bpy.types.Mesh, number: int) -> None:

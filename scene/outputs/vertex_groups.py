@@ -135,8 +135,10 @@ def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | N
             group.remove(gone[number].tolist())
         if number in come:
             group.add(come[number].tolist(), 1.0, "REPLACE")
-    if active >= 0:
-        obj.vertex_groups.active_index = active
+    if active < 0:  # there were none
+        shown = obj.data.reeb_parts.parts[obj.data.reeb_parts.active :][:1]
+        active = obj.vertex_groups[shown[0].group].index if shown else active
+    obj.vertex_groups.active_index = active
 
 
 def remove_one(obj: bpy.types.Object, name: str) -> None:

@@ -757,7 +757,7 @@ TEXTS = {
     "Faces that a Boolean modifier adds to {name} are in no part and have no color.":
         "Flächen, die ein Boolesch-Modifikator zu {name} hinzufügt, sind in keinem Teil und haben keine Farbe.",
     "No joints: there is no cut that could have one.":
-        "Keine Verbinder: Es gibt keinen Schnitt, der einen haben könnte.",
+        "Keine Verbindungen: Es gibt keinen Schnitt, der welche haben könnte.",
     "{name} was decomposed as it is before its modifier was applied.":
         "{name} wurde zerlegt, wie es vor Anwendung seines Modifikators ist.",
     "{name} was decomposed as it is before its {n} modifiers were applied.":

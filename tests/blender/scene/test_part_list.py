@@ -172,6 +172,17 @@ def test_in_weight_paint_a_part_shows_its_group(obj, result):
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
+def test_weight_paint_begins_with_the_group_of_the_active_part(obj, result):
+    """It showed another one until the row that is active already was clicked."""
+    assert obj.vertex_groups.active.name == result.parts[result.active].group
+    result.active = 3
+    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
+    assert obj.vertex_groups.active.name == result.parts[3].group
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.reeb_parts.split()
+    assert obj.vertex_groups.active.name == result.parts[result.active].group
+
+
 def test_names_are_suggested_for_all_selected_models(obj, result, make, tree):
     other = make(tree, "Other")
     bpy.ops.reeb_parts.decompose(n_parts=5)
