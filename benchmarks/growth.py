@@ -4,9 +4,9 @@
     python3 benchmarks/growth.py [--sizes N ...] [--repeat N] [--page FILE]
 
 The bundled model is refined to each number of vertices and decomposed in a process of its own, the fastest of so many
-runs. Beside it, in the same run, on the same mesh: SciPy's Dijkstra search along the edges from 140 vertices, the cost
-of the field if it were made without coarse copies; and, where the package vtk is installed, VTK's Reeb graph of the
-same field, in C++. Seconds depend on the machine, ratios hardly.
+runs, on one processor and then on two. Beside it, in the same run, on the same mesh: SciPy's Dijkstra search along the
+edges from 140 vertices, the cost of the field if it were made without coarse copies; and, where the package vtk is
+installed, VTK's Reeb graph of the same field, in C++. Seconds depend on the machine, ratios hardly.
 """
 
 from __future__ import annotations
@@ -53,7 +53,9 @@ def main() -> int:
     rows = []
     for size in arguments.sizes:
         repeat = arguments.repeat if size <= SEVERAL else 1
-        row = _run("timing.py", "--size", str(size), "--repeat", str(repeat))
+        options = "--size", str(size), "--repeat", str(repeat)
+        row = _run("timing.py", *options)
+        row["on two"] = _run("timing.py", *options, processors=2)["seconds"]
         rows.append(row | (_run("growth.py", "--peer", str(size)) if size <= SEVERAL else {"vtk": None}))
         print(f"{size:,} vertices: {row['seconds']:.2f} s", flush=True)
     _write_plots(rows, arguments.page.parent / "images")
@@ -61,10 +63,11 @@ def main() -> int:
     return 0
 
 
-def _run(program: str, *options: str) -> dict:
-    """What one of the benchmarks prints, of a process of its own."""
+def _run(program: str, *options: str, processors: int = 1) -> dict:
+    """What one of the benchmarks prints, of a process of its own that keeps so many processors busy."""
     command = [sys.executable, str(Path(__file__).parent / program), *options]
-    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+    environment = {**os.environ, "OMP_NUM_THREADS": str(processors)}
+    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, env=environment).stdout)
 
 
 def peer_seconds(size: int) -> dict:
@@ -113,12 +116,13 @@ def _write_plots(rows: list[dict], folder: Path) -> None:
 def _write_page(rows: list[dict], page: Path) -> None:
     """The table between the two marks of the page; what is written by hand around it stays."""
     begin, end = "<!-- table -->\n", "<!-- end of table -->\n"
-    head = ("vertices", "all, s", *(f"{stage}, s" for stage in STAGES), "peak, MB", "of Dijkstra",
-            "VTK's Reeb graph, s", "of it, ours")
+    head = ("vertices", "all, s", "on two processors, s", *(f"{stage}, s" for stage in STAGES), "peak, MB",
+            "of Dijkstra", "VTK's Reeb graph, s", "of it, ours")
     lines = [f"| {' | '.join(head)} |", "| --- " * len(head) + "|"]
     for row in rows:
         ours = f"{row['s reeb graph'] / row['vtk']:.2f}" if row["vtk"] else ""
-        cells = [f"{row['vertices']:,}", f"{row['seconds']:.2f}", *(f"{row[f's {stage}']:.2f}" for stage in STAGES),
+        cells = [f"{row['vertices']:,}", f"{row['seconds']:.2f}", f"{row['on two']:.2f}",
+                 *(f"{row[f's {stage}']:.2f}" for stage in STAGES),
                  f"{1e3 * row['peak GB']:.0f}", f"{row['of yardstick']:.2f}",
                  f"{row['vtk']:.2f}" if row["vtk"] else "", ours]
         lines.append(f"| {' | '.join(cells)} |")
