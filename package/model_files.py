@@ -20,7 +20,7 @@ from .core.file_names import readable
 from .core.memory import lacks_memory
 from .core.sentence import Sentence
 from .obj_files import parse_obj
-from .ply_files import read_ply
+from .ply_files import ASCII, read_ply
 
 #: Files that Blender alone can read, see ``blender_export``.
 BY_BLENDER = (".blend", ".fbx")
@@ -162,7 +162,7 @@ def _plain(path: Path) -> bytes:
     try:
         data[:n_text].decode()
     except UnicodeDecodeError:
-        return data[:n_text].translate(_ASCII) + data[n_text:]
+        return data[:n_text].translate(ASCII) + data[n_text:]
     return data
 
 
@@ -179,7 +179,6 @@ def _text_of_ply(data: bytes) -> int:
 
 #: How many bytes at the beginning of files are text, by the kinds of files that may have text in them that is no UTF-8.
 _TEXT: dict[str, Callable[[bytes], int]] = {".off": len, ".stl": _text_of_stl, ".ply": _text_of_ply}
-_ASCII = bytes(range(128)) + b"?" * 128
 
 
 def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

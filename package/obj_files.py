@@ -7,8 +7,7 @@ import re
 
 import numpy as np
 
-from .core.surface.arrays import expanded
-from .core.surface.ears import without_folds
+from .core.surface.ears import fans, without_folds
 
 _MARK = b"\xef\xbb\xbf"  # some editors begin files in UTF-8 with it
 _COMMENT = re.compile(rb"#[^\n]*")
@@ -48,9 +47,7 @@ def parse_obj(text: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     text = _CONTINUED.sub(b" ", _COMMENT.sub(b"", text))
     vertices = _vertices(text)
     corner, sizes = _corners(text, len(vertices))
-    first = np.cumsum(sizes) - sizes
-    polygon, second = expanded(first + 1, sizes - 2)
-    triangles = corner[np.stack([first[polygon], second, second + 1], axis=1)]
+    triangles, polygon = fans(corner, sizes)
     return vertices, without_folds(vertices, triangles, sizes), polygon
 
 

@@ -18,8 +18,7 @@ from typing import IO, TYPE_CHECKING
 
 import numpy as np
 
-from .core.surface.arrays import expanded
-from .core.surface.ears import without_folds
+from .core.surface.ears import fans, without_folds
 
 if TYPE_CHECKING:
     from plyfile import PlyData, PlyElement
@@ -27,7 +26,8 @@ if TYPE_CHECKING:
 #: What programs call the list of a face's vertices.
 _CORNERS = ("vertex_indices", "vertex_index")
 _BINARY = re.compile(rb"[\r\n]format[ \t]+binary")
-_ASCII = bytes(range(128)) + b"?" * 128
+#: Bytes by which to translate those of a text: question marks for what is not ASCII.
+ASCII = bytes(range(128)) + b"?" * 128
 
 
 def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -64,9 +64,7 @@ def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     corner, sizes = _corners(data["face"])
     if ((corner < 0) | (corner >= len(vertices))).any():
         raise ValueError("a face has a vertex that is not there")
-    first = np.cumsum(sizes) - sizes
-    polygon, second = expanded(first + 1, sizes - 2)
-    triangles = corner[np.stack([first[polygon], second, second + 1], axis=1)]
+    triangles, polygon = fans(corner, sizes)
     return vertices, without_folds(vertices, triangles, sizes), polygon
 
 
@@ -107,7 +105,7 @@ def _with_ascii(path: Path, header: bytes) -> Iterator[IO[bytes]]:
             return
         data = file.read()
     with tempfile.TemporaryFile() as copy:  # plyfile maps it into memory
-        copy.write(header.translate(_ASCII) + data[len(header):])
+        copy.write(header.translate(ASCII) + data[len(header):])
         copy.seek(0)
         yield copy
 

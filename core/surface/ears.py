@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polygons that no fan cuts well, cut ear by ear: those that are folded when all cuts begin at the first corner."""
+"""Polygons cut into triangles: by fans, or ear by ear where they are folded when all cuts begin at the first corner."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from .arrays import cross, lengths, row_products, sums_by, unit
+from .arrays import cross, expanded, lengths, row_products, sums_by, unit
 
 #: Share of a polygon's area; what is folded by less is convex but for the rounding of its corners.
 FOLD = 1e-6
@@ -13,6 +13,27 @@ FOLD = 1e-6
 STRAIGHT = 1e-12
 #: Corners of the largest polygon that is cut ear by ear, which takes time as their square: a quarter of a second.
 MOST_CORNERS = 1_000
+
+
+def fans(corner: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Cut polygons into the triangles that the first corner forms with the sides.
+
+    Parameters
+    ----------
+    corner : (c,) int64
+        Vertices of all polygons, one polygon after the other.
+    sizes : (p,) int64
+        Number of corners of each polygon, 3 or more.
+
+    Returns
+    -------
+    triangles : (m, 3) int64
+    polygon : (m,) int64
+        Of each triangle, 0..p-1, rising.
+    """
+    start = np.cumsum(sizes) - sizes
+    polygon, at = expanded(start, sizes - 2)
+    return corner[np.stack([start[polygon], at + 1, at + 2], axis=1)], polygon
 
 
 def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray) -> np.ndarray:

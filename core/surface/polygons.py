@@ -12,8 +12,8 @@ import numpy as np
 from ..errors import EmptyMeshError, MeshError
 from ..sentence import Sentence
 from .arguments import corners, positions, whole_numbers
-from .arrays import expanded, frozen
-from .ears import without_folds
+from .arrays import frozen
+from .ears import fans, without_folds
 from .mesh import TriMesh, check_corners
 
 if TYPE_CHECKING:
@@ -152,6 +152,4 @@ def _fan(faces: ArrayLike | Sequence[Sequence[int]]) -> tuple[np.ndarray, np.nda
         bad = np.flatnonzero(sizes < 3)
         raise MeshError(
             Sentence("{n} {n:face has|faces have} fewer than three corners.", n=len(bad)), faces=bad)
-    start = np.cumsum(sizes) - sizes
-    polygon, corner = expanded(start, sizes - 2)
-    return flat[np.stack([start[polygon], corner + 1, corner + 2], axis=1)], polygon, sizes
+    return *fans(flat, sizes), sizes

@@ -8,7 +8,7 @@ import shapes
 from core import decompose
 from core.metrics import rand_index_error
 from core.surface.arrays import cross, lengths
-from core.surface.ears import without_folds
+from core.surface.ears import fans, without_folds
 from core.surface.polygons import PolygonMesh
 
 ARROW = [(0, 0), (2, 3), (0, 1.2), (-2, 3)]
@@ -17,6 +17,14 @@ LETTER_H = [(0, 0), (1, 0), (1, 2), (3, 2), (3, 0), (4, 0), (4, 5), (3, 5), (3, 
 KEYHOLE = [(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)]
 #: An L with corners in the middle of its sides.
 STRAIGHT = [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (0, 1)]
+
+
+def test_fans_begin_at_the_first_corner():
+    triangles, polygon = fans(np.array([7, 5, 3, 1, 9, 8, 6, 4]), np.array([5, 3]))
+    assert triangles.tolist() == [[7, 5, 3], [7, 3, 1], [7, 1, 9], [8, 6, 4]]
+    assert polygon.tolist() == [0, 0, 0, 1]
+    nothing = fans(np.empty(0, np.int64), np.empty(0, np.int64))
+    assert [array.shape for array in nothing] == [(0, 3), (0,)]
 
 
 def outline(corners, first=0):
