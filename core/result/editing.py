@@ -272,6 +272,38 @@ def two_sides(graph: FaceGraph, contacts: np.ndarray, inside: np.ndarray, side: 
     return found == 1, found == 0
 
 
+def pieces_cut_off(decomposition: Decomposition, moved: np.ndarray, graph: FaceGraph) -> np.ndarray:
+    """What a change leaves of each candidate in several pieces, as of a limb with a ring around its middle.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+        p faces.
+    moved : (p,) bool
+        Faces that change their part.
+    graph : FaceGraph
+        Of the p faces.
+
+    Returns
+    -------
+    piece : (p,) int64
+        0 for faces that move and for the largest piece that is left of a candidate, or of each of its pieces if it was
+        in several before; 1 and more for the other pieces.
+    """
+    candidates = decomposition.candidates
+    partly = np.bincount(candidates, moved, decomposition.n_candidates) > 0
+    left = partly[candidates] & ~moved
+    touching = graph.with_contacts(decomposition.contacts)
+    _, piece = touching.regions(np.where(left, candidates, -1))
+    _, whole = touching.regions(np.where(partly[candidates], candidates, -1))
+    number, face = np.unique(piece[left], return_index=True)
+    of = whole[left][face]
+    order = np.lexsort((-np.bincount(piece, graph.area)[number], of))
+    rank = np.zeros(int(piece.max()) + 1, np.int64)
+    rank[number[order]] = np.arange(len(order)) - np.searchsorted(of[order], of[order])
+    return np.where(left, rank[piece], 0)
+
+
 def split_candidates(
     decomposition: Decomposition, faces: np.ndarray, graph: FaceGraph, table: CornerTable
 ) -> Decomposition:

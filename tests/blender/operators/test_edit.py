@@ -311,6 +311,28 @@ def test_assigned_faces_are_those_that_were_selected_and_what_they_cut_off_is_na
     check(obj)
 
 
+def test_a_ring_within_a_candidate_leaves_two_parts(obj):
+    """Its two ends were one part, which lay in two places, where the ring had no candidates beside it."""
+    bpy.context.scene.reeb_parts.symmetry = False
+    bpy.ops.reeb_parts.decompose(method="berretti")  # of few candidates
+    result = obj.data.reeb_parts
+    result.detail = 1.0  # each is a part
+    candidates = numbers(obj.data)
+    center = np.array([p.center[:] for p in obj.data.polygons])
+    from_tip = np.linalg.norm(center - shapes.TREE_TIPS[3], axis=1)
+    branch = candidates == candidates[from_tip.argmin()]
+    ring = branch & (from_tip > 0.4) & (from_tip < 0.7)
+    obj.data.polygons.foreach_set("select", ring)
+    bpy.ops.reeb_parts.assign(new=True)
+    after = numbers(obj.data)
+    ends = branch & (from_tip <= 0.4), branch & (from_tip >= 0.7)
+    parts = [set(after[faces].tolist()) for faces in (ring, *ends)]
+    assert [len(part) for part in parts] == [1, 1, 1]
+    assert len(set.union(*parts)) == 3
+    np.testing.assert_array_equal(after[~branch], candidates[~branch])
+    check(obj)
+
+
 def test_a_stroke_takes_specks_along_and_leaves_what_lies_beyond(obj):
     """A ring painted around a branch cuts its tip off, which stays; a speck that the stroke leaves out goes along."""
     bpy.context.scene.reeb_parts.symmetry = False

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts changed by hand, checked against what the hierarchy itself would do."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import shapes
@@ -17,6 +19,7 @@ from core.result.editing import (
     components_of,
     growth,
     node_split,
+    pieces_cut_off,
     shrinkage,
     split_candidates,
     two_sides,
@@ -174,6 +177,20 @@ def test_the_graph_follows_a_branch_that_is_cut_half_way(result, tree):
     mine = result.vertex_candidates == branch
     assert (finer.vertex_candidates[mine & (low == new)] == new).all()
     assert (finer.vertex_candidates[~mine | (high < new)] == result.vertex_candidates[~mine | (high < new)]).all()
+
+
+def test_pieces_cut_off_by_hand():
+    """A row of faces 0 1 2 3 4 5 6 of one candidate, 7 and 8 of another that is in two places; 2 and 5 move, and 7."""
+    pairs = np.array([[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6], [6, 7]])
+    graph = FaceGraph(9, pairs, np.ones(7), np.array([3.0, 1, 1, 1, 1, 1, 5, 1, 1]))
+    found = SimpleNamespace(candidates=np.array([0, 0, 0, 0, 0, 0, 0, 1, 1]), n_candidates=2,
+                            contacts=np.empty((0, 2), np.int64))
+    piece = pieces_cut_off(found, np.isin(np.arange(9), [2, 5, 7]), graph)
+    assert piece.tolist() == [1, 1, 0, 2, 2, 0, 0, 0, 0]
+    nothing = pieces_cut_off(found, np.zeros(9, bool), graph)
+    assert not nothing.any()
+    found.contacts = np.array([[1, 3]])  # across a gap
+    assert pieces_cut_off(found, np.isin(np.arange(9), [2, 5, 7]), graph).tolist() == [0, 0, 0, 0, 0, 0, 1, 0, 0]
 
 
 def test_whole_candidates_need_no_splitting(result, tree):
