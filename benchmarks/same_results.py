@@ -4,7 +4,7 @@
     python3 benchmarks/same_results.py OTHER MESHES [MESHES ...] [--preset NAME ...]
 
 OTHER is the folder of another checkout, MESHES are .npz with `vertices` and `faces`, .obj, .ply or .stl. Each mesh is
-decomposed by both checkouts with both presets. Compared are all public arrays of the result - candidates, field,
+decomposed by both checkouts with two presets, or with those given. Compared are all public arrays of the result - candidates, field,
 hierarchy, graph - and of the parts at five levels of detail. An array that only one of the checkouts has is named: it
 may have been renamed. The exit status is 1 if an array that both have differs.
 """
@@ -33,7 +33,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("other", type=Path, metavar="OTHER")
     parser.add_argument("meshes", nargs="+", type=Path, metavar="MESHES")
-    parser.add_argument("--preset", nargs="+", default=PRESETS, metavar="NAME", help="default: both")
+    parser.add_argument("--preset", nargs="+", default=PRESETS, metavar="NAME", help=f"default: {', '.join(PRESETS)}")
     parser.add_argument("--write", type=Path, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.write:

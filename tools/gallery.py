@@ -42,8 +42,9 @@ def main() -> None:
                 image = IMAGES / f"{path.stem}_{name}.png"
                 if checkout is not None:
                     objects = decompose_and_picture(python, checkout, model, image, SIZE)
-                    parts = sum(len(entry["parts"]) for entry in objects)
-                    cells.append(f"![{cells[0]} {name}]({image.relative_to(PAGE.parent)})<br>{parts} parts")
+                    n_parts = sum(len(entry["parts"]) for entry in objects)
+                    parts = "1 part" if n_parts == 1 else f"{n_parts} parts"
+                    cells.append(f"![{cells[0]} {name}]({image.relative_to(PAGE.parent)})<br>{parts}")
             rows.append(cells)
     PAGE.write_text(_page(rows), encoding="utf-8")
 

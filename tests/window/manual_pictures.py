@@ -66,7 +66,7 @@ def looked():
 
 
 def few_and_many():
-    for name, detail in (("few.png", 0.2), ("many.png", 0.8)):
+    for name, detail in (("few.png", 0.1), ("many.png", 0.8)):
         spot().data.reeb_parts.detail = detail
         yield 0.6
         pointer.shot(name, MODEL)

@@ -144,7 +144,7 @@ def stepped():
 
 
 def named():
-    yield from say("Suggest Names: head, legs, ears, with their sides")
+    yield from say("Suggest Names: body, head, legs, tail, with their sides")
     place = yield from pointer.find("reeb_parts.suggest_names", beside="reeb_parts.separate")
     yield from click(place)
     yield from aside()
@@ -227,7 +227,7 @@ def boned():
             bone.rotation_quaternion = Quaternion(sideways, way * turn)
         yield 0.4
         frame(0.3)
-    yield from say("The mesh itself is never changed; Clear Parts takes everything off again")
+    yield from say("The mesh itself is never changed; Clear Parts takes off it all that was written")
     frame(4.0)
 
 
