@@ -40,7 +40,8 @@ class Model:
 MODELS = (
     Model("spot.obj", "Spot", "Keenan Crane, CC0, in models/", 180),
     Model("cow.obj", "Cow", "Viewpoint Animation Engineering", 65),
-    Model("stanford-bunny.obj", "Stanford bunny", "Stanford, with holes in its base; of its 35,947 vertices Blender reads those of faces"),
+    Model("stanford-bunny.obj", "Stanford bunny",
+          "Stanford, with holes in its base; of its 35,947 vertices Blender reads those of faces"),
     Model("rocker-arm.obj", "Rocker arm", "INRIA, genus 1", 120),
     Model("teapot.obj", "Utah teapot", "Martin Newell, four loose parts with open borders"),
     Model("suzanne.obj", "Suzanne", "Blender's monkey, subdivided; three loose parts", 15),
@@ -129,7 +130,8 @@ def _page(presets: list[str], reports: dict) -> str:
         "# Seven models", "",
         "Made by `tools/pictures.py`, with every preset as it is and no number of parts given. The black lines are "
         "the Reeb graph: black balls are minima of the field (the middle of the body), yellow ones saddles, white "
-        "ones maxima (the tips). With another version of SciPy, Liu 2007 may give a part or two more or fewer.", "",
+        "ones maxima (the tips). With another version of SciPy, Liu 2007 may give a part or two more or fewer.",
+        "",
     ]  # fmt: skip
     for model in MODELS:
         lines += [f"## {model.title}", f"{model.origin}.", ""]
