@@ -4,9 +4,9 @@
     python3 benchmarks/same_results.py OTHER MESHES [MESHES ...] [--preset NAME ...]
 
 OTHER is the folder of another checkout, MESHES are .npz with `vertices` and `faces`, .obj, .ply or .stl. Each mesh is
-decomposed by both checkouts with two presets, or with those given. Compared are all public arrays of the result - candidates, field,
-hierarchy, graph - and of the parts at five levels of detail. An array that only one of the checkouts has is named: it
-may have been renamed. The exit status is 1 if an array that both have differs.
+decomposed by both checkouts with two presets or those given. Compared are all public arrays of the result - candidates,
+field, hierarchy, graph - and of the parts at five levels of detail. An array that only one of the checkouts has is
+named: it may have been renamed. The exit status is 1 if an array that both have differs.
 """
 
 from __future__ import annotations
