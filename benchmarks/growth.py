@@ -129,9 +129,10 @@ def _write_page(rows: list[dict], page: Path) -> None:
     large = [row for row in rows if row["vertices"] >= LARGE]
     if len(large) > 1:
         x, y = (np.log([row[name] for row in large]) for name in ("vertices", "seconds"))
-        lines += ["", f"From {large[0]['vertices']:,} vertices on, seconds grow as the vertices to the power of "
-                  f"{np.polyfit(x, y, 1)[0]:.2f}; from {large[-2]['vertices']:,} to {large[-1]['vertices']:,}, to that of "
-                  f"{np.diff(y)[-1] / np.diff(x)[-1]:.2f}."]
+        over, last = np.polyfit(x, y, 1)[0], (y[-1] - y[-2]) / (x[-1] - x[-2])
+        first, second, third = (f"{large[at]['vertices']:,}" for at in (0, -2, -1))
+        lines += ["", f"From {first} vertices on, seconds grow as the vertices to the power of {over:.2f}; "
+                  f"from {second} to {third}, to that of {last:.2f}."]
     before, _, rest = page.read_text(encoding="utf-8").partition(begin)
     after = rest.partition(end)[2]
     page.write_text(before + begin + "\n" + "\n".join(lines) + "\n\n" + end + after, encoding="utf-8")
