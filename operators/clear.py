@@ -18,7 +18,8 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
     bl_idname = "reeb_parts.clear"
     bl_label = "Clear Parts"
     bl_description = n_("Remove everything that Reeb Parts has added to the selected meshes; what was there before is "
-                        "back. Separated pieces stay, as objects of your own that do not lead back to the mesh")
+                        "back. A UV map that you have changed or renamed stays, and so do the objects made of parts: "
+                        "separated pieces, as your own that do not lead back to the mesh, hulls and armatures")
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
@@ -31,5 +32,8 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
         objects = targets.chosen_objects(context, self.report)
         with object_mode(context):
             for obj in objects:
-                results.clear(obj)
+                staying = results.clear(obj)
+                if staying:
+                    self.report({"INFO"}, rpt_("{name}: the UV map {map} was changed by hand and stays").format(
+                        name=obj.name, map=staying))
         shading.restore_colors(context)

@@ -132,8 +132,11 @@ def _keep_colors(mesh: bpy.types.Mesh) -> None:
             outputs.keep_places(mesh, store.last(mesh).shown_parts())
 
 
-def clear(obj: bpy.types.Object) -> None:
-    """Remove parts, graph and stored result of an object; Object Mode."""
+def clear(obj: bpy.types.Object) -> str:
+    """Remove parts, graph and stored result of an object; Object Mode.
+
+    Returns the name of the UV map along cuts if it was changed by hand, and so stays, else "".
+    """
     transaction.keep_mesh(obj.data)
     leavings.remove(obj)
     for user in targets.users(obj.data):
@@ -142,6 +145,7 @@ def clear(obj: bpy.types.Object) -> None:
         graph_objects.remove(user)
     hidden.forget_mesh(obj.data)
     armature.remove_weights(obj.data)
-    uv_map.remove(obj.data)
+    staying = uv_map.remove(obj.data)
     outputs.remove_outputs(obj)
     obj.data.property_unset("reeb_parts")
+    return staying

@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.surface.arrays import renumbered
 from ..core.uses.stacking import double_corners
-from . import mesh_arrays, part_meshes, store, transaction
+from . import made, mesh_arrays, part_meshes, store, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
 from .selection import nothing_selected
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
+WRITTEN = "reeb_parts_uv_digest"  # and what we wrote there, see _digest
 
 # How many UV maps Blender allows.
 _LAYERS = 8
@@ -35,26 +36,32 @@ _FEWEST, _MOST, _FACES = 10, 100, 100_000
 
 
 def find(mesh: bpy.types.Mesh) -> bpy.types.MeshUVLoopLayer | None:
-    """Our UV map, or None."""
-    return mesh.uv_layers.get(mesh.get(MADE, ""))
+    """Our UV map as we wrote it, or None: one that was changed since, or renamed, is the user's work."""
+    layer = mesh.uv_layers.get(mesh.get(MADE, ""))
+    return layer if layer is not None and _digest(layer) == mesh.get(WRITTEN) else None
 
 
-def remove(mesh: bpy.types.Mesh) -> None:
-    """Remove our UV map."""
+def remove(mesh: bpy.types.Mesh) -> str:
+    """Remove our UV map; Object Mode. Returns the name of one that was changed since and stays, or ""."""
     transaction.keep_mesh(mesh)
-    transaction.keep_keys(mesh, MADE)
-    layer = find(mesh)
+    layer, name = find(mesh), mesh.get(MADE, "")
     if layer is not None:
         mesh.uv_layers.remove(layer)
-    if MADE in mesh:
-        del mesh[MADE]
+    made.hand_over(mesh, MADE, WRITTEN)
+    return name if name in mesh.uv_layers else ""
+
+
+def _digest(layer: bpy.types.MeshUVLoopLayer) -> str:
+    """Differs once a map was changed; Object Mode."""
+    return mesh_arrays.digest(mesh_arrays.read(layer.uv, "vector", np.float32, 2))
 
 
 def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, open_parts: bool, method: str,
            stack: bool) -> tuple[str, Distortion]:
     """Unwrap an object into our UV map, which becomes the active one; Object Mode.
 
-    Faces that lie on others, as on both sides of cloth and leaves, share the place of these in the map.
+    One that the user has changed stays as it is, and a new one is made. Faces that lie on others, as on both sides of
+    cloth and leaves, share the place of these in the map.
 
     Parameters
     ----------
@@ -139,13 +146,14 @@ def _distortion(table: CornerTable, flat: np.ndarray, image: np.ndarray) -> Dist
 def _write(mesh: bpy.types.Mesh, flat: np.ndarray) -> str:
     """Write our map, which becomes the active one, and return its name. flat : (c, 2)."""
     transaction.keep_mesh(mesh)
-    transaction.keep_keys(mesh, MADE)
+    transaction.keep_keys(mesh, MADE, WRITTEN)
     layer = find(mesh)
     if layer is None:
         layer = mesh.uv_layers.new(name=UV_MAP, do_init=False)
         mesh[MADE] = layer.name
         mesh.uv_layers.active = layer
     layer.uv.foreach_set("vector", flat.ravel())
+    mesh[WRITTEN] = _digest(layer)
     mesh.update()
     return layer.name
 

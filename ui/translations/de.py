@@ -468,10 +468,12 @@ TEXTS = {
     "Cut the selected mesh into the parts a person would name, and show its Reeb graph":
         "Das ausgewählte Mesh in die Teile zerlegen, die ein Mensch benennen würde, und seinen Reeb-Graphen zeigen",
     "Stop computing; the scene is as it was before": "Die Berechnung beenden; die Szene ist wie zuvor",
-    "Remove everything that Reeb Parts has added to the selected meshes; what was there before is back. Separated "
-    "pieces stay, as objects of your own that do not lead back to the mesh":
+    "Remove everything that Reeb Parts has added to the selected meshes; what was there before is back. A UV map that "
+    "you have changed or renamed stays, and so do the objects made of parts: separated pieces, as your own that do "
+    "not lead back to the mesh, hulls and armatures":
         "Alles entfernen, was Reeb Parts den ausgewählten Meshs hinzugefügt hat; was vorher da war, ist wieder da. "
-        "Getrennte Stücke bleiben, als eigene Objekte, die nicht zum Mesh zurückführen",
+        "Eine UV-Map, die von Hand geändert oder umbenannt wurde, bleibt, ebenso aus Teilen erstellte Objekte: "
+        "getrennte Stücke, als eigene, die nicht zum Mesh zurückführen, Hüllen und Skelette",
     "Set this scene's preset, output and overlay as new scenes have them; see Preferences, Add-ons":
         "Vorgabe, Ausgabe und Überlagerung dieser Szene wie in neuen Szenen setzen; siehe Einstellungen, Add-ons",
     "Set the parameters back to those of the preset; some of them were changed":
@@ -982,6 +984,8 @@ TEXTS = {
         "Der Ort ist nicht endlich. Bitte einen auf oder neben dem Modell angeben.",
     "{name} has as many UV maps as Blender allows. Remove one and try again.":
         "{name} hat so viele UV-Maps, wie Blender erlaubt. Bitte eine entfernen und erneut versuchen.",
+    "{name}: the UV map {map} was changed by hand and stays":
+        "{name}: Die UV-Map {map} wurde von Hand geändert und bleibt",
     "Unwrapped into the UV map {name}: areas {low:.1f} to {high:.1f} times their size, {share:.0%} of the faces within "
     "0.3 to 3; angles {angle:.0f}° off on average":
         "In die UV-Map {name} abgewickelt: Flächen auf das {low:.1f}- bis {high:.1f}-Fache, {share:.0%} davon "

@@ -168,6 +168,7 @@ def test_nothing_else_is_touched(obj):
     assert mesh["attributes"].pop(MAP)
     mesh["order"].remove(MAP)
     assert mesh["properties"].pop("reeb_parts_uv") == MAP
+    assert mesh["properties"].pop("reeb_parts_uv_digest")
     assert mesh.pop("active UV map") == MAP
     assert before["meshes"]["Tree"].pop("active UV map") == "Mine"
     assert changes(before, after) == []
@@ -181,7 +182,62 @@ def test_twice_is_once_and_clear_removes_it(obj):
     assert snapshot() == once
     bpy.ops.reeb_parts.clear()
     assert not obj.data.uv_layers
-    assert "reeb_parts_uv" not in obj.data
+    assert not [key for key in obj.data.keys() if key.startswith("reeb_parts")]  # noqa: SIM118
+
+
+def move_islands(mesh):
+    """Make an island smaller by hand; what the map is then, (c, 2)."""
+    layer = mesh.uv_layers[MAP]
+    for corner in mesh.polygons[0].loop_indices:
+        layer.uv[corner].vector *= 0.5
+    return read(layer.uv, "vector", np.float32, 2)
+
+
+def test_clear_leaves_a_map_that_was_changed_by_hand(obj, capfd):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.unwrap()
+    by_hand = move_islands(obj.data)
+    capfd.readouterr()
+    bpy.ops.reeb_parts.clear()
+    assert f"Info: Tree: the UV map {MAP} was changed by hand and stays" in capfd.readouterr().out
+    assert obj.data.uv_layers.keys() == [MAP]
+    assert (read(obj.data.uv_layers[MAP].uv, "vector", np.float32, 2) == by_hand).all()
+    assert not [key for key in obj.data.keys() if key.startswith("reeb_parts")]  # noqa: SIM118
+
+
+def test_clear_leaves_a_map_that_was_renamed(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.unwrap()
+    obj.data.uv_layers[MAP].name = "Mine"
+    bpy.ops.reeb_parts.clear()
+    assert obj.data.uv_layers.keys() == ["Mine"]
+
+
+def test_clear_removes_a_map_of_which_nothing_was_changed(obj, tmp_path):
+    """Whatever else was done: a visit to Edit Mode, another map, the file saved and opened again."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.unwrap()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    obj.data.uv_layers.new(name="Mine")
+    path = str(tmp_path / "tree.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    bpy.ops.reeb_parts.clear()
+    assert bpy.context.object.data.uv_layers.keys() == ["Mine"]
+
+
+def test_unwrap_makes_a_new_map_beside_one_that_was_changed_by_hand(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.unwrap()
+    by_hand = move_islands(obj.data)
+    bpy.ops.reeb_parts.unwrap()
+    first, second = obj.data.uv_layers
+    assert (first.name, second.name) == (MAP, f"{MAP}.001")
+    assert obj.data.uv_layers.active == second
+    assert (read(first.uv, "vector", np.float32, 2) == by_hand).all()
+    bpy.ops.reeb_parts.clear()
+    assert obj.data.uv_layers.keys() == [MAP]
 
 
 def test_the_user_s_seams_are_used(obj):
