@@ -113,7 +113,7 @@ def key_of(shape: Shape, parameters: Parameters) -> tuple:
 def known(shape: Shape, parameters: Parameters) -> Decomposition | None:
     """The decomposition of a shape if it is among the last few."""
     found = _done.get(key_of(shape, parameters))
-    return found and replace(found, parameters=parameters)
+    return found and found.asked(parameters)
 
 
 def remember(shape: Shape, parameters: Parameters, found: Decomposition) -> None:

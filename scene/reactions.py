@@ -196,8 +196,7 @@ def show(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
         with quiet.quiet():
             result.n_parts = numbered.parts.count
             if result.by_number:
-                result.fewest, result.most = stored.numbering.n_range
-                result.detail = stored.numbering.detail_of(numbered.parts.count)
+                store.go_to_number(result, stored.numbering, numbered.parts.count)
 
     _with_result(mesh, context, write)
 

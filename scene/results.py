@@ -94,6 +94,9 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
         result.seconds = outcome.seconds
         notes.keep(result, decomposition.notes + outcome.shape.notes)
         result.detail, result.by_number, result.asked = parameters.detail, parameters.n_parts > 0, 0
+        if result.by_number:
+            store.go_to_number(result, stored.numbering, numbered.parts.count)
+            result.asked = 0 if numbered.parts.count == parameters.n_parts else parameters.n_parts
         outputs.write_outputs(obj, numbered, decomposition.field, settings)
         outputs.keep_places(mesh, numbered)
     store.mark_pins(mesh, stored)

@@ -162,6 +162,12 @@ def save_numbers(mesh: bpy.types.Mesh, stored: Stored) -> None:
     mesh.reeb_parts.numbers = rows.astype(np.int32).tobytes()
 
 
+def go_to_number(result: bpy.types.PropertyGroup, numbering: Numbering, count: int) -> None:
+    """Let the detail be where there are so many parts, and know how many there can be."""
+    result.fewest, result.most = numbering.n_range
+    result.detail = numbering.detail_of(count)
+
+
 def succeed(mesh: bpy.types.Mesh, decomposition: Decomposition) -> Stored:
     """A new result for a mesh; its parts take over the numbers of those that the faces were in until now."""
     previous = pinned = np.zeros(decomposition.n_candidates, np.int64)

@@ -23,7 +23,7 @@ from ..surface.arrays import components, is_last_of_each, last_of_each, sums_by
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh
-from .decomposition import Decomposition
+from .decomposition import Decomposition, too_many
 from .fans import boundaries, junctions
 from .found import LEAST_WEIGHT, ComponentResult, FoundCandidates
 from .mirrors import Mirror
@@ -78,7 +78,7 @@ def assemble(
         point_candidate=points, contacts=candidates.contacts, links=candidates.contacts[n_contacts:],
         mirror=mirror.plane, face_twin=mirror.twin,
         face_side=np.sign(mirror.height).astype(np.int8), parameters=parameters,
-        notes=working.notes + notes + _too_many(parameters.n_parts, candidates.hierarchy.n_candidates),
+        notes=working.notes + notes + too_many(parameters.n_parts, candidates.hierarchy.n_candidates),
         seconds=seconds)
 
 
@@ -100,13 +100,6 @@ def _face_candidates(
     if len(hint):  # after symmetry: of what was marked on one side only, the other knows nothing
         candidates = hinted_candidates(candidates, hint)
     return settle(candidates)
-
-
-def _too_many(asked: int, n_candidates: int) -> tuple[Sentence, ...]:
-    """A note where more parts were asked for than there can be."""
-    if asked <= n_candidates:
-        return ()
-    return (Sentence("{asked} parts were asked for; there are {n} at most.", asked=asked, n=n_candidates),)
 
 
 def _symmetric(candidates: FaceCandidates, mirror: Mirror) -> FaceCandidates:

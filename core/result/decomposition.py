@@ -321,6 +321,16 @@ class Decomposition:
         count = asked.n_parts or self.hierarchy.n_parts(asked.detail)
         return self.group(self.hierarchy.parts(count))
 
+    def asked(self, parameters: Parameters) -> Decomposition:
+        """Copy the result as that of a run which asked for other detail or another number of parts.
+
+        parameters : Parameters. Returns a Decomposition of the same candidates, with the note of such a run where more
+        parts are asked for than there can be.
+        """
+        before = too_many(self.parameters.n_parts, self.n_candidates)
+        notes = tuple(note for note in self.notes if note not in before)
+        return replace(self, parameters=parameters, notes=notes + too_many(parameters.n_parts, self.n_candidates))
+
     def group(self, candidate_part: np.ndarray) -> Parts:
         """Make parts of any grouping of the candidates.
 
@@ -462,3 +472,10 @@ def _stored_parameters(values: dict, version: str) -> Parameters:
         return Parameters(**{"pieces": SEPARATE, "symmetry": False} | present_names(values)[0])
     except ParameterError as error:  # one that this version does not know, or a value that it does not
         raise (NewerError(version) if is_newer(version, VERSION) else DamagedError()) from error
+
+
+def too_many(asked: int, n_candidates: int) -> tuple[Sentence, ...]:
+    """A note where more parts are asked for than there can be, or none."""
+    if asked <= n_candidates:
+        return ()
+    return (Sentence("{asked} parts were asked for; there are {n} at most.", asked=asked, n=n_candidates),)

@@ -45,7 +45,7 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
     area = np.tile(tables.face_area, 2)
     home = majority(whole.candidates, np.tile(label, 2), area + LEAST_WEIGHT * area.sum(), whole.n_candidates)
     nothing = np.empty(0, np.int64)
-    found = whole.scaled(-given.exponent)
+    found = whole.asked(replace(whole.parameters, n_parts=0)).scaled(-given.exponent)
     return replace(
         found, candidates=label, vertex_candidates=tables.vertex_candidate, candidate_area=tables.candidate_area,
         candidate_pairs=tables.pairs, candidate_pair_length=tables.pair_length, junctions=tables.junctions,
@@ -53,8 +53,8 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
         field=whole.field[:given.triangles.n_vertices], node_candidate=home[whole.node_candidate],
         point_candidate=home[whole.point_candidate], contacts=contacts, links=links, mirror=np.empty(0),
         face_twin=nothing, face_side=nothing.astype(np.int8),
-        notes=(Sentence("The mesh was decomposed together with its mirror image."), *_of_one_side(whole, working)),
-    ).scaled(given.exponent)
+        notes=(Sentence("The mesh was decomposed together with its mirror image."), *_of_one_side(found, working)),
+    ).scaled(given.exponent).asked(whole.parameters)
 
 
 def _of_one_side(whole: Decomposition, working: WorkingMesh) -> Iterator[str]:

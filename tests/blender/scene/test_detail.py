@@ -48,6 +48,32 @@ def test_a_number_that_cannot_be_had_is_told(result):
     assert result.asked == 0
 
 
+def test_a_run_with_a_number_is_as_if_it_had_been_typed(obj, result):
+    """Detail is where there are so many parts: whoever drags it on begins there."""
+    result.n_parts = 5
+    typed = result.detail, result.fewest, result.most, result.asked
+    bpy.ops.reeb_parts.clear()
+    bpy.ops.reeb_parts.decompose(n_parts=5)
+    result = obj.data.reeb_parts
+    assert (result.detail, result.fewest, result.most, result.asked) == typed
+    result.detail += 1e-5  # smaller than the way to the next cut
+    assert len(result.parts) == 5
+
+
+def test_a_run_tells_of_a_number_that_cannot_be_had(obj, result, capfd):
+    """In the report, in the panel and among the notes, also where the parts were computed before; and never later."""
+    capfd.readouterr()
+    bpy.ops.reeb_parts.decompose(n_parts=5000)
+    result = obj.data.reeb_parts
+    note = f"5000 parts were asked for; there are {result.most} at most."
+    assert f"Info: {note}" in capfd.readouterr().out
+    assert (result.asked, result.n_parts, len(result.parts)) == (5000, result.most, result.most)
+    assert note in result.notes.splitlines()
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    assert result.asked == 0
+    assert "asked for" not in result.notes
+
+
 def test_steps_go_from_one_clear_choice_to_the_next_and_back(obj, result, package):
     result.n_parts = 1
     there = [1]

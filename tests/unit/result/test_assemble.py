@@ -28,3 +28,15 @@ def test_as_many_parts_as_there_can_be_are_not_too_many(more, notes):
     most = decompose(*shape).n_candidates
     found = decompose(*shape, Parameters(n_parts=most + more)).notes
     assert len([note for note in found if "asked for" in note]) == notes
+
+
+@pytest.mark.parametrize("half", [False, True])
+def test_the_note_on_too_many_parts_is_that_of_the_run(half):
+    """A result that is used again for another number says of this one what a run of its own would."""
+    shape = shapes.tube_tree(step=0.2)
+    mirror = [1.0, 0.0, 0.0, 2.0 * np.ptp(shape.vertices[:, 0])] if half else None
+    few, many = (decompose(*shape, Parameters(n_parts=count), mirror=mirror) for count in (2, 5000))
+    assert few.asked(many.parameters).notes == many.notes
+    assert many.asked(few.parameters).notes == few.notes
+    assert f"5000 parts were asked for; there are {many.n_candidates} at most." in many.notes
+    assert not [note for note in few.notes if "asked for" in note]
