@@ -131,24 +131,24 @@ class Parameters:
         "Number of slabs the surface is cut into before parts are formed (1 / epsilon)")
     small_region: float = _number(
         0.05, 0.0005, 0.5, "Small Region",
-        "Parts smaller than this share of the largest one join a neighbor; 0.01 keeps fingers")
+        "Berretti 2009: parts smaller than this share of the largest one join a neighbor; 0.01 keeps fingers")
     concavity_weight: float = _number(
         0.5, 0.0, 1.0, "Concavity",
-        "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)")
+        "Berretti 2009: how far a cut may slide to lie in a crease; 0 leaves it where it is (the paper's alpha)")
     band_ratio: float = _number(
         0.5, 0.0, 1.0, "Band",
         "How far to either side a cut may move into a crease, as a share of the radius of a circle "
         "as long as the cut; 0 leaves it where it is")
     sigma: float = _number(
         0.15, 0.0, 0.25, "Crease Length",
-        "How much of a cut's length must be concave to count (the paper's sigma)")
+        "Berretti 2009: how much of a cut's length must be concave to count (the paper's sigma)")
     n_clusters: int = _number(
         0, 0, 32, "Curvature Classes",
-        "Number of classes of curvature that the surface is sorted into; 0 chooses it from the data")
+        "Lavoue 2005: number of classes of curvature that the surface is sorted into; 0 chooses it from the data")
     outline_weight: float = _number(
         0.5, 0.0, 1.0, "Outline",
-        "How far the outline of a part, unfolded into the plane, counts when its cut is judged: 0 judges by the cut "
-        "alone")
+        "Liu 2007: how far the outline of a part, unfolded into the plane, counts when its cut is judged; 0 judges by "
+        "the cut alone")
     smoothing: int = _number(
         10, 0, 100, "Smoothing",
         "Rounds that take saw teeth off the cuts, a face at a time; 0 leaves them as they fall")

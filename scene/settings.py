@@ -24,7 +24,7 @@ def _property(field: Field) -> Any:
     words = {"name": meta["label"], "description": meta["description"], "default": field.default}
     if "choices" in meta:
         items = [(choice, choice.title(), "") for choice in meta["choices"]]
-        return EnumProperty(items=items, **words)
+        return EnumProperty(items=items, translation_context="Reeb Parts", **words)  # to Blender, Separate is a verb
     if "range" not in meta:
         return BoolProperty(**words)
     low, high = meta["range"]
@@ -189,7 +189,7 @@ class WhichProperties:
 
 #: What can join two pieces.
 JOINTS = (
-    ("NONE", "None", "Pieces are closed and flat where they were joined"),
+    ("NONE", "None", "No joints; Close Holes decides whether pieces are closed"),
     ("ROUND", "Round Pegs", "The smaller piece has a round peg, the other a hole for it"),
     ("SQUARE", "Square Pegs", "Pegs that do not turn in their holes"),
     ("KEY", "Keys", "Pegs like the tail of a dove, which fit into their holes one way round only"),

@@ -5,10 +5,16 @@ from __future__ import annotations
 
 import bpy
 
-from ..core.parameters import BERRETTI, LAVOUE, LIU
+from ..core.parameters import BERRETTI, LAVOUE, LIU, METHODS, PERCEPTUAL
 from ..scene import store
 from .fitting import Room
 from .panel import ReebPanel, SubPanel, draw_settings, facts
+
+#: The methods that heed a setting; all of them where none is named.
+HEEDED_BY = {
+    "small_region": (BERRETTI,), "concavity_weight": (BERRETTI,), "sigma": (BERRETTI,), "n_clusters": (LAVOUE,),
+    "outline_weight": (LIU,), "follow_level_sets": (PERCEPTUAL, BERRETTI), "band_ratio": (PERCEPTUAL, BERRETTI),
+}
 
 
 class REEB_PARTS_PT_advanced(SubPanel, bpy.types.Panel):
@@ -31,14 +37,22 @@ class REEB_PARTS_PT_advanced(SubPanel, bpy.types.Panel):
 
 
 class SettingsPanel(ReebPanel):
-    """For closed panels below Advanced that show settings of the scene, by name, one below the other."""
+    """For closed panels below Advanced that show settings of the scene, by name, one below the other.
+
+    Those that do not count with the method are left out.
+    """
 
     bl_parent_id = "REEB_PARTS_PT_advanced"
     bl_options = {"DEFAULT_CLOSED"}
     names: tuple[str, ...]
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_settings(self, context, self.names)
+        draw_settings(self, context, self.counting(context.scene.reeb_parts.method))
+
+    @classmethod
+    def counting(cls, method: str) -> list[str]:
+        """The names of the settings that count with a method."""
+        return [name for name in cls.names if method in HEEDED_BY.get(name, METHODS)]
 
 
 class REEB_PARTS_PT_field(SettingsPanel, bpy.types.Panel):
@@ -48,21 +62,12 @@ class REEB_PARTS_PT_field(SettingsPanel, bpy.types.Panel):
 
 class REEB_PARTS_PT_graph(SettingsPanel, bpy.types.Panel):
     bl_label = "Graph"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        settings = context.scene.reeb_parts
-        own = {LAVOUE: ("n_clusters",), LIU: ("outline_weight",)}.get(settings.method, ("small_region",))
-        draw_settings(self, context, ("method", "hints", "pieces", "symmetry", *own, "loose_part"))
+    names = ("method", "hints", "pieces", "symmetry", "small_region", "n_clusters", "outline_weight", "loose_part")
 
 
 class REEB_PARTS_PT_boundaries(SettingsPanel, bpy.types.Panel):
     bl_label = "Boundaries"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        settings = context.scene.reeb_parts
-        of_paper = ("concavity_weight", "sigma") if settings.method == BERRETTI else ()
-        movable = () if settings.method in {LAVOUE, LIU} else ("follow_level_sets", "band_ratio")
-        draw_settings(self, context, (*movable, *of_paper, "smoothing"))
+    names = ("follow_level_sets", "band_ratio", "concavity_weight", "sigma", "smoothing")
 
 
 class REEB_PARTS_PT_output(SettingsPanel, bpy.types.Panel):

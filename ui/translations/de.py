@@ -36,10 +36,10 @@ OPERATORS = {
     # Teile von Hand
     "Merge Parts": "Teile zusammenführen",
     "Merge into Neighbor": "Mit Nachbarn zusammenführen",
-    "Merge Small": "Zusammenführen",
+    "Merge Small": "Kleine zusammenführen",
     "Merge Small Parts": "Kleine Teile zusammenführen",
     "Frame Parts": "Teile heranholen",
-    "Suggest Names": "Benennen",
+    "Suggest Names": "Namen vorschlagen",
     "Split Parts": "Teile teilen",
     "Split at Graph Node": "Am Graphknoten teilen",
     "Cut Part at Point": "Teil am Punkt schneiden",
@@ -110,7 +110,7 @@ TOOLS = {
     "As All": "Wie alle",
     "Round Pegs": "Runde Zapfen",
     "Square Pegs": "Eckige Zapfen",
-    "Keys": "Passfedern",
+    "Keys": "Schwalbenschwänze",
     "Dowels": "Dübel",
     "Magnets": "Magnete",
     "None": "Keine",
@@ -119,6 +119,15 @@ TOOLS = {
     "Rename": "Umbenennen",
     "Hide": "Verbergen",
     "Frame": "Heranholen",
+    # Methode und Stücke
+    "Method": "Methode",
+    "Perceptual": "Wahrnehmung",
+    "Berretti": "Berretti",
+    "Lavoue": "Lavoué",
+    "Liu": "Liu",
+    "Pieces": "Stücke",
+    "Together": "Gemeinsam",
+    "Separate": "Getrennt",
 }
 
 TEXTS = {
@@ -211,24 +220,22 @@ TEXTS = {
     "Preset": "Vorgabe",
     "Set all parameters at once": "Alle Parameter auf einmal setzen",
     "Perceptual": "Wahrnehmung",
-    "Berretti": "Berretti",
     "Berretti 2009": "Berretti 2009",
     "Method": "Methode",
-    "Lavoue": "Lavoué",
     "Lavoue 2005": "Lavoué 2005",
-    "Liu": "Liu",
     "Liu 2007": "Liu 2007",
     "How cuts are chosen: as people would, by the paper's rules on the Reeb graph, where curvature changes, or by "
     "cutting in two again and again":
         "Wie Schnitte gewählt werden: so, wie Menschen schneiden würden, nach den Regeln des Artikels auf dem "
         "Reeb-Graphen, wo sich die Krümmung ändert, oder durch immer neues Teilen in zwei",
     "Curvature Classes": "Krümmungsklassen",
-    "Number of classes of curvature that the surface is sorted into; 0 chooses it from the data":
-        "Anzahl der Krümmungsklassen, in die die Oberfläche eingeteilt wird; 0 wählt sie aus den Daten",
+    "Lavoue 2005: number of classes of curvature that the surface is sorted into; 0 chooses it from the data":
+        "Lavoué 2005: Anzahl der Krümmungsklassen, in die die Oberfläche eingeteilt wird; 0 wählt sie aus den Daten",
     "Outline": "Umrandung",
-    "How far the outline of a part, unfolded into the plane, counts when its cut is judged: 0 judges by the cut alone":
-        "Wie sehr der Umriss eines in die Ebene ausgebreiteten Teils zählt, wenn sein Schnitt beurteilt wird: 0 "
-        "urteilt nur nach dem Schnitt",
+    "Liu 2007: how far the outline of a part, unfolded into the plane, counts when its cut is judged; 0 judges by the "
+    "cut alone":
+        "Liu 2007: wie sehr die Umrandung eines in die Ebene ausgebreiteten Teils zählt, wenn sein Schnitt beurteilt "
+        "wird; 0 urteilt nur nach dem Schnitt",
     "The name of the part until the user gives it another":
         "Der Name des Teils, bis der Benutzer ihm einen anderen gibt",
     "Symmetry": "Symmetrie",
@@ -236,7 +243,6 @@ TEXTS = {
     "both sides":
         "Wo das Modell sein eigenes Spiegelbild ist, ganz oder zum größten Teil, die Teile ebenso bilden. Änderungen "
         "von Hand geschehen auf beiden Seiten",
-    "Pieces": "Stücke",
     "Hints": "Hinweise",
     "Along UV seams": "Entlang von UV-Nähten",
     "Along edges that are marked sharp": "Entlang von Kanten, die als scharf markiert sind",
@@ -252,8 +258,6 @@ TEXTS = {
     "decomposed on its own":
         "Ob Stücke, die sich berühren, ohne verbunden zu sein, gemeinsam Teile bilden, wie Ärmel und Arm, oder jedes "
         "Stück für sich zerlegt wird",
-    "Together": "Gemeinsam",
-    "Separate": "Trennen",
     "Detail": "Detail",
     "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate":
         "Wie bereitwillig die Oberfläche zerschnitten wird: 0 ergibt so wenige Teile wie möglich, 1 alle, die "
@@ -279,11 +283,13 @@ TEXTS = {
     "Number of slabs the surface is cut into before parts are formed (1 / epsilon)":
         "Anzahl der Scheiben, in die die Oberfläche geschnitten wird, bevor Teile entstehen (1 / Epsilon)",
     "Small Region": "Kleine Region",
-    "Parts smaller than this share of the largest one join a neighbor; 0.01 keeps fingers":
-        "Teile, die kleiner als dieser Anteil des größten sind, gehen in einem Nachbarn auf; 0.01 erhält Finger",
+    "Berretti 2009: parts smaller than this share of the largest one join a neighbor; 0.01 keeps fingers":
+        "Berretti 2009: Teile, die kleiner als dieser Anteil des größten sind, gehen in einem Nachbarn auf; 0.01 "
+        "erhält Finger",
     "Concavity": "Konkavität",
-    "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)":
-        "Wie weit ein Schnitt rutschen darf, um in einer Falte zu liegen: 0 lässt ihn, wo er ist (Alpha im Artikel)",
+    "Berretti 2009: how far a cut may slide to lie in a crease; 0 leaves it where it is (the paper's alpha)":
+        "Berretti 2009: wie weit ein Schnitt rutschen darf, um in einer Falte zu liegen; 0 lässt ihn, wo er ist "
+        "(Alpha im Artikel)",
     "Band": "Band",
     "How far to either side a cut may move into a crease, as a share of the radius of a circle as long as the cut; 0 "
     "leaves it where it is":
@@ -295,8 +301,8 @@ TEXTS = {
     "The model {file} was trained on the features in another order. Train it again.":
         "Das Modell {file} wurde an den Merkmalen in anderer Reihenfolge angelernt. Es muss neu angelernt werden.",
     "Crease Length": "Faltenlänge",
-    "How much of a cut's length must be concave to count (the paper's sigma)":
-        "Wie viel von der Länge eines Schnitts konkav sein muss, um zu zählen (Sigma im Artikel)",
+    "Berretti 2009: how much of a cut's length must be concave to count (the paper's sigma)":
+        "Berretti 2009: wie viel von der Länge eines Schnitts konkav sein muss, um zu zählen (Sigma im Artikel)",
     "Smoothing": "Glättung",
     "Rounds that take saw teeth off the cuts, a face at a time; 0 leaves them as they fall":
         "Durchgänge, die den Schnitten Fläche für Fläche die Sägezähne nehmen; 0 lässt sie, wie sie sind",
@@ -444,13 +450,12 @@ TEXTS = {
     "Apply Modifiers": "Modifikatoren anwenden",
     "Cut the mesh as it is seen, with its modifiers applied, instead of the one that is stored; the pieces then have "
     "no modifiers":
-        "Das Netz so zerlegen, wie man es sieht, mit angewendeten Modifikatoren, statt so, wie es gespeichert ist; die "
-        "Stücke haben dann keine Modifikatoren",
+        "Das Mesh so schneiden, wie man es sieht, mit angewendeten Modifikatoren, statt so, wie es gespeichert ist; "
+        "die Stücke haben dann keine Modifikatoren",
     "The modifiers of {name} make {n} {n:face that belongs|faces that belong} to no part. Apply the modifiers and "
     "decompose again.":
         "Die Modifikatoren von {name} erzeugen {n} {n:Fläche, die zu keinem Teil gehört|Flächen, die zu keinem Teil "
-        "gehören}. Wende die Modifikatoren an und "
-        "zerlege neu.",
+        "gehören}. Bitte die Modifikatoren anwenden und erneut zerlegen.",
     "Parent to Original": "Original als Eltern",
     "Make the pieces children of the object, so that they follow it; without it, they have the parent that the object "
     "has":
@@ -576,11 +581,11 @@ TEXTS = {
     "Also cut parts open where they would not lie flat: tubes along, and toward tips. These seams run on inner sides "
     "and along creases, and are not marked on the mesh":
         "Auch Teile aufschneiden, wo sie nicht flach lägen: Röhren der Länge nach, und zu Spitzen hin. Diese Nähte "
-        "laufen auf den Innenseiten und entlang von Falten und werden auf dem Netz nicht markiert",
+        "laufen auf den Innenseiten und entlang von Falten und werden auf dem Mesh nicht markiert",
     "Stack Twins": "Zwillinge stapeln",
     "Lay parts whose meshes are mirror images of each other over each other, so that both share one place in the "
     "texture":
-        "Teile, deren Netze Spiegelbilder voneinander sind, übereinander legen, sodass beide einen Platz in der "
+        "Teile, deren Meshs Spiegelbilder voneinander sind, übereinander legen, sodass beide einen Platz in der "
         "Textur teilen",
     "Minimum stretch": "Geringste Dehnung",
     "Areas and angles as even as can be": "Flächen und Winkel so gleichmäßig wie möglich",
@@ -660,7 +665,8 @@ TEXTS = {
     "Godot": "Godot",
     "The part, then -convcolonly": "Das Teil, dann -convcolonly",
     # Verbindungen zum Drucken
-    "Pieces are closed and flat where they were joined": "Die Stücke sind geschlossen, ohne Zapfen und Löcher",
+    "No joints; Close Holes decides whether pieces are closed":
+        "Keine Verbindungen; „Löcher schließen“ entscheidet, ob die Stücke geschlossen sind",
     "The smaller piece has a round peg, the other a hole for it":
         "Das kleinere Stück hat einen runden Zapfen, das andere ein Loch dafür",
     "Pegs that do not turn in their holes": "Zapfen, die sich in ihren Löchern nicht drehen",
@@ -828,7 +834,7 @@ TEXTS = {
     "{name} must be a whole number from {low} to {high}, not {value}.":
         "{name} muss eine ganze Zahl von {low} bis {high} sein, nicht {value}.",
     "The mesh is too large to be measured. Check the scale of the object.":
-        "Das Netz ist zu groß, um es zu messen. Bitte die Skalierung des Objekts prüfen.",
+        "Das Mesh ist zu groß, um es zu messen. Bitte die Skalierung des Objekts prüfen.",
     "The stored parts are damaged. Decompose again.":
         "Die gespeicherten Teile sind beschädigt. Bitte erneut zerlegen.",
     "The stored parts were written by Reeb Parts {version}, which is newer than this one. Install that version, or "

@@ -111,7 +111,7 @@ TOOLS = {
     "As All": "同全部",
     "Round Pegs": "圆形插销",
     "Square Pegs": "方形插销",
-    "Keys": "楔形插销",
+    "Keys": "燕尾插销",
     "Dowels": "圆棒",
     "Magnets": "磁铁",
     "None": "无",
@@ -120,6 +120,15 @@ TOOLS = {
     "Rename": "重命名",
     "Hide": "隐藏",
     "Frame": "框显",
+    # 方法与块
+    "Method": "方法",
+    "Perceptual": "感知",
+    "Berretti": "Berretti",
+    "Lavoue": "Lavoué",
+    "Liu": "Liu",
+    "Pieces": "块",
+    "Together": "共同",
+    "Separate": "各自",
 }
 
 TEXTS = {
@@ -224,28 +233,25 @@ TEXTS = {
     "Preset": "预设",
     "Set all parameters at once": "一次性设置全部参数",
     "Perceptual": "感知",
-    "Berretti": "Berretti",
     "Berretti 2009": "Berretti 2009",
     "Method": "方法",
-    "Lavoue": "Lavoué",
     "Lavoue 2005": "Lavoué 2005",
-    "Liu": "Liu",
     "Liu 2007": "Liu 2007",
     "How cuts are chosen: as people would, by the paper's rules on the Reeb graph, where curvature changes, or by "
     "cutting in two again and again":
         "切口的选择方式：像人那样切割、按论文在 Reeb 图上的规则、在曲率变化处，或反复一分为二",
     "Curvature Classes": "曲率类别",
-    "Number of classes of curvature that the surface is sorted into; 0 chooses it from the data":
-        "表面按曲率划分的类别数；0 表示由数据决定",
+    "Lavoue 2005: number of classes of curvature that the surface is sorted into; 0 chooses it from the data":
+        "Lavoué 2005：表面按曲率划分的类别数；0 表示由数据决定",
     "Outline": "轮廓",
-    "How far the outline of a part, unfolded into the plane, counts when its cut is judged: 0 judges by the cut alone":
-        "评判切口时，部件展开到平面后的轮廓所占的比重：0 表示仅按切口本身评判",
+    "Liu 2007: how far the outline of a part, unfolded into the plane, counts when its cut is judged; 0 judges by the "
+    "cut alone":
+        "Liu 2007：评判切口时，部件展开到平面后的轮廓所占的比重；0 表示仅按切口本身评判",
     "The name of the part until the user gives it another": "用户另行命名之前部件的名称",
     "Symmetry": "对称",
     "Where the model is its own mirror image, or most of it is, make its parts so, too. Changes by hand are made on "
     "both sides":
         "当模型整体或大部分与自身镜像相同时，其部件也相应对称。手动更改会在两侧同时进行",
-    "Pieces": "块",
     "Hints": "提示",
     "Along UV seams": "沿 UV 缝合边",
     "Along edges that are marked sharp": "沿标记为锐边的边",
@@ -259,8 +265,6 @@ TEXTS = {
     "Whether pieces that touch without being joined form parts together, like a sleeve and an arm, or each piece is "
     "decomposed on its own":
         "相互接触但未连接的块是共同构成部件（如衣袖与手臂），还是各自单独分解",
-    "Together": "共同",
-    "Separate": "分离",
     "Detail": "细节",
     "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate":
         "切割表面的倾向程度：0 得到尽可能少的部件，1 得到全部候选部件",
@@ -282,11 +286,11 @@ TEXTS = {
     "Number of slabs the surface is cut into before parts are formed (1 / epsilon)":
         "形成部件之前将表面切成的层片数量（1 / epsilon）",
     "Small Region": "小区域",
-    "Parts smaller than this share of the largest one join a neighbor; 0.01 keeps fingers":
-        "小于最大部件的此比例的部件并入相邻部件；0.01 可保留手指",
+    "Berretti 2009: parts smaller than this share of the largest one join a neighbor; 0.01 keeps fingers":
+        "Berretti 2009：小于最大部件的此比例的部件并入相邻部件；0.01 可保留手指",
     "Concavity": "凹度",
-    "How far a cut may slide to lie in a crease: 0 leaves it where it is (the paper's alpha)":
-        "切口为落入折痕可滑移的距离：0 表示保持原位（论文中的 alpha）",
+    "Berretti 2009: how far a cut may slide to lie in a crease; 0 leaves it where it is (the paper's alpha)":
+        "Berretti 2009：切口为落入折痕可滑移的距离；0 表示保持原位（论文中的 alpha）",
     "Band": "带宽",
     "How far to either side a cut may move into a crease, as a share of the radius of a circle as long as the cut; 0 "
     "leaves it where it is":
@@ -297,8 +301,8 @@ TEXTS = {
     "The model {file} was trained on the features in another order. Train it again.":
         "模型 {file} 训练时特征的顺序不同。请重新训练。",
     "Crease Length": "折痕长度",
-    "How much of a cut's length must be concave to count (the paper's sigma)":
-        "切口长度中需有多少为凹才计入（论文中的 sigma）",
+    "Berretti 2009: how much of a cut's length must be concave to count (the paper's sigma)":
+        "Berretti 2009：切口长度中需有多少为凹才计入（论文中的 sigma）",
     "Smoothing": "平滑",
     "Rounds that take saw teeth off the cuts, a face at a time; 0 leaves them as they fall":
         "逐面去除切口锯齿的次数；0 表示保持原样",
@@ -621,7 +625,7 @@ TEXTS = {
     "Godot": "Godot",
     "The part, then -convcolonly": "部件，后接 -convcolonly",
     # 打印用的接头
-    "Pieces are closed and flat where they were joined": "各块封闭，相连处没有插销和孔",
+    "No joints; Close Holes decides whether pieces are closed": "无接头；各块是否封闭由“封闭孔洞”决定",
     "The smaller piece has a round peg, the other a hole for it": "较小的一块带有圆形插销，另一块带有对应的孔",
     "Pegs that do not turn in their holes": "在孔中不会转动的插销",
     "Pegs like the tail of a dove, which fit into their holes one way round only":
