@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ..core.options import add_parameters, dashed, number
+from ..core.options import add_parameters, dashed, limits_of, number
 from ..scene.settings import HintProperties, JointProperties, OutputProperties, OverlayProperties, SeparateProperties
 
 #: Lengths of units in meters, with what Blender calls them.
@@ -58,7 +58,7 @@ def _add_files(files: argparse._ArgumentGroup) -> None:
                        help="all parts, closed, for slicers: one assembly for each object, with names and colors")
     files.add_argument("--picture", type=Path, metavar="OUT.png", help="a picture of the parts with the graph")
     files.add_argument("--picture-turn", type=number(-36000.0, 36000.0), default=0.0, metavar="DEGREES",
-                       help="turn its camera, which looks at the front, around the objects")
+                       help="turn its camera, which looks at the front, around the objects (default: 0)")
     files.add_argument("--picture-size", type=_size, default=(960, 540), metavar="WxH",
                        help="its width and height in pixels, 16 to 8192 each (default: 960x540)")
 
@@ -74,7 +74,7 @@ def _add_uses(uses: argparse._ArgumentGroup) -> None:
                       help="close them, and give the new faces a material of their own, Cap")
     _add_pegs(uses)
     uses.add_argument("--bed", nargs=3, type=number(1.0, 100000.0), metavar=("X", "Y", "Z"),
-                      help="cut them further where they do not fit into a box of so many millimeters")
+                      help="cut them further where they do not fit into a box of so many millimeters (1 to 100000)")
     uses.add_argument("--unwrap", action="store_true", help="a UV map with an island for each part")
     uses.add_argument("--armature", action="store_true", help="a bone for each part, and weights to pose it with")
     uses.add_argument("--hulls", choices=("unreal", "godot"), metavar="ENGINE",
@@ -95,7 +95,8 @@ def _add_pegs(uses: argparse._ArgumentGroup) -> None:
                          ("clearance", "joint_clearance"), ("wall", "joint_wall")):
         words = joint[name].keywords
         uses.add_argument(f"--peg-{option}", dest=name, default=words["default"], metavar="N",
-                          type=number(words["min"], words["max"]), help=words["description"])
+                          type=number(words["min"], words["max"]),
+                          help=words["description"] + limits_of(words["min"], words["max"], words["default"]))
 
 
 def _add_outputs(outputs: argparse._ArgumentGroup) -> None:
@@ -105,11 +106,27 @@ def _add_outputs(outputs: argparse._ArgumentGroup) -> None:
             words["action"] = argparse.BooleanOptionalAction
             words["help"] += f" (default: {'on' if words['default'] else 'off'})"
         elif "items" in prop.keywords:
-            words["choices"] = [item[0] for item in prop.keywords["items"]]
-            words["default"] = words["choices"][0]
+            words |= _choice(prop.keywords["items"])
+            words["help"] += " (default: " + prop.keywords["items"][0][1] + ")"
         else:
-            words |= {"type": number(prop.keywords["min"], prop.keywords["max"]), "metavar": "N"}
+            low, high = prop.keywords["min"], prop.keywords["max"]
+            words["help"] += limits_of(low, high, words["default"])
+            words |= {"type": number(low, high), "metavar": "N"}
         outputs.add_argument(f"--{dashed(name)}", **words)
+
+
+def _choice(items: list[tuple[str, str, str]]) -> dict[str, Any]:
+    """How argparse takes one of the items of a property: by its label, or by its identifier, which scripts use."""
+    known = {label: identifier for identifier, label, _ in items}
+
+    def read(text: str) -> str:
+        if text in known.values():
+            return text
+        if text not in known:
+            raise argparse.ArgumentTypeError(f"must be one of {', '.join(known)}, not {text}")
+        return known[text]
+
+    return {"type": read, "metavar": f"{{{','.join(known)}}}", "default": items[0][0]}
 
 
 def separate_style(options: argparse.Namespace) -> Any:

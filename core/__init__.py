@@ -12,7 +12,8 @@ stage    from the package                     from the modules
          ``PRESETS``, ``VERSION``,            ``metrics``: how far two labelings of one mesh are from each other
          ``ReebError``, ``MeshError``,
          ``EmptyMeshError``, ``Cancelled``,
-         ``ParameterError``
+         ``ParameterError``,
+         ``UnknownParameterError``
 surface  ``TriMesh``, a checked mesh          polygons, repair, coarser copies, curvature, labels on faces
 field                                         geodesic distances; the AGD, normalized and equalized
 graph    ``ReebGraph``, nodes and arcs        level sets, critical points, simplification, contours
@@ -32,6 +33,7 @@ if TYPE_CHECKING:  # "as", so that a name counts as one of the package for those
     from .errors import MeshError as MeshError
     from .errors import ParameterError as ParameterError
     from .errors import ReebError as ReebError
+    from .errors import UnknownParameterError as UnknownParameterError
     from .graph.reeb import ReebGraph as ReebGraph
     from .parameters import PRESETS as PRESETS
     from .parameters import Parameters as Parameters
@@ -56,6 +58,7 @@ _HOME = {
     "ReebError": "errors",
     "ReebGraph": "graph.reeb",
     "TriMesh": "surface.mesh",
+    "UnknownParameterError": "errors",
     "VERSION": "result.decomposition",
     "decompose": "pipeline",
 }

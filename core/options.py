@@ -20,16 +20,18 @@ def add_parameters(group: argparse._ArgumentGroup) -> None:
     group : argument group of an ``argparse.ArgumentParser``
         Names of version 0.1.0 are added, too, and stay out of the help.
     """
-    group.add_argument("--preset", choices=list(PRESETS), help="start from the parameters of a preset")
+    group.add_argument("--preset", choices=list(PRESETS),
+                       help=f"start from the parameters of a preset (default {next(iter(PRESETS))})")
     for field in fields(Parameters):
         meta = field.metadata
         words = {"dest": field.name, "default": None, "help": meta["description"].replace("%", "%%")}
         name = f"--{dashed(field.name)}"
         if "choices" in meta:
+            words["help"] += f" (default {field.default})"
             group.add_argument(name, choices=meta["choices"], **words)
         elif "range" in meta:
             low, high = meta["range"]
-            words["help"] += f" ({low} to {high}; default {field.default})"
+            words["help"] += limits_of(low, high, getattr(Parameters, field.name))
             group.add_argument(name, type=int if field.type == "int" else float, metavar="N", **words)
         else:
             words["help"] += f" (default {'on' if field.default else 'off'})"
@@ -67,6 +69,11 @@ def chosen_parameters(options: argparse.Namespace) -> tuple[Parameters, tuple[Se
 def dashed(name: str) -> str:
     """Name of the option for a name in Python: dashes for underscores."""
     return name.replace("_", "-")
+
+
+def limits_of(low: float, high: float, default: float) -> str:
+    """What the help says of the numbers that an option takes, such as " (0 to 1; default 0.5)"."""
+    return f" ({low:g} to {high:g}; default {default:g})"
 
 
 def number(low: float, high: float = math.inf, kind: type[float] | type[int] = float) -> Callable[[str], float]:

@@ -27,6 +27,7 @@ from .core import (
     ReebError,
     ReebGraph,
     TriMesh,
+    UnknownParameterError,
 )
 from .meshes import decompose, face_colors
 from .model_files import Model, ModelFileError, read_model
@@ -48,6 +49,7 @@ __all__ = [
     "ReebError",
     "ReebGraph",
     "TriMesh",
+    "UnknownParameterError",
     "decompose",
     "face_colors",
     "read_model",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol, overload
 import numpy as np
 
 from .core import pipeline
-from .core.errors import MeshError
+from .core.errors import MeshError, ParameterError
 from .core.parameters import Parameters
 from .core.progress import Progress
 from .core.result.decomposition import Decomposition, Parts
@@ -108,7 +108,10 @@ def face_colors(parts: Parts) -> np.ndarray:
     """Color each face by its part, as ``trimesh.Trimesh.visual.face_colors`` takes it.
 
     parts : Parts, of p faces. Returns (p, 4) uint8, sRGB and opacity; color-blind people can tell the colors apart, and
-    parts that touch differ.
+    parts that touch differ. Raises ParameterError for what is no Parts.
     """
+    if not isinstance(parts, Parts):
+        raise ParameterError(Sentence("Colors are of parts, as parts() of a result gives them, not of {type}.",
+                                      type=type(parts).__name__), "parts")
     color = np.column_stack([part_colors(parts.count, parts.cuts), np.ones(parts.count)])
     return (255 * color).round().astype(np.uint8)[parts.labels]

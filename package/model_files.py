@@ -27,6 +27,8 @@ BY_BLENDER = (".blend", ".fbx")
 #: Files in which z is up by custom; y is in all others.
 Z_UP = (".stl", ".ply", ".3mf", *BY_BLENDER)
 ARRAYS = ".npz"  # the arrays ``vertices`` and ``faces``, as NumPy stores them
+# What trimesh counts among the files of meshes: another name for .stl, and points without faces.
+_OTHERS = {"stl_ascii", "xyz"}
 
 
 class ModelFileError(ReebError, OSError):
@@ -67,7 +69,7 @@ def formats() -> tuple[str, ...]:
     """Suffixes of the files that can be read without Blender, with their dots."""
     from trimesh.exchange.load import mesh_formats
 
-    return (*sorted(f".{name}" for name in mesh_formats() if name != "stl_ascii"), ARRAYS)
+    return (*sorted(f".{name}" for name in mesh_formats() if name not in _OTHERS), ARRAYS)
 
 
 def read_model(path: str | Path, blender: str | Path | None = None, temporary: str | Path | None = None) -> Model:

@@ -16,10 +16,6 @@ def _without_update(prop: Any) -> Any:
     return prop.function(**{key: value for key, value in prop.keywords.items() if key != "update"})
 
 
-# As in blender_manifest.toml, which Blender does not tell.
-WEBSITE = "https://extensions.blender.org/add-ons/reeb-parts/"
-
-
 class OverlayDefaults:
     """The properties of OverlayProperties."""
 
@@ -37,9 +33,6 @@ class ReebPartsPreferences(bpy.types.AddonPreferences, OutputProperties, Overlay
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
-        row = layout.row()
-        row.operator("wm.url_open", text="Documentation", icon="HELP").url = WEBSITE
-        row.operator("wm.url_open", text="Report a Problem", icon="URL").url = f"{WEBSITE}reviews/"
         shortcut.draw(layout, context)
         layout.use_property_split = True
         layout.label(text="New scenes start with these settings.")

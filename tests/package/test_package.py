@@ -108,6 +108,31 @@ def test_colors_of_faces_are_those_of_their_parts(tree):
     assert (mesh.visual.face_colors == colors).all()
 
 
+@pytest.mark.parametrize("what", [3, None, [0, 1], "parts"])
+def test_what_has_no_parts_has_no_colors(what):
+    with pytest.raises(reeb_parts.ReebError, match=rf"not of {type(what).__name__}\.$"):
+        reeb_parts.face_colors(what)
+
+
+def test_a_result_has_colors_once_its_parts_are_read(tree):
+    with pytest.raises(reeb_parts.ParameterError, match="not of Decomposition"):
+        reeb_parts.face_colors(reeb_parts.decompose(*tree))
+
+
+def test_an_unknown_parameter_has_an_error_of_its_own():
+    with pytest.raises(reeb_parts.UnknownParameterError) as caught:
+        reeb_parts.Parameters(detial=0.5)
+    assert caught.value.name == "detial"
+
+
+def test_points_without_faces_are_no_models(tmp_path):
+    """trimesh counts .xyz among the files of meshes; the list of kinds offered it."""
+    (tmp_path / "points.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n")
+    with pytest.raises(reeb_parts.ModelFileError, match=r"points\.xyz is none of ") as caught:
+        reeb_parts.read_model(tmp_path / "points.xyz")
+    assert str(caught.value).count(".xyz") == 1
+
+
 @pytest.mark.parametrize("kind", ["obj", "ply", "stl", "glb", "off"])
 def test_models_are_read_in_the_order_of_the_file(kind, tmp_path):
     shape = shapes.tube_tree(step=0.2)

@@ -58,8 +58,6 @@ OPERATORS = {
     "Show Colors": "Farben zeigen",
     "Show Colors of Parts": "Farben der Teile zeigen",
     "Give Materials": "Materialien geben",
-    "Documentation": "Dokumentation",
-    "Report a Problem": "Problem melden",
     "Parts of Selected Nodes": "Teile der ausgewählten Knoten",
     "Part of Arc": "Teil des Bogens",
     # Teile verwenden

@@ -59,8 +59,6 @@ OPERATORS = {
     "Show Colors": "显示颜色",
     "Show Colors of Parts": "显示部件的颜色",
     "Give Materials": "添加材质",
-    "Documentation": "文档",
-    "Report a Problem": "报告问题",
     "Parts of Selected Nodes": "所选节点的部件",
     "Part of Arc": "弧的部件",
     # 使用部件

@@ -254,6 +254,35 @@ def test_names_that_are_no_utf8_are_readable_in_the_answer(run, model):
     assert odd.is_file()
 
 
+@pytest.fixture
+def parser(package):
+    return import_module(f"{package}.batch.options").parser("")
+
+
+def test_the_help_says_the_range_and_the_default_of_every_number(parser):
+    words, defaults = " ".join(parser.format_help().split()), vars(parser.parse_args([]))
+    shown = dict(re.findall(r"--([a-z-]+) N (?:(?! --).)*?\([-\d.]+ to [\d.e+]+; default ([\d.]+)\)", words))
+    missing = {option for option in re.findall(r"--([a-z-]+) N ", words)} - shown.keys() - {"hulls-per-part"}
+    assert not missing
+    names = {"peg-count": "joint_count", "peg-size": "joint_size", "peg-depth": "joint_depth",
+             "peg-clearance": "joint_clearance", "peg-wall": "joint_wall"}
+    assert names.keys() | {"node-size", "line-thickness"} <= shown.keys()
+    for option, default in shown.items():
+        known = defaults[names.get(option, option.replace("-", "_"))]
+        assert known is None or float(default) == pytest.approx(known)  # a parameter's is that of the preset
+
+
+def test_a_palette_is_named_as_in_the_panel_or_as_in_version_0_1_0(parser, capsys):
+    palette = lambda *words: parser.parse_args(list(words)).palette  # noqa: E731
+    assert palette("--palette", "Color-Blind Safe") == palette("--palette", "Colour-blind safe") == palette()
+    assert palette("--palette", "Bright") == "Bright"
+    assert "{Color-Blind Safe,Pastel,Bright}" in parser.format_help()
+    assert "(default: Color-Blind Safe)" in " ".join(parser.format_help().split())
+    with pytest.raises(SystemExit):
+        palette("--palette", "Grey")
+    assert "--palette: must be one of Color-Blind Safe, Pastel, Bright, not Grey" in capsys.readouterr().err
+
+
 def test_the_help_says_what_is_on(package):
     parser = import_module(f"{package}.batch.options").parser("")
     words, defaults = " ".join(parser.format_help().split()), vars(parser.parse_args([]))
