@@ -122,13 +122,14 @@ def unstretch(stretch: np.ndarray) -> np.ndarray:
     return np.linalg.pinv(stretch)
 
 
-def face_graph(obj: bpy.types.Object) -> tuple[FaceGraph, CornerTable]:
+def face_graph(obj: bpy.types.Object, shape: Shape | None = None) -> tuple[FaceGraph, CornerTable]:
     """Which faces of an object's mesh share an edge, with areas and lengths, and their corners; Object Mode.
 
     In coordinates of the shape, see ``Shape.vertices``. Edges go across seams as Decompose does, see
-    ``mesh_arrays.joined_table``; corners have their own vertices, each of which is in a part.
+    ``mesh_arrays.joined_table``; corners have their own vertices, each of which is in a part. shape : what
+    ``read_shape`` gives for the object, if it is known already.
     """
-    shape, mesh = read_shape(obj), obj.data
+    shape, mesh = shape or read_shape(obj), obj.data
     table = mesh_arrays.joined_table(mesh, shape.vertices)
     pairs, edge = table.face_pairs()
     graph = FaceGraph(table.n_faces, pairs, table.edge_length(edge), shape.face_area)

@@ -307,7 +307,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         The part that each face was to be in, with what goes along and the mirror image of the change; pieces have
         other numbers then.
     """
-    from ..core.result.editing import pieces_cut_off, split_candidates
+    from ..core.result.editing import split_around
     from ..core.result.mirroring import cleaned
 
     before, asked = stored.face_numbers, face_numbers
@@ -324,13 +324,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         return face_numbers
     concerned = set(np.unique(np.concatenate([face_numbers[moved], before[moved]])).tolist())
     mesh_tables = mesh_tables or bridge.face_graph(obj)
-    # What goes to different parts, or is left in different pieces, differs in a bit: of a thousand face sets, ten cuts
-    # tell all.
-    place = pieces_cut_off(stored.decomposition, moved, mesh_tables[0])
-    place[moved] = place.max() + 1 + np.unique(face_numbers[moved], return_inverse=True)[1]
-    for bit in range(int(place.max()).bit_length()):
-        inside = (place >> bit) & 1 == 1
-        stored = _finer(stored, split_candidates(stored.decomposition, inside, *mesh_tables))
+    stored = _finer(stored, split_around(stored.decomposition, np.where(moved, face_numbers, 0), *mesh_tables))
     with quiet.quiet():
         store.save(obj.data, stored)
     numbers = stored.shown.copy()

@@ -23,6 +23,7 @@ from . import (
     outputs,
     quiet,
     store,
+    succession,
     targets,
     transaction,
     uv_map,
@@ -82,7 +83,7 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
     transaction.keep_mesh(mesh)
     _keep_colors(mesh)
     leavings.remove(obj)
-    stored = store.succeed(mesh, decomposition)
+    stored = succession.succeed(obj, outcome.shape, decomposition)
     numbered = stored.shown_parts()
     result = mesh.reeb_parts
     yield 0.1

@@ -16,8 +16,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.result.decomposition import Decomposition
-from ..core.result.numbering import NumberedParts, Numbering, inherited
-from ..core.surface.labels import majority
+from ..core.result.numbering import NumberedParts, Numbering
 from . import mesh_arrays, part_names, quiet, transaction
 from .errors import SceneError, load_core, translated
 
@@ -166,42 +165,6 @@ def go_to_number(result: bpy.types.PropertyGroup, numbering: Numbering, count: i
     """Let the detail be where there are so many parts, and know how many there can be."""
     result.fewest, result.most = numbering.n_range
     result.detail = numbering.detail_of(count)
-
-
-def succeed(mesh: bpy.types.Mesh, decomposition: Decomposition) -> Stored:
-    """A new result for a mesh; its parts take over the numbers of those that the faces were in until now."""
-    previous = pinned = np.zeros(decomposition.n_candidates, np.int64)
-    if has_result(mesh):
-        face_previous, face_pinned = _face_numbers(mesh)
-        if len(face_previous) == decomposition.n_faces and face_previous.any():
-            weight = np.ones(len(face_previous))
-            previous = majority(decomposition.candidates, face_previous, weight, decomposition.n_candidates)
-            pinned = majority(decomposition.candidates, face_pinned, weight, decomposition.n_candidates)
-    parameters = decomposition.parameters
-    numbers = inherited(decomposition, parameters.detail, parameters.n_parts, previous, pinned)
-    return Stored(decomposition, previous_number=numbers, pinned=pinned, shown=numbers)
-
-
-def _face_numbers(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """The number of each face's part, and of the part that it is pinned to; 0 for none. Survives edits of the mesh."""
-    result = mesh.reeb_parts
-    try:
-        old = load(mesh)
-    except SceneError:  # edited, or from another version: what is left is on the faces
-        pass
-    else:
-        # A part of a finer level that the user has named or colored is found again by the next run, too.
-        kept = np.isin(old.shown, [entry.number for entry in result.names])
-        candidates = old.decomposition.candidates
-        return np.where(kept, old.shown, old.previous_number)[candidates], old.pinned[candidates]
-    attribute = mesh.attributes.get(result.face_attribute)
-    faces = np.zeros(len(mesh.polygons), np.int64)
-    usable = attribute is not None and (attribute.domain, attribute.data_type) == ("FACE", "INT")
-    if usable and len(attribute.data) == len(faces):
-        faces = mesh_arrays.read(attribute.data, "value", np.int32).astype(np.int64)
-        faces[(faces < 0) | (faces > part_names.MAX_NUMBER)] = 0
-    pinned = [part.number for part in result.parts if part.pinned]
-    return faces, np.where(np.isin(faces, pinned), faces, 0)
 
 
 def stretch_of(mesh: bpy.types.Mesh) -> np.ndarray:

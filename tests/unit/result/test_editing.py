@@ -21,6 +21,7 @@ from core.result.editing import (
     node_split,
     pieces_cut_off,
     shrinkage,
+    split_around,
     split_candidates,
     two_sides,
 )
@@ -191,6 +192,26 @@ def test_pieces_cut_off_by_hand():
     assert not nothing.any()
     found.contacts = np.array([[1, 3]])  # across a gap
     assert pieces_cut_off(found, np.isin(np.arange(9), [2, 5, 7]), graph).tolist() == [0, 0, 0, 0, 0, 0, 1, 0, 0]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_any_numbers_of_faces_can_be_parts_and_change_no_level_otherwise(result, tree, seed):
+    """Of five numbers at random, each candidate has one, and of what is left of a candidate each piece is one."""
+    graph, table = tree
+    number = np.random.default_rng(seed).integers(0, 6, graph.n_faces)
+    finer = split_around(result, number, graph, table)
+    of_candidate = np.zeros(finer.n_candidates, np.int64)
+    of_candidate[finer.candidates] = number
+    np.testing.assert_array_equal(of_candidate[finer.candidates], number)
+    left = np.where(number == 0, finer.candidates, -1)
+    region = graph.regions(left)[1]
+    assert len(np.unique(region[number == 0])) == len(np.unique(left)) - 1
+    for n_parts in (1, 4, result.n_candidates):
+        np.testing.assert_array_equal(finer.parts(n_parts=n_parts).labels, result.parts(n_parts=n_parts).labels)
+
+
+def test_no_numbers_need_no_splitting(result, tree):
+    assert split_around(result, np.zeros(result.n_faces, np.int64), *tree) is result
 
 
 def test_whole_candidates_need_no_splitting(result, tree):
