@@ -25,7 +25,7 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
     def check_context(cls, context: bpy.types.Context) -> None:
         obj = targets.active_object(context)
         if obj is None or obj.type != "MESH" or not (
-                store.has_result(obj.data) or graph_objects.find(obj) or leavings.may_be(obj.data)):
+                store.has_result(obj.data) or graph_objects.exists(obj) or leavings.may_be(obj.data)):
             raise SceneError(rpt_("The active object has no parts"))
 
     def run(self, context: bpy.types.Context) -> None:

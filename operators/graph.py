@@ -112,7 +112,7 @@ class REEB_PARTS_OT_to_nodes(ReportingOperator, bpy.types.Operator):
         assert obj is not None  # check_parts has looked
         if obj.mode != "OBJECT":
             raise SceneError(rpt_("Go to Object Mode first"))
-        if graph_objects.find(obj) is None:
+        if not graph_objects.exists(obj):
             raise SceneError(rpt_("The active object shows no graph"))
 
     def run(self, context: bpy.types.Context) -> None:

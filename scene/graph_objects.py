@@ -57,11 +57,28 @@ def arcs(obj: bpy.types.Object) -> bpy.types.Object | None:
 def _items(obj: bpy.types.Object, role: str) -> Iterator[bpy.types.Object]:
     """The objects of an object's graph that have a role, "node" or "arcs"; none if there is no graph."""
     collection = find(obj)
-    return (item for item in (collection.objects if collection else ()) if item.get(ROLE) == role)
+    every = [*(collection.objects if collection else ()), *_elsewhere(obj)]
+    return (item for item in every if item.get(ROLE) == role)
+
+
+def _elsewhere(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """The objects of an object's graph that the user has moved to another collection, or whose own was deleted."""
+    collection = find(obj)
+    inside = set(collection.objects) if collection else set()
+    return [item for item in obj.children if item.get(ROLE) in ("node", _ARCS) and item not in inside
+            and not transaction.is_discarded(item)]
+
+
+def exists(obj: bpy.types.Object) -> bool:
+    """Whether an object has a graph, or something of one."""
+    return find(obj) is not None or bool(_elsewhere(obj))
 
 
 def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> bool:
-    """Hide the graph of an object in the view layer, or show it again; whether there is one."""
+    """Hide the graph of an object in the view layer, or show it again; whether it has a collection."""
+    for item in _in_layer(context, _elsewhere(obj)):
+        transaction.on_failure(item.hide_set, item.hide_get())
+        item.hide_set(hidden)
     collection = find(obj)
     if collection is None:
         return False
@@ -73,7 +90,14 @@ def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) 
 
 def is_shown(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     """Whether an object has a graph that is not hidden in the view layer."""
-    return any(not layer.hide_viewport for layer in _layers(context, find(obj)))
+    return (any(not layer.hide_viewport for layer in _layers(context, find(obj)))
+            or any(item.visible_get() for item in _in_layer(context, _elsewhere(obj))))
+
+
+def _in_layer(context: bpy.types.Context, items: Iterable[bpy.types.Object]) -> list[bpy.types.Object]:
+    """Those of some objects that are in the view layer."""
+    layer = context.view_layer.objects
+    return [item for item in items if layer.get(item.name) == item]
 
 
 def _layers(context: bpy.types.Context, collection: bpy.types.Collection | None
@@ -385,24 +409,31 @@ def remove(obj: bpy.types.Object) -> None:
 
 def _remove(obj: bpy.types.Object, coming: Collection[str] | None) -> made.Earlier:
     """What ``remove`` does. coming : what the nodes of a new graph stand for, see made.needed; None without one."""
-    gone, kept = [], 0
+    gone, kept = _remove_items(_elsewhere(obj), coming)
     for collection in list(bpy.data.collections):
         if SOURCE not in collection or collection[SOURCE] not in (obj, None):
             continue
         ours = [item for item in collection.objects if ROLE in item]
-        needed = made.needed(ours, _stands_for, coming) if coming is not None and collection[SOURCE] else set()
-        going = [item for item in ours if item not in needed]
-        theirs = set(collection.all_objects) - set(going)
-        for item in needed:
-            made.hand_over(item, ROLE)
-        gone += [(_stands_for(item), item) for item in going]
-        kept += len(needed)
-        for item in going:
-            remove_object(item)
+        theirs = set(collection.all_objects) - set(ours)
+        more = _remove_items(ours, coming if collection[SOURCE] else None)
+        gone, kept = gone + more.gone, kept + more.kept
         made.hand_over(collection, SOURCE, SHOWN_BEFORE)
-        if not theirs and not len(collection.children):  # else it is the user's now, who put something in it
+        # Else it is the user's now, who put something in it.
+        if not theirs and not more.kept and not len(collection.children):
             transaction.discard(collection)
     return made.Earlier(gone, kept)
+
+
+def _remove_items(items: list[bpy.types.Object], coming: Collection[str] | None) -> made.Earlier:
+    """Remove objects of a graph; those that others need are the user's from now on. coming : as of ``_remove``."""
+    needed = made.needed(items, _stands_for, coming) if coming is not None else set()
+    going = [item for item in items if item not in needed]
+    for item in needed:
+        made.hand_over(item, ROLE)
+    gone = [(_stands_for(item), item) for item in going]
+    for item in going:
+        remove_object(item)
+    return made.Earlier(gone, len(needed))
 
 
 def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | None:

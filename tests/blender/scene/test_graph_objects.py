@@ -214,3 +214,58 @@ def test_a_graph_goes_with_its_model(package, obj, settings):
     watch._tidy()  # as a timer does
     assert "Reeb Graph Tree" not in bpy.data.collections
     assert [item for item in bpy.data.objects if "reeb_parts_role" in item] == []
+
+
+def _deleted(collection):
+    """As the Outliner deletes a collection: what is in it moves up."""
+    for item in list(collection.objects):
+        bpy.context.scene.collection.objects.link(item)
+    bpy.data.collections.remove(collection)
+
+
+def _moved(collection, items=None):
+    other = bpy.data.collections.new("Misc")
+    bpy.context.scene.collection.children.link(other)
+    for item in items or list(collection.objects):
+        other.objects.link(item)
+        collection.objects.unlink(item)
+
+
+def _one_moved(collection):
+    _moved(collection, [item for item in collection.objects if item["reeb_parts_role"] == "arcs"])
+
+
+@pytest.mark.parametrize("how", [_deleted, _moved, _one_moved])
+class TestElsewhere:
+    """A graph that is not in its own collection any more once stayed where it was, beside a second one."""
+
+    def test_another_run_draws_it_anew(self, obj, settings, how):
+        before = graph_facts()
+        how(bpy.data.collections["Reeb Graph Tree"])
+        bpy.ops.reeb_parts.decompose(method="berretti")
+        assert graph_facts() == before
+        assert set(bpy.data.collections["Reeb Graph Tree"].objects) == set(obj.children)
+
+    def test_it_is_hidden_and_shown(self, obj, settings, how):
+        before = graph_facts()
+        how(bpy.data.collections["Reeb Graph Tree"])
+        for shown in (False, True):
+            bpy.ops.reeb_parts.show_graph()
+            bpy.context.view_layer.update()
+            assert graph_facts() == before
+            assert {item.visible_get() for item in obj.children} == {shown}
+
+    def test_it_follows_the_parts(self, obj, settings, how):
+        obj.data.reeb_parts.detail = 0.9
+        expected = graph_facts()
+        obj.data.reeb_parts.detail = 0.5
+        how(bpy.data.collections["Reeb Graph Tree"])
+        assert graph_facts() != expected
+        obj.data.reeb_parts.detail = 0.9
+        assert graph_facts() == expected
+
+    def test_clear_removes_it(self, obj, settings, how):
+        how(bpy.data.collections["Reeb Graph Tree"])
+        bpy.ops.reeb_parts.clear()
+        assert not obj.children
+        assert "Reeb Graph Tree" not in bpy.data.collections
