@@ -17,7 +17,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts, Numbering
-from . import mesh_arrays, part_names, quiet, transaction
+from . import mesh_arrays, part_names, quiet, targets, transaction
 from .errors import SceneError, load_core, translated
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
@@ -100,14 +100,14 @@ def load(mesh: bpy.types.Mesh) -> Stored:
         There is none, or the mesh was edited since.
     """
     if not has_result(mesh):
-        raise SceneError(rpt_("{name} has no parts yet. Decompose it first.").format(name=mesh.name))
+        raise SceneError(rpt_("{name} has no parts yet. Decompose it first.").format(name=targets.name_of(mesh)))
     if mesh.is_editmode:
-        raise SceneError(rpt_("{name} is being edited. Leave Edit Mode first.").format(name=mesh.name))
+        raise SceneError(rpt_("{name} is being edited. Leave Edit Mode first.").format(name=targets.name_of(mesh)))
     result = mesh.reeb_parts
     if (mesh_arrays.fingerprint(mesh) != result.fingerprint
             or (result.n_vertices, result.n_faces) != (len(mesh.vertices), len(mesh.polygons))):
         raise SceneError(
-            rpt_("{name} was edited since it was decomposed. Decompose it again.").format(name=mesh.name))
+            rpt_("{name} was edited since it was decomposed. Decompose it again.").format(name=targets.name_of(mesh)))
     return last(mesh)
 
 

@@ -135,3 +135,12 @@ def _kind(obj: bpy.types.Object) -> str:
 def users(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:
     """The objects of a mesh; vertex groups can be written through any of them."""
     return [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data == mesh]
+
+
+def name_of(mesh: bpy.types.Mesh) -> str:
+    """What a person calls a mesh: the name of its object, of several that of the active one; its own without any."""
+    names = [obj.name for obj in users(mesh)]
+    active = bpy.context.view_layer.objects.active if bpy.context.view_layer else None
+    if active is not None and active.name in names:
+        return active.name
+    return names[0] if names else mesh.name

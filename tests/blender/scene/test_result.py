@@ -338,3 +338,15 @@ def test_an_edit_in_edit_mode_is_noticed_and_what_is_refused_goes_back(obj, pack
     bpy.ops.mesh.delete(type="VERT")
     bpy.ops.object.mode_set(mode="OBJECT")
     assert look()
+
+
+@pytest.mark.parametrize("second", [False, True])
+def test_a_message_names_the_object_and_not_its_mesh(obj, second):
+    obj.name, obj.data.name = "Hero", "Cube.003"
+    if second:
+        other = bpy.data.objects.new("Another", obj.data)
+        bpy.context.scene.collection.objects.link(other)
+    bpy.ops.reeb_parts.decompose()
+    obj.data.vertices[0].co.x += 1
+    with pytest.raises(RuntimeError, match="Hero was edited since"):
+        bpy.ops.reeb_parts.separate()
