@@ -42,13 +42,14 @@ class ChosenPartsOperator(PartOperator):
     edit: Callable[[bpy.types.Mesh, Stored, int], Stored]
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str | None:
-        numbers = chosen_numbers(obj.data)
+        numbers, names = chosen_numbers(obj.data), part_names.all_names(obj.data)
         edits.check_unlocked(obj.data, numbers)
         after = stored
         for number in edits.one_of_each_pair(stored, numbers):
             after = self.edit(obj.data, after, number)
         edits.write(context, obj.data, stored, after)
-        return None
+        ended = edits.told_of_ended(obj.data, names)
+        return ended[:1].upper() + ended[1:] or None
 
 
 class REEB_PARTS_OT_merge_neighbour(PartOperator, bpy.types.Operator):
@@ -149,8 +150,10 @@ class REEB_PARTS_OT_from_face_sets(PartOperator, bpy.types.Operator):
     bl_label = "Parts from Face Sets"
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
+        names = part_names.all_names(obj.data)
         count = edits.assign_face_sets(context, obj, stored)
-        return rpt_("{n} {n:face is in another part|faces are in other parts} now").format(n=Count(count))
+        told = rpt_("{n} {n:face is in another part|faces are in other parts} now").format(n=Count(count))
+        return "; ".join(filter(None, (told, edits.told_of_ended(obj.data, names))))
 
 
 class REEB_PARTS_OT_release(PartOperator, bpy.types.Operator):

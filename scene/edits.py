@@ -254,12 +254,12 @@ def assign_selected(context: bpy.types.Context, obj: bpy.types.Object, stored: S
     faces = selected_faces(obj.data)
     if not faces.any():
         raise SceneError(rpt_("No faces are selected. Select some in Edit Mode."))
-    before = stored.face_numbers
+    before, names = stored.face_numbers, part_names.all_names(obj.data)
     check_unlocked(obj.data, {number, *before[faces].tolist()})
     wanted = assign_faces(context, obj, stored, np.where(faces, number, before))
     told = rpt_("{n} {n:face is|faces are} {name} now").format(
         n=Count(int(faces.sum())), name=part_names.part_name(obj.data, number))
-    return "; ".join(filter(None, (told, told_of_rest(obj.data, before, wanted))))
+    return "; ".join(filter(None, (told, told_of_rest(obj.data, before, wanted), told_of_ended(obj.data, names))))
 
 
 def assign_face_sets(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> int:
@@ -368,6 +368,15 @@ def told_of_rest(mesh: bpy.types.Mesh, before: np.ndarray, wanted: np.ndarray) -
                 for numbers in (givers, more))
     return rpt_("what is left of {givers} is in {n} {n:part|parts} more: {names}").format(
         givers=old, n=Count(len(more)), names=new)
+
+
+def told_of_ended(mesh: bpy.types.Mesh, names: dict[int, str]) -> str:
+    """Which parts a change has left nothing of, in a sentence; "" for none. names : part_names.all_names before it."""
+    listed = {part.number for part in mesh.reeb_parts.parts}
+    ended = [name for number, name in names.items() if number not in listed]
+    if not ended:
+        return ""
+    return rpt_("nothing is left of {names}").format(names=", ".join(ended))
 
 
 def _finer(stored: Stored, decomposition: Decomposition) -> Stored:

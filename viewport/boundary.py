@@ -123,7 +123,7 @@ def write_moved(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
 
     numbers : (p,) int64, the part of each face from now on.
     """
-    before = stored.face_numbers
+    before, names = stored.face_numbers, part_names.all_names(obj.data)
     if (numbers == before).all():
         return None
     wanted = edits.assign_faces(context, obj, stored, numbers, beside_taken=1.0)
@@ -131,4 +131,5 @@ def write_moved(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     grew = np.isin(wanted, parts).sum() > np.isin(before, parts).sum()
     text = rpt_("{names} took {n} {n:face|faces}") if grew else rpt_("{names} gave away {n} {n:face|faces}")
     told = text.format(names=", ".join(part_names.part_name(obj.data, number) for number in parts), n=Count(count))
-    return "; ".join(filter(None, (told, edits.told_of_rest(obj.data, before, wanted))))
+    rest, ended = edits.told_of_rest(obj.data, before, wanted), edits.told_of_ended(obj.data, names)
+    return "; ".join(filter(None, (told, rest, ended)))

@@ -81,6 +81,7 @@ def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> st
     if not moved.any():
         raise SceneError(_why_nothing(brush).format(name=name))
     before = brush.model.numbers
+    names = part_names.all_names(obj.data)
     givers = ", ".join(part_names.part_name(obj.data, number) for number in np.unique(before[moved]).tolist())
     wanted = edits.assign_faces(context, obj, brush.model.stored, brush.numbers(), beside_taken=_SPECK)
     after = store.load(obj.data).face_numbers
@@ -96,6 +97,8 @@ def paint(context: bpy.types.Context, obj: bpy.types.Object, brush: Brush) -> st
         told.append(apart.format(n=Count(int(moved.sum()) - joined), givers=givers, name=name))
     if rest := edits.told_of_rest(obj.data, before, wanted):
         told.append(rest)
+    if ended := edits.told_of_ended(obj.data, names):
+        told.append(ended)
     if brush.n_locked:
         told.append(rpt_("{n} {n:is locked and stays|are locked and stay}").format(n=Count(brush.n_locked)))
     return "; ".join(told)

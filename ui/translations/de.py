@@ -1050,6 +1050,7 @@ TEXTS = {
         "Nummer des Teils, an dem die Grenze geschoben wird; 0 für die ganze Grenze",
     "Rings": "Ringe",
     "what is left is in {n} {n:part|parts} more": "der Rest zerfiel in {n} {n:Teil|Teile} mehr",
+    "nothing is left of {names}": "von {names} ist nichts mehr übrig",
     "what is left of {givers} is in {n} {n:part|parts} more: {names}":
         "der Rest von {givers} zerfiel in {n} {n:Teil|Teile} mehr: {names}",
     "{names} gave away {n} {n:face|faces}": "{names}: {n} {n:Fläche|Flächen} abgegeben",

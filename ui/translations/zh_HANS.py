@@ -932,6 +932,7 @@ TEXTS = {
         "边界在其处滑移的部件编号；0 表示全部边界",
     "Rings": "环",
     "what is left is in {n} {n:part|parts} more": "剩余部分多分成 {n} 个部件",
+    "nothing is left of {names}": "{names} 已全部并入其他部件",
     "what is left of {givers} is in {n} {n:part|parts} more: {names}": "{givers} 的剩余部分多分成 {n} 个部件：{names}",
     "{names} gave away {n} {n:face|faces}": "{names} 让出 {n} 个面",
     "{names} took {n} {n:face|faces}": "{names} 取得 {n} 个面",

@@ -2,6 +2,7 @@
 """Parts changed by hand: locked, merged, split, grown, shrunk, painted; kept when the detail changes."""
 
 import importlib
+import re
 
 import bpy
 import numpy as np
@@ -596,3 +597,51 @@ def test_a_part_that_touches_nothing_has_no_boundary_to_move(make, edit):
     obj.data.reeb_parts.active = 0
     with pytest.raises(RuntimeError, match="shares no edge with another part"):
         getattr(bpy.ops.reeb_parts, edit)(**({"offset": 0.1} if edit == "slide" else {"rings": 1}))
+
+
+def _grow(obj, small):
+    while small in numbers(obj.data):
+        bpy.ops.reeb_parts.grow(rings=2)
+
+
+def _slide(obj, small):
+    bpy.ops.reeb_parts.slide(offset=3.0)
+
+
+def _paint(obj, small):
+    place = [p.center[:] for p in obj.data.polygons if numbers(obj.data)[p.index] == small]
+    bpy.ops.reeb_parts.paint(stroke=[{"name": "", "location": at, "radius": 0.1} for at in place])
+
+
+def _assign(obj, small):
+    obj.data.polygons.foreach_set("select", numbers(obj.data) == small)
+    bpy.ops.reeb_parts.assign()
+
+
+@pytest.mark.parametrize("way", [_grow, _slide, _paint, _assign])
+def test_it_is_told_of_which_part_nothing_is_left(obj, result, capfd, way):
+    """A neighbor that a part swallowed was gone without a word."""
+    bpy.context.scene.reeb_parts.symmetry = False
+    center = np.array([p.center[:] for p in obj.data.polygons])
+    obj.data.polygons.foreach_set("select", np.linalg.norm(center - shapes.TREE_TIPS[0], axis=1) < 0.3)
+    bpy.ops.reeb_parts.assign(new=True)
+    small = result.parts[result.active].number
+    (beside,) = neighbours(obj.data, small)
+    part(result, small).name = "Knob"
+    choose(result, beside)
+    capfd.readouterr()
+    way(obj, small)
+    assert small not in numbers(obj.data)
+    said = capfd.readouterr().out
+    assert len(re.findall(r"nothing is left of ([^\n]*, )?Knob", said)) == 1
+
+
+def test_a_part_that_grows_as_far_as_the_next_crease_tells_what_ended(obj, result, capfd):
+    result.n_parts = 4
+    choose(result, 1)
+    count, said = len(result.parts), ""
+    while len(result.parts) == count:
+        capfd.readouterr()
+        bpy.ops.reeb_parts.grow()
+        said = capfd.readouterr().out
+    assert "Nothing is left of Part" in said
