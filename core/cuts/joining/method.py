@@ -24,6 +24,7 @@ from .distant import FEATURES as DISTANT_FEATURES
 from .distant import DistantPairs, distant_pairs
 from .linkage import average_linkage
 from .pairs import FEATURES, PartPairs, part_pairs
+from .repetition import Linkage, evenly_linked, piece_kinds
 
 # Cuts within a piece of less salience than this are not judged anew: FINE where a salience is the share of people who
 # would cut there, FINE_MEASURED in the methods that measure how deep or how narrow a cut is.
@@ -60,6 +61,8 @@ class FineParts:
         Salience below which candidates are together in them.
     within : float
         Weight of the salience of a cut in the log-odds of two parts of one piece, 0..1.
+    kind : (p,) int64
+        Of each piece; those that repeat each other have the same.
     """
 
     part: np.ndarray
@@ -68,6 +71,7 @@ class FineParts:
     pairs: PartPairs
     fine: float
     within: float
+    kind: np.ndarray
 
     def salience(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Salience of the cut between two parts of one piece, (e,) float64. a, b : (e,) int64."""
@@ -117,7 +121,7 @@ def fine_parts(
     candidate = np.zeros(len(present), np.int64)
     candidate[part] = label
     pairs = part_pairs(mesh, part, lambda a, b: hierarchy.salience_between(candidate[a], candidate[b]), agd)
-    return FineParts(part, candidate, hierarchy, pairs, fine, within)
+    return FineParts(part, candidate, hierarchy, pairs, fine, within, piece_kinds(mesh))
 
 
 def join_parts(parts: FineParts, model: JoinModel | None = None) -> tuple[Hierarchy, np.ndarray]:
@@ -139,9 +143,10 @@ def join_parts(parts: FineParts, model: JoinModel | None = None) -> tuple[Hierar
     model = model or join_model()
     pairs = parts.pairs
     odds = near_odds(parts, model.near)
-    merges, score, rows = _linked(parts, pairs.parts, odds, _pair_weight(parts, pairs.parts))
-    if model.distant and len((distant := compare_distant(parts, odds, merges, score)).parts):
-        merges, score, rows = _linked(parts, *_with_distant(parts, odds, distant, model.distant))
+    asked = pairs.parts, odds, _pair_weight(parts, pairs.parts), np.ones(len(odds), bool)
+    if model.distant and len((distant := compare_distant(parts, odds)).parts):
+        asked = _with_distant(parts, odds, distant, model.distant)
+    merges, score, rows = _evenly_linked(parts, *asked)
     strength = np.interp(1 / (1 + np.exp(-score)), [0.0, SHARE_AT_HALF, 1.0], [1.0, 0.5, parts.fine])
     touching = (pairs.gap <= TOUCH) & ~pairs.same_piece
     contacts = pairs.faces[np.union1d(rows, np.flatnonzero(touching))]
@@ -173,9 +178,7 @@ def near_odds(parts: FineParts, model: BoostedTrees) -> np.ndarray:
     return on_grid(np.where(pairs.same_piece, (1 - parts.within) * odds + parts.within * cut, odds))
 
 
-def compare_distant(
-    parts: FineParts, odds: np.ndarray, merges: np.ndarray | None = None, score: np.ndarray | None = None
-) -> DistantPairs:
+def compare_distant(parts: FineParts, odds: np.ndarray) -> DistantPairs:
     """Compare the largest parts in all pairs.
 
     Parameters
@@ -183,15 +186,12 @@ def compare_distant(
     parts : FineParts
     odds : (e,) float64
         Of the pairs that come near each other, see ``near_odds``.
-    merges, score : optional
-        The order in which parts join by these alone, if it is known.
 
     Returns
     -------
     pairs : DistantPairs
     """
-    if merges is None or score is None:
-        merges, score, _ = _linked(parts, parts.pairs.parts, odds, _pair_weight(parts, parts.pairs.parts))
+    merges, score, _ = _linked(parts, parts.pairs.parts, odds, _pair_weight(parts, parts.pairs.parts))
     return distant_pairs(parts.pairs, parts.salience, odds, merges, score)
 
 
@@ -214,9 +214,17 @@ def _with_distant(
     return pairs[first[order]], on_grid(mean[order]), total[order], first[order] < len(near)
 
 
+def _evenly_linked(
+    parts: FineParts, pairs: np.ndarray, odds: np.ndarray, weight: np.ndarray, near: np.ndarray
+) -> Linkage:
+    """The same, as one for groups of pieces that repeat each other; see ``evenly_linked``."""
+    return evenly_linked(lambda odds: _linked(parts, pairs, odds, weight, near), pairs, odds, parts.pairs.shapes.piece,
+                         parts.kind)
+
+
 def _linked(
     parts: FineParts, pairs: np.ndarray, odds: np.ndarray, weight: np.ndarray, near: np.ndarray | None = None
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+) -> Linkage:
     """Average linkage in which small parts join more easily; see ``average_linkage``."""
     size = np.maximum(on_grid(parts.pairs.shapes.area / LARGE), 1e-9)
     return average_linkage(len(parts.candidate), pairs, odds, weight, size, EASE, near)
