@@ -157,7 +157,8 @@ def joints_row(name, obj, kind) -> str:
 
 def is_sound(found) -> bool:
     """Whether a check has found nothing."""
-    return not (found["open_edges"] or found["branching_edges"] or found["crossing_faces"] or found["inside_out"])
+    return not (found["open_edges"] or found["branching_edges"] or found["contrary_edges"] or found["crossing_faces"]
+                or found["inside_out"])
 
 
 def sound_row(name, obj) -> str:

@@ -43,6 +43,7 @@ class REEB_PARTS_OT_select_faults(PieceOperator, bpy.types.Operator):
         name="Kind",
         items=[("OPEN", "Open Edges", "Faces at edges of one face"),
                ("BRANCHING", "Branching Edges", "Faces at edges of three faces or more"),
+               ("CONTRARY", "Faces That Look Both Ways", "Faces at edges where one looks out and the other in"),
                ("CROSSING", "Crossing Faces", "Faces that cross others"),
                ("THIN", "Thinnest Place", "The face where the part is thinnest")],
         description="What to select",
@@ -88,10 +89,12 @@ def report_kept(operator: bpy.types.Operator, n_kept: int) -> None:
 
 def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object], just_made: bool = False) -> None:
     """Say which of some pieces that were checked are not sound; of those just made also which are as the model is."""
-    wrong, as_model = [], []
+    wrong, as_model, turned = [], [], []
     for piece in pieces:
         found = piece_checks.kept(piece)
-        if found is None or not found.sound:
+        if found is not None and found.faces_wrong_way:
+            turned.append(piece.name)
+        if found is None or found.open_or_crossing:
             # Later on, what the model does not have either may be the user's work.
             (as_model if just_made and found is not None and found.as_model else wrong).append(piece.name)
     if wrong:
@@ -102,6 +105,10 @@ def report_unsound(operator: bpy.types.Operator, pieces: list[bpy.types.Object],
         operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or "
                                           "cross themselves} as the model does there: {names}").format(
             n=Count(len(as_model)), total=Count(len(pieces)), names=", ".join(as_model)))
-    if not wrong and not as_model:
+    if turned:
+        operator.report({"WARNING"}, rpt_("{n} of {total} {total:part|parts} {n:has|have} faces that look inwards: "
+                                          "{names}").format(
+            n=Count(len(turned)), total=Count(len(pieces)), names=", ".join(turned)))
+    if not wrong and not as_model and not turned:
         operator.report({"INFO"}, rpt_("{n} {n:part is closed and does not cross itself|parts are closed and do not "
                                        "cross themselves}").format(n=Count(len(pieces))))

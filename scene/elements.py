@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..core.surface.arrays import ranges
+from ..core.surface.corners import CornerTable
 
 POINT, EDGE, FACE, CORNER = DOMAINS = "POINT", "EDGE", "FACE", "CORNER"
 
@@ -117,6 +118,11 @@ class Elements:
         """Number of elements of a domain."""
         return len({POINT: self.points, EDGE: self.ends, FACE: self.count, CORNER: self.corner_vertex}[domain])
 
+    def corner_table(self) -> CornerTable:
+        """The faces corner by corner, for core."""
+        return CornerTable(self.points.astype(np.float64), self.ends, self.corner_vertex, self.corner_edge,
+                           self.corner_face, len(self.count))
+
     def around(self, vertices: np.ndarray) -> np.ndarray:
         """Faces with one of some vertices, (v,) bool: (k,) int64, rising."""
         corner = np.flatnonzero(vertices[self.corner_vertex])
@@ -178,6 +184,18 @@ class Elements:
         number = other.size(layer.domain)
         second = theirs.values if theirs and same else _nothing(layer.values, number)
         return replace(layer, values=_concatenated(first, take(second, np.arange(kept[layer.domain], number))))
+
+    def turned(self, faces: np.ndarray) -> Elements:
+        """The same with some faces, (f,) bool, turned over; what their corners carry goes along."""
+        count = self.count.astype(np.int64)
+        first, n = np.repeat(np.cumsum(count) - count, count), np.repeat(count, count)
+        corner = np.arange(len(n))
+        turns, place = faces[self.corner_face], corner - first
+        order = np.where(turns, first + (n - place) % n, corner)  # the first corner stays the first
+        edge = np.where(turns, first + n - 1 - place, corner)
+        layers = {name: replace(layer, values=take(layer.values, order)) if layer.domain == CORNER else layer
+                  for name, layer in self.layers.items()}
+        return Elements(self.ends, self.count, self.corner_vertex[order], self.corner_edge[edge], layers)
 
     def with_layer(self, name: str, layer: Layer) -> Elements:
         """The same with another layer."""

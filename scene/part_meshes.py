@@ -17,6 +17,7 @@ import numpy as np
 from ..core.steps import Steps, finished, stretched
 from ..core.surface.arrays import are_among, distinct_pairs, stable_order
 from ..core.surface.corners import edge_labels
+from ..core.surface.orientation import against_neighbors
 from . import cap_looks, caps, element_layers, hidden, mesh_arrays, mesh_groups, outputs, quiet, smooth_faces, welding
 from .elements import CORNER, Elements
 from .holes import Holes
@@ -89,7 +90,8 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
     wanted : iterable of int
         Numbers of the parts; loose edges and vertices belong to none.
     close : bool
-        Fill the holes that the cuts leave; for that, border vertices that are one for Decompose are made one.
+        Fill the holes that the cuts leave; for that, border vertices that are one for Decompose are made one, and faces
+        are turned so that neighbors agree.
     smooth : (3, 3) float64, optional
         What the object does to its mesh, see bridge.world_stretch: faces are divided where smooth cuts run. Without
         it, cuts run along the edges of faces.
@@ -117,6 +119,7 @@ def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterab
         whole, n_apart, sculpted = element_layers.read(plain), 0, is_sculpted(mesh)
         if close:
             whole, n_apart = _welded(whole, np.isin(face_numbers, wanted), sculpted)
+            whole = whole if sculpted else _agreeing(whole)
         source = partial(SculptedMesh, plain, planar) if sculpted else partial(PlainMesh, plain, whole, planar)
         yield 0.1
         made = yield from stretched(_made(source(), face_numbers, wanted, close, smooth, np.empty((0, 2), np.int64)),
@@ -140,6 +143,23 @@ def _welded(whole: Elements, faces: np.ndarray, sculpted: bool) -> tuple[Element
         kept = whole.layers.get(_NORMAL) or whole.layers.get(_CUSTOM)
         welded, apart = welding.welded(whole, kept.values if kept and kept.domain == CORNER else None)
     return welded, len(np.intersect1d(apart, whole.corner_vertex[faces[whole.corner_face]]))
+
+
+def _agreeing(whole: Elements) -> Elements:
+    """The elements with faces turned so that neighbors agree: caps and joints go by what is outside."""
+    table = whole.corner_table()
+    flip = against_neighbors(table)
+    if not flip.any():
+        return whole
+    for name in {_NORMAL, _CUSTOM} & whole.layers.keys():
+        layer = whole.layers[name]
+        if layer.domain == CORNER:
+            # Normals that look to the side of their face go to the other one with it; others show that it was wrong.
+            along = table.face_vectors()[table.corner_face] * layer.values
+            with_face = np.bincount(table.corner_face, along.sum(axis=1), table.n_faces) > 0
+            sign = np.where((flip & with_face)[table.corner_face], -1, 1).astype(np.float32)
+            whole = whole.with_layer(name, replace(layer, values=layer.values * sign[:, None]))
+    return whole.turned(flip)
 
 
 def _with_whole_faces(source: Callable[[], PlainMesh | SculptedMesh], face_numbers: np.ndarray, wanted: list[int],

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The truth about a piece: whether it is closed, crosses itself or is inside out, and where it is thinnest."""
+"""The truth about a piece: whether it is closed, crosses itself, looks outwards, and where it is thinnest."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, fields
 
 import bpy
@@ -33,6 +34,8 @@ class Check:
         Edges of one face only.
     branching_edges : int
         Edges of three faces or more.
+    contrary_edges : int
+        Edges of two faces of which one looks out and the other in.
     crossing_faces : int
         Faces that cross another one with which they have no corner in common.
     own_crossing_faces : int
@@ -42,13 +45,14 @@ class Check:
     inside_out : bool
         Whether a closed piece encloses less than nothing: its faces look inwards.
     volume : float or None
-        In cubed units of the world; None unless the piece is closed.
+        In cubed units of the world; None unless the piece is closed and has no contrary edges.
     thinnest : float or None
         The smallest thickness that was measured, in units of the world; None if none was.
     """
 
     open_edges: int = 0
     branching_edges: int = 0
+    contrary_edges: int = 0
     crossing_faces: int = 0
     own_crossing_faces: int = 0
     all_tried: bool = True
@@ -59,7 +63,17 @@ class Check:
     @property
     def sound(self) -> bool:
         """Whether a printer can use it."""
-        return not (self.open_edges or self.branching_edges or self.crossing_faces or self.inside_out)
+        return not (self.open_or_crossing or self.faces_wrong_way)
+
+    @property
+    def open_or_crossing(self) -> bool:
+        """Whether it is not closed, or crosses itself."""
+        return bool(self.open_edges or self.branching_edges or self.crossing_faces)
+
+    @property
+    def faces_wrong_way(self) -> bool:
+        """Whether some faces look inwards, or all."""
+        return bool(self.contrary_edges or self.inside_out)
 
     @property
     def as_model(self) -> bool:
@@ -77,12 +91,13 @@ class Faults:
 
     Attributes
     ----------
-    open, branching, crossing, thin : (p,) bool
+    open, branching, contrary, crossing, thin : (p,) bool
         Faces at such edges, faces that cross others, and the face where the mesh is thinnest.
     """
 
     open: np.ndarray
     branching: np.ndarray
+    contrary: np.ndarray
     crossing: np.ndarray
     thin: np.ndarray
 
@@ -95,10 +110,10 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
     points = mesh_arrays.basis_points(mesh).astype(np.float64) @ stretch.T
     triangles, face = mesh_arrays.triangles(mesh)
     n_faces = len(mesh.polygons)
-    open_, branching = _edge_faults(mesh)
+    open_, branching, contrary = _edge_faults(mesh)
     none = np.zeros(n_faces, bool)
     if not len(triangles):
-        return Check(), Faults(none, none, none, none)
+        return Check(), Faults(none, none, none, none, none)
     a, b, c = (np.take(points, triangles[:, i], axis=0) for i in range(3))
     vector = cross(b - a, c - a)  # as long as twice the area
     places = _Places.of(points, triangles, vector)
@@ -111,11 +126,13 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
     crossing = _marked(n_faces, face[pairs])
     by_cap = _marked(n_faces, face[pairs[caps.is_cap(mesh)[face[pairs]].any(axis=1)]])
     thinnest, where = _thinnest(tree, places)
-    volume = None if open_[1].any() or branching[1].any() else float(((a - points.mean(axis=0)) * vector).sum() / 6)
-    found = Check(int(open_[0]), int(branching[0]), int(crossing.sum()), int((crossing & ~by_cap).sum()),
+    volume = None
+    if not (open_[0] or branching[0] or contrary[0]):
+        volume = float(((a - points.mean(axis=0)) * vector).sum() / 6)
+    found = Check(open_[0], branching[0], contrary[0], int(crossing.sum()), int((crossing & ~by_cap).sum()),
                   bool(tried.all()), volume is not None and volume < 0, volume, thinnest)
     thin = _marked(n_faces, face[[where]] if thinnest is not None else np.empty(0, np.int64))
-    return found, Faults(open_[1], branching[1], crossing, thin)
+    return found, Faults(open_[1], branching[1], contrary[1], crossing, thin)
 
 
 def keep(piece: bpy.types.Object, found: Check) -> None:
@@ -128,7 +145,7 @@ def kept(piece: bpy.types.Object) -> Check | None:
     """What was found, or None; None, too, if it was not written by us."""
     try:
         values = json.loads(piece[CHECK])
-        own = {"own_crossing_faces": 0, **values}  # files of before do not have it
+        own = {"own_crossing_faces": 0, "contrary_edges": 0, **values}  # files of before do not have them
         return Check(**{field.name: own[field.name] for field in fields(Check)})
     except (KeyError, ValueError, TypeError):
         return None
@@ -140,16 +157,12 @@ def _marked(count: int, indices: np.ndarray) -> np.ndarray:
     return mask
 
 
-def _edge_faults(mesh: bpy.types.Mesh) -> tuple[tuple[int, np.ndarray], tuple[int, np.ndarray]]:
-    """Edges of one face, and of more than two: how many, and which faces are there."""
-    edge = mesh_arrays.corner_edges(mesh)
-    count = np.bincount(edge, minlength=len(mesh.edges))
-    found = []
-    for wrong in (count == 1, count > 2):
-        some = wrong[edge]
-        face = mesh_arrays.face_corners(mesh)[1][some] if some.any() else np.empty(0, np.int32)
-        found.append((int(wrong.sum()), _marked(len(mesh.polygons), face)))
-    return found[0], found[1]
+def _edge_faults(mesh: bpy.types.Mesh) -> Iterator[tuple[int, np.ndarray]]:
+    """Edges of one face, of more than two, and contrary ones: how many, and which faces are there."""
+    table = mesh_arrays.corner_table(mesh)
+    count = np.bincount(table.corner_edge, minlength=len(table.edges))
+    for wrong in (count == 1, count > 2, table.contrary_edges()):
+        yield int(wrong.sum()), _marked(table.n_faces, table.corner_face[wrong[table.corner_edge]])
 
 
 def _tried(mesh: bpy.types.Mesh, face: np.ndarray) -> np.ndarray:

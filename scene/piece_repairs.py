@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What can be repaired of a piece: faces that look inwards, holes, caps that cross something."""
+"""What can be repaired of a piece: faces that look inwards, holes, and caps that cross something."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
-from . import cap_looks, caps, made, mesh_groups, piece_checks, piece_objects, transaction
+from ..core.surface.orientation import against_neighbors
+from . import cap_looks, caps, made, mesh_arrays, mesh_groups, piece_checks, piece_objects, transaction
 from .piece_checks import Check
 from .temporary import freed
 
@@ -16,8 +17,8 @@ from .temporary import freed
 def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
     """Give a piece a mesh that is repaired as far as that is possible; Object Mode.
 
-    Faces that look inwards are turned, holes are closed, and caps that cross something are made anew of flat
-    triangles; what does not make the piece better is left. The old mesh is removed.
+    Faces that look otherwise than their neighbors, or inwards, are turned, holes are closed, and caps that cross
+    something are made anew of flat triangles; what does not make the piece better is left. The old mesh is removed.
 
     Parameters
     ----------
@@ -33,7 +34,7 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
     old = piece.data
     found = piece_checks.check(old, stretch)
     before, mesh = found[0], old
-    for step in (_turned, _closed, _without_crossing_caps):
+    for step in (_agreeing, _closed, _turned, _without_crossing_caps):
         candidate = mesh.copy()
         step(candidate, found[1])
         cap_looks.map_caps(candidate)
@@ -57,7 +58,8 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
 
 
 def _faults(found: Check) -> int:
-    return found.open_edges + found.branching_edges + found.crossing_faces + found.inside_out
+    return (found.open_edges + found.branching_edges + found.contrary_edges + found.crossing_faces
+            + found.inside_out)
 
 
 def _replaced(mesh: bpy.types.Mesh, better: bpy.types.Mesh, old: bpy.types.Mesh) -> bpy.types.Mesh:
@@ -65,6 +67,16 @@ def _replaced(mesh: bpy.types.Mesh, better: bpy.types.Mesh, old: bpy.types.Mesh)
     if mesh != old:
         bpy.data.meshes.remove(mesh)
     return better
+
+
+def _agreeing(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:
+    """Turn faces that look otherwise than their neighbors."""
+    flip = against_neighbors(mesh_arrays.corner_table(mesh))
+    with freed(bmesh.new()) as bm:
+        bm.from_mesh(mesh)
+        bm.faces.ensure_lookup_table()
+        bmesh.ops.reverse_faces(bm, faces=[bm.faces[i] for i in np.flatnonzero(flip).tolist()], flip_multires=True)
+        mesh_groups.write(bm, mesh)
 
 
 def _turned(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:

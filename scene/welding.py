@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.surface.arrays import distinct_pairs, inverse
 from ..core.surface.borders import GAP
-from ..core.surface.corners import CornerTable, next_of_owner
+from ..core.surface.corners import next_of_owner
 from . import element_layers
 from .elements import EDGE, FACE, POINT, Elements, Layer, Ragged, Values, take
 
@@ -23,9 +23,7 @@ _UNLIKE = 1e-3  # by how much normals differ that are not one for the eye
 
 def border_twins(whole: Elements) -> np.ndarray:
     """The vertex that each vertex is one with for Decompose, itself for most, (v,) int64."""
-    table = CornerTable(whole.points.astype(np.float64), whole.ends, whole.corner_vertex, whole.corner_edge,
-                        whole.corner_face, len(whole.count))
-    return table.joined()[1]
+    return whole.corner_table().joined()[1]
 
 
 def welded(whole: Elements, normals: np.ndarray | None = None) -> tuple[Elements, np.ndarray]:

@@ -140,7 +140,8 @@ def volume(mesh) -> float:
 def is_sound(piece) -> bool:
     """Whether the check of a separated part found nothing wrong."""
     found = json.loads(piece["reeb_parts_check"])
-    return not (found["open_edges"] or found["branching_edges"] or found["crossing_faces"] or found["inside_out"])
+    return not (found["open_edges"] or found["branching_edges"] or found["contrary_edges"] or found["crossing_faces"]
+                or found["inside_out"])
 
 
 def closed_volume(mesh) -> float | None:

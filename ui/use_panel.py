@@ -105,6 +105,7 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
             for kind, count, words in (
                 ("OPEN", found.open_edges, iface_("{n} open {n:edge|edges}")),
                 ("BRANCHING", found.branching_edges, iface_("{n} {n:edge|edges} of three faces")),
+                ("CONTRARY", found.contrary_edges, iface_("Faces look both ways at {n} {n:edge|edges}")),
                 ("CROSSING", found.crossing_faces, iface_("{n} {n:face crosses|faces cross} others")),
             ):
                 if count:

@@ -116,6 +116,15 @@ class CornerTable:
         first, second = order[together], order[together + 1]
         return np.stack([self.corner_face[first], self.corner_face[second]], axis=1), edge[together]
 
+    def contrary_edges(self) -> np.ndarray:
+        """Find the edges of two faces that run along them the same way: one looks out there, and the other in.
+
+        Returns (e,) bool.
+        """
+        forward = self.edges[self.corner_edge, 0] == self.corner_vertex
+        count = np.bincount(self.corner_edge, minlength=len(self.edges))
+        return (count == 2) & (np.bincount(self.corner_edge[forward], minlength=len(self.edges)) != 1)
+
     def edge_length(self, edge: np.ndarray) -> np.ndarray:
         """Measure some edges.
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..sentence import Sentence
 from .arrays import components, even_steps, row_products
+from .corners import CornerTable
 from .mesh import TriMesh
 from .winding import MOST_OF_SHEETS, winding_numbers
 
@@ -68,13 +69,64 @@ def _agreeing(mesh: TriMesh) -> np.ndarray:
     same_way = mesh.same_way
     if not same_way.any():
         return np.zeros(mesh.n_faces, bool)
+    return _of_other_sheet(mesh.n_faces, mesh.edges.pairs, same_way)
+
+
+def _of_other_sheet(m: int, pairs: np.ndarray, same_way: np.ndarray) -> np.ndarray:
+    """Those of m faces, (m,) bool, that have to be turned so that the faces of all pairs agree.
+
+    pairs : (r, 2) int64. same_way : (r,) bool, the pairs that do not agree as they are.
+    """
     # The double cover has each face twice: face f as given and face f + m flipped. A piece of the surface is orientable
     # if its two copies in the double cover are not connected.
-    m = mesh.n_faces
-    a, b = mesh.edges.pairs.T
+    a, b = pairs.T
     other = np.where(same_way, m, 0)
     _, sheet = components(2 * m, np.concatenate([a, a + m]), np.concatenate([b + other, (b + m + other) % (2 * m)]))
     return (sheet[:m] != sheet[m:]) & (sheet[:m] > sheet[m:])
+
+
+def against_neighbors(table: CornerTable) -> np.ndarray:
+    """Find the polygons to turn so that neighbors agree.
+
+    Pieces that are closed look outwards then, others to the side to which most of their area did. Pieces whose faces
+    agree already stay as they are, and so do those that have one side only.
+
+    Parameters
+    ----------
+    table : CornerTable
+        p faces.
+
+    Returns
+    -------
+    flip : (p,) bool
+    """
+    contrary = table.contrary_edges()
+    if not contrary.any():
+        return np.zeros(table.n_faces, bool)
+    two = np.bincount(table.corner_edge, minlength=len(table.edges)) == 2
+    pairs, edge = table.face_pairs()
+    pairs, edge = pairs[two[edge]], edge[two[edge]]
+    same_way = contrary[edge]
+    flip = _of_other_sheet(table.n_faces, pairs, same_way)
+    count, piece = components(table.n_faces, *pairs.T)
+    mends, one_sided = np.zeros((2, count), bool)
+    mends[piece[pairs[same_way, 0]]] = True
+    one_sided[piece[pairs[same_way ^ (flip[pairs[:, 0]] != flip[pairs[:, 1]]), 0]]] = True
+    closed = np.bincount(piece[table.corner_face], ~two[table.corner_edge], count) == 0
+    flip ^= _to_other_side(table, flip, piece, closed)[piece]
+    return flip & (mends & ~one_sided)[piece]
+
+
+def _to_other_side(table: CornerTable, flip: np.ndarray, piece: np.ndarray, closed: np.ndarray) -> np.ndarray:
+    """Which of c pieces look to the wrong side once some faces are turned, (c,) bool; see ``against_neighbors``.
+
+    flip : (p,) bool. piece : (p,) int64, of each face. closed : (c,) bool.
+    """
+    vector, sign = table.face_vectors(), np.where(flip, -1.0, 1.0)
+    away = table.face_means(table.vertices) - table.vertices.mean(axis=0)
+    volume = _sums(piece, sign * row_products(vector, away), len(closed))
+    as_given = _sums(piece, sign * np.sqrt(row_products(vector, vector)), len(closed))
+    return np.where(closed & (volume != 0), volume < 0, as_given < 0)
 
 
 def _inside_out(mesh: TriMesh, chosen: np.ndarray) -> np.ndarray:

@@ -396,6 +396,7 @@ TEXTS = {
     "Closed, crosses nothing": "Geschlossen, durchdringt nichts",
     "{n} open {n:edge|edges}": "{n} offene {n:Kante|Kanten}",
     "{n} {n:edge|edges} of three faces": "{n} {n:Kante|Kanten} mit drei Flächen",
+    "Faces look both ways at {n} {n:edge|edges}": "Flächen blicken an {n} {n:Kante|Kanten} nach beiden Seiten",
     "{n} {n:face crosses|faces cross} others": "{n} {n:Fläche durchdringt|Flächen durchdringen} andere",
     "Inside out": "Von innen nach außen gekehrt",
     "Thinnest place: {width}": "Dünnste Stelle: {width}",
@@ -409,6 +410,9 @@ TEXTS = {
     "Faces at edges of one face": "Flächen an Kanten mit nur einer Fläche",
     "Branching Edges": "Verzweigte Kanten",
     "Faces at edges of three faces or more": "Flächen an Kanten mit drei oder mehr Flächen",
+    "Faces That Look Both Ways": "Flächen, die nach beiden Seiten blicken",
+    "Faces at edges where one looks out and the other in":
+        "Flächen an Kanten, an denen eine nach außen und die andere nach innen blickt",
     "Crossing Faces": "Durchdringungen",
     "Faces that cross others": "Flächen, die andere durchdringen",
     "Thinnest Place": "Dünnste Stelle",
@@ -942,6 +946,8 @@ TEXTS = {
     "{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are not closed or cross themselves}: {names}":
         "{n} von {total} {total:Teil|Teilen} {n:ist nicht geschlossen oder durchdringt|sind nicht geschlossen oder "
         "durchdringen} sich: {names}",
+    "{n} of {total} {total:part|parts} {n:has|have} faces that look inwards: {names}":
+        "{n} von {total} {total:Teil|Teilen} {n:hat|haben} Flächen, die nach innen blicken: {names}",
     "{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or cross themselves} as the model does "
     "there: {names}":
         "{n} von {total} {total:Teil|Teilen} {n:ist offen oder durchdringt|sind offen oder durchdringen} sich, wie das "

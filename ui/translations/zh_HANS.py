@@ -386,6 +386,7 @@ TEXTS = {
     "Closed, crosses nothing": "封闭且无相交",
     "{n} open {n:edge|edges}": "{n} 条开放边",
     "{n} {n:edge|edges} of three faces": "{n} 条边连接三个面",
+    "Faces look both ways at {n} {n:edge|edges}": "{n} 条边两侧的面朝向不一致",
     "{n} {n:face crosses|faces cross} others": "{n} 个面与其他面相交",
     "Inside out": "内外翻转",
     "Thinnest place: {width}": "最薄处：{width}",
@@ -398,6 +399,8 @@ TEXTS = {
     "Faces at edges of one face": "仅属于一个面的边所在的面",
     "Branching Edges": "分叉边",
     "Faces at edges of three faces or more": "三个或更多面共用的边所在的面",
+    "Faces That Look Both Ways": "朝向不一致的面",
+    "Faces at edges where one looks out and the other in": "一个朝外、另一个朝内的两个面共用的边所在的面",
     "Crossing Faces": "相交面",
     "Faces that cross others": "与其他面相交的面",
     "Thinnest Place": "最薄处",
@@ -841,6 +844,8 @@ TEXTS = {
         "{n} 个被编辑过或被其他物体引用的先前物体保持不变",
     "{n} of {total} {total:part|parts} {n:is not closed or crosses itself|are not closed or cross themselves}: {names}":
         "{total} 个部件中有 {n} 个未封闭或自相交：{names}",
+    "{n} of {total} {total:part|parts} {n:has|have} faces that look inwards: {names}":
+        "{total} 个部件中有 {n} 个含有朝内的面：{names}",
     "{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or cross themselves} as the model does "
     "there: {names}":
         "{total} 个部件中有 {n} 个未封闭或自相交，模型在该处本就如此：{names}",

@@ -1210,6 +1210,10 @@ def test_a_check_tells_what_is_wrong_with_a_mesh(make, checks):
     opened = make((octahedron[0], octahedron[1][1:]), "Opened")
     found, faults = checks.check(opened.data, np.eye(3))
     assert (found.open_edges, found.volume, found.sound, faults.open.sum()) == (3, None, False, 3)
+    turned = make((octahedron[0], np.concatenate([octahedron[1][:1, ::-1], octahedron[1][1:]])), "Turned")
+    found, faults = checks.check(turned.data, np.eye(3))
+    assert (found.contrary_edges, found.volume, found.sound, faults.contrary.sum()) == (3, None, False, 4)
+    assert (found.open_edges, found.branching_edges, found.inside_out) == (0, 0, False)
     finned = make(shapes.with_fin(octahedron), "Finned")
     found, faults = checks.check(finned.data, np.eye(3))
     assert (found.branching_edges, faults.branching.sum(), found.open_edges) == (1, 3, 2)
@@ -1237,6 +1241,86 @@ def test_pieces_are_checked_and_what_is_wrong_can_be_selected_and_repaired(obj):
     piece.data.flip_normals()
     bpy.ops.reeb_parts.repair_piece()
     assert volume(piece.data) > 0
+
+
+def turn(mesh, mask):
+    """Turn some faces round."""
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    bm.faces.ensure_lookup_table()
+    bmesh.ops.reverse_faces(bm, faces=[bm.faces[i] for i in np.flatnonzero(mask)])
+    bm.to_mesh(mesh)
+    bm.free()
+
+
+@pytest.mark.parametrize("share", [0.3, 0.7])
+@pytest.mark.parametrize("closed", [True, False])
+def test_faces_that_look_both_ways_are_found_and_repaired(obj, checks, capfd, share, closed):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(caps=True)
+    piece = pieces()[0]
+    activate(piece)
+    size = volume(piece.data)
+    if not closed:
+        bm = bmesh.new()
+        bm.from_mesh(piece.data)
+        bm.faces.ensure_lookup_table()
+        bmesh.ops.delete(bm, geom=[bm.faces[0]], context="FACES_ONLY")
+        bm.to_mesh(piece.data)
+        bm.free()
+    height = read(piece.data.polygons, "center", np.float32, 3)[:, 2]
+    turn(piece.data, height > np.quantile(height, 1 - share))
+    capfd.readouterr()
+    bpy.ops.reeb_parts.check_pieces()
+    found = checks.kept(piece)
+    assert found.contrary_edges
+    assert not found.sound
+    assert "1 of 1 part has faces that look inwards" in capfd.readouterr().out
+    bpy.ops.reeb_parts.select_faults(kind="CONTRARY")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert found.contrary_edges <= read(piece.data.polygons, "select", bool).sum() <= 2 * found.contrary_edges
+    check_undo(bpy.ops.reeb_parts.repair_piece)
+    piece = pieces()[0]
+    assert checks.kept(piece).sound
+    assert borders(piece.data) == (set(), 0)
+    assert volume(piece.data) == pytest.approx(size, rel=1e-3)
+
+
+@pytest.mark.parametrize("style", [{"cut": "FACES"}, {}, {"joints": "ROUND"}])
+def test_pieces_of_a_model_with_turned_faces_are_those_of_the_model_without(rich, checks, capfd, style):
+    """Faces of pieces with closed holes agree; the corners keep what they carry."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(caps=True, **KEEP, **style)
+    want = [(volume(piece.data), corners_of(piece.data)) for piece in pieces()]
+    activate(rich)
+    bpy.ops.reeb_parts.clear()
+    turn(rich.data, np.random.default_rng(0).random(len(rich.data.polygons)) < 0.3)
+    bpy.ops.reeb_parts.decompose()
+    capfd.readouterr()
+    bpy.ops.reeb_parts.separate(caps=True, **KEEP, **style)
+    assert "look inwards" not in capfd.readouterr().out
+    found = pieces()
+    assert len(found) == len(want)
+    for piece, (size, corners) in zip(found, want, strict=True):
+        assert checks.kept(piece).sound
+        assert volume(piece.data) == pytest.approx(size, rel=1e-3)
+        normals = read(piece.data.corner_normals, "vector", np.float32, 3)
+        own = np.repeat(read(piece.data.polygons, "normal", np.float32, 3),
+                        read(piece.data.polygons, "loop_total", np.int32), axis=0)
+        assert ((normals * own).sum(axis=1) > 0).all()
+        if style.get("cut") == "FACES":
+            assert corners_of(piece.data) == corners
+
+
+def corners_of(mesh):
+    """What each corner of a face that is no cap has in the first map, by the places of its face and its vertex."""
+    cap = caps_of(mesh)
+    found = {}
+    for face in mesh.polygons:
+        for corner in face.loop_indices if not cap[face.index] else ():
+            place = mesh.vertices[mesh.loops[corner].vertex_index].co
+            found[tuple(face.center.to_tuple(4) + place.to_tuple(4))] = mesh.uv_layers[0].uv[corner].vector.to_tuple(5)
+    return found
 
 
 def test_what_crosses_itself_in_the_model_is_told_apart(make, checks, capfd):

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which side is outside: of closed surfaces, of such with holes, and of sheets."""
 
+import itertools
+
 import numpy as np
 import pytest
 import shapes
 
 from core import decompose
 from core.metrics import rand_index_error
+from core.surface.corners import CornerTable
 from core.surface.mesh import TriMesh
-from core.surface.orientation import turn_outwards
+from core.surface.orientation import against_neighbors, turn_outwards
 
 
 def with_holes(shape, share=0.03, seed=0):
@@ -79,3 +82,38 @@ def test_what_is_folded_flat_keeps_its_side(scale):
     for given in (faces, faces[:, ::-1]):
         mesh = TriMesh(np.concatenate([vertices, vertices]), given)
         assert turn_outwards(mesh) == (mesh, ())
+
+
+def test_edges_are_contrary_where_one_of_two_faces_is_turned():
+    """By hand: the three edges of a face of an octahedron."""
+    vertices, faces = shapes.octahedron()
+    assert not CornerTable.of(vertices, faces).contrary_edges().any()
+    table = CornerTable.of(vertices, np.concatenate([faces[:1, ::-1], faces[1:]]))
+    assert sorted(map(tuple, table.edges[table.contrary_edges()].tolist())) == sorted(
+        tuple(sorted(pair)) for pair in itertools.combinations(faces[0].tolist(), 2))
+    np.testing.assert_array_equal(against_neighbors(table), np.arange(len(faces)) == 0)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.7])
+@pytest.mark.parametrize("name", ["closed", "open", "of squares"])
+def test_faces_are_turned_until_neighbors_agree(name, share):
+    """Closed pieces look outwards then, sheets to the side of most faces; a piece that agrees stays as it is."""
+    vertices, faces = {"closed": lambda: shapes.icosphere(3), "open": lambda: shapes.flat_grid(12, 9),
+                       "of squares": shapes.box_quads}[name]()
+    wrong = np.zeros(len(faces), bool)
+    wrong[np.random.default_rng(0).permutation(len(faces))[: round(share * len(faces))]] = True
+    inward = faces[:, ::-1] + len(vertices)
+    both = np.concatenate([np.where(wrong[:, None], faces[:, ::-1], faces), inward])
+    flip = against_neighbors(CornerTable.of(np.concatenate([vertices, vertices + [9, 0, 0]]), both))
+    assert not flip[len(faces) :].any()
+    np.testing.assert_array_equal(flip[: len(faces)], ~wrong if name == "open" and share > 0.5 else wrong)
+
+
+def test_what_has_one_side_only_stays_as_it_is():
+    """Six squares in a ring with a twist: one edge is contrary, and no turn ends that."""
+    across = np.arange(12).reshape(6, 2)
+    ahead = np.concatenate([across[1:], across[:1, ::-1]])
+    points = np.random.default_rng(0).normal(size=(12, 3))
+    table = CornerTable.of(points, np.concatenate([across, ahead[:, ::-1]], axis=1))
+    assert table.contrary_edges().sum() == 1
+    assert not against_neighbors(table).any()
