@@ -90,6 +90,10 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
             self.report({"WARNING"}, rpt_("{n} {n:edge stays|edges stay} open: more than two faces meet beside "
                                           "{n:it|them}").format(n=Count(separated.left_open)))
         self._report_modifiers(obj, separated)
+        if self.hide and (instances := piece_objects.instances(obj)):
+            words = rpt_("{name} is missing from renders of instances of its collection: {names}")
+            self.report({"WARNING"}, words.format(
+                name=obj.name, names=", ".join(instance.name for instance in instances)))
         if separated.n_apart:
             self.report({"WARNING"}, rpt_(
                 "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but "

@@ -16,7 +16,7 @@ from typing import Any
 
 import bpy
 
-from . import element_layers, mesh_arrays
+from . import element_layers, mesh_arrays, visibility
 
 _OURS = "reeb_parts"  # how the names of our custom properties begin
 _DIGEST = "looks "  # how a digest begins; what earlier versions kept is a list as text
@@ -71,7 +71,7 @@ def _told(struct: bpy.types.bpy_struct, path: str, moving: set[str], depth: int 
             if told:
                 found.append((name, told))
         elif not prop.is_readonly:
-            value = _plain(getattr(struct, name))
+            value = _plain(_value(struct, name))
             if value != _default(prop):
                 found.append((name, value))
     return [*found, *_custom(struct)]
@@ -94,6 +94,13 @@ def _told_inside(struct: bpy.types.bpy_struct, prop: bpy.types.Property, path: s
     if value is None or isinstance(value, _NAMED):
         return value and value.name
     return _told(value, f"{path}{name}.", moving, depth + 1) if depth < _DEEPEST and not is_block else None
+
+
+def _value(struct: bpy.types.bpy_struct, name: str) -> Any:
+    """A value of a property: of what we hide for a while, that of before."""
+    if name == "hide_render" and isinstance(struct, bpy.types.Object):
+        return not visibility.is_rendered(struct)
+    return getattr(struct, name)
 
 
 def _plain(value: Any) -> Any:

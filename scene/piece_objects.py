@@ -24,6 +24,7 @@ from . import (
     rigid_bodies,
     targets,
     transaction,
+    visibility,
 )
 from .errors import SceneError
 from .selection import in_layer
@@ -237,19 +238,33 @@ def former_looks(piece: bpy.types.Object) -> str:
 
 
 def show_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
-    """Show the object that pieces come from, with its graph if that was seen before, and hide its pieces in the view.
+    """Show the object that pieces come from, with its graph if that was seen before, and hide its pieces.
 
     They are in the same place, where both at once would be speckled.
     """
     show_pieces(context, obj, False)
-    _set_hidden(context, obj, False)
+    visibility.show(context, obj, is_rendered(context, obj))
     graph_visibility.show(context, obj)
 
 
 def hide_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Hide the object that pieces come from, with its graph, in the viewport and in renders."""
-    _set_hidden(context, obj, True)
+    visibility.hide(context, obj, is_rendered(context, obj))
     graph_visibility.hide(context, obj)
+
+
+def is_rendered(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
+    """Whether an object is rendered, or would be if its pieces were not shown in its place."""
+    if visibility.is_known(obj) or not in_layer(context, obj):
+        return visibility.is_rendered(obj)
+    # Earlier versions hid it without a note of what it was before.
+    return not obj.hide_render or (obj.hide_get() and collection_of(obj) is not None)
+
+
+def instances(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """Objects that show a collection in which an object is: they render it only if it is rendered itself."""
+    return [other for other in bpy.data.objects if other.instance_type == "COLLECTION" and other.users_scene
+            and other.instance_collection is not None and obj in other.instance_collection.all_objects[:]]
 
 
 def hides_pieces(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
@@ -258,16 +273,6 @@ def hides_pieces(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
 
 
 def show_pieces(context: bpy.types.Context, obj: bpy.types.Object, shown: bool) -> None:
-    """Show the pieces and dowels of an object in the viewport, or hide them."""
+    """Show the pieces and dowels of an object, or hide them, in renders, too."""
     for piece in (*piece_objects(obj), *dowels(obj)):
-        if in_layer(context, piece) and piece.hide_get() == shown:
-            transaction.on_failure(piece.hide_set, shown)
-            piece.hide_set(not shown)
-
-
-def _set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> None:
-    transaction.keep(obj, "hide_render")
-    if in_layer(context, obj):
-        transaction.on_failure(obj.hide_set, obj.hide_get())
-        obj.hide_set(hidden)
-    obj.hide_render = hidden
+        (visibility.show if shown else visibility.hide)(context, piece, visibility.is_rendered(piece))

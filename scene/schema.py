@@ -144,6 +144,8 @@ class ReebPartsMade(bpy.types.PropertyGroup, Settled):
     cuts: CollectionProperty(type=ReebCut)
     cut: IntProperty(options=set())  # the active one
 
+    # Of what is hidden while something of ours is shown in its place: 1 if it was rendered before, 0 if not.
+    rendered: IntProperty(default=-1, options=set())
     pieces: PointerProperty(type=bpy.types.Collection, description="Where the separated parts are")
     explode: FloatProperty(
         name="Explode", default=0.0, min=0.0, soft_max=2.0, step=1, update=explode.changed,

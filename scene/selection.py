@@ -81,7 +81,12 @@ def select_objects(context: bpy.types.Context, objects: list[bpy.types.Object],
 
 def in_layer(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     """Whether the view layer has an object; of an excluded collection it has none."""
-    objects = context.view_layer.objects
+    return in_view_layer(context.view_layer, obj)
+
+
+def in_view_layer(layer: bpy.types.ViewLayer, obj: bpy.types.Object) -> bool:
+    """As ``in_layer``, for any view layer."""
+    objects = layer.objects
     # A linked object may have the same name: then each is looked at.
     return objects.get(obj.name) == obj or any(other == obj for other in objects)
 

@@ -39,6 +39,7 @@ from .piece_objects import (
     check_pieces,
     dowels,
     faces_of,
+    is_rendered,
     make_collection,
     part_stands_for,
     removing_earlier,
@@ -258,7 +259,7 @@ def _objects(run: _Run, meshes: dict[int, bpy.types.Mesh], names: dict[int, str]
     pieces = []
     for key, mesh in meshes.items():
         number = part.get(key, key)
-        piece = _piece(obj, mesh, part_names.with_object(obj, names[key]), style)
+        piece = _piece(run, mesh, part_names.with_object(obj, names[key]))
         by_extent.set_offsets(piece, offsets)
         piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER], piece[FACES] = number, faces_of(face_numbers, number)
@@ -269,21 +270,22 @@ def _objects(run: _Run, meshes: dict[int, bpy.types.Mesh], names: dict[int, str]
 
 def _dowel(run: _Run, dowel: joints.Dowel, part: dict[int, int]) -> bpy.types.Object:
     """An object for a loose dowel, beside the pieces."""
-    item = _piece(run.obj, dowel.mesh, f"{run.obj.name} Dowel", run.style)
+    item = _piece(run, dowel.mesh, f"{run.obj.name} Dowel")
     item.modifiers.clear()
     item[DOWEL] = sorted(part.get(key, key) for key in dowel.keys)
     make_collection(run.context, run.obj).objects.link(item)
     return item
 
 
-def _piece(obj: bpy.types.Object, mesh: bpy.types.Mesh, name: str, style: SeparateProperties) -> bpy.types.Object:
-    """An object like the given one with another mesh."""
+def _piece(run: _Run, mesh: bpy.types.Mesh, name: str) -> bpy.types.Object:
+    """An object like the one that is separated, with another mesh."""
+    obj, style = run.obj, run.style
     piece = obj.copy()
     explode.forget(piece)
     hidden.forget(piece)
     piece.name = mesh.name = name
     piece.data = mesh
-    piece.hide_viewport = piece.hide_render = False
+    piece.hide_viewport, piece.hide_render = False, not is_rendered(run.context, obj)
     if not _keeps_modifiers(style):
         piece.modifiers.clear()
     if style.parent:

@@ -390,6 +390,84 @@ def test_the_original_or_its_pieces_are_seen(obj):
     assert kept not in pieces()
 
 
+def test_the_original_or_its_pieces_are_rendered(obj):
+    """A piece that is out of renders, which is the user's work, stays so; that the others are for a while is none."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(joints="DOWEL")
+    items = [item for item in bpy.data.collections["Parts of Tree"].objects if "Empty" not in item.name]
+    out = pieces()[1]
+    out.hide_render = True
+    activate(out)
+    for _ in range(2):
+        bpy.ops.reeb_parts.show_original()
+        assert not obj.hide_render
+        assert all(item.hide_render for item in items)
+        bpy.ops.reeb_parts.show_pieces()
+        assert obj.hide_render
+        assert [item for item in items if item.hide_render] == [out]
+    bpy.ops.reeb_parts.show_original()
+    count = len(pieces())
+    bpy.ops.reeb_parts.separate()
+    assert len(pieces()) == count
+    assert out not in pieces()
+    assert not any(piece.hide_render for piece in pieces())
+
+
+def test_an_original_out_of_renders_has_pieces_out_of_renders(obj):
+    bpy.ops.reeb_parts.decompose()
+    obj.hide_render = True
+    for _ in range(2):
+        bpy.ops.reeb_parts.separate()
+        assert obj.hide_render
+        assert all(piece.hide_render for piece in pieces())
+        bpy.ops.reeb_parts.show_original()
+        assert obj.hide_render
+    obj.hide_render = False
+    bpy.ops.reeb_parts.separate()
+    assert not any(piece.hide_render for piece in pieces())
+    bpy.ops.reeb_parts.show_original()
+    assert not obj.hide_render
+
+
+def test_an_original_that_an_earlier_version_hid_is_rendered_again(obj):
+    """It kept no note of what was before."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    obj.reeb_parts_made.property_unset("rendered")
+    activate(obj)
+    obj.hide_set(True)
+    bpy.ops.reeb_parts.separate(which="ALL")
+    assert not any(piece.hide_render for piece in pieces())
+    obj.reeb_parts_made.property_unset("rendered")
+    bpy.ops.reeb_parts.show_original()
+    assert not obj.hide_render
+
+
+def test_each_view_layer_shows_the_original_or_its_pieces(obj):
+    other = bpy.context.scene.view_layers.new("Other")
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    assert obj.hide_get(view_layer=other)
+    bpy.ops.reeb_parts.show_original()
+    assert not obj.hide_get(view_layer=other)
+    assert all(piece.hide_get(view_layer=other) for piece in pieces())
+
+
+def test_instances_that_lack_the_original_in_renders_are_named(obj, capfd):
+    collection = bpy.data.collections.new("Set")
+    collection.objects.link(obj)
+    instance = bpy.data.objects.new("Instance", None)
+    instance.instance_type, instance.instance_collection = "COLLECTION", collection
+    bpy.context.scene.collection.objects.link(instance)
+    bpy.ops.reeb_parts.decompose()
+    for hide in (False, True):
+        capfd.readouterr()
+        bpy.ops.reeb_parts.separate(hide=hide)
+        said = capfd.readouterr().out
+        assert ("Tree is missing from renders of instances of its collection: Instance" in said) == hide
+        activate(obj)
+
+
 def test_showing_the_original_is_undone(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate()

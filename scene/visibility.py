@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects that are hidden for a while, in all view layers of the scene and in renders, and come back as they were."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import bpy
+
+from . import transaction
+from .selection import in_view_layer
+
+_UNKNOWN = -1  # see schema.ReebPartsMade.rendered
+
+
+def hide(context: bpy.types.Context, obj: bpy.types.Object, rendered: bool) -> None:
+    """Hide an object, and remember whether it is rendered when it is shown again."""
+    _set_hidden(context, obj, True)
+    _set_rendered(obj, False, int(rendered))
+
+
+def show(context: bpy.types.Context, obj: bpy.types.Object, rendered: bool) -> None:
+    """Show an object, in renders as well if it is rendered."""
+    _set_hidden(context, obj, False)
+    _set_rendered(obj, rendered, _UNKNOWN)
+
+
+def is_rendered(obj: bpy.types.Object) -> bool:
+    """Whether an object is rendered, or would be if ``hide`` had not hidden it."""
+    return not obj.hide_render or _known(obj) == 1
+
+
+def is_known(obj: bpy.types.Object) -> bool:
+    """Whether ``hide`` has hidden an object, and ``show`` not yet shown it again."""
+    return _known(obj) != _UNKNOWN
+
+
+def _known(obj: bpy.types.Object) -> int:
+    """What is remembered: 1 if it was rendered, 0 if not."""
+    return obj.reeb_parts_made.rendered if obj.is_property_set("reeb_parts_made") else _UNKNOWN  # to read would set it
+
+
+def _set_rendered(obj: bpy.types.Object, rendered: bool, before: int) -> None:
+    """Let an object be rendered or not. before : what is remembered, see ``_known``."""
+    if _known(obj) != before:
+        transaction.keep_group(obj, "reeb_parts_made")
+        obj.reeb_parts_made.rendered = before
+    if obj.hide_render == rendered:
+        transaction.keep(obj, "hide_render")
+        obj.hide_render = not rendered
+
+
+def _set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> None:
+    """Hide an object in all view layers of the scene that have it: in each it lies where others of ours do."""
+    for layer in context.scene.view_layers:
+        if in_view_layer(layer, obj) and obj.hide_get(view_layer=layer) != hidden:
+            transaction.on_failure(partial(obj.hide_set, not hidden, view_layer=layer))
+            obj.hide_set(hidden, view_layer=layer)
