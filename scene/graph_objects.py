@@ -222,7 +222,7 @@ def _whole(graph: ReebGraph, arcs: Iterable[int]) -> np.ndarray:
 
 
 def _stretches(graph: ReebGraph, arcs: Iterable[int], seen: np.ndarray) -> np.ndarray:
-    """The stretches of some arcs that are seen: as far as the overlay draws them, to the first point that is not.
+    """The stretches of some arcs that are seen: as far as the overlay draws them, to the last point that is.
 
     Parameters
     ----------
@@ -239,7 +239,7 @@ def _stretches(graph: ReebGraph, arcs: Iterable[int], seen: np.ndarray) -> np.nd
     found = []
     for arc in arcs:
         chain = seen[_chain(graph, arc)]
-        drawn = np.concatenate([[False], chain[:-1] | chain[1:], [False]])
+        drawn = np.concatenate([[False], chain[:-1] & chain[1:], [False]])
         found += [(arc, first, last) for first, last in np.flatnonzero(drawn[1:] != drawn[:-1]).reshape(-1, 2)]
     return np.array(found, np.int64).reshape(-1, 3)
 

@@ -58,9 +58,9 @@ class GraphLines:
         return cls.of(stored.decomposition, stretch, unfolded(graph, parts.node_part, parts.point_part)[1])
 
     def without(self, numbers: np.ndarray, hidden: list[int]) -> GraphLines:
-        """These lines but for those in hidden parts. numbers : (c,), the part of each candidate."""
+        """These lines but for those in hidden parts, or to them. numbers : (c,), the part of each candidate."""
         seen = ~np.isin(numbers[self.candidate], hidden)
-        return replace(self, segments=self.segments[seen[self.segments].any(axis=1)])
+        return replace(self, segments=self.segments[seen[self.segments].all(axis=1)])
 
 
 def _segments(graph: ReebGraph, arcs: np.ndarray) -> np.ndarray:

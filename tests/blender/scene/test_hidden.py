@@ -156,3 +156,17 @@ def test_the_curve_ends_where_the_overlay_of_the_graph_does(obj, result, package
         assert all(len(spline.points) > 1 for spline in arcs.data.splines)
         bpy.ops.reeb_parts.isolate(show_all=True)
         assert curve() == whole
+
+
+@pytest.mark.parametrize("way", ["hide", "isolate"])
+def test_no_piece_of_an_arc_has_the_color_of_a_hidden_part(obj, result, package, way):
+    """Half of each segment that led across the cut was left, as a stub, or as scraps beside the model."""
+    overlay = importlib.import_module(f"{package}.viewport.graph_overlay")
+    colors = {tuple(part.color[:3]) for part in result.parts}
+    for index, part in enumerate(result.parts):
+        choose(result, index)
+        getattr(bpy.ops.reeb_parts, way)()
+        drawn = {tuple(color) for color in overlay.colored_arcs(obj.data)[1][:, :3].tolist()}
+        own = {tuple(part.color[:3])}
+        assert drawn <= (colors - own if way == "hide" else own)
+        bpy.ops.reeb_parts.isolate(show_all=True)
