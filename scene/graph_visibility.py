@@ -2,7 +2,8 @@
 """The graph is hidden when its model is, and comes back with it; whoever shows it meanwhile sees it alone.
 
 What was done is kept with the graph, not in memory: undo leads to the moment when the model was hidden or shown already
-and its graph had yet to follow.
+and its graph had yet to follow. In a viewport that shows its model alone, a graph that is shown comes along
+once; whoever takes it out of there does not see it again until it is hidden and shown.
 """
 
 from __future__ import annotations
@@ -13,15 +14,25 @@ import bpy
 
 from . import graph_objects, transaction
 from .graph_objects import SHOWN_BEFORE
+from .made import ROLE
+from .selection import in_view_layer
+
+_along: set[tuple[int, int]] = set()  # viewports, by address, and objects of graphs, by session_uid, that came along
+
+
+def forget() -> None:
+    """Free what is kept in memory: after undo, graphs may be left out of local views again."""
+    _along.clear()
 
 
 def is_due(context: bpy.types.Context) -> bool:
-    """Whether a model with a graph was hidden or shown since its graph followed."""
-    return any(_is_seen(context, source) == (SHOWN_BEFORE in graph) for graph, source in _graphs())
+    """Whether a model with a graph was hidden, shown or shown alone since its graph followed."""
+    return (any(_is_seen(context, source) == (SHOWN_BEFORE in graph) for graph, source in _graphs())
+            or _in_local_views(context).keys() != _along)
 
 
 def follow(context: bpy.types.Context) -> None:
-    """Hide the graphs of models that were hidden, and show again those of models that are back."""
+    """Hide the graphs of models that were hidden, show again those of models that are back, also in local views."""
     for graph, source in _graphs():
         if _is_seen(context, source) != (SHOWN_BEFORE in graph):
             continue
@@ -29,6 +40,12 @@ def follow(context: bpy.types.Context) -> None:
             show(context, source)
         else:
             hide(context, source)
+    wanted = _in_local_views(context)
+    for key in wanted.keys() - _along:
+        space, item = wanted[key]
+        item.local_view_set(space, True)
+    _along.clear()
+    _along.update(wanted)
 
 
 def hide(context: bpy.types.Context, source: bpy.types.Object) -> None:
@@ -47,6 +64,30 @@ def show(context: bpy.types.Context, source: bpy.types.Object) -> None:
         transaction.keep_keys(graph, SHOWN_BEFORE)
         if graph.pop(SHOWN_BEFORE) and context.scene.reeb_parts.graph:
             graph_objects.set_hidden(context, source, False)
+
+
+def _in_local_views(context: bpy.types.Context
+                    ) -> dict[tuple[int, int], tuple[bpy.types.SpaceView3D, bpy.types.Object]]:
+    """The objects of graphs that are shown whose models are in the local view of a viewport; by keys of ``_along``."""
+    found = {}
+    for layer, space in _local_views(context):
+        for _, source in _graphs():
+            if not (in_view_layer(layer, source) and source.local_view_get(space)
+                    and graph_objects.is_shown(context, source)):
+                continue
+            for item in source.children:
+                if item.get(ROLE) in ("node", "arcs") and in_view_layer(layer, item):
+                    found[space.as_pointer(), item.session_uid] = space, item
+    return found
+
+
+def _local_views(context: bpy.types.Context) -> Iterator[tuple[bpy.types.ViewLayer, bpy.types.SpaceView3D]]:
+    """The viewports that show some objects alone, with their view layers."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            space = area.spaces.active
+            if area.type == "VIEW_3D" and space.local_view:
+                yield window.view_layer, space
 
 
 def _graphs() -> Iterator[tuple[bpy.types.Collection, bpy.types.Object]]:

@@ -94,6 +94,7 @@ def _animated(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
 def _opened(*_: object) -> None:
     """A file was opened: where graphs are seen is not stored."""
     graph_follow.forget()
+    graph_visibility.forget()
     seen_points.forget()
     for collection in bpy.data.collections:
         source = collection.get(graph_objects.SOURCE)
@@ -119,9 +120,15 @@ def _is_untidy() -> bool:
 
 @persistent
 def _hide_graphs_soon(*_: object) -> None:
-    """Models may have been hidden or shown, also by undo."""
+    """Models may have been hidden or shown, or shown alone."""
     if graph_visibility.is_due(bpy.context) and not bpy.app.timers.is_registered(_hide_graphs):
         bpy.app.timers.register(_hide_graphs, first_interval=0.0)
+
+
+@persistent
+def _undone(*_: object) -> None:
+    graph_visibility.forget()
+    _hide_graphs_soon()
 
 
 def _hide_graphs() -> None:
@@ -151,18 +158,19 @@ def register() -> None:
     bpy.app.handlers.frame_change_post.append(_animated)
     bpy.app.handlers.load_post.append(_opened)
     bpy.app.handlers.save_pre.append(_saving)
-    bpy.app.handlers.undo_post.append(_hide_graphs_soon)
-    bpy.app.handlers.redo_post.append(_hide_graphs_soon)
+    bpy.app.handlers.undo_post.append(_undone)
+    bpy.app.handlers.redo_post.append(_undone)
 
 
 def unregister() -> None:
-    handlers.remove(bpy.app.handlers.redo_post, _hide_graphs_soon)
-    handlers.remove(bpy.app.handlers.undo_post, _hide_graphs_soon)
+    handlers.remove(bpy.app.handlers.redo_post, _undone)
+    handlers.remove(bpy.app.handlers.undo_post, _undone)
     handlers.remove(bpy.app.handlers.save_pre, _saving)
     handlers.remove(bpy.app.handlers.load_post, _opened)
     handlers.remove(bpy.app.handlers.frame_change_post, _animated)
     handlers.remove(bpy.app.handlers.depsgraph_update_post, _changed)
     graph_follow.stop()
+    graph_visibility.forget()
     seen_points.forget()
     for timer in (_look, _tidy, _hide_graphs):
         if bpy.app.timers.is_registered(timer):

@@ -99,6 +99,11 @@ def test_a_tool_starts_from_its_button(seen, name):
     assert seen[f"button {name}"] == [f"REEB_PARTS_OT_{name.lower()}"]
 
 
+def test_the_graph_is_seen_with_its_model_in_local_view(seen):
+    """It stayed behind, and the eye said that it was shown."""
+    assert seen["graph in local view"] == [True, False, True]
+
+
 def test_picking_in_local_view_maximised_and_in_each_of_four_views(seen):
     assert seen["picked in local view"] == ["Part 02", []]
     assert seen["picked while maximised"] == ["Part 06", []]

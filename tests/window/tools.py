@@ -219,6 +219,19 @@ def detail_while_painting():
     yield from undo_to("Detail within Paint into undone", ready)
 
 
+def in_view(operator):
+    """Call an operator as if the pointer were over the viewport."""
+    with bpy.context.temp_override(area=pointer.view_area(), region=pointer.region("WINDOW")):
+        operator()
+
+
+def graph_in_local_view():
+    """Whether the graph of the model that is seen alone is seen with it."""
+    space = pointer.view_area().spaces.active
+    items = [item for item in spot().children if item.get("reeb_parts_role") in ("node", "arcs")]
+    return [bool(items) and space.local_view is not None and all(item.visible_get(viewport=space) for item in items)]
+
+
 def elsewhere():
     """From the button in the sidebar; in local view; in a maximised area; in each of four views."""
     for name, beside in BUTTONS.items():
@@ -227,12 +240,20 @@ def elsewhere():
         note(f"button {name}", at_work())
         yield from pointer.rest(*pointer.in_view())
         yield from pointer.tap("Escape")
-    yield from pointer.tap("KP_Divide")
-    yield 0.5
+    in_view(bpy.ops.view3d.localview)  # the key, numpad /, is not on all keyboards
+    yield 2.0  # it comes along once Blender has time
+    note("graph in local view", graph_in_local_view())
+    pointer.shot("10_local_view.png")
+    for _ in range(2):
+        in_view(bpy.ops.reeb_parts.show_graph)
+        yield 2.0
+        note("graph in local view", [*SEEN["graph in local view"], *graph_in_local_view()])
     yield from pointer.search("Pick Parts")
     yield from pointer.press(*pointer.surface_places(spot())[number("Part 02")])
     note("picked in local view", chosen())
-    yield from pointer.tap("Return", "KP_Divide", "n")
+    yield from pointer.tap("Return")
+    in_view(bpy.ops.view3d.localview)
+    yield from pointer.tap("n")
     yield 0.5
     yield from pointer.search("Pick Parts")
     yield from pointer.tap("ctrl+space")  # the viewport fills the window
