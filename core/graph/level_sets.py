@@ -15,7 +15,7 @@ import numpy as np
 
 from ..surface.arrays import components, expanded, sums_by
 from ..surface.mesh import TriMesh
-from .runs import joined_runs
+from .runs import FaceBridges, joined_by_faces
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,12 +230,10 @@ def cut_at_levels(
     contour_pieces[segment_contour, 0] = element_piece[lower]
     contour_pieces[segment_contour, 1] = element_piece[lower + 1]
     if bridges is not None and len(bridges):
-        low, high = lowest[bridges].max(axis=1), highest[bridges].min(axis=1)
-        pair, at = expanded(low, np.maximum(high - low + 1, 0))
         loose_part = np.empty(n_pieces, np.int64)
         loose_part[element_piece] = mesh.face_components[1][element_face]
-        linked = element_piece[first[bridges[pair]] + at[:, None]]
-        piece, contour = _bridged(linked, loose_part, contour_pieces)
+        across = _bridges_between(bridges, mesh.face_components[1], lowest, highest, first)
+        piece, contour = _bridged(across, element_piece, loose_part, contour_pieces)
         element_piece, segment_contour = piece[element_piece], contour[segment_contour]
         joined = np.empty((int(contour.max(initial=-1)) + 1, 2), np.int64)
         joined[contour] = piece[contour_pieces]
@@ -269,15 +267,25 @@ def _connected(
     return n_pieces, piece, n_contours, contour
 
 
+def _bridges_between(
+    bridges: np.ndarray, loose_part: np.ndarray, lowest: np.ndarray, highest: np.ndarray, first: np.ndarray
+) -> FaceBridges:
+    """Elements that bridges between faces, (l, 2), link. loose_part : (m,); the others as in ``_connected``."""
+    swap = loose_part[bridges[:, 0]] > loose_part[bridges[:, 1]]
+    bridges = np.where(swap[:, None], bridges[:, ::-1], bridges)
+    low, high = lowest[bridges].max(axis=1), highest[bridges].min(axis=1)
+    meet = low <= high
+    return FaceBridges(first[bridges[meet]] + low[meet, None], (high - low + 1)[meet])
+
+
 def _bridged(
-    linked: np.ndarray, loose_part: np.ndarray, contour_pieces: np.ndarray
+    bridges: FaceBridges, element_piece: np.ndarray, loose_part: np.ndarray, contour_pieces: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """New number of each piece, (P,), and of each contour, (C,), where bridges join them.
 
-    linked : (l, 2), pieces with a bridge between them. loose_part : (P,). contour_pieces : (C, 2).
+    element_piece : (E,). loose_part : (P,). contour_pieces : (C, 2).
     """
-    swap = loose_part[linked[:, 0]] > loose_part[linked[:, 1]]
-    pieces, contours = joined_runs(np.where(swap[:, None], linked[:, ::-1], linked), contour_pieces, loose_part)
+    pieces, contours = joined_by_faces(bridges, element_piece, contour_pieces, loose_part)
     return components(len(loose_part), *pieces.T)[1], components(len(contour_pieces), *contours.T)[1]
 
 

@@ -140,7 +140,7 @@ class _WorkGraph:
         for arc, (lower, upper) in enumerate(self.arcs):
             self.at_node[upper][LOWER].add(arc)
             self.at_node[lower][UPPER].add(arc)
-        self.arc_alias = np.arange(q)  # the arc to which the contours of each arc belong now
+        self.arc_alias = list(range(q))  # the arc of which each arc is a part now; itself if of none
         self.contours_dropped = np.zeros(q, bool)
         self.parent = list(range(n + q))  # the node or arc into which each was absorbed; itself if it still exists
         self.heap = []  # (area, arc) of leaves to be cancelled, also of some that have changed since
@@ -189,11 +189,13 @@ class _WorkGraph:
         self.arcs[arc] = None
         self.contours_dropped[arc] = True
         self.at_node[node][side].discard(arc)
-        if [len(s) for s in self.at_node[node]] == [1, 1]:
+        below, above = self.at_node[node]
+        if len(below) == len(above) == 1:
             self._dissolve(node)
-        else:
-            for neighbor in self.at_node[node][LOWER] | self.at_node[node][UPPER]:
-                self._push_if_leaf(neighbor)
+        elif len(below) + len(above) == 1:
+            # The node is an extremum now. At one that keeps more arcs no leaf has come or changed: of a node with
+            # thousands of leaves all that is left would be looked at for each of them.
+            self._push_if_leaf(next(iter(below or above)))
 
     def _dissolve(self, node: int) -> None:
         """Make one arc of a node with one arc below and one above, and of these two arcs."""
@@ -204,7 +206,7 @@ class _WorkGraph:
         self.span[below] += self.span[above]
         self.height[below] += self.height[above]
         self.parent[node] = self.parent[n + above] = n + below
-        self.arc_alias[self.arc_alias == above] = below
+        self.arc_alias[above] = below
         self.arcs[below], self.arcs[above] = [lower, upper], None
         self.at_node[node] = (set(), set())
         self.at_node[upper][LOWER].discard(above)
@@ -214,9 +216,7 @@ class _WorkGraph:
     def result(self) -> ReebTopology:
         """Topology of the nodes and arcs that are left, numbered anew in their old order."""
         n = len(self.at_node)
-        root = np.array(self.parent)
-        while (root[root] != root).any():
-            root = root[root]
+        root = _roots(self.parent)
         owner = root[self.piece_owner]
         keeps = root == np.arange(len(root))
         node_id = np.where(keeps[:n], np.cumsum(keeps[:n]) - 1, -1)
@@ -226,7 +226,7 @@ class _WorkGraph:
         arcs = [arc for arc in self.arcs if arc is not None]
         contour_arc = self.topology.contour_arc
         contour_arc = np.where(self.contours_dropped[contour_arc], -1,
-                               arc_id[self.arc_alias[contour_arc]])
+                               arc_id[_roots(self.arc_alias)[contour_arc]])
         return ReebTopology(
             piece_node=np.where(at_node, node_id[np.minimum(owner, n - 1)], -1),
             piece_arc=np.where(at_node, -1, arc_id[np.maximum(owner - n, 0)]) if len(arc_id)
@@ -234,3 +234,11 @@ class _WorkGraph:
             contour_arc=contour_arc,
             arcs=node_id[np.array(arcs, np.int64).reshape(-1, 2)],
             n_nodes=int(keeps[:n].sum()))
+
+
+def _roots(parent: list[int]) -> np.ndarray:
+    """Where each element ends that goes on to its parent until one is its own, (n,) int64."""
+    root = np.array(parent, np.int64)
+    while (root[root] != root).any():
+        root = root[root]
+    return root
