@@ -22,6 +22,9 @@ MAX_POINTS = 8_000  # of a denser surface so many are taken
 MAX_PAIRS = 2_000_000  # of points near each other that are looked at one by one
 FEW_LABELS = 24  # up to so many it is faster to search the nearest of each than to look at all pairs of points
 FAR_POINTS = 1_500  # to look farther than NEAR, where all pairs of points are compared in the end
+# Of links from which on pieces that hang together are one to those who look farther: between thousands of pieces there
+# would be eight times as many twice as far away, nearly all of them between two that hang together by others.
+MANY_LINKS = 30_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,6 +162,10 @@ class Bridges:
         """No links."""
         return cls(np.empty((0, 2), np.int64), np.empty((0, 2), np.int64))
 
+    def with_more(self, vertices: np.ndarray, faces: np.ndarray) -> Bridges:
+        """These links and others after them, (k, 2) int64 each."""
+        return Bridges(np.concatenate([self.vertices, vertices]), np.concatenate([self.faces, faces]))
+
 
 def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
     """Link the pieces of a surface where they come nearest to each other.
@@ -181,16 +188,18 @@ def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
     if count == 1:
         return Bridges.none()
     points = SurfacePoints.of(mesh, piece)
-    size = diameter(points.position, points.area)
-    label = piece[points.face]
-    near = NEAR * size
-    found = _links(points, label, near, size)
-    while connected and components(count, *label[found].T)[0] > 1:
+    near = NEAR * (size := diameter(points.position, points.area))
+    group, kept = np.arange(count), Bridges.none()
+    while True:
+        found = _links(points, group[piece[points.face]], near, size)
+        links = kept.with_more(points.vertex[found], points.face[found])
+        n_bodies, body = components(count, *piece[links.faces].T)
+        if n_bodies == 1 or not connected:
+            return links
+        if len(found) > MANY_LINKS:
+            group, kept = body, links
         near *= 2
         points = SurfacePoints.of(mesh, piece, FAR_POINTS)
-        label = piece[points.face]
-        found = _links(points, label, near, size)
-    return Bridges(points.vertex[found], points.face[found])
 
 
 def _links(points: SurfacePoints, piece: np.ndarray, near: float, size: float) -> np.ndarray:
