@@ -18,6 +18,7 @@ from .ordering import rank_by_place
 
 SLIM = 3.0  # ratio of two lengths of links from which on cells grow along the shorter ones only
 MOST_RISE = 4.0  # upper bound of what a value rises within a cell, in units of its largest rise to a neighbor
+MOST_LEFT = 0.9  # share of the vertices above which a coarse copy has too many; about 0.25 of them are usual
 SMOOTHING_STEPS = 3  # rounds in which ``prolong`` averages neighbors, to close the seams between cells
 _MIX = np.uint64(0x9E3779B97F4A7C15)  # 2**64 over the golden ratio, made odd: the multiplier of the hash splitmix64
 
@@ -79,7 +80,7 @@ def coarsen(
     a, b = both_ways(links).T
     order = stable_order(a)
     a, b = _near(mesh.vertices, a[order], b[order])
-    seed = _independent_set(a, b, _priority(mesh.vertices, vertex_area), kept)
+    seed = _seeds(a, b, _priority(mesh.vertices, vertex_area), np.zeros(mesh.n_vertices, bool) if kept is None else kept)
     name = np.where(seed, np.cumsum(seed) - 1, -1)
     owner = name.copy()
     near = np.flatnonzero(seed[b] & ~seed[a])
@@ -228,14 +229,28 @@ def _priority(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
     return inverse(np.argsort(mixed, kind="stable"))
 
 
-def _independent_set(a: np.ndarray, b: np.ndarray, priority: np.ndarray, kept: np.ndarray | None) -> np.ndarray:
+def _seeds(a: np.ndarray, b: np.ndarray, priority: np.ndarray, kept: np.ndarray) -> np.ndarray:
+    """Mask, (n,) bool, of the vertices of the coarse copy; see ``_independent_set``.
+
+    Of a vertex with thousands of neighbors that have no others, as the ends of an edge on which the pages of a book
+    meet, the neighbors would nearly always be chosen, all of them, and one vertex less be left after each coarsening.
+    Where so few go, those with the most neighbors are chosen first.
+    """
+    seed = _independent_set(a, b, priority, kept)
+    if (seed & ~kept).sum() > MOST_LEFT * (~kept).sum():
+        degree = np.bincount(a, minlength=len(priority))
+        seed = _independent_set(a, b, inverse(np.lexsort((priority, degree))), kept)
+    return seed
+
+
+def _independent_set(a: np.ndarray, b: np.ndarray, priority: np.ndarray, kept: np.ndarray) -> np.ndarray:
     """Mask, (n,) bool, of a maximal independent set of vertices after [Luby1986], and those that are kept anyway.
 
     In each round every undecided vertex joins the set whose priority is higher than that of all undecided
     neighbors. a, b : edges in both directions, sorted by ``a``.
     """
     n = len(priority)
-    chosen = np.zeros(n, bool) if kept is None else kept.copy()
+    chosen = kept.copy()
     open_ = ~chosen
     start = np.searchsorted(a, np.arange(n))
     while open_.any():
