@@ -116,8 +116,8 @@ class _Runs:
     """Runs of slabs in which two loose parts touch.
 
     pairs, run : (k, 2) and (k,), pieces of one slab with a bridge between them, and the run of each pair. contours,
-    below : (i, 2) and (i,), contours between pairs of one run, and the pair below. cells : (c, 2), the loose parts, each
-    two once. best, weight : (c,), their run with the most bridges, and how many it has.
+    below : (i, 2) and (i,), contours between pairs of one run, and the pair below. cells : (c, 2), the two loose parts
+    of some run, each two once. best, weight : (c,), their run with the most bridges, and how many it has.
     """
 
     pairs: np.ndarray

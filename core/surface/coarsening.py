@@ -80,7 +80,8 @@ def coarsen(
     a, b = both_ways(links).T
     order = stable_order(a)
     a, b = _near(mesh.vertices, a[order], b[order])
-    seed = _seeds(a, b, _priority(mesh.vertices, vertex_area), np.zeros(mesh.n_vertices, bool) if kept is None else kept)
+    kept = np.zeros(mesh.n_vertices, bool) if kept is None else kept
+    seed = _seeds(a, b, _priority(mesh.vertices, vertex_area), kept)
     name = np.where(seed, np.cumsum(seed) - 1, -1)
     owner = name.copy()
     near = np.flatnonzero(seed[b] & ~seed[a])

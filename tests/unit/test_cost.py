@@ -2,6 +2,7 @@
 """Odd shapes cost about what ordinary ones do: time of the processor, beside an ordinary mesh of 10,000 faces."""
 
 import time
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -73,6 +74,26 @@ def lawn(count):
     return shapes.Shape(corners.reshape(-1, 3), np.concatenate([first + (0, 1, 2), first + (0, 2, 3)]))
 
 
+def crossing(count):
+    """Loose triangles as large as the cloud in which they lie, so that nearly every two come near each other."""
+    return shapes.Shape(3 * np.random.default_rng(0).normal(size=(3 * count, 3)), np.arange(3 * count).reshape(-1, 3))
+
+
+def welded(count):
+    """Triangles between vertices at random, each of which some six of them share, and edges hardly any."""
+    rng = np.random.default_rng(0)
+    return shapes.Shape(rng.normal(size=(count // 2, 3)),
+                        np.array([rng.choice(count // 2, 3, replace=False) for _ in range(count)]))
+
+
+def pages(count):
+    """The pages of a book that is open all around: one edge has all faces."""
+    angle = 2 * np.pi * np.arange(count) / count
+    rim = np.stack([np.cos(angle), np.sin(angle), np.full(count, 0.5)], axis=1)
+    return shapes.Shape(np.concatenate([[(0, 0, 0), (0, 0, 1)], rim]),
+                        np.stack([np.zeros(count, int), np.ones(count, int), 2 + np.arange(count)], axis=1))
+
+
 ODD = {
     "ribbon": lambda: ribbon(120, 1e-6), "long ribbon": lambda: ribbon(5000, 1e-3), "fan": lambda: fan(10_000, 1.0),
     "tall fan": lambda: fan(120, 100.0), "tetrahedra": lambda: tetrahedra(99),
@@ -80,6 +101,8 @@ ODD = {
     "needle": lambda: shapes.cylinder(4, 12, 1e-4, 1.0), "crumbs": lambda: shapes.crumbs(3000),
     "lawn": lambda: lawn(2_500), "planks": lambda: planks(7),
     "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
+    "crossing triangles": lambda: crossing(2000), "welded triangles": lambda: welded(2000),
+    "pages": lambda: pages(2000),
 }
 
 
@@ -104,6 +127,24 @@ def test_odd_shapes_cost_what_ordinary_ones_do(name, ordinary):
     assert len(shape.faces) <= FACES
     # The second time only if something else took the processor's cache and time in the first.
     assert seconds(shape) <= TIMES * ordinary or seconds(shape) <= TIMES * ordinary
+
+
+@pytest.mark.parametrize("make", [crossing, welded])
+def test_where_nearly_every_two_meet_more_cost_in_proportion(make, ordinary):
+    shape = make(FACES)
+    assert seconds(shape) <= 3 * TIMES * ordinary or seconds(shape) <= 3 * TIMES * ordinary
+
+
+@pytest.mark.parametrize("make", [crossing, welded, pages])
+def test_where_all_meet_memory_is_bounded(make):
+    """In bytes; the libraries need 0.1 GB beside."""
+    shape = make(3000)
+    tracemalloc.start()
+    try:
+        decompose(*shape)
+        assert tracemalloc.get_traced_memory()[1] < 0.4e9
+    finally:
+        tracemalloc.stop()
 
 
 @pytest.mark.parametrize("name", ODD)

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
+from core.graph import runs
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.runs import joined_runs
 from core.surface.arrays import components
@@ -99,3 +100,35 @@ def test_it_does_not_matter_which_face_of_a_bridge_is_first():
         other = cut_at_levels(mesh, values, levels, np.where(backwards[:, None], bridges[:, ::-1], bridges))
         np.testing.assert_array_equal(other.element_piece, sets.element_piece)
         np.testing.assert_array_equal(other.segment_contour, sets.segment_contour)
+
+
+@pytest.mark.parametrize("most", [1, 50, 1000])
+def test_in_blocks_the_same_is_joined_as_all_at_once(most, monkeypatch):
+    """Triangles that cross: most pairs of loose parts have bridges, of many numbers, and some have several runs."""
+    rng = np.random.default_rng(most)
+    mesh = TriMesh(*shapes.together(shapes.tube_tree(3, 0.3), *(
+        shapes.Shape(rng.normal(size=(3, 3)), np.array([[0, 1, 2]])) for _ in range(40))))
+    values = mesh.vertices @ rng.normal(size=3)
+    values = (values - values.min()) / np.ptp(values)
+    part = mesh.face_components[1]
+    bridges = rng.integers(0, mesh.n_faces, (4000, 2))
+    bridges = bridges[part[bridges[:, 0]] != part[bridges[:, 1]]]
+    whole = cut_at_levels(mesh, values, uniform_levels(30), bridges)
+    monkeypatch.setattr(runs, "MAX_LINKS", most)
+    sets = cut_at_levels(mesh, values, uniform_levels(30), bridges)
+    for name in ("element_piece", "segment_contour", "contour_pieces"):
+        np.testing.assert_array_equal(getattr(sets, name), getattr(whole, name))
+
+
+def test_two_that_others_have_joined_are_not_looked_at(monkeypatch):
+    """A hundred triangles, all the same: each two have the same bridges, and 99 pairs join them."""
+    mesh = TriMesh(*shapes.together(*(shapes.moved(shapes.Shape(np.eye(3), np.array([[0, 1, 2]])), (0, 0, 1e-3 * k))
+                                      for k in range(100))))
+    looked_at, side_by_side = [], runs._side_by_side
+    monkeypatch.setattr(runs, "MAX_LINKS", 1000)
+    monkeypatch.setattr(runs, "_side_by_side", lambda pairs, contours: (
+        looked_at.append(len(pairs)), side_by_side(pairs, contours))[1])
+    bridges = np.stack(np.triu_indices(100, 1), axis=1)
+    sets = cut_at_levels(mesh, mesh.vertices[:, 0], uniform_levels(10), bridges)
+    assert (sets.n_pieces, sets.n_contours) == (10, 9)
+    assert sum(looked_at) < 0.1 * 10 * len(bridges)

@@ -151,3 +151,14 @@ def test_the_choice_does_not_depend_on_the_scale_of_a_file_of_eight_digits(seed)
         mesh = TriMesh(scale * points, faces)
         owners.append(coarsen(mesh, mesh.vertex_area).owner)
     assert all(np.array_equal(owners[0], other) for other in owners[1:])
+
+
+def test_pages_around_one_edge_are_few_cells():
+    """Without neighbors of their own all pages would be chosen but for an end of their edge, time after time."""
+    n = 500
+    angle = 2 * np.pi * np.arange(n) / n
+    rim = np.stack([np.cos(angle), np.sin(angle), np.full(n, 0.5)], axis=1)
+    mesh = TriMesh(np.concatenate([[(0, 0, 0), (0, 0, 1)], rim]), [(0, 1, 2 + page) for page in range(n)])
+    assert coarsen(mesh, mesh.vertex_area).mesh.n_vertices < 0.1 * n
+    kept = np.arange(n + 2) > 2  # what is kept is no choice
+    assert coarsen(mesh, mesh.vertex_area, kept=kept).mesh.n_vertices == n

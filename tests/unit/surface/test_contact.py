@@ -7,6 +7,7 @@ import shapes
 
 from core import TriMesh
 from core.surface import contact
+from core.surface.arrays import components
 from core.surface.contact import MAX_POINTS, SurfacePoints, bridges, diameter, near_pairs
 
 
@@ -75,3 +76,19 @@ def test_both_ways_of_finding_near_pairs_agree(monkeypatch):
     two = near_pairs(points, label, 0.3)
     np.testing.assert_array_equal(one[0], two[0])
     np.testing.assert_allclose(one[1], two[1])
+
+
+def test_of_very_many_links_those_farther_off_join_only_what_does_not_hang_together(monkeypatch):
+    """A cloud of small triangles that hardly touch, and one far off."""
+    rng = np.random.default_rng(0)
+    corners = rng.random((60, 1, 3)) + 0.05 * rng.normal(size=(60, 3, 3))
+    corners[-1] += (2.0, 0, 0)
+    mesh = TriMesh(corners.reshape(-1, 3), np.arange(180).reshape(-1, 3))
+    every = bridges(mesh, connected=True)
+    monkeypatch.setattr(contact, "MANY_LINKS", 0)
+    some = bridges(mesh, connected=True)
+    assert components(60, *every.faces.T)[0] == components(60, *some.faces.T)[0] == 1
+    assert len(some.faces) < 0.3 * len(every.faces)
+    assert (some.faces[:, 0] != some.faces[:, 1]).all()
+    near = bridges(mesh).faces  # what is found first stays
+    assert some.faces[: len(near)].tolist() == near.tolist()
