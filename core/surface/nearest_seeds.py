@@ -27,7 +27,7 @@ def nearest_seeds(graph: csr_array, seeds: np.ndarray) -> tuple[np.ndarray, np.n
     distance : (n,) float64
         Infinite where no seed can be reached.
     seed : (n,) int64
-        Of equally near seeds the one of lowest index; negative where none can be reached.
+        Of equally near seeds the one of lowest index; -1 where none can be reached.
 
     Notes
     -----
@@ -35,7 +35,7 @@ def nearest_seeds(graph: csr_array, seeds: np.ndarray) -> tuple[np.ndarray, np.n
     these SciPy's search names differs from version to version.
     """
     distance, _, seed = dijkstra(graph, directed=True, indices=seeds, min_only=True, return_predecessors=True)
-    seed = seed.astype(np.int64)
+    seed = np.maximum(seed.astype(np.int64), -1)  # SciPy's own number for none is -9999
     ways = graph.tocoo()
     a, b, length = ways.row, ways.col, ways.data
     # Shortest ways end with one of these steps; a node is as near to the seeds of all nodes before it.

@@ -41,6 +41,15 @@ def test_no_face_of_one_class_is_one_region_for_each_piece():
     np.testing.assert_array_equal(region, np.repeat([0, 1], 4))
 
 
+def test_a_piece_without_a_seed_beside_one_with_seeds_is_a_region_of_its_own():
+    shape = shapes.together(shapes.tetrahedron(), shapes.moved(shapes.tetrahedron(), (9, 0, 0)))
+    for without in (0, 4):
+        label = np.zeros(8, int)
+        label[without:without + 4] = np.arange(4)
+        region = grow_regions(TriMesh(*shape), label)
+        np.testing.assert_array_equal(region, np.repeat([0, 1], 4))
+
+
 def test_distance_of_two_regions_by_hand():
     # Two squares side by side, curvature (0, 0) at the left end, (2, 0) on the border, (4, 0) at the right end.
     mesh = TriMesh([(0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (2, 0, 0), (2, 1, 0)],
