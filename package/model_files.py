@@ -101,9 +101,7 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
         raise ModelFileError(Sentence("{path} is a folder, not a model.", path=path))
     if not path.exists():
         raise ModelFileError(Sentence("There is no file {path}.", path=path))
-    if not path.is_file():
-        raise ModelFileError(Sentence("{path} is no file but a pipe or a device: write the model to a file first.",
-                                      path=path))
+    check_ends(path)
     if kind in BY_BLENDER:
         vertices, faces, polygon = _read_by_blender(path, blender, temporary)
     elif kind in formats():
@@ -114,6 +112,13 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
     if not len(faces):
         raise ModelFileError(Sentence("There is no mesh in {path}.", path=path))
     return Model(readable(path.stem), vertices, faces, polygon, "z" if kind in Z_UP else "y")
+
+
+def check_ends(path: Path) -> None:
+    """Raise ModelFileError if there is a pipe or a device: who opens one may wait for ever."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        raise ModelFileError(Sentence("{path} is no file but a pipe or a device: write the model to a file first.",
+                                      path=path))
 
 
 def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -17,6 +17,7 @@ from urllib.parse import unquote
 from ..core.file_names import readable
 from ..core.parameters import Parameters
 from ..core.result.decomposition import VERSION
+from ..model_files import check_ends
 
 FORMAT = 1  # version of what a record holds
 RECORD = "record.json"
@@ -69,7 +70,8 @@ class Settings:
 
 
 def digest_of(path: Path) -> str:
-    """What two models share only if all their bytes are the same; raises OSError."""
+    """What two models share only if all their bytes are the same; raises OSError, for a pipe ModelFileError."""
+    check_ends(path)
     total = hashlib.sha256()
     for file in files_of(path):
         with file.open("rb") as stream:

@@ -80,6 +80,8 @@ def _digest(path: Path) -> str:
     """The digest of a model's file; raises ModelFileError if there is none, as behind a link that leads nowhere."""
     try:
         return digest_of(path)
+    except ModelFileError:
+        raise
     except OSError as error:
         raise ModelFileError(Sentence("{path} could not be read: {reason}", path=path,
                                       reason=error.strerror or error)) from error

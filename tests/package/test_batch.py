@@ -339,6 +339,22 @@ def test_a_link_that_leads_nowhere_is_unreadable(models, tmp_path):
     assert not is_done(tmp_path / "link.ply", tmp_path / "out", Settings(Parameters()))
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no such pipes")
+@pytest.mark.parametrize("suffix", [".ply", ".gltf"])
+def test_a_pipe_in_a_folder_is_unreadable_and_the_next_model_is_done(suffix, models, reeb_parts_command, tmp_path):
+    """Its bytes were waited for, outside the time limit."""
+    folder = tmp_path / "models"
+    folder.mkdir()
+    os.mkfifo(folder / f"pipe{suffix}")
+    shutil.copy(models / "tree.ply", folder / "tree.ply")
+    done = reeb_parts_command("batch", folder, "--out", tmp_path / "out", "--time-limit", 60, *LOCAL)
+    assert done.returncode == 1, done.stderr
+    assert json.loads(done.stdout)["models"] == {"done": 1, "unreadable": 1}
+    record = read_record(tmp_path / "out" / "models" / f"pipe{suffix}")
+    assert record["reason"] == (
+        f"{folder / f'pipe{suffix}'} is no file but a pipe or a device: write the model to a file first.")
+
+
 def test_results_that_cannot_be_written_are_no_crash(models):
     answer = do_model(job(models / "tree.ply", Path("/proc/none/tree.ply")))
     assert answer["status"] == "error"
