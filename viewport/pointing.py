@@ -97,13 +97,16 @@ class Model:
         return int(self.stored.shown[target.candidate])
 
     def at(self, obj: bpy.types.Object, location: Sequence[float], on_graph: bool) -> Target:
-        """The place of the graph, or of the surface, nearest to a location in the world; SceneError if it is none."""
+        """The place of the graph, or of the surface, nearest to a location in the world; SceneError if it is none.
+
+        Of a graph without lines, as a ball may have, the place of the surface.
+        """
         place = np.array(obj.matrix_world.inverted_safe() @ Vector(location), np.float64)
         check_place(place)
-        if not on_graph:
-            return self._on_face(int(self.tree.query(place)[1]), place)
-        segment, share, _ = nearest(self.lines.position, self.lines.segments, place)
-        return _on_line(self.lines, segment, share)
+        if on_graph and len(self.lines.segments):
+            segment, share, _ = nearest(self.lines.position, self.lines.segments, place)
+            return _on_line(self.lines, segment, share)
+        return self._on_face(int(self.tree.query(place)[1]), place)
 
     def under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
               mouse: tuple[float, float], graph: bool = True, surface: bool = True) -> Target | None:

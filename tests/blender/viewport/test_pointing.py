@@ -128,6 +128,16 @@ def test_nothing_is_cut_off_beyond_a_tip(obj, result):
     assert snapshot() == before
 
 
+def test_without_lines_of_a_graph_a_cut_is_where_the_surface_is(make):
+    """A ball of few faces has a graph of one node, beside which no line could be found."""
+    ball = make(shapes.icosphere(1))
+    bpy.ops.reeb_parts.decompose()
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="Nothing of Part 01 would be cut off there"):
+        bpy.ops.reeb_parts.cut(location=centers(ball)[0])
+    assert snapshot() == before
+
+
 def test_a_locked_part_is_not_cut(obj, result):
     result.n_parts = 1
     result.parts[0].locked = True
