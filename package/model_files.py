@@ -139,7 +139,8 @@ def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of NumPy's own file."""
-    with np.load(path, allow_pickle=False) as data:
+    # NumPy would leave a damaged file open that it has opened itself.
+    with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
         faces = data["faces"].astype(np.int64)
         return data["vertices"].astype(np.float64), faces, np.arange(len(faces))
 

@@ -10,9 +10,11 @@ meshes of a model are decomposed together. Files appear when all of them are com
 from __future__ import annotations
 
 import argparse
+import logging
 import os
-from collections.abc import Callable
-from contextlib import suppress
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ..core.file_names import readable
@@ -83,7 +85,8 @@ def _run(options: argparse.Namespace) -> str:
     for note in notes:
         say(note)
     keep_freed_memory()
-    model = read_model(options.model, options.blender)
+    with _unheard():
+        model = read_model(options.model, options.blender)
     result = decompose(model, parameters=parameters, progress=_Progress())
     parts = result.parts()
     files: dict[Path, bytes] = {}
@@ -118,6 +121,19 @@ def _run(options: argparse.Namespace) -> str:
         add(options.json, answer)
     write_files(files, options.model)
     return answer.decode()
+
+
+@contextmanager
+def _unheard() -> Iterator[None]:
+    """Keep from standard error what readers log and warn of: it is about lines of theirs, not of the file."""
+    handler = logging.NullHandler()
+    logging.getLogger().addHandler(handler)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        logging.getLogger().removeHandler(handler)
 
 
 class _Progress:

@@ -125,6 +125,30 @@ def test_what_is_wrong_is_one_sentence_and_nothing_is_written(arguments, words, 
     assert model.read_bytes() == before
 
 
+def _without_a_normal(tree, path):
+    """A file of words in which a number became bytes of zero."""
+    text = trimesh.exchange.stl.export_stl_ascii(trimesh.Trimesh(*tree, process=False))
+    path.write_text(text.replace("facet normal ", "facet normal \0\0", 1))
+
+
+def _with_a_signaling_nan(tree, path):
+    """A file in which a coordinate became what may not even be converted without an error."""
+    data = bytearray(trimesh.Trimesh(*tree, process=False).export(file_type="glb"))
+    place = np.float32(tree.vertices[0]).tobytes()
+    at = data.index(place)
+    data[at:at + 4] = b"\1\0\xa0\x7f"
+    path.write_bytes(data)
+
+
+@pytest.mark.parametrize(("name", "make", "status"), [
+    ("tree.stl", _without_a_normal, 0), ("tree.glb", _with_a_signaling_nan, 1)])
+def test_what_readers_log_and_warn_of_is_not_said(name, make, status, tree, reeb_parts_command, tmp_path):
+    make(tree, tmp_path / name)
+    done = reeb_parts_command("decompose", tmp_path / name)
+    assert done.returncode == status, done.stderr
+    assert [line for line in done.stderr.splitlines() if not line.startswith("reeb-parts: ")] == []
+
+
 def test_an_earlier_answer_does_not_outlive_a_run_that_fails(model, reeb_parts_command, tmp_path):
     (tmp_path / "out.json").write_text("{}")
     done = reeb_parts_command("decompose", model, "--json", tmp_path / "out.json", "--labels", "/proc/none/x.npy")

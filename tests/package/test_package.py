@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The installed package: what is in it, and what it takes."""
 
+import gc
 import re
 import subprocess
 import sys
+import warnings
 import zipfile
 from pathlib import Path
 
@@ -151,6 +153,16 @@ def test_arrays_are_read_as_they_are(tmp_path):
     model = reeb_parts.read_model(tmp_path / "tree.npz")
     assert (model.vertices == shape.vertices).all()
     assert (model.faces == shape.faces).all()
+
+
+def test_damaged_arrays_are_not_left_open(tmp_path):
+    (tmp_path / "tree.npz").write_bytes(b"PK\x03\x04 and no end")
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        with pytest.raises(reeb_parts.ModelFileError, match="could not be read: BadZipFile"):
+            reeb_parts.read_model(tmp_path / "tree.npz")
+        gc.collect()
+    assert [str(warning.message) for warning in found] == []
 
 
 def test_an_obj_with_materials_and_texture_seams_keeps_the_order_of_its_faces(tmp_path):
