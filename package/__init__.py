@@ -13,26 +13,33 @@ Blender runs as well and which has the modules of every stage. ``read_model`` re
 does all of it without Python.
 """
 
-from .core import (
-    PRESETS,
-    VERSION,
-    Cancelled,
-    Decomposition,
-    EmptyMeshError,
-    Hierarchy,
-    MeshError,
-    ParameterError,
-    Parameters,
-    Parts,
-    ReebError,
-    ReebGraph,
-    TriMesh,
-    UnknownParameterError,
-)
-from .meshes import decompose, face_colors
-from .model_files import Model, ModelFileError, read_model
+from importlib import import_module
+from typing import TYPE_CHECKING
 
-__version__ = VERSION
+from . import core
+
+if TYPE_CHECKING:
+    from .core import (
+        PRESETS,
+        VERSION,
+        Cancelled,
+        Decomposition,
+        EmptyMeshError,
+        Hierarchy,
+        MeshError,
+        ParameterError,
+        Parameters,
+        Parts,
+        ReebError,
+        ReebGraph,
+        TriMesh,
+        UnknownParameterError,
+    )
+    from .meshes import decompose, face_colors
+    from .model_files import Model, ModelFileError, read_model
+
+    __version__ = VERSION
+
 __all__ = [
     "PRESETS",
     "VERSION",
@@ -54,3 +61,30 @@ __all__ = [
     "face_colors",
     "read_model",
 ]
+
+# The module of each name that core does not have as it is. All are imported when a name is first used: the command has
+# to hear Ctrl+C long before SciPy is there.
+_HOME = {
+    "Model": "model_files",
+    "ModelFileError": "model_files",
+    "decompose": "meshes",
+    "face_colors": "meshes",
+    "read_model": "model_files",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Import the module of a name when the name is first used."""
+    if name == "__version__":
+        value = core.VERSION
+    elif name in __all__:
+        value = getattr(import_module(f".{_HOME[name]}", __name__) if name in _HOME else core, name)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """All names, those that have not been used, too."""
+    return sorted({*globals(), *__all__, "__version__"})

@@ -1,50 +1,44 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cut meshes into the parts a person would name, without Blender.
-
-    reeb-parts decompose model.glb --colored parts.glb --picture parts.png
-"""
+"""Where the command begins: it hears signals from then on, while NumPy and SciPy take a second to be imported."""
 
 from __future__ import annotations
 
-import argparse
+import os
 import signal
+from collections.abc import Callable
+from types import FrameType
 
-from ..core.errors import ReebError
-from ..core.result.decomposition import VERSION
-from . import batch, decompose, similar
 from .words import say
 
-COMMANDS = {"decompose": decompose, "batch": batch, "similar": similar}
-FAILED, INTERRUPTED = 1, 130
+INTERRUPTED = 130
 
 
 def main(arguments: list[str] | None = None) -> int:
     """The command; returns the exit status: 0 only if all went well, 130 after Ctrl+C."""
-    parser = argparse.ArgumentParser(prog="reeb-parts", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--version", action="version", version=VERSION)
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, module in COMMANDS.items():
-        summary = (module.__doc__ or "").splitlines()[0]
-        module.add_options(commands.add_parser(name, help=summary, description=module.__doc__,
-                                               formatter_class=argparse.RawDescriptionHelpFormatter))
-    options = parser.parse_args(arguments)
-    _hear_signals()
+    _hear_signals(_end)
+    from . import commands
+
+    options = commands.parse(arguments)
+    commands.import_readers()
     try:
-        return COMMANDS[options.command].run(options)
+        _hear_signals(signal.default_int_handler)
+        return commands.run(options)
     except KeyboardInterrupt:
         say("Interrupted.")
         return INTERRUPTED
-    except ReebError as error:
-        say(str(error))
-        return FAILED
-    except MemoryError:
-        say("There is not enough memory.")
-        return FAILED
 
 
-def _hear_signals() -> None:
-    """Hear the request of the system to end, and the end of the terminal, as Ctrl+C is heard."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as it is after nohup
-        signal.signal(signal.SIGHUP, signal.default_int_handler)
+def _hear_signals(heard: Callable[[int, FrameType | None], object]) -> None:
+    """Hear Ctrl+C, the request of the system to end, and the end of the terminal."""
+    signal.signal(signal.SIGTERM, heard)
+    for name in ("SIGINT", "SIGHUP"):
+        number = getattr(signal, name, None)
+        # As is Ctrl+C in the background of a script, and the end of the terminal after nohup.
+        if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, heard)
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    """End the process at once: nothing has been begun, and modules that are half imported may take any exception."""
+    say("Interrupted.")
+    os._exit(INTERRUPTED)

@@ -8,7 +8,6 @@ import sys
 from contextlib import suppress
 
 from ..core.sentence import Sentence
-from ..output_files import OutputFileError
 
 
 def say(text: str) -> None:
@@ -20,6 +19,9 @@ def say(text: str) -> None:
 
 def print_answer(text: str) -> None:
     """Write to standard output; raises OutputFileError if that is closed or full."""
+    # Not above: it needs NumPy, and the command speaks before that is there.
+    from ..output_files import OutputFileError
+
     if sys.stdout is None:
         raise OutputFileError(Sentence("Standard output is closed."))
     try:

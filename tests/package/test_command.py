@@ -166,6 +166,28 @@ def test_ctrl_c_ends_it_with_130_and_nothing_is_written(request, model, tmp_path
     assert err.splitlines()[-1] == "reeb-parts: Interrupted."
 
 
+#: The command, which gets a signal when it begins to import some module.
+IMPORTING = """
+import os, signal, sys
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == sys.argv[1]:
+            os.kill(os.getpid(), getattr(signal, sys.argv[2]))
+sys.meta_path.insert(0, Finder())
+from reeb_parts.command.main import main
+sys.exit(main(["decompose", sys.argv[3]]))
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+@pytest.mark.parametrize("module", ["numpy", "scipy.sparse", "trimesh", "networkx"])
+def test_ctrl_c_is_heard_while_modules_are_imported(module, name, model):
+    """It ended in a traceback, with the exit status of a crash."""
+    done = subprocess.run([sys.executable, "-c", IMPORTING, module, name, model], capture_output=True, text=True,
+                          check=False, timeout=60)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "reeb-parts: Interrupted.\n")
+
+
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="other systems close terminals in another way")
 @pytest.mark.parametrize("kept", [False, True], ids=["closed", "nohup"])
 def test_a_terminal_that_is_closed_ends_it_unless_the_signal_is_ignored(request, model, tmp_path, kept):

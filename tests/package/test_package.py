@@ -44,6 +44,15 @@ def test_it_has_every_name_of_core():
     assert Path(reeb_parts.__file__).parents[1] != ROOT
 
 
+def test_a_name_is_imported_when_it_is_used():
+    """The command hears Ctrl+C before NumPy is there."""
+    words = "import sys, reeb_parts as r; print('numpy' in sys.modules, *set(r.__all__).difference(dir(r)))"
+    done = subprocess.run([sys.executable, "-c", words], capture_output=True, text=True, check=True, timeout=60)
+    assert done.stdout == "False\n"
+    assert all(hasattr(reeb_parts, name) for name in reeb_parts.__all__)
+    assert not hasattr(reeb_parts, "no_such_name")
+
+
 #: The command in a Python in which no package is installed but those of a list.
 ALONE = """
 import sys
