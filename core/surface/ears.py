@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import cross, expanded, lengths, row_products, sums_by, unit
+from .arrays import cross, expanded, lengths, rounded, row_products, sums_by, unit
 
 #: Share of a polygon's area; what is folded by less is convex but for the rounding of its corners.
 FOLD = 1e-6
@@ -66,12 +66,13 @@ def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray
     for size in np.unique(sizes[folded]).tolist():
         rows = start[folded[sizes[folded] == size], None] + np.arange(size - 2)
         corners = np.concatenate([triangles[rows[:, 0], :2], triangles[rows, 2]], axis=1)
-        # Of ears that are equally good the first is clipped: whichever corner a file begins with, it is the same.
-        turn = corners.argmin(axis=1)[:, None] + np.arange(size)
-        corners = np.take_along_axis(corners, turn % size, axis=1)
+        # Rounding, too, is to be the same whichever corner a file begins with.
+        rank = _ranks(vertices, triangles, corners)
+        turn = (rank.argmin(axis=1)[:, None] + np.arange(size)) % size
+        corners, rank = (np.take_along_axis(values, turn, axis=1) for values in (corners, rank))
         place, there = _in_plane(vertices[corners])
         rows, corners = rows[there], corners[there]
-        order, whole = _ears(place[there])
+        order, whole = _ears(place[there], rank[there])
         triangles[rows[whole]] = corners[np.arange(len(corners))[:, None, None], order][whole]
     return triangles
 
@@ -92,6 +93,19 @@ def _folded(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray) -> n
     return several[np.unique(polygon[against])]
 
 
+def _ranks(vertices: np.ndarray, triangles: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """In which order to clip those corners of each polygon, (f, k), that are equally good: (f, k) int64, from 0.
+
+    The nearest to the middle of all vertices first: how these are numbered decides only where they are symmetric.
+    """
+    used = np.zeros(len(vertices), bool)
+    used[triangles] = True  # a mean over triangles would be another with other first corners
+    with np.errstate(invalid="ignore", over="ignore"):  # of other polygons, which may have corners at no finite place
+        middle = vertices[used].mean(axis=0)
+        distance = rounded(((vertices[corners] - middle) ** 2).sum(axis=2))
+    return np.lexsort((corners, distance)).argsort(axis=1)
+
+
 def _in_plane(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Corners of polygons in the plane of each, counterclockwise, and whether it has one.
 
@@ -107,11 +121,12 @@ def _in_plane(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return place @ axes.transpose(0, 2, 1), lengths(normal) > STRAIGHT
 
 
-def _ears(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _ears(place: np.ndarray, rank: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Clip ears until three corners are left.
 
-    place : (f, k, 2) float64, corners counterclockwise. Returns the corners of all triangles, (f, k - 2, 3) int64, and
-    whether each polygon could be cut so, (f,) bool.
+    place : (f, k, 2) float64, corners counterclockwise. rank : (f, k) int64; of equally good ears that of the lowest is
+    clipped. Returns the corners of all triangles, (f, k - 2, 3) int64, and whether each polygon could be cut so, (f,)
+    bool.
     """
     n_faces, size, _ = place.shape
     face = np.arange(n_faces)
@@ -120,7 +135,7 @@ def _ears(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     cost = np.stack([_ear_cost(place, left, before[:, k], np.full(n_faces, k), after[:, k]) for k in range(size)], 1)
     order, whole = np.empty((n_faces, size - 2, 3), np.int64), np.ones(n_faces, bool)
     for step in range(size - 2):
-        ear = cost.argmin(axis=1)
+        ear = np.where(cost == cost.min(axis=1, keepdims=True), rank, size).argmin(axis=1)
         whole &= np.isfinite(cost[face, ear])
         first, last = before[face, ear], after[face, ear]
         order[:, step] = np.stack([first, ear, last], axis=1)

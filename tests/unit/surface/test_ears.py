@@ -147,6 +147,35 @@ def test_some_concave_polygons_among_others_leave_these_as_they_are():
     assert lengths(normal)[~sides].sum() / 2 == pytest.approx(2 * 12)
 
 
+def bumps(n=22):
+    """A sheet of quads with bumps so steep that many are folded whichever way they are cut into a fan."""
+    x, y = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
+    height = np.abs(np.random.default_rng(5).normal(size=x.shape)) ** 6
+    corner = (n * np.arange(n - 1)[:, None] + np.arange(n - 1)).ravel()
+    return (np.stack([x, y, height], axis=-1).reshape(-1, 3),
+            np.stack([corner, corner + n, corner + n + 1, corner + 1], axis=1))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_numbers_of_vertices_decide_nothing(seed):
+    """Of the two ears of a folded quad, which have one diagonal, that of the lowest number was clipped first."""
+    vertices, quads = bumps()
+    one = PolygonMesh.of(vertices, quads).triangles
+    number = np.random.default_rng(seed).permutation(len(vertices))
+    two = PolygonMesh.of(vertices[number], np.argsort(number)[quads]).triangles
+    np.testing.assert_array_equal(one.vertices[one.faces], two.vertices[two.faces])
+    fan, _ = fans(quads.ravel(), np.full(len(quads), 4))
+    assert (one.faces != fan).any(axis=1).sum() > 50
+
+
+def test_models_of_folded_quads_have_one_decomposition_however_vertices_are_numbered():
+    vertices, quads = bumps()
+    number = np.random.default_rng(1).permutation(len(vertices))
+    one, two = decompose(vertices, quads), decompose(vertices[number], np.argsort(number)[quads])
+    np.testing.assert_array_equal(one.candidates, two.candidates)
+    np.testing.assert_array_equal(one.hierarchy.salience, two.hierarchy.salience)
+
+
 def test_polygons_of_thousands_of_corners_keep_their_fans():
     """A star of 3,000 rays, of which ears would be clipped for seconds."""
     angle = np.linspace(0, 2 * np.pi, 6_000, endpoint=False)
