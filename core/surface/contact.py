@@ -188,7 +188,8 @@ def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
     if count == 1:
         return Bridges.none()
     points = SurfacePoints.of(mesh, piece)
-    near = NEAR * (size := diameter(points.position, points.area))
+    size = diameter(points.position, points.area)
+    near = NEAR * size
     group, kept = np.arange(count), Bridges.none()
     while True:
         found = _links(points, group[piece[points.face]], near, size)
