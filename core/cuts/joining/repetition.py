@@ -14,12 +14,12 @@ import numpy as np
 from scipy.cluster.hierarchy import DisjointSet
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import components, on_grid, sums_by
+from ...surface.arrays import components, on_grid, rounded, sums_by
 from ...surface.mesh import TriMesh
 
 #: Pieces repeat each other if the logarithms of their size and extents are in the same cells of this width, or in cells
 #: that touch.
-CELL = 0.02
+CELL = 0.03
 THIN = 0.003  # added to extents, in units of the size, as those of a sheet are 0 but for rounding
 ROUNDS = 3  # of linkage at most: what was made even may join elsewhere
 
@@ -49,7 +49,7 @@ def piece_kinds(mesh: TriMesh) -> np.ndarray:
     size = np.sqrt(total)
     extents = np.sqrt(np.maximum(values, 0.0)) / size[:, None]
     logs = np.column_stack([np.log(size / size.max()), np.log(extents + THIN)])
-    cells, cell = np.unique(np.floor(logs / CELL), axis=0, return_inverse=True)
+    cells, cell = np.unique(np.rint(logs / CELL), axis=0, return_inverse=True)  # the largest is in the midst of its own
     beside = cKDTree(cells).query_pairs(1.5, p=np.inf, output_type="ndarray")
     return components(len(cells), *beside.T)[1][cell.reshape(-1)]
 
@@ -158,7 +158,8 @@ class _Groups:
         """How much more surely each group should join others, (c + s,) float64; 0 where those like it do as it does."""
         _, like = np.unique(self.token, return_inverse=True)
         held = np.flatnonzero(np.isfinite(self.joins))
-        like, joins = like[held], self.joins[held]
+        held = held[np.lexsort((self.joins[held], like[held]))]  # sums in an order that is the same for any numbering
+        like, joins = like[held], rounded(self.joins[held])
         count = int(like.max(initial=-1)) + 1
         mean = (np.bincount(like, joins, count) / np.maximum(np.bincount(like, minlength=count), 1))[like]
         uneven = np.bincount(like, (joins > 0) != (mean > 0), count) > 0
