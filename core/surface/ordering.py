@@ -155,10 +155,20 @@ def _pieces(mesh: TriMesh) -> tuple[int, np.ndarray]:
     count, piece = components(mesh.n_vertices, first, second)
     if count == 1:
         return count, piece
-    x, y, z = ((column + 0.0).view(np.int64) for column in mesh.vertices.T)  # -0.0 is 0.0
-    place = np.unique(x * _MIX[0] ^ y * _MIX[1] ^ z * _MIX[2], return_inverse=True)[1]
+    x, y, z = (_mixed(column, factor) for column, factor in zip(mesh.vertices.T, _MIX, strict=True))
+    place = np.unique(x ^ y ^ z, return_inverse=True)[1]
     count, piece = components(int(place.max()) + 1, place[first], place[second])
     return count, piece[place]
+
+
+def _mixed(values: np.ndarray, factor: int) -> np.ndarray:
+    """Numbers, (n,) uint64, that differ in all bits where values, (n,) float64, differ.
+
+    A whole number has nothing but zeros in most of its digits, and a product alone would leave them there.
+    """
+    bits = (values + 0.0).view(np.uint64)  # -0.0 is 0.0
+    bits = (bits ^ bits >> np.uint64(32)) * np.uint64(factor)
+    return bits ^ bits >> np.uint64(29)
 
 
 def _beside_another(points: np.ndarray, piece: np.ndarray, count: int, chosen: np.ndarray) -> np.ndarray:

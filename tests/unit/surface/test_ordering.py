@@ -156,3 +156,14 @@ def test_a_dense_mesh_moved_turned_scaled_and_shuffled():
     one, two = decompose(*shape).parts(), decompose(*other).parts()
     # Parts are numbered by the caller's order.
     assert len(np.unique(np.stack([one.labels[face], two.labels]), axis=1).T) == one.count == two.count
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_pieces_of_whole_numbers_are_sorted_alike_at_any_size(seed):
+    """Their coordinates differ in few digits, and places apart were taken for one, others at twice the size."""
+    cells = np.argwhere(np.random.default_rng(seed).random((6, 6)) < 0.6)
+    vertices, faces = shapes.flat_cells(cells.tolist())
+    one, *others = (sorted_by_place(PolygonMesh.of(size * vertices, faces, None))[1] for size in (1.0, 2.0, 0.5, 8.0))
+    for other in others:
+        np.testing.assert_array_equal(other.vertex, one.vertex)
+        np.testing.assert_array_equal(other.polygon, one.polygon)
