@@ -33,7 +33,8 @@ def keep_freed_memory() -> bool:
 def lacks_memory(words: str) -> bool:
     """Whether the words of an error, or the last ones of a process, mean that there was no memory left.
 
-    Not everything says so by a MemoryError: a thread gets no stack, and C++ and OpenBLAS end the process.
+    Not everything says so by a MemoryError: a thread gets no stack, C++ and OpenBLAS end the process, and Python loses
+    its standard error where it has no room for the words of a MemoryError.
     """
-    return re.search("can't start new thread|MemoryError|Memory allocation|Cannot allocate memory|bad_alloc", words
-                     ) is not None
+    return re.search("can't start new thread|MemoryError|Memory allocation|Cannot allocate memory|bad_alloc|"
+                     "lost sys.stderr", words) is not None

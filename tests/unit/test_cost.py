@@ -101,8 +101,8 @@ ODD = {
     "needle": lambda: shapes.cylinder(4, 12, 1e-4, 1.0), "crumbs": lambda: shapes.crumbs(3000),
     "lawn": lambda: lawn(2_500), "planks": lambda: planks(7),
     "pipe of long triangles": lambda: shapes.cylinder(1, 60, 1.0, 100.0),
-    "crossing triangles": lambda: crossing(2000), "welded triangles": lambda: welded(2000),
-    "pages": lambda: pages(2000),
+    "crossing triangles": lambda: crossing(1000), "welded triangles": lambda: welded(1000),
+    "pages": lambda: pages(1000),
 }
 
 
