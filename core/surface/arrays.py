@@ -347,6 +347,12 @@ def second_moments(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])
 
 
+def second_moments_of_each(index: np.ndarray, points: np.ndarray, weights: np.ndarray, count: int) -> np.ndarray:
+    """Sum the weighted products of the coordinates of points, (n, 3), by ``index``, (n,): (count, 3, 3) float64."""
+    products = weights[:, None] * (points[:, :, None] * points[:, None, :]).reshape(-1, 9)
+    return sums_by(index, products, count).reshape(-1, 3, 3)
+
+
 def both_ways(pairs: np.ndarray) -> np.ndarray:
     """List each pair, then each pair the other way round.
 

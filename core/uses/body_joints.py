@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import components, cross, distinct_pairs, row_products, sums_by
+from ..surface.arrays import components, cross, distinct_pairs, row_products, second_moments_of_each, sums_by
 from ..surface.corners import CornerTable
 from .groups import beside, touching_groups
 from .hulls import Hull
@@ -65,9 +65,8 @@ def body_joints(table: CornerTable, labels: np.ndarray) -> BodyJoints:
     weight = np.concatenate([weight, *(np.ones(len(some)) for _, some in contacts)])
     middle = np.concatenate([middle, *(some for _, some in contacts)])
     center = sums_by(joint, weight[:, None] * middle, len(pairs)) / np.bincount(joint, weight, len(pairs))[:, None]
-    away = middle - center[joint]
-    spread = sums_by(joint, weight[:, None] * (away[:, :, None] * away[:, None, :]).reshape(-1, 9), len(pairs))
-    axis, hinge = _frames(spread.reshape(-1, 3, 3), _middles(table, labels)[pairs])
+    spread = second_moments_of_each(joint, middle - center[joint], weight, len(pairs))
+    axis, hinge = _frames(spread, _middles(table, labels)[pairs])
     return BodyJoints(pairs, center, axis, hinge)
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import distinct_pairs, last_of_each, rounded, square_roots, sums_by
+from ...surface.arrays import distinct_pairs, last_of_each, rounded, second_moments_of_each, square_roots, sums_by
 from ...surface.contact import NEAR, SurfacePoints, diameter, near_pairs
 from ...surface.mesh import TriMesh
 
@@ -267,8 +267,7 @@ def _part_shapes(
     count, position, weight = len(area), points.position, points.area
     center = sums_by(mine, weight[:, None] * position, count) / area[:, None]
     offset = position - center[mine]
-    moments = sums_by(mine, weight[:, None] * (offset[:, :, None] * offset[:, None, :]).reshape(-1, 9), count)
-    values, axes = np.linalg.eigh(moments.reshape(-1, 3, 3) / area[:, None, None])
+    values, axes = np.linalg.eigh(second_moments_of_each(mine, offset, weight, count) / area[:, None, None])
     extents = square_roots(values[:, ::-1], values[:, -1:])
     mean = np.bincount(mine, weight * level, count) / area
     square = np.bincount(mine, weight * level**2, count) / area

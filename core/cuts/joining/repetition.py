@@ -14,7 +14,7 @@ import numpy as np
 from scipy.cluster.hierarchy import DisjointSet
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import components, on_grid, rounded, sums_by
+from ...surface.arrays import components, on_grid, rounded, second_moments_of_each, sums_by
 from ...surface.mesh import TriMesh
 
 #: Pieces repeat each other if the logarithms of their size and extents are in the same cells of this width, or in cells
@@ -44,8 +44,7 @@ def piece_kinds(mesh: TriMesh) -> np.ndarray:
     total = np.bincount(piece, area, count)
     center = sums_by(piece, area[:, None] * mesh.face_centroids, count) / total[:, None]
     offset = mesh.face_centroids - center[piece]
-    moments = sums_by(piece, area[:, None] * (offset[:, :, None] * offset[:, None, :]).reshape(-1, 9), count)
-    values = np.linalg.eigvalsh(moments.reshape(-1, 3, 3) / total[:, None, None])
+    values = np.linalg.eigvalsh(second_moments_of_each(piece, offset, area, count) / total[:, None, None])
     size = np.sqrt(total)
     extents = np.sqrt(np.maximum(values, 0.0)) / size[:, None]
     logs = np.column_stack([np.log(size / size.max()), np.log(extents + THIN)])
