@@ -31,22 +31,11 @@ from ..core.errors import ReebError
 from ..core.file_names import readable
 from ..core.options import chosen_parameters
 from ..core.parameters import Parameters
-from ..scene import (
-    armature,
-    bridge,
-    complete,
-    export,
-    graph_objects,
-    hulls,
-    piece_objects,
-    results,
-    separation,
-    store,
-    targets,
-    uv_map,
-)
+from ..scene import armature, bridge, export, file_checks, hulls, results, store, targets, uv_map
 from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core
+from ..scene.graph import graph_objects
+from ..scene.pieces import piece_objects, separation
 from ..scene.run_files import RunFiles, reason, scene_files, together
 from ..scene.settings import closes_holes
 from ..scene.transaction import transaction
@@ -255,13 +244,13 @@ def write_files(options: argparse.Namespace, files: RunFiles, objects: list[bpy.
         export.write_assemblies(files, objects, options.threemf, separated, cut)
         written["threemf"] = readable(options.threemf)
     if options.save:
-        with files.writing(options.save, complete.blend) as path:
+        with files.writing(options.save, file_checks.blend) as path:
             bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, check_existing=False)
         written["save"] = readable(options.save)
     if options.picture:
         from .picture import render_parts, view_from
 
-        with files.writing(options.picture, complete.png) as path:
+        with files.writing(options.picture, file_checks.png) as path:
             shown = [(obj, graph_objects.find(obj)) for obj in objects]
             render_parts(shown, path, view=view_from(options.picture_turn), size=options.picture_size)
         written["picture"] = readable(options.picture)
@@ -270,7 +259,7 @@ def write_files(options: argparse.Namespace, files: RunFiles, objects: list[bpy.
     result = document(reports, blender=bpy.app.version_string, files=written, problems=problems)
     if options.json:
         text = _as_text(result)
-        with files.writing(options.json, complete.text(text)) as path:
+        with files.writing(options.json, file_checks.text(text)) as path:
             path.write_bytes(text.encode())
     return result
 

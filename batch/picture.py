@@ -21,7 +21,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 from scipy.ndimage import zoom
 
-from ..scene import complete, mesh_arrays
+from ..scene import file_checks, mesh_arrays
 from ..scene.temporary import freed, removed
 
 #: Where the camera stands: in front (Blender's front is -Y), to the left and above.
@@ -266,7 +266,7 @@ def _render(scene: bpy.types.Scene, parts: dict[str, bpy.types.Collection], laye
     scene.render.filepath = str(folder / f"{layer.seen}.png")
     with _silence():
         bpy.ops.render.render(write_still=True, scene=scene.name)
-    if not complete.png(Path(scene.render.filepath)):
+    if not file_checks.png(Path(scene.render.filepath)):
         raise RuntimeError(f"a layer of it does not fit into {folder.parent}, the folder for temporary files.")
     pixels = _read_png(scene.render.filepath)
     if layer.coarseness > 1:

@@ -44,8 +44,8 @@ WORK = {
     "colors": (("outputs/colors.py", "write"), ("outputs/colors.py", "add"), ("outputs/colors.py", "remove")),
     "attribute": (("outputs/face_attribute.py", "write"), ("outputs/face_attribute.py", "add")),
     "list": (("outputs/write.py", "_list_parts"),),
-    "graph": (("scene/graph_objects.py", "draw_graph"), ("scene/graph_objects.py", "update_parts"),
-              ("scene/graph_objects.py", "remove"), ("scene/graph_objects.py", "set_hidden")),
+    "graph": (("scene/graph/graph_objects.py", "draw_graph"), ("scene/graph/graph_objects.py", "update_parts"),
+              ("scene/graph/graph_objects.py", "remove"), ("scene/graph/graph_objects.py", "set_hidden")),
 }
 
 

@@ -5,8 +5,9 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import bridge, piece_checks, piece_objects, piece_repairs, redraw, targets, transaction
+from ..scene import bridge, redraw, targets, transaction
 from ..scene.errors import SceneError
+from ..scene.pieces import piece_checks, piece_objects, piece_repairs
 from ..scene.reporting import ReportingOperator
 from ..scene.selection import select_faces
 

@@ -5,8 +5,9 @@ import bpy
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import graph_objects, leavings, results, store, targets
+from ..scene import orphan_outputs, results, store, targets
 from ..scene.errors import SceneError
+from ..scene.graph import graph_objects
 from ..scene.modes import object_mode
 from ..scene.reporting import ReportingOperator
 from ..viewport import shading
@@ -25,7 +26,7 @@ class REEB_PARTS_OT_clear(ReportingOperator, bpy.types.Operator):
     def check_context(cls, context: bpy.types.Context) -> None:
         obj = targets.active_object(context)
         if obj is None or obj.type != "MESH" or not (
-                store.has_result(obj.data) or graph_objects.exists(obj) or leavings.may_be(obj.data)):
+                store.has_result(obj.data) or graph_objects.exists(obj) or orphan_outputs.may_be(obj.data)):
             raise SceneError(rpt_("The active object has no parts"))
 
     def run(self, context: bpy.types.Context) -> None:

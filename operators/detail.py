@@ -4,7 +4,7 @@
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import quiet, reactions, transaction
+from ..scene import property_updates, reactions, transaction
 from ..scene.errors import SceneError
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
@@ -27,6 +27,6 @@ class REEB_PARTS_OT_step_detail(PartOperator, bpy.types.Operator):
             raise SceneError(rpt_("There are no more parts than these.") if self.more
                              else rpt_("There are no fewer parts than these."))
         transaction.keep_result(obj.data)
-        with quiet.quiet():
+        with property_updates.quiet():
             result.by_number, result.asked, result.n_parts = True, 0, int(beyond[0])
         reactions.show(result, context)

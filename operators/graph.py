@@ -5,9 +5,10 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits, graph_objects, part_names, quiet, reactions, targets, transaction
+from ..scene import edits, part_names, property_updates, reactions, targets, transaction
 from ..scene.errors import SceneError
-from ..scene.graph_objects import part_of, source_of_arcs
+from ..scene.graph import graph_objects
+from ..scene.graph.graph_objects import part_of, source_of_arcs
 from ..scene.part_list import check_parts, choose, chosen_numbers
 from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.selection import select_objects
@@ -24,7 +25,7 @@ class REEB_PARTS_OT_show_graph(PartOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
         shown = not graph_objects.is_shown(context, obj)
         transaction.keep_group(context.scene, "reeb_parts")
-        with quiet.quiet():  # what other models are shown with from now on
+        with property_updates.quiet():  # what other models are shown with from now on
             context.scene.reeb_parts.graph = shown
         reactions.show_graph(obj, shown, context)
 

@@ -8,7 +8,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import outputs, quiet, targets
+from ..scene import outputs, property_updates, targets
 from ..scene.outputs import face_sets, materials, seams
 from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
@@ -31,7 +31,7 @@ class OutputOperator(SelectedPartsOperator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         output, done, undone = self.output
         obj = targets.users(obj.data)[0]
-        with quiet.quiet():
+        with property_updates.quiet():
             (output.remove if self.remove else output.add)(obj)
             if not self.remove:
                 numbered = stored.shown_parts()

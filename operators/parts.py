@@ -6,19 +6,9 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import (
-    graph_objects,
-    hidden,
-    naming,
-    part_list,
-    part_names,
-    part_places,
-    reactions,
-    selection,
-    store,
-    targets,
-)
+from ..scene import hidden, naming, part_list, part_names, part_places, reactions, selection, store, targets
 from ..scene.errors import SceneError
+from ..scene.graph import graph_objects
 from ..scene.modes import object_mode
 from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator, ReportingOperator

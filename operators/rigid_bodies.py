@@ -5,9 +5,10 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import piece_objects, store, targets
+from ..scene import store, targets
 from ..scene.modes import object_mode
 from ..scene.part_list import check_parts
+from ..scene.pieces import piece_objects
 from ..scene.reporting import ReportingOperator, named
 from ..scene.store import Stored
 

@@ -7,11 +7,12 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..scene import piece_objects, separation, store, targets
+from ..scene import store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import check_parts, wanted_numbers
+from ..scene.pieces import piece_objects, separation
 from ..scene.reporting import ReportingOperator
 from ..scene.selection import in_layer, select_objects
 from ..scene.settings import SeparateProperties, closes_holes

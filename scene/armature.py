@@ -13,9 +13,10 @@ from mathutils import Matrix, Vector
 
 from ..core.result.numbering import NumberedParts
 from ..core.surface.corners import CornerTable
-from . import made, modifiers, outputs, part_meshes, part_names, piece_objects, placing, quiet, targets, transaction
+from . import made_objects, modifiers, outputs, part_names, placing, property_updates, targets, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
+from .pieces import part_meshes, piece_objects
 from .selection import nothing_selected
 from .skeleton import Skeleton, skeleton
 from .store import Stored
@@ -107,15 +108,15 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         groups = [part.group for part in obj.data.reeb_parts.parts]
     collection = piece_objects.make_collection(context, obj)
     role = "armature"  # which is all that it stands for
-    earlier = made.remove_untouched(collection.objects, role, _former_looks, lambda _: role, {role})
+    earlier = made_objects.remove_untouched(collection.objects, role, _former_looks, lambda _: role, {role})
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
     rig = bpy.data.objects.new(data.name, data)
     rig.matrix_world = found.place
     rig.show_in_front = True
-    rig[made.ROLE] = role
+    rig[made_objects.ROLE] = role
     collection.objects.link(rig)
     _add_bones(context, rig, found.bones, groups)
-    made.mark(rig)
+    made_objects.mark(rig)
     if own_groups:
         _write_weights(obj, groups, found.of_mesh(_weights(context, obj, rig, groups, found, weights)))
     if deform:
@@ -124,7 +125,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
         modifier.object = rig
     else:
         remove_modifier(obj)
-    made.hand_on(earlier.gone, [(role, rig)])
+    made_objects.hand_on(earlier.gone, [(role, rig)])
     return Made(rig, found.n_stiff, earlier.kept)
 
 
@@ -239,7 +240,7 @@ def _write_groups(obj: bpy.types.Object, numbered: NumberedParts) -> None:
     if not result.has_groups:
         transaction.keep_mesh(obj.data)
         result.has_groups = True
-        with quiet.quiet():
+        with property_updates.quiet():
             outputs.update_outputs(targets.users(obj.data)[0], numbered)
 
 
@@ -260,7 +261,7 @@ def _add_bones(context: bpy.types.Context, rig: bpy.types.Object, bones: Bones, 
 
 
 def _former_looks(rig: bpy.types.Object) -> str:
-    """What earlier versions kept of such an object; see made.Former."""
+    """What earlier versions kept of such an object; see made_objects.Former."""
     bones = [(bone.name, bone.parent.name if bone.parent else "",
               [round(x, 5) for x in (*bone.head_local, *bone.tail_local)]) for bone in rig.data.bones]
     place = [round(value, 5) for row in rig.matrix_basis for value in row]

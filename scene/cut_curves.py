@@ -13,7 +13,8 @@ import numpy as np
 from ..core.steps import Steps, stretched
 from ..core.surface.arrays import distinct_pairs, renumbered
 from ..core.surface.corners import CornerTable
-from . import bridge, mesh_arrays, smooth_faces
+from . import bridge, mesh_arrays
+from .pieces import smooth_faces
 from .temporary import freed
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from bpy.app.handlers import persistent
 
 from .. import __package__ as base_package
 from ..core.parameters import PRESETS, RENAMED
-from . import handlers, quiet
+from . import handlers, property_updates
 from .settings import OUTPUTS, OVERLAY, PARAMETERS, take_over_former_names
 from .transaction import keep_group, transaction
 
@@ -53,7 +53,7 @@ def use(settings: bpy.types.PropertyGroup, names: Iterable[str]) -> None:
     if chosen is None:
         return
     # No graph is drawn anew by this.
-    with quiet.quiet():
+    with property_updates.quiet():
         settings.adopted = True
         for name in names:
             if getattr(settings, name) != getattr(chosen, name):

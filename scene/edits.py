@@ -24,7 +24,7 @@ from ..core.sentence import Count
 from ..core.surface.arrays import components
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
-from . import bridge, mesh_arrays, part_names, quiet, reactions, store
+from . import bridge, mesh_arrays, part_names, property_updates, reactions, store
 from .errors import SceneError
 from .outputs import face_sets
 from .selection import selected_faces
@@ -325,7 +325,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     concerned = set(np.unique(np.concatenate([face_numbers[moved], before[moved]])).tolist())
     mesh_tables = mesh_tables or bridge.face_graph(obj)
     stored = _finer(stored, split_around(stored.decomposition, np.where(moved, face_numbers, 0), *mesh_tables))
-    with quiet.quiet():
+    with property_updates.quiet():
         store.save(obj.data, stored)
     numbers = stored.shown.copy()
     numbers[stored.decomposition.candidates[moved]] = face_numbers[moved]
@@ -429,7 +429,7 @@ def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, nu
     result = mesh.reeb_parts
     locked = {part.number for part in result.parts if part.locked}
     pinned = np.where(np.isin(stored.pinned, list(set(numbers) - locked)), 0, stored.pinned)
-    with quiet.quiet():
+    with property_updates.quiet():
         store.save_numbers(mesh, replace(stored, pinned=pinned))
     reactions.show(result, context)
 

@@ -2,7 +2,7 @@
 """Reads the elements of a Blender mesh as arrays, with all that they carry, and makes meshes of such arrays.
 
 Blender gives and takes attributes as whole arrays. Weights it gives one by one only, and they are read only where a
-mesh has vertex groups. What is in no array - the displacement of Multires - is in scene/sculpted_pieces.py.
+mesh has vertex groups. What is in no array - the displacement of Multires - is in scene/pieces/sculpted_pieces.py.
 """
 
 from __future__ import annotations

@@ -11,8 +11,9 @@ from collections.abc import Iterable
 
 import bpy
 
-from . import graph_follow, modifiers, outputs, quiet, store, targets, transaction
+from . import modifiers, outputs, property_updates, store, targets, transaction
 from .errors import SceneError
+from .graph import graph_follow
 from .outputs import face_attribute
 from .settled import reaction
 
@@ -70,7 +71,7 @@ def _face_attribute(obj: bpy.types.Object) -> str:
             numbered = store.load(obj.data).shown_parts()
         except SceneError:  # the mesh was edited: the panel says so
             return ""
-        with quiet.quiet():
+        with property_updates.quiet():
             face_attribute.add(obj)
             outputs.update_outputs(targets.users(obj.data)[0], numbered, numbered.candidate_numbers)
     return result.face_attribute

@@ -15,9 +15,10 @@ from mathutils import Color
 
 from ..core.file_names import file_name
 from ..core.uses.threemf import Assembly, Body, write_3mf
-from . import bridge, complete, mesh_arrays, part_names, piece_objects, placing, store
+from . import bridge, file_checks, mesh_arrays, part_names, placing, store
 from .errors import SceneError
-from .part_meshes import piece_meshes
+from .pieces import piece_objects
+from .pieces.part_meshes import piece_meshes
 from .run_files import RunFiles
 from .temporary import removed
 from .units import millimeters
@@ -151,7 +152,7 @@ def _separated(obj: bpy.types.Object, wanted: Iterable[int] | None) -> dict[str,
 def _write(files: RunFiles, path: Path, obj: bpy.types.Object, pieces: dict[str, bpy.types.Object],
            kind: str, stage: bpy.types.Scene) -> Path:
     """Write pieces, by their names, as one file; returns its path. stage : a scene with nothing in it."""
-    with files.writing(path, complete.model([piece.data for piece in pieces.values()], kind), alone=True) as place:
+    with files.writing(path, file_checks.model([piece.data for piece in pieces.values()], kind), alone=True) as place:
         if kind == "3mf":
             write_3mf(place, [Assembly(obj.name, _bodies(obj, pieces))])
         else:
@@ -199,7 +200,7 @@ def write_assemblies(files: RunFiles, objects: Iterable[bpy.types.Object], path:
         pieces = _separated(obj, None) if separated else _parts(obj, None, True, cut)
         with _removed(pieces):
             assemblies.append(Assembly(obj.name, _bodies(obj, pieces)))
-    with files.writing(path, complete.model([], "3mf")) as place:
+    with files.writing(path, file_checks.model([], "3mf")) as place:
         write_3mf(place, assemblies)
 
 

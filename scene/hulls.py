@@ -8,7 +8,8 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 
-from . import made, mesh_arrays, part_names, piece_objects, placing
+from . import made_objects, mesh_arrays, part_names, placing
+from .pieces import piece_objects
 from .store import Stored
 
 PART = "reeb_parts_hull_of"  # on a hull: the number of its part
@@ -48,7 +49,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     hulls = part_hulls(table, numbered.parts.labels, count)
     collection = piece_objects.make_collection(context, obj)
     coming = set(map(str, numbered.numbers.tolist()))
-    earlier = made.remove_untouched(collection.objects, "hull", _former_looks, _stands_for, coming)
+    earlier = made_objects.remove_untouched(collection.objects, "hull", _former_looks, _stands_for, coming)
     found: list[bpy.types.Object] = []
     for number, several in zip(numbered.numbers.tolist(), hulls, strict=True):
         part = part_names.piece_name(obj, number)
@@ -62,13 +63,13 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
             found[-1][PART] = number
             collection.objects.link(found[-1])
     for hull in found:
-        made.mark(hull)
-    made.hand_on(earlier.gone, [(_stands_for(hull), hull) for hull in found])
+        made_objects.mark(hull)
+    made_objects.hand_on(earlier.gone, [(_stands_for(hull), hull) for hull in found])
     return Made(found, earlier.kept)
 
 
 def _stands_for(hull: bpy.types.Object) -> str:
-    """The part; see made.StandsFor."""
+    """The part; see made_objects.StandsFor."""
     return str(hull.get(PART))
 
 
@@ -82,12 +83,12 @@ def _placed(hull: bpy.types.Object, obj: bpy.types.Object) -> bpy.types.Object:
     placing.put(hull, placing.world_matrix(obj))
     hull.display_type = "WIRE"
     hull.hide_render = True
-    hull[made.ROLE] = "hull"
+    hull[made_objects.ROLE] = "hull"
     return hull
 
 
 def _former_looks(hull: bpy.types.Object) -> str:
-    """What earlier versions kept of such an object; see made.Former."""
+    """What earlier versions kept of such an object; see made_objects.Former."""
     place = np.round(np.array(hull.matrix_basis), 5).tolist()
     return str([hull.name, place, hull.parent is not None, hull.modifiers.keys(), hull.rigid_body is not None,
                 mesh_arrays.fingerprint(hull.data)])

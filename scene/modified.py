@@ -12,9 +12,9 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.sentence import Count
 from ..core.surface.arrays import distinct_pairs
 from ..core.surface.mirror_plane import MirrorPlane
-from . import bridge, explode, hidden, mesh_arrays, quiet
+from . import bridge, explode, hidden, mesh_arrays, property_updates
 from .errors import SceneError
-from .kept import set_values, values_of
+from .snapshots import set_values, values_of
 from .temporary import removed
 
 _NUMBER = "reeb_parts_face_number"  # face attribute of the copy that is evaluated
@@ -82,7 +82,7 @@ def seen_mesh(context: bpy.types.Context, obj: bpy.types.Object,
         mesh = bpy.data.meshes.new_from_object(twin.evaluated_get(depsgraph), preserve_all_data_layers=True,
                                                depsgraph=depsgraph)
         # What is ours on the new mesh is told by the result, which does not come along.
-        with quiet.quiet():
+        with property_updates.quiet():
             set_values(mesh.reeb_parts, values_of(obj.data.reeb_parts))
     if not len(mesh.polygons):
         bpy.data.meshes.remove(mesh)

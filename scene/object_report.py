@@ -7,7 +7,8 @@ import bpy
 import numpy as np
 
 from ..core.uses.report import bounding_boxes, report
-from . import bridge, mesh_arrays, part_meshes, part_names, piece_checks, placing, store
+from . import bridge, mesh_arrays, part_names, placing, store
+from .pieces import part_meshes, piece_checks
 from .temporary import removed
 
 

@@ -13,8 +13,9 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix
 
-from . import mesh_arrays, piece_objects, quiet, store, targets, transaction
+from . import mesh_arrays, property_updates, store, targets, transaction
 from .errors import SceneError
+from .pieces import piece_objects
 from .settled import reaction
 
 
@@ -53,7 +54,7 @@ def choose(mesh: bpy.types.Mesh, numbers: list[int]) -> None:
     """Choose these parts and no others: the first becomes the active one, and several are marked."""
     transaction.keep_result(mesh)
     result = mesh.reeb_parts
-    with quiet.quiet():
+    with property_updates.quiet():
         for index, part in enumerate(result.parts):
             part.selected = part.number in numbers and len(numbers) > 1
             if part.number == numbers[0]:
@@ -64,7 +65,7 @@ def choose(mesh: bpy.types.Mesh, numbers: list[int]) -> None:
 def make_active(mesh: bpy.types.Mesh, number: int) -> None:
     """Make a part the active one of the list, which scrolls to it; no mark changes."""
     transaction.keep_result(mesh)
-    with quiet.quiet():
+    with property_updates.quiet():
         for index, part in enumerate(mesh.reeb_parts.parts):
             if part.number == number:
                 mesh.reeb_parts.active = index
@@ -75,7 +76,7 @@ def toggle(mesh: bpy.types.Mesh, number: int) -> None:
     """Mark a part that is not marked, or take its mark away; it becomes the active one."""
     transaction.keep_result(mesh)
     result = mesh.reeb_parts
-    with quiet.quiet():
+    with property_updates.quiet():
         if not any(part.selected for part in result.parts):
             result.parts[result.active].selected = True
         for index, part in enumerate(result.parts):
@@ -179,7 +180,7 @@ def mark(mesh: bpy.types.Mesh, action: str, with_faces: Container[int] = ()) -> 
 def mark_numbers(mesh: bpy.types.Mesh, numbers: Container[int]) -> None:
     """Mark the parts of some numbers and no others; the active part stays."""
     transaction.keep_result(mesh)
-    with quiet.quiet():
+    with property_updates.quiet():
         for part in mesh.reeb_parts.parts:
             part.selected = part.number in numbers
 
@@ -194,7 +195,7 @@ def on_list_click(result: bpy.types.PropertyGroup, context: bpy.types.Context) -
     if not len(result.parts):
         return
     if not 0 <= result.active < len(result.parts):  # a script has set it
-        with quiet.quiet():
+        with property_updates.quiet():
             result.active = max(0, min(result.active, len(result.parts) - 1))
     mark(mesh, "NONE")
     if mesh.is_editmode:

@@ -13,8 +13,9 @@ import bpy
 import numpy as np
 
 from ..core.result.numbering import NumberedParts
-from . import graph_objects, outputs, part_names, quiet, store, targets, transaction
+from . import outputs, part_names, property_updates, store, targets, transaction
 from .errors import SceneError
+from .graph import graph_objects
 from .modes import object_mode
 from .outputs import materials, vertex_groups
 from .settled import reaction
@@ -28,7 +29,7 @@ def show_detail(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> 
     result.by_number, result.asked = False, 0
     show(result, context)
     for other in _other_results(result, context):
-        with quiet.quiet():
+        with property_updates.quiet():
             other.by_number, other.asked, other.detail = False, 0, result.detail
         show(other, context)
 
@@ -40,7 +41,7 @@ def show_number(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> 
     show(result, context)
     result.asked = 0 if result.n_parts == asked else asked
     for other in _other_results(result, context):
-        with quiet.quiet():
+        with property_updates.quiet():
             other.by_number, other.asked, other.n_parts = True, 0, asked
         show(other, context)
 
@@ -61,7 +62,7 @@ def _other_results(result: bpy.types.PropertyGroup, context: bpy.types.Context) 
 def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A part was renamed: its vertex group, its material and its number take the name."""
     mesh = part.id_data
-    with quiet.quiet():
+    with property_updates.quiet():
         if not part.name.strip():
             part.name = part_names.part_name(mesh, part.number)
         part.name = part_names.free_name(mesh, part.number, part.name)
@@ -91,7 +92,7 @@ def give_names(mesh: bpy.types.Mesh, names: dict[int, str]) -> int:
     listed = {part.number: part for part in mesh.reeb_parts.parts}
     parts = [listed[number] for number in names if number in listed]
     naming, users = part_names.Naming(mesh), targets.users(mesh)
-    with quiet.quiet():
+    with property_updates.quiet():
         for part in parts:
             part.name = naming.free(part.number, names[part.number])
             for obj in users[:1]:
@@ -162,7 +163,7 @@ def lock(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
         stays = locked or not part.only_locked
         pinned = np.where(stored.shown == number, number if stays else 0, stored.pinned)
         transaction.keep_result(mesh)
-        with quiet.quiet():
+        with property_updates.quiet():
             part.only_locked = locked and not part.pinned
             store.save_numbers(mesh, replace(stored, pinned=pinned))
         show(mesh.reeb_parts, context)
@@ -175,7 +176,7 @@ def refresh(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, nu
     before = stored.shown
     stored = stored.showing(numbered)
     objects = targets.users(mesh)
-    with quiet.quiet():
+    with property_updates.quiet():
         store.save_numbers(mesh, stored)
         outputs.update_outputs(objects[0], numbered, before)
     store.mark_pins(mesh, stored)
@@ -193,7 +194,7 @@ def show(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
             store.mark_pins(mesh, stored)
         else:
             refresh(context, mesh, stored, numbered)
-        with quiet.quiet():
+        with property_updates.quiet():
             result.n_parts = numbered.parts.count
             if result.by_number:
                 store.go_to_number(result, stored.numbering, numbered.parts.count)
@@ -211,7 +212,7 @@ def _with_result(mesh: bpy.types.Mesh, context: bpy.types.Context, work: Callabl
             # cannot be read says itself what is wrong with it, once something is done with it.
             if not isinstance(error, store.UnreadableError):
                 mesh.reeb_parts.edited = True
-            with quiet.quiet():  # what cannot be shown is not said either
+            with property_updates.quiet():  # what cannot be shown is not said either
                 mesh.reeb_parts.take_back()
         else:
             work(stored)

@@ -16,12 +16,11 @@ from . import (
     armature,
     bridge,
     explode,
-    graph_objects,
     hidden,
-    leavings,
     notes,
+    orphan_outputs,
     outputs,
-    quiet,
+    property_updates,
     store,
     succession,
     targets,
@@ -30,6 +29,7 @@ from . import (
 )
 from .compute import Outcome
 from .errors import SceneError
+from .graph import graph_objects
 
 
 def check_unchanged(digests: dict[str, str]) -> None:
@@ -82,12 +82,12 @@ def writing_result(context: bpy.types.Context, obj: bpy.types.Object, outcome: O
     parameters = decomposition.parameters
     transaction.keep_mesh(mesh)
     _keep_colors(mesh)
-    leavings.remove(obj)
+    orphan_outputs.remove(obj)
     stored = succession.succeed(obj, outcome.shape, decomposition)
     numbered = stored.shown_parts()
     result = mesh.reeb_parts
     yield 0.1
-    with quiet.quiet():
+    with property_updates.quiet():
         store.save(mesh, stored)
         yield 0.4
         result.object_name = obj.name
@@ -142,7 +142,7 @@ def clear(obj: bpy.types.Object) -> str:
     Returns the name of the UV map along cuts if it was changed by hand, and so stays, else "".
     """
     transaction.keep_mesh(obj.data)
-    leavings.remove(obj)
+    orphan_outputs.remove(obj)
     for user in targets.users(obj.data):
         explode.forget(user)
         armature.remove_modifier(user)

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import made, mesh_arrays, placing, transaction
+from . import made_objects, mesh_arrays, placing, transaction
 from .store import Stored
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     _add_bodies(site, bodies, np.array([abs(hull.volume) for hull in hulls]))
     joints = [*_joints_at_cuts(site, bodies, found, kind), *_joints_within_parts(site, bodies)]
     apart = _joints_that_hold_nothing(site, bodies, overlapping(hulls), found.pairs)
-    made.hand_on(earlier.gone, [(joint.name, joint) for joint in (*joints, *apart)])
+    made_objects.hand_on(earlier.gone, [(joint.name, joint) for joint in (*joints, *apart)])
     return RigidBodies([piece for some in bodies for piece in some], joints)
 
 
@@ -183,12 +183,13 @@ def _joint(site: _Site, kind: str, ends: tuple[bpy.types.Object, bpy.types.Objec
     holds.type, holds.object1, holds.object2 = kind, *ends
     holds.disable_collisions = True
     holds.use_override_solver_iterations, holds.solver_iterations = True, _ITERATIONS
-    joint[made.ROLE] = "joint"
-    made.mark(joint)
+    joint[made_objects.ROLE] = "joint"
+    made_objects.mark(joint)
     return joint
 
 
-def remove_joints(collection: bpy.types.Collection, of: Iterable[bpy.types.Object] | None = None) -> made.Earlier:
+def remove_joints(collection: bpy.types.Collection,
+                  of: Iterable[bpy.types.Object] | None = None) -> made_objects.Earlier:
     """Remove joints that the user has not worked on; they stand for what their names say.
 
     collection : where the joints are. of : only those of these pieces.
@@ -197,11 +198,11 @@ def remove_joints(collection: bpy.types.Collection, of: Iterable[bpy.types.Objec
     if of is not None:
         ends, held = set(of), [(joint, joint.rigid_body_constraint) for joint in joints]
         joints = [joint for joint, holds in held if holds is not None and {holds.object1, holds.object2} & ends]
-    return made.remove_untouched(joints, "joint", _former_looks, lambda joint: joint.name, None)
+    return made_objects.remove_untouched(joints, "joint", _former_looks, lambda joint: joint.name, None)
 
 
 def _former_looks(joint: bpy.types.Object) -> str:
-    """What earlier versions kept of such an object; see made.Former."""
+    """What earlier versions kept of such an object; see made_objects.Former."""
     place = np.round(np.array(joint.matrix_basis), 5).tolist()
     holds = joint.rigid_body_constraint
     values = [] if holds is None else [

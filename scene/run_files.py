@@ -115,7 +115,7 @@ class RunFiles:
         path : Path
             Its name; claimed now unless it was before.
         complete : callable(path) -> bool
-            Whether all of the file is there; see ``complete``.
+            Whether all of the file is there; see ``file_checks``.
         alone : bool
             Write it under its own name in a folder of its own, with what comes beside it. Otherwise it is written in
             the folder that it belongs to, under another name.

@@ -13,8 +13,9 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 
 from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
 from ..core.uses.colors import LABELS, PALETTES
-from . import graph_objects, reactions
+from . import reactions
 from .errors import translated
+from .graph import graph_objects
 from .settled import Settled, reaction
 
 

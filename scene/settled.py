@@ -15,7 +15,7 @@ from typing import Any
 import bpy
 from bpy.props import StringProperty
 
-from . import quiet, sculpt_undo, transaction
+from . import property_updates, sculpt_undo, transaction
 
 #: The group on each kind of data block that remembers.
 _GROUPS = {bpy.types.Mesh: "reeb_parts", bpy.types.Object: "reeb_parts_made", bpy.types.Scene: "reeb_parts"}
@@ -59,7 +59,7 @@ def reaction(work: Callable) -> Callable:
 
     @wraps(work)
     def update(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-        if quiet.is_quiet():
+        if property_updates.is_quiet():
             return
         with transaction.transaction():
             block = group.id_data

@@ -17,7 +17,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts, Numbering
-from . import mesh_arrays, part_names, quiet, targets, transaction
+from . import mesh_arrays, part_names, property_updates, targets, transaction
 from .errors import SceneError, load_core, translated
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
@@ -208,6 +208,6 @@ def mark_pins(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Tell the list which parts stay whatever the detail."""
     transaction.keep_result(mesh)
     pinned = set(stored.pinned.tolist())
-    with quiet.quiet():
+    with property_updates.quiet():
         for part in mesh.reeb_parts.parts:
             part.pinned = part.number in pinned

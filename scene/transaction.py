@@ -23,9 +23,9 @@ from typing import Any
 
 import bpy
 
-from . import quiet
-from .kept import MeshCopy, set_values, values_of
+from . import property_updates
 from .modes import set_mode
+from .snapshots import MeshCopy, set_values, values_of
 
 # What is made by one of our commands, or by one of Blender's that ours call.
 _KINDS = ("objects", "meshes", "curves", "armatures", "collections", "materials", "node_groups", "shape_keys",
@@ -161,7 +161,7 @@ class Transaction:
         self._meshes: dict[bpy.types.Mesh, MeshCopy] = {}
         self._groups: set[tuple[bpy.types.ID, str]] = set()
         self._there = {kind: {block.session_uid for block in getattr(bpy.data, kind)} for kind in _KINDS}
-        self._quiet = quiet.is_quiet()
+        self._quiet = property_updates.is_quiet()
         self._layer = bpy.context.view_layer
         self._active = self._layer.objects.active
         self._mode = self._active.mode if self._active else "OBJECT"
@@ -197,13 +197,13 @@ class Transaction:
         steps: list[Callable[[], object]] = [
             self._to_object_mode, *reversed(self.inverses), self._remove_new, *reversed(self.renamed),
             self._restore_layer]
-        with quiet.quiet():
+        with property_updates.quiet():
             for step in steps:
                 try:
                     step()
                 except Exception:
                     logging.getLogger(__name__).exception("could not be taken back")
-        quiet.restore(self._quiet)
+        property_updates.restore(self._quiet)
 
     def _to_object_mode(self) -> None:
         """Whatever mode it was interrupted in: meshes can be written in Object Mode only."""

@@ -12,9 +12,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.surface.arrays import renumbered
 from ..core.uses.stacking import double_corners
-from . import made, mesh_arrays, part_meshes, store, transaction
+from . import made_objects, mesh_arrays, store, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
+from .pieces import part_meshes
 from .selection import nothing_selected
 from .store import Stored
 from .temporary import removed
@@ -47,7 +48,7 @@ def remove(mesh: bpy.types.Mesh) -> str:
     layer, name = find(mesh), mesh.get(MADE, "")
     if layer is not None:
         mesh.uv_layers.remove(layer)
-    made.hand_over(mesh, MADE, WRITTEN)
+    made_objects.hand_over(mesh, MADE, WRITTEN)
     return name if name in mesh.uv_layers else ""
 
 

@@ -12,18 +12,9 @@ import bmesh
 import bpy
 from bpy.app.handlers import persistent
 
-from . import (
-    graph_follow,
-    graph_objects,
-    graph_visibility,
-    handlers,
-    mesh_arrays,
-    piece_objects,
-    redraw,
-    seen_points,
-    store,
-    transaction,
-)
+from . import handlers, mesh_arrays, redraw, seen_points, store, transaction
+from .graph import graph_follow, graph_objects, graph_visibility
+from .pieces import piece_objects
 from .temporary import removed
 
 REST = 0.3  # seconds

@@ -10,7 +10,9 @@ from bpy.app.translations import pgettext_iface as iface_
 from mathutils import Matrix
 
 from ..core.sentence import Count
-from ..scene import graph_objects, jobs, notes, part_list, part_names, piece_objects, store
+from ..scene import jobs, notes, part_list, part_names, store
+from ..scene.graph import graph_objects
+from ..scene.pieces import piece_objects
 from . import toolbar
 from .fitting import Room
 

@@ -6,7 +6,8 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
-from ..scene import graph_objects, handlers
+from ..scene import handlers
+from ..scene.graph import graph_objects
 from ..scene.part_list import choose
 
 _owner = object()

@@ -15,7 +15,8 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..scene import graph_follow, graph_objects, made, part_names, store
+from ..scene import made_objects, part_names, store
+from ..scene.graph import graph_follow, graph_objects
 from .graph_lines import GraphLines
 from .lines import Lines
 
@@ -109,9 +110,9 @@ def draw() -> None:
 def _draw_graph(context: bpy.types.Context, source: bpy.types.Object, items: list[bpy.types.Object]) -> None:
     gpu.state.depth_test_set("NONE" if items[0].show_in_front else "LESS_EQUAL")
     gpu.state.blend_set("ALPHA")
-    if any(item.get(made.ROLE) == "arcs" for item in items):
+    if any(item.get(made_objects.ROLE) == "arcs" for item in items):
         _draw_arcs(source, items)
-    nodes = [item for item in items if item.get(made.ROLE) == "node" and not graph_objects.is_folded(item)]
+    nodes = [item for item in items if item.get(made_objects.ROLE) == "node" and not graph_objects.is_folded(item)]
     if nodes:
         _draw_nodes(context, source, nodes)
     gpu.state.blend_set("NONE")

@@ -15,8 +15,9 @@ from mathutils import Matrix, Vector
 from mathutils.bvhtree import BVHTree
 from numpy.typing import ArrayLike
 
-from ..scene import graph_follow, graph_objects, mesh_arrays, store
+from ..scene import mesh_arrays, store
 from ..scene.errors import SceneError
+from ..scene.graph import graph_follow, graph_objects
 from .graph_lines import GraphLines, nearest
 
 if TYPE_CHECKING:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import bpy
 from bpy.app.handlers import persistent
 
-from ..scene import handlers, piece_objects, redraw, transaction
+from ..scene import handlers, redraw, transaction
+from ..scene.pieces import piece_objects
 
 
 @dataclass

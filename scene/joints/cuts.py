@@ -12,7 +12,8 @@ import numpy as np
 
 from ...core.surface.arrays import components, distinct_pairs
 from ...core.surface.mesh import EdgeTable
-from .. import caps, mesh_arrays
+from .. import mesh_arrays
+from ..pieces import caps
 
 if TYPE_CHECKING:
     from ...core.uses.joint_places import Cap

@@ -11,7 +11,8 @@ import bpy
 import numpy as np
 
 from ...core.steps import Steps
-from .. import bridge, mesh_arrays, piece_checks
+from .. import bridge, mesh_arrays
+from ..pieces import piece_checks
 from .planning import Plan
 from .solids import solid_of, with_solids
 

@@ -11,7 +11,8 @@ import bpy
 import numpy as np
 
 from ...core.steps import Steps, stretched
-from .. import bridge, mesh_arrays, piece_checks
+from .. import bridge, mesh_arrays
+from ..pieces import piece_checks
 from ..temporary import removed
 from ..units import millimeters
 from .cuts import shared_cuts

@@ -9,7 +9,8 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from .. import caps, mesh_arrays
+from .. import mesh_arrays
+from ..pieces import caps
 
 if TYPE_CHECKING:
     from ...core.uses.joint_shapes import Solid

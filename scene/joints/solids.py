@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from .. import caps, mesh_arrays
+from .. import mesh_arrays
+from ..pieces import caps
 from ..temporary import removed
 
 if TYPE_CHECKING:

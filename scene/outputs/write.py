@@ -16,7 +16,7 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import PALETTE, PALETTES, number_colors, number_places
-from .. import part_names, part_places, quiet, transaction
+from .. import part_names, part_places, property_updates, transaction
 from . import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
 
 #: The outputs by the names of their switches, see settings.OutputProperties.
@@ -115,7 +115,7 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
     shades = _part_colors(mesh, numbered)
     own_names, kept_names = numbered.names, part_names.kept_names(mesh)
     middles = part_places.middles(mesh, numbered)
-    with quiet.quiet():
+    with property_updates.quiet():
         result.parts.clear()
         for label, number in enumerate(wanted):
             part = result.parts.add()

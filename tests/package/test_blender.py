@@ -140,7 +140,8 @@ def test_what_was_made_of_a_model_is_not_the_model_again(tmp_path):
 def test_the_marks_are_those_of_the_extension():
     root = DATA.parents[1]
     marks = (root / "package" / "blender_export.py").read_text(encoding="utf-8")
-    scene = "".join((root / "scene" / f"{name}.py").read_text(encoding="utf-8") for name in ("made", "piece_objects"))
+    scene = "".join((root / "scene" / name).read_text(encoding="utf-8")
+                    for name in ("made_objects.py", "pieces/piece_objects.py"))
     for mark in ("reeb_parts_role", "reeb_parts_number", "reeb_parts_dowel", "reeb_parts_pieces_of"):
         assert f'"{mark}"' in marks
         assert f'= "{mark}"' in scene

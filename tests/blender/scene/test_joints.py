@@ -132,7 +132,7 @@ def hollow_tube(thickness, n_around=48):
 @pytest.fixture
 def tube_pieces(make, package):
     """Two halves of a tube with a wall, closed, as joints.join takes them."""
-    part_meshes = importlib.import_module(f"{package}.scene.part_meshes")
+    part_meshes = importlib.import_module(f"{package}.scene.pieces.part_meshes")
 
     def halves(thickness):
         obj = make(hollow_tube(thickness), "Tube")
@@ -169,7 +169,7 @@ def test_no_joint_through_the_wall_of_a_tube(tube_pieces, joined, package, thick
 
 def test_a_joint_of_two_cuts_near_each_other_leaves_a_wall_between(make, joined, package):
     """In a slice between two cuts, the holes from both sides do not meet."""
-    part_meshes = importlib.import_module(f"{package}.scene.part_meshes")
+    part_meshes = importlib.import_module(f"{package}.scene.pieces.part_meshes")
     obj = make(shapes.cylinder(40, 48, 1.0, 4.0))
     numbers = np.array([1 + (p.center.z > 1.7) + (p.center.z > 2.3) for p in obj.data.polygons])
     meshes = part_meshes.piece_meshes(obj.data, numbers, [1, 2, 3], True, np.eye(3)).meshes

@@ -208,7 +208,7 @@ def test_names_given_at_once_are_those_given_one_by_one(make, package, seed):
             if at_once:
                 reactions.give_names(mesh, names)
                 continue
-            quiet = importlib.import_module(f"{package}.scene.quiet")
+            quiet = importlib.import_module(f"{package}.scene.property_updates")
             with quiet.quiet():
                 for part in mesh.reeb_parts.parts:
                     if part.number in names:
@@ -226,7 +226,7 @@ def test_the_order_of_a_long_list_is_that_of_its_keys_and_costs_a_redraw_little(
     parts, rng = obj.data.reeb_parts.parts, np.random.default_rng(3)
     while len(parts) < 1500:
         parts.add()
-    with listed.quiet.quiet():
+    with listed.property_updates.quiet():
         for index, part in enumerate(parts):
             part.name, part.share = f"Part {rng.integers(400)} {index % 3}", float(rng.integers(40)) / 40
             part.middle = rng.integers(-9, 9, 3).astype(float).tolist()

@@ -83,7 +83,8 @@ MESHES = {
 @pytest.fixture
 def modules(package):
     names = {"core": ("steps",),
-             "scene": ("cut_curves", "part_meshes", "bridge", "mesh_arrays", "errors", "seen_points"),
+             "scene": ("cut_curves", "bridge", "mesh_arrays", "errors", "seen_points"),
+             "scene.pieces": ("part_meshes",),
              "viewport": ("highlight", "idle", "knife", "pointing", "ring_tool")}
     return SimpleNamespace(**{name: importlib.import_module(f"{package}.{folder}.{name}")
                               for folder, several in names.items() for name in several})

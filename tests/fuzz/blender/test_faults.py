@@ -83,7 +83,7 @@ class Trial:
     def __init__(self, package, prepare, allowed=lambda: []):
         root = str(Path(importlib.import_module(package).__file__).parent)
         self.folders = tuple(f"{root}/{name}/" for name in ("scene", "operators"))
-        self.quiet = importlib.import_module(f"{package}.scene.quiet")
+        self.quiet = importlib.import_module(f"{package}.scene.property_updates")
         self.transaction = importlib.import_module(f"{package}.scene.transaction")
         self.prepare, self.allowed = prepare, allowed
         self.reset()
@@ -176,7 +176,7 @@ def slider(package, name, make, small):
 
     def only_the_property():
         # Before the first line of ours, Blender has changed the property already.
-        quiet = importlib.import_module(f"{package}.scene.quiet")
+        quiet = importlib.import_module(f"{package}.scene.property_updates")
         owner = find(bpy.context.object)
         before = getattr(owner, prop)
         before = before[:] if prop == "color" else before

@@ -148,7 +148,7 @@ def assert_sound(package, obj):
     """Parts, groups, colors, attribute and list agree with the stored result."""
     store = importlib.import_module(f"{package}.scene.store")
     transaction = importlib.import_module(f"{package}.scene.transaction")
-    quiet = importlib.import_module(f"{package}.scene.quiet")
+    quiet = importlib.import_module(f"{package}.scene.property_updates")
     assert not transaction._open
     assert not quiet.is_quiet()
     names = [item.name for kind in ("objects", "meshes", "materials") for item in getattr(bpy.data, kind)]

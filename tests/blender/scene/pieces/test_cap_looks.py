@@ -51,7 +51,7 @@ def in_map(mesh, name, faces):
 
 @pytest.mark.parametrize("smooth", [None, np.eye(3)])
 def test_caps_lie_beside_the_map_as_large_as_the_other_faces(pipe, package, smooth):
-    module = importlib.import_module(f"{package}.scene.part_meshes")
+    module = importlib.import_module(f"{package}.scene.pieces.part_meshes")
     numbers = 1 + (read(pipe.data.polygons, "center", np.float32, 3)[:, 2] > 1 / 3)
     for mesh in module.piece_meshes(pipe.data, numbers, (1, 2), True, smooth).meshes.values():
         cap = caps_of(mesh)

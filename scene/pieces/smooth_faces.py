@@ -16,14 +16,14 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMFace, BMVert
 
-from ..core.steps import Steps, stretched
-from ..core.surface.corners import CornerTable
-from . import element_layers, mesh_groups
-from .elements import FACE, Elements, Layer, Selection
-from .temporary import freed, removed
+from ...core.steps import Steps, stretched
+from ...core.surface.corners import CornerTable
+from .. import element_layers, mesh_groups
+from ..elements import FACE, Elements, Layer, Selection
+from ..temporary import freed, removed
 
 if TYPE_CHECKING:
-    from ..core.uses.clean_cuts.method import CleanCuts
+    from ...core.uses.clean_cuts.method import CleanCuts
 
 #: Face attribute, while faces are divided: number of the part.
 NUMBER = "reeb_parts_face_number"
@@ -74,7 +74,7 @@ def divide_faces(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray
 def finding_cuts(whole: Elements, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray,
                  planar: bool = False) -> Steps[CleanCuts]:
     """Find where smooth cuts run, in steps; arguments as of ``divide_faces``."""
-    from ..core.uses.clean_cuts import method  # imports SciPy
+    from ...core.uses.clean_cuts import method  # imports SciPy
 
     table = CornerTable(whole.points.astype(np.float64) @ stretch.T, whole.ends, whole.corner_vertex,
                         whole.corner_edge, whole.corner_face, len(whole.count))

@@ -13,12 +13,13 @@ from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
 from mathutils import Vector
 from mathutils.geometry import tessellate_polygon
 
-from ..core.uses.cap_surfaces import common_order
-from . import mesh_arrays, mesh_groups
-from .temporary import freed
+from ...core.uses.cap_surfaces import common_order
+from .. import mesh_arrays, mesh_groups
+from ..temporary import freed
 
 if TYPE_CHECKING:
-    from .discs import Disc, Discs
+    from .disc import Disc
+    from .discs import Discs
 
 #: Face attribute: 1 on a cap.
 CAP = "reeb_cap"
@@ -187,7 +188,7 @@ def _to_the_middle(bm: BMesh, stretches: list[list[BMVert]], ways: list[np.ndarr
     These are the same for all parts that meet. So each stretch is closed alike on both sides, and nothing is left out
     between the parts.
     """
-    from .spokes import apart
+    from .cap_junctions import apart
 
     starts = [stretch[0] for stretch in stretches]
     n = len(starts)

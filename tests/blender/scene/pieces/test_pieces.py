@@ -18,7 +18,7 @@ from pieces import volume
 from scipy.spatial import cKDTree
 from snapshot import activate, changes, check_undo, snapshot
 
-SPOT = Path(__file__).resolve().parents[3] / "models" / "spot.obj"
+SPOT = Path(__file__).resolve().parents[4] / "models" / "spot.obj"
 KEEP = {"hide": False, "center": False}
 WHOLE = {"cut": "FACES"}  # faces stay whole, so that those of the pieces can be compared with those of the object
 WIDTH = {"FLOAT_VECTOR": ("vector", 3), "FLOAT2": ("vector", 2), "FLOAT_COLOR": ("color", 4),
@@ -225,7 +225,7 @@ def test_a_vertex_group_may_be_empty(obj, cut):
 @pytest.fixture
 def separate(package):
     """The module behind the operator, to try parts that no decomposition would give."""
-    return importlib.import_module(f"{package}.scene.part_meshes")
+    return importlib.import_module(f"{package}.scene.pieces.part_meshes")
 
 
 def closed_pieces(separate, mesh, numbers, wanted):
@@ -725,7 +725,7 @@ def test_pieces_that_earlier_versions_made_are_known(obj, package, tmp_path):
     bpy.ops.reeb_parts.separate(**KEEP)
     assert all(len(piece["reeb_parts_looks"]) < 60 for piece in pieces())
     for piece in pieces():
-        piece["reeb_parts_looks"] = importlib.import_module(f"{package}.scene.piece_objects").former_looks(piece)
+        piece["reeb_parts_looks"] = importlib.import_module(f"{package}.scene.pieces.piece_objects").former_looks(piece)
     mine, count = pieces()[0], len(pieces())
     mine.location.x += 1
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "pieces.blend"))
@@ -1267,7 +1267,7 @@ def test_quads_and_larger_faces_are_divided_as_blender_divides_them(package, fla
 @pytest.fixture
 def checks(package):
     """The module that checks pieces."""
-    return importlib.import_module(f"{package}.scene.piece_checks")
+    return importlib.import_module(f"{package}.scene.pieces.piece_checks")
 
 
 def test_a_check_tells_what_is_wrong_with_a_mesh(make, checks):
@@ -1560,7 +1560,7 @@ def test_what_is_sculpted_with_multires_stays(obj, style):
 @pytest.mark.parametrize("style", [{"caps": True}, {"caps": False, "cut": "FACES"}])
 def test_to_end_it_at_any_step_leaves_everything_as_it_was(package, obj, style):
     """In the window it goes on in steps and Esc ends it; whichever step it is at, nothing is left of it."""
-    scene = importlib.import_module(f"{package}.scene.separation")
+    scene = importlib.import_module(f"{package}.scene.pieces.separation")
     transaction = importlib.import_module(f"{package}.scene.transaction").transaction
     stored = importlib.import_module(f"{package}.scene.store")
     bpy.ops.reeb_parts.decompose()

@@ -13,23 +13,14 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.steps import Steps
-from . import (
-    bridge,
-    element_layers,
-    graph_visibility,
-    made,
-    mesh_arrays,
-    piece_checks,
-    rigid_bodies,
-    targets,
-    transaction,
-    visibility,
-)
-from .errors import SceneError
-from .selection import in_layer
-from .store import Stored
-from .temporary import remove_object
+from ...core.steps import Steps
+from .. import bridge, element_layers, made_objects, mesh_arrays, rigid_bodies, targets, transaction, visibility
+from ..errors import SceneError
+from ..graph import graph_visibility
+from ..selection import in_layer
+from ..store import Stored
+from ..temporary import remove_object
+from . import piece_checks
 
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: the object that the pieces come from; once it was its name
 NUMBER = "reeb_parts_number"  # on a piece: of its part
@@ -93,7 +84,7 @@ def forget_original(collection: bpy.types.Collection) -> None:
 
 
 def stands_for(item: bpy.types.Object) -> str:
-    """The part of a piece, or the parts that a dowel joins; see made.StandsFor."""
+    """The part of a piece, or the parts that a dowel joins; see made_objects.StandsFor."""
     if DOWEL not in item:
         return part_stands_for(item[NUMBER])
     joined = item[DOWEL]
@@ -142,11 +133,11 @@ def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     pieces: dict[int, list[bpy.types.Object]] = {}
     for piece in piece_objects(obj):
         pieces.setdefault(piece[NUMBER], []).append(piece)
-    untouched = [piece for some in pieces.values() for piece in some if made.is_as_made(piece, former_looks)]
+    untouched = [piece for some in pieces.values() for piece in some if made_objects.is_as_made(piece, former_looks)]
     joined = rigid_bodies.make(context, obj, stored, pieces, make_collection(context, obj), kind)
     for piece in untouched:  # that they are bodies now is no work of the user's
-        transaction.keep_keys(piece, made.MADE)
-        made.mark(piece)
+        transaction.keep_keys(piece, made_objects.MADE)
+        made_objects.mark(piece)
     return joined
 
 
@@ -204,31 +195,31 @@ def _include(context: bpy.types.Context, collection: bpy.types.Collection) -> No
         open_ += layer.children
 
 
-def removing_earlier(obj: bpy.types.Object, numbers: list[int], coming: Collection[str]) -> Steps[made.Earlier]:
+def removing_earlier(obj: bpy.types.Object, numbers: list[int], coming: Collection[str]) -> Steps[made_objects.Earlier]:
     """Remove pieces of these parts, and dowels in them, unless the user has worked on them or needs them.
 
-    coming : what the new ones stand for, see made.needed.
+    coming : what the new ones stand for, see made_objects.needed.
     """
     every = len(numbers) == len(obj.data.reeb_parts.parts)
     there = [piece for piece in (*piece_objects(obj), *dowels(obj)) if every or is_of(piece, numbers)]
-    needed = made.needed(there, stands_for, coming)
+    needed = made_objects.needed(there, stands_for, coming)
     gone = []
     for index, piece in enumerate(there):
         yield index / len(there)
-        if piece not in needed and made.is_untouched(piece, former_looks):
+        if piece not in needed and made_objects.is_untouched(piece, former_looks):
             gone.append((stands_for(piece), piece))
         else:
-            made.hand_over(piece, NUMBER, FACES, made.MADE, DOWEL)
+            made_objects.hand_over(piece, NUMBER, FACES, made_objects.MADE, DOWEL)
     earlier = [piece for _, piece in gone]
     if earlier:
         rigid_bodies.remove_joints(collection_of(obj), earlier)
     for piece in earlier:
         remove_object(piece)
-    return made.Earlier(gone, len(there) - len(gone))
+    return made_objects.Earlier(gone, len(there) - len(gone))
 
 
 def former_looks(piece: bpy.types.Object) -> str:
-    """What earlier versions kept of a piece; see made.Former."""
+    """What earlier versions kept of a piece; see made_objects.Former."""
     place = [round(value, 6) for row in piece.matrix_basis for value in row]
     materials = [slot.material.name if slot.material else "" for slot in piece.material_slots]
     parent = piece.parent.name if piece.parent else ""

@@ -9,15 +9,16 @@ from functools import cached_property, partial
 
 import numpy as np
 from mathutils.geometry import delaunay_2d_cdt
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import coo_array
 
-from ..core.surface.arrays import components, cross, ranges
-from ..core.surface.mesh import EdgeTable
-from ..core.uses.cap_surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
-from ..core.uses.rims import is_inside
-from ..core.uses.sleeves import Sleeve, sleeve
-from . import mesh_arrays
-from .bodies import Body
+from ...core.surface.arrays import components, cross, ranges
+from ...core.surface.mesh import EdgeTable
+from ...core.uses.cap_surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
+from ...core.uses.rims import is_inside
+from ...core.uses.sleeves import Sleeve, sleeve
+from .. import mesh_arrays
+from .body_surface import Body
+from .disc import Disc
 from .disc_fitting import depths, pulled, pushed, steep
 
 # So many triangles from the rim a cap follows the surface, where it cannot go straight across; the last: to the end.
@@ -32,32 +33,6 @@ _FEW = 8
 #: How far to go for a surface that crosses nothing, each several times as dear as the one before: over the plane of the
 #: curve or round a circle; led straight in from the rim; finer, pulled off, along the surface.
 PLAIN, LED_IN, ALL = 1, 2, 3
-
-
-@dataclass(frozen=True, eq=False)
-class Disc:
-    """A surface across one or more closed curves of k points together.
-
-    Attributes
-    ----------
-    triangles : (t, 3) int64
-        0..k-1 are the points of the curves, in whose direction the triangles go round; k, k+1, ... those inside.
-    places : (m, 3) float64
-        Of the points inside.
-    weights : csr_array, (k + m, k + m)
-        What each point adds to a point inside that lies between them, see core.uses.cap_surfaces.
-    following : (k,) int64
-        The point after each on its curve.
-    """
-
-    triangles: np.ndarray
-    places: np.ndarray
-    weights: csr_array
-    following: np.ndarray
-
-    def spread(self, values: np.ndarray) -> np.ndarray:
-        """What the points inside have if those of the curves have some values, (k, c): (m, c) float64."""
-        return spread(self.weights, values)
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,10 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.surface.corners import next_of_owner
-from ..core.uses.cap_maps import cap_map
-from . import caps, mesh_arrays
+from ...core.surface.corners import next_of_owner
+from ...core.uses.cap_maps import cap_map
+from .. import mesh_arrays
+from . import caps
 
 CAP_MATERIAL = "reeb_parts_cap"  # on a material: it is that of caps
 

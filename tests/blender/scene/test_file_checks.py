@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scene.complete: what Blender has written is complete, and no beginning of it is, nor one with a hole or a tail."""
+"""scene.file_checks: what Blender has written is complete, and no beginning of it is, nor one with a hole or a tail."""
 
 from importlib import import_module
 from pathlib import Path
@@ -14,7 +14,7 @@ CASES = ["blend", "packed.blend", "png", "obj", "ply", "stl", "glb", "3mf"]
 
 @pytest.fixture
 def complete(package):
-    return import_module(f"{package}.scene.complete")
+    return import_module(f"{package}.scene.file_checks")
 
 
 def coloured(obj):

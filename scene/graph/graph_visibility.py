@@ -12,10 +12,11 @@ from collections.abc import Iterator
 
 import bpy
 
-from . import graph_objects, transaction
+from .. import transaction
+from ..made_objects import ROLE
+from ..selection import in_view_layer
+from . import graph_objects
 from .graph_objects import SHOWN_BEFORE
-from .made import ROLE
-from .selection import in_view_layer
 
 _along: set[tuple[int, int]] = set()  # viewports, by address, and objects of graphs, by session_uid, that came along
 

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..core.uses.cap_surfaces import spread
+from ...core.uses.cap_surfaces import spread
 
 if TYPE_CHECKING:
-    from ..core.uses.sleeves import Sleeve
-    from .bodies import Body
-    from .discs import Disc
+    from ...core.uses.sleeves import Sleeve
+    from .body_surface import Body
+    from .disc import Disc
 
 # How often a surface that leaves the body is pushed back, and how near to the body's surface it may come, as a share
 # of the distance from the curve.

@@ -16,7 +16,7 @@ def follow(package, obj):
     """Lets the graph of the decomposed object follow, as a timer does in a window."""
     bpy.ops.reeb_parts.decompose()
     bpy.context.view_layer.update()
-    return lambda: sys.modules[f"{package}.scene.graph_follow"].follow(bpy.context, obj)
+    return lambda: sys.modules[f"{package}.scene.graph.graph_follow"].follow(bpy.context, obj)
 
 
 def nodes():
@@ -50,7 +50,7 @@ def shifts(obj):
 
 @pytest.fixture
 def visibility(package):
-    return sys.modules[f"{package}.scene.graph_visibility"]
+    return sys.modules[f"{package}.scene.graph.graph_visibility"]
 
 
 def test_it_is_hidden_with_its_model_and_comes_back(obj, follow, visibility):

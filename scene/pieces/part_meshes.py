@@ -14,16 +14,17 @@ from functools import partial
 import bpy
 import numpy as np
 
-from ..core.steps import Steps, finished, stretched
-from ..core.surface.arrays import are_among, distinct_pairs, stable_order
-from ..core.surface.corners import edge_labels
-from ..core.surface.orientation import against_neighbors
-from . import cap_looks, caps, element_layers, hidden, mesh_arrays, mesh_groups, outputs, quiet, smooth_faces, welding
-from .elements import CORNER, Elements
-from .holes import Holes
-from .outputs import kept_aside, materials
+from ...core.steps import Steps, finished, stretched
+from ...core.surface.arrays import are_among, distinct_pairs, stable_order
+from ...core.surface.corners import edge_labels
+from ...core.surface.orientation import against_neighbors
+from .. import element_layers, hidden, mesh_arrays, mesh_groups, outputs, property_updates
+from ..elements import CORNER, Elements
+from ..outputs import kept_aside, materials
+from ..temporary import removed
+from . import cap_looks, caps, smooth_faces, welding
+from .cut_holes import Holes
 from .sculpted_pieces import SculptedMesh, is_sculpted
-from .temporary import removed
 
 _CUSTOM = "custom_normal"  # Blender's own
 _NORMAL = "reeb_parts_normal"  # corner attribute: the user's normals, while faces are taken apart
@@ -34,7 +35,7 @@ def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
     copy = mesh.copy()
     result = copy.reeb_parts
     twin = bpy.data.objects.new(copy.name, copy)
-    with removed(bpy.data.objects, twin), quiet.quiet():
+    with removed(bpy.data.objects, twin), property_updates.quiet():
         result.has_materials = False
         for part in result.parts:
             part.material = None

@@ -11,10 +11,11 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core.surface.arrays import cross, renumbered, stable_order
-from ..core.surface.reach import within_reach
-from . import caps, mesh_arrays, transaction
-from .bodies import search_tree
+from ...core.surface.arrays import cross, renumbered, stable_order
+from ...core.surface.reach import within_reach
+from .. import mesh_arrays, transaction
+from . import caps
+from .body_surface import search_tree
 
 CHECK = "reeb_parts_check"  # on a piece: what was found, as JSON
 

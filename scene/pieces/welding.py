@@ -11,11 +11,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..core.surface.arrays import distinct_pairs, inverse
-from ..core.surface.borders import GAP
-from ..core.surface.corners import next_of_owner
-from . import element_layers
-from .elements import EDGE, FACE, POINT, Elements, Layer, Ragged, Values, take
+from ...core.surface.arrays import distinct_pairs, inverse
+from ...core.surface.borders import GAP
+from ...core.surface.corners import next_of_owner
+from .. import element_layers
+from ..elements import EDGE, FACE, POINT, Elements, Layer, Ragged, Values, take
 
 SHARP, FLAT = "sharp_edge", "sharp_face"  # Blender's own
 _UNLIKE = 1e-3  # by how much normals differ that are not one for the eye

@@ -13,14 +13,14 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.graph.critical import KINDS
-from ..core.graph.fold import unfolded
-from ..core.graph.reeb import ReebGraph
-from ..core.result.numbering import NumberedParts
-from ..core.uses.colors import linear
-from . import bridge, made, mesh_arrays, part_names, store, transaction
-from .made import ROLE
-from .temporary import remove_object
+from ...core.graph.critical import KINDS
+from ...core.graph.fold import unfolded
+from ...core.graph.reeb import ReebGraph
+from ...core.result.numbering import NumberedParts
+from ...core.uses.colors import linear
+from .. import bridge, made_objects, mesh_arrays, part_names, store, transaction
+from ..made_objects import ROLE
+from ..temporary import remove_object
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
@@ -153,7 +153,7 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
     curve = _curve(graph, back, _whole(graph, range(graph.n_arcs)))
     _place(bpy.data.objects.new("Reeb arcs", curve), _ARCS, obj, collection)
     restyle(obj, style)
-    made.hand_on(earlier.gone, [(_stands_for(item), item) for item in collection.objects])
+    made_objects.hand_on(earlier.gone, [(_stands_for(item), item) for item in collection.objects])
     return earlier.kept
 
 
@@ -163,7 +163,7 @@ def _name_of_node(number: int, kind: str) -> str:
 
 
 def _stands_for(item: bpy.types.Object) -> str:
-    """See made.StandsFor."""
+    """See made_objects.StandsFor."""
     return _ARCS if item[ROLE] == _ARCS else _name_of_node(item.get("part"), item.get("kind"))
 
 
@@ -407,8 +407,11 @@ def remove(obj: bpy.types.Object) -> None:
     _remove(obj, None)
 
 
-def _remove(obj: bpy.types.Object, coming: Collection[str] | None) -> made.Earlier:
-    """What ``remove`` does. coming : what the nodes of a new graph stand for, see made.needed; None without one."""
+def _remove(obj: bpy.types.Object, coming: Collection[str] | None) -> made_objects.Earlier:
+    """What ``remove`` does.
+
+    coming : what the nodes of a new graph stand for, see made_objects.needed; None without one.
+    """
     gone, kept = _remove_items(_elsewhere(obj), coming)
     for collection in list(bpy.data.collections):
         if SOURCE not in collection or collection[SOURCE] not in (obj, None):
@@ -417,23 +420,23 @@ def _remove(obj: bpy.types.Object, coming: Collection[str] | None) -> made.Earli
         theirs = set(collection.all_objects) - set(ours)
         more = _remove_items(ours, coming if collection[SOURCE] else None)
         gone, kept = gone + more.gone, kept + more.kept
-        made.hand_over(collection, SOURCE, SHOWN_BEFORE)
+        made_objects.hand_over(collection, SOURCE, SHOWN_BEFORE)
         # Else it is the user's now, who put something in it.
         if not theirs and not more.kept and not len(collection.children):
             transaction.discard(collection)
-    return made.Earlier(gone, kept)
+    return made_objects.Earlier(gone, kept)
 
 
-def _remove_items(items: list[bpy.types.Object], coming: Collection[str] | None) -> made.Earlier:
+def _remove_items(items: list[bpy.types.Object], coming: Collection[str] | None) -> made_objects.Earlier:
     """Remove objects of a graph; those that others need are the user's from now on. coming : as of ``_remove``."""
-    needed = made.needed(items, _stands_for, coming) if coming is not None else set()
+    needed = made_objects.needed(items, _stands_for, coming) if coming is not None else set()
     going = [item for item in items if item not in needed]
     for item in needed:
-        made.hand_over(item, ROLE)
+        made_objects.hand_over(item, ROLE)
     gone = [(_stands_for(item), item) for item in going]
     for item in going:
         remove_object(item)
-    return made.Earlier(gone, len(needed))
+    return made_objects.Earlier(gone, len(needed))
 
 
 def part_of(item: bpy.types.Object | None) -> tuple[bpy.types.Object, int] | None:

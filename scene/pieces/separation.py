@@ -14,23 +14,26 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from ..core.steps import Steps, finished, stretched
-from ..core.uses.colors import linear
-from . import (
-    beds,
+from ...core.steps import Steps, finished, stretched
+from ...core.uses.colors import linear
+from .. import (
     bridge,
     by_extent,
-    cap_looks,
     cut_list,
     explode,
     hidden,
     joints,
-    made,
+    made_objects,
     mesh_arrays,
     modified,
     modifiers,
     part_names,
 )
+from ..settings import SeparateProperties, closes_holes
+from ..store import Stored
+from ..temporary import removed
+from ..units import millimeters
+from . import box_fitting, cap_looks
 from .part_meshes import making_pieces
 from .piece_objects import (
     DOWEL,
@@ -46,10 +49,6 @@ from .piece_objects import (
     show_pieces,
     stands_for,
 )
-from .settings import SeparateProperties, closes_holes
-from .store import Stored
-from .temporary import removed
-from .units import millimeters
 
 # Modifiers that do the same to a mesh wherever the origin of its object is. Others, such as Mirror and Array, work
 # about the origin, and a piece with another one would change its shape.
@@ -184,11 +183,11 @@ def _source(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     return mesh, modified.both_sides(obj, mesh, face_numbers)
 
 
-def _fitted(run: _Run, meshes: dict[int, bpy.types.Mesh]) -> beds.Fitted:
+def _fitted(run: _Run, meshes: dict[int, bpy.types.Mesh]) -> box_fitting.Fitted:
     """Pieces as they fit the bed, if they are to; their caps with the look that is wanted."""
-    fitted = beds.Fitted(meshes, {}, [])
+    fitted = box_fitting.Fitted(meshes, {}, [])
     if run.style.fit_bed:
-        fitted = beds.fitted(meshes, run.stretch, np.array(run.style.bed[:]) / millimeters())
+        fitted = box_fitting.fitted(meshes, run.stretch, np.array(run.style.bed[:]) / millimeters())
     for mesh in fitted.meshes.values():
         cap_looks.map_caps(mesh)
     if run.style.cap_material:
@@ -208,13 +207,13 @@ def _joining(run: _Run, meshes: dict[int, bpy.types.Mesh], part: dict[int, int])
 
 
 def _finishing(run: _Run, pieces: list[bpy.types.Object], loose: list[bpy.types.Object],
-               earlier: made.Earlier) -> Steps[None]:
+               earlier: made_objects.Earlier) -> Steps[None]:
     """Remember what the new objects are like, have them take the places of earlier ones, and check closed pieces."""
     new = [*pieces, *loose]
     for index, item in enumerate(new):
         yield 0.5 * index / len(new)
-        made.mark(item)
-    made.hand_on(earlier.gone, [(stands_for(item), item) for item in new])
+        made_objects.mark(item)
+    made_objects.hand_on(earlier.gone, [(stands_for(item), item) for item in new])
     for index, piece in enumerate(pieces if closes_holes(run.style) else ()):
         yield 0.5 + 0.5 * index / len(pieces)
         check_pieces([piece], run.stretch)

@@ -8,10 +8,11 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
-from ..core.surface.orientation import against_neighbors
-from . import cap_looks, caps, made, mesh_arrays, mesh_groups, piece_checks, piece_objects, transaction
+from ...core.surface.orientation import against_neighbors
+from .. import made_objects, mesh_arrays, mesh_groups, transaction
+from ..temporary import freed
+from . import cap_looks, caps, piece_checks, piece_objects
 from .piece_checks import Check
-from .temporary import freed
 
 
 def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
@@ -44,15 +45,15 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
         else:
             bpy.data.meshes.remove(candidate)
     if mesh != old:
-        ours = made.is_as_made(piece, piece_objects.former_looks)
+        ours = made_objects.is_as_made(piece, piece_objects.former_looks)
         transaction.keep(piece, "data")
         piece.data = mesh
         name = old.name
         transaction.discard(old)
         mesh.name = name
         if ours:
-            transaction.keep_keys(piece, made.MADE)
-            made.mark(piece)
+            transaction.keep_keys(piece, made_objects.MADE)
+            made_objects.mark(piece)
     piece_checks.keep(piece, found[0])
     return before, found[0]
 

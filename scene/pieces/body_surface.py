@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core.surface.arrays import cross, sums_by, unit
+from ...core.surface.arrays import cross, sums_by, unit
 
 
 def search_tree(points: np.ndarray, triangles: np.ndarray) -> BVHTree:

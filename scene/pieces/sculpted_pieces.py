@@ -14,10 +14,11 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
-from ..core.steps import Steps
-from . import element_layers, mesh_arrays, mesh_groups, smooth_faces, targets
-from .holes import Holes
-from .temporary import freed
+from ...core.steps import Steps
+from .. import element_layers, mesh_arrays, mesh_groups, targets
+from ..temporary import freed
+from . import smooth_faces
+from .cut_holes import Holes
 
 
 def is_sculpted(mesh: bpy.types.Mesh) -> bool:

@@ -15,9 +15,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils.bvhtree import BVHTree
 from mathutils.geometry import delaunay_2d_cdt
 
-from . import caps, mesh_arrays, mesh_groups
-from .errors import SceneError
-from .temporary import freed
+from .. import mesh_arrays, mesh_groups
+from ..errors import SceneError
+from ..temporary import freed
+from . import caps
 
 _SHARED = "reeb_parts_shared"  # face layer, while caps are divided
 # So many more pieces at most: a box in other units than the model is a mistake.
@@ -71,7 +72,7 @@ def fitted(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray, box: np.ndarr
     SceneError
         There would be too many pieces.
     """
-    from ..core.uses.sections import planes_to_fit
+    from ...core.uses.sections import planes_to_fit
 
     if sum(_least(mesh, stretch, box) for mesh in meshes.values()) > _MOST:
         raise _too_many()
@@ -251,7 +252,7 @@ def _is_section(edge: BMEdge, height: np.ndarray, above: np.ndarray) -> bool:
 
 def _cap(edges: list[tuple[BMVert, BMVert]], normal: np.ndarray) -> np.ndarray | None:
     """Triangles that fill a section, by the indices of vertices, looking along the normal; None without a clean one."""
-    from ..core.uses.sections import inside_section
+    from ...core.uses.sections import inside_section
 
     vertices = list({vertex: None for edge in edges for vertex in edge})
     if len(vertices) < 3:
@@ -291,7 +292,7 @@ def _half(mesh: bpy.types.Mesh, bm: BMesh, kept: np.ndarray, cap: np.ndarray, la
 
 def _bodies(mesh: bpy.types.Mesh) -> list[bpy.types.Mesh]:
     """A mesh for each body of a mesh, which is removed; all in one if some of them are hollows in others."""
-    from ..core.surface.arrays import components
+    from ...core.surface.arrays import components
 
     table = mesh_arrays.corner_table(mesh)
     pairs, _ = table.face_pairs()

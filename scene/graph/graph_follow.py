@@ -11,10 +11,11 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.surface.arrays import sums_by
-from ..core.uses.motion import rigid_motions
-from . import bridge, graph_objects, mesh_arrays, redraw, store
-from .errors import SceneError
+from ...core.surface.arrays import sums_by
+from ...core.uses.motion import rigid_motions
+from .. import bridge, mesh_arrays, redraw, store
+from ..errors import SceneError
+from . import graph_objects
 
 _RESTS = 1e-6  # a graph that moves less than this share of the model's size stays where it is
 

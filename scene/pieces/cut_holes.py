@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.surface.corners import edge_labels
-from ..core.uses.cap_surfaces import common_order
-from ..core.uses.rims import nested_rims
-from . import caps, element_layers, mesh_arrays
-from .elements import Elements, Selection
-from .temporary import removed
+from ...core.surface.corners import edge_labels
+from ...core.uses.cap_surfaces import common_order
+from ...core.uses.rims import nested_rims
+from .. import element_layers, mesh_arrays
+from ..elements import Elements, Selection
+from ..temporary import removed
+from . import caps
 
 if TYPE_CHECKING:
     from .discs import Discs
@@ -47,8 +48,8 @@ class Holes:
     @classmethod
     def of(cls, whole: Elements, face_numbers: np.ndarray) -> Holes:
         """The cuts between the parts of a mesh. face_numbers : (p,) int64, of each face's part."""
+        from .cap_junctions import ways_to_middles
         from .discs import Discs  # imports SciPy
-        from .spokes import ways_to_middles
 
         low, high = edge_labels(whole.corner_edge, whole.corner_face, face_numbers, len(whole.ends))
         cut, ends = low < high, whole.ends
@@ -114,7 +115,7 @@ def _around_holes(piece: Elements, opened: np.ndarray) -> np.ndarray:
 
     A hole goes round borders that there were before, too, if the cut ends there.
     """
-    from ..core.surface.arrays import components, renumbered
+    from ...core.surface.arrays import components, renumbered
 
     border = np.bincount(piece.corner_edge, minlength=len(piece.ends)) == 1
     on = np.zeros(len(piece.points), bool)

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.surface.arrays import components, lengths, renumbered, rounded, sums_by
-from ..core.uses.cap_surfaces import common_order
-from ..core.uses.networks import nested_sides, own_places
-from .bodies import search_tree
+from ...core.surface.arrays import components, lengths, renumbered, rounded, sums_by
+from ...core.uses.cap_surfaces import common_order
+from ...core.uses.networks import nested_sides, own_places
+from .body_surface import search_tree
 from .discs import LED_IN, PLAIN
 
 if TYPE_CHECKING:
-    from .bodies import Body
+    from .body_surface import Body
     from .discs import Discs
 
 # A way that is nearer to the surface than such a share of the distance from its ends is bent; so often it is pushed

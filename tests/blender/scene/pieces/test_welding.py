@@ -95,7 +95,7 @@ def test_without_caps_vertices_stay_split(make, tree):
 
 @pytest.mark.parametrize("what", ["shape", "weight", "color"])
 def test_vertices_that_differ_stay_apart_and_are_counted(make, tree, package, what):
-    part_meshes = importlib.import_module(f"{package}.scene.part_meshes")
+    part_meshes = importlib.import_module(f"{package}.scene.pieces.part_meshes")
     obj = dressed(make(shapes.unjoined(tree)))
     mesh = obj.data
     if what == "shape":
@@ -113,7 +113,7 @@ def test_vertices_that_differ_stay_apart_and_are_counted(make, tree, package, wh
 
 def test_faces_that_lie_on_each_other_stay_two(make, package):
     """A sheet with a front and a back of its own, all faces apart: joined, faces would be there twice."""
-    part_meshes = importlib.import_module(f"{package}.scene.part_meshes")
+    part_meshes = importlib.import_module(f"{package}.scene.pieces.part_meshes")
     sheet = shapes.unjoined(shapes.flat_grid(4, 4))
     obj = make(shapes.together(sheet, shapes.inside_out(sheet)))
     n_faces = len(obj.data.polygons)
@@ -131,7 +131,7 @@ def test_separate_says_what_cannot_be_joined(make, tree, capfd):
 
 
 def test_marks_of_either_edge_stay(make, tree, package):
-    part_meshes = importlib.import_module(f"{package}.scene.part_meshes")
+    part_meshes = importlib.import_module(f"{package}.scene.pieces.part_meshes")
     obj = make(shapes.unjoined(tree))
     rng = np.random.default_rng(0)
     creases = np.where(rng.random(len(obj.data.edges)) < 0.1, rng.random(len(obj.data.edges)), 0).astype(np.float32)
@@ -156,7 +156,7 @@ def test_marks_of_either_edge_stay(make, tree, package):
 
 
 def test_sculpted_vertices_stay_split_and_are_counted(make, tree, package):
-    part_meshes = importlib.import_module(f"{package}.scene.part_meshes")
+    part_meshes = importlib.import_module(f"{package}.scene.pieces.part_meshes")
     obj = make(shapes.unjoined(tree))
     obj.modifiers.new("Multires", "MULTIRES")
     made = part_meshes.piece_meshes(obj.data, np.ones(len(obj.data.polygons), np.int64), [1], close=True)

@@ -194,7 +194,7 @@ def test_the_eye_hides_and_shows(obj, settings):
 
 
 def test_a_graph_that_would_be_clutter_is_hidden_at_first(package, make, obj, settings):
-    graph_objects = importlib.import_module(f"{package}.scene.graph_objects")
+    graph_objects = importlib.import_module(f"{package}.scene.graph.graph_objects")
     store = importlib.import_module(f"{package}.scene.store")
     graph = store.load(obj.data).decomposition.graph
     assert not graph_objects.is_crowded(graph, np.ones(graph.n_nodes, bool))
@@ -206,7 +206,7 @@ def test_a_graph_that_would_be_clutter_is_hidden_at_first(package, make, obj, se
 
 def test_a_graph_goes_with_its_model(package, obj, settings):
     watch = importlib.import_module(f"{package}.scene.watch")
-    graph_objects = importlib.import_module(f"{package}.scene.graph_objects")
+    graph_objects = importlib.import_module(f"{package}.scene.graph.graph_objects")
     assert list(graph_objects.left_behind()) == []
     activate(obj)
     bpy.ops.object.delete()

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import bpy
 
-from . import looks, transaction
+from . import object_digest, transaction
 from .temporary import remove_object
 
 #: Custom properties of an object that we made: what it is for, such as "node" or "hull"; what it was like when made.
@@ -39,13 +39,13 @@ class Earlier(NamedTuple):
 
 def mark(item: bpy.types.Object) -> None:
     """Remember what an object is like, now that it is made."""
-    item[MADE] = looks.digest(item)
+    item[MADE] = object_digest.digest(item)
 
 
 def is_as_made(item: bpy.types.Object, former: Former) -> bool:
     """Whether an object is still what it was when we made it; not in Edit Mode."""
     known = item.get(MADE)
-    return (looks.digest if looks.is_digest(known) else former)(item) == known
+    return (object_digest.digest if object_digest.is_digest(known) else former)(item) == known
 
 
 def is_untouched(item: bpy.types.Object, former: Former) -> bool:
