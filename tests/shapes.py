@@ -503,6 +503,24 @@ def mirrored_figure(step: float = 0.13) -> Shape:
     return _with_mirror_image(np.where(np.abs(vertices) < 1e-3 * step, 0.0, vertices), half)
 
 
+def posed(vertices: np.ndarray) -> np.ndarray:
+    """The figure's vertices in a pose that no plane mirrors: one arm up, the other one forward, a leg to the back."""
+    x, _, z = vertices.T
+    arm, leg = np.clip((np.abs(x) - 0.45) / 0.6, 0, 1) * (z > 0.5), np.clip((-0.2 - z) / 0.6, 0, 1)
+    found = _turned(vertices, (0.45, 0.0, 1.0), (0, 2), 0.9 * arm * (x > 0))
+    found = _turned(found, (-0.45, 0.0, 1.0), (0, 1), 0.8 * arm * (x < 0))
+    return _turned(found, (0.3, 0.0, -0.2), (1, 2), 0.5 * leg * (x > 0))
+
+
+def _turned(points: np.ndarray, joint, axes: tuple[int, int], angle: np.ndarray) -> np.ndarray:
+    """Points turned about a joint in the plane of two axes, each by an angle of its own."""
+    a, b = axes
+    turned, offset = points.copy(), points - joint
+    turned[:, a] = joint[a] + np.cos(angle) * offset[:, a] - np.sin(angle) * offset[:, b]
+    turned[:, b] = joint[b] + np.sin(angle) * offset[:, a] + np.cos(angle) * offset[:, b]
+    return turned
+
+
 def prism_of_rays(n_rays):
     """A star, 1 thick, in quads: a plane through each ray and its middle, and one between its two faces."""
     n = 2 * n_rays

@@ -191,9 +191,10 @@ def _are_crumbs(graph: FaceGraph, part: np.ndarray, found: np.ndarray, leader: n
     """
     area = np.bincount(part, graph.weight)
     area_found = np.bincount(found, graph.weight)[majority(part, found, graph.weight, len(area))]
-    area_of_image = area[majority(part, part[leader], graph.weight, len(area))]
-    leads = leader == np.arange(len(leader))
-    return (area < CRUMB * area_found)[part] & (leads | (area < 0.5 * area_of_image)[part])
+    image = majority(part, part[leader], graph.weight, len(area))
+    # Measured on one side: in another pose a limb may be half as long.
+    less = np.bincount(part, graph.weight[leader]) < 0.5 * area[image]
+    return (area < CRUMB * area_found)[part] & ((leader == np.arange(len(leader))) | less[part])
 
 
 def _mirrored_area(graph: FaceGraph, image: np.ndarray) -> np.ndarray:

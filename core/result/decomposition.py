@@ -90,7 +90,7 @@ class Parts:
 
     @cached_property
     def side(self) -> np.ndarray:
-        """(count,) int64, of a part that has a twin: 1 on the side of the plane's normal, -1 on the other; else 0."""
+        """(count,) int64, of a part that has a twin: 1 or -1 as its faces, see ``face_side``; else 0."""
         side = np.bincount(self.candidate_part, self.decomposition.candidate_side, self.count)
         side = np.sign(side).astype(np.int64)
         apart = (self.twin >= 0) & (self.twin != np.arange(self.count))
@@ -186,11 +186,13 @@ class Decomposition:
     contacts : (t, 2) int64
         Faces that touch, or nearly so, though they share no edge, and ``links``.
     mirror : (4,) float64 or (0,)
-        Normal of the plane of symmetry and its distance from the origin along it; empty if none was found.
+        Normal of the plane of symmetry and its distance from the origin along it; empty if none was found, as in a
+        pose.
     face_twin : (p,) int64 or (0,)
-        Mirror image of each face, -1 for none; empty without a plane.
+        Mirror image of each face, -1 for none; empty without symmetry.
     face_side : (p,) int8 or (0,)
-        1 for a face on the side to which the normal of the plane points, -1 on the other, 0 across the plane.
+        1 for a face on the side to which the normal of the plane points, -1 on the other, 0 in the middle. Without a
+        plane the way from the other side to the first one takes its place.
     parameters : Parameters
         The parameters of the run.
     notes : tuple of str

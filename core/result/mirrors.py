@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The planes of symmetry of the caller's mesh, of the whole or of its bodies."""
+"""The mirror symmetry of the caller's mesh: planes of the whole or of its bodies, and how its faces hang together."""
 
 from __future__ import annotations
 
@@ -14,23 +14,28 @@ from ..surface.mirror_plane import MirrorPlane
 from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
 from ..surface.small_faces import SmallFaces
 from ..surface.symmetry import EXACT, LEAST, mirror_plane
+from ..surface.topology_mirror import TopologyMirror, topology_mirror
 
 LEAST_BODY = 0.1  # share of the area below which a body has no plane of its own
 LARGEST_GROUP = 64  # upper bound of the number of symmetries of a shape
+# Share of the area with both kinds of twins for which these must be the same: else a plane mirrors a shape one way, and
+# how faces hang together another way.
+AGREEING = 0.5
 
 
 @dataclass(frozen=True, eq=False)
 class Mirror:
-    """A plane of symmetry, and what it does to the caller's p faces; all arrays are empty without one.
+    """A mirror symmetry, and what it does to the caller's p faces; all arrays are empty without one.
 
     Attributes
     ----------
-    plane : (4,) float64
-        Normal, and distance from the origin.
+    plane : (4,) or (0,) float64
+        Normal, and distance from the origin; empty if the mesh is symmetric in another pose only.
     twin : (p,) int64
         Mirror image of each face; -1 for none.
     height : (p,) float64
-        Signed distance of each face from the plane; 0 for a face that is its own image, or that has none.
+        Signed distance of each face from the plane, or the side on which it lies; 0 for a face that is its own image,
+        or that has none.
     first : float
         1.0 or -1.0, the side of the first face beside the plane: it leads where both sides are equally good.
     exact : bool
@@ -87,6 +92,25 @@ class Mirror:
         return replace(self, group=group, beside=beside)
 
     @classmethod
+    def of_topology(cls, found: TopologyMirror) -> Mirror:
+        """The symmetry of a mesh in another pose: without a plane, and exact if all faces have twins."""
+        return cls(np.empty(0), found.twin, found.side.astype(np.float64), exact=bool((found.twin >= 0).all()))
+
+    def with_topology(self, found: TopologyMirror, area: np.ndarray) -> Mirror:
+        """This one with the twins that follow from how faces hang together, which are exact whatever the pose.
+
+        Faces without such a twin keep that in the plane. This one itself if it is exact, or if both disagree.
+        area : (p,) float64.
+        """
+        both = (self.twin >= 0) & (found.twin >= 0)
+        if self.exact or area[both & (self.twin == found.twin)].sum() < AGREEING * area[both].sum():
+            return self
+        side = found.side if area @ (found.side * self.height) >= 0 else -found.side
+        by_plane = (found.twin < 0) & (self.twin >= 0) & (found.twin[self.twin] < 0)
+        return replace(self, twin=np.where(by_plane, self.twin, found.twin),
+                       height=np.where(by_plane, self.height, side), within=())
+
+    @classmethod
     def of_faces(cls, images: Images, mesh: TriMesh) -> Mirror:
         """A plane that is known, and what it does to the small faces of a mesh."""
         if images.faces.mesh is not mesh:
@@ -115,7 +139,9 @@ class Mirror:
 
 
 def find_mirrors(working: WorkingMesh, components: list[Component], n_polygons: int) -> list[Mirror]:
-    """Find the plane of symmetry of the whole, or, if it has none, those of large bodies.
+    """Find the mirror symmetry of the whole, or, if it has no plane, the planes of large bodies.
+
+    Without any plane the mesh may still be symmetric but for its pose, see ``topology_mirror``.
 
     Parameters
     ----------
@@ -136,12 +162,14 @@ def find_mirrors(working: WorkingMesh, components: list[Component], n_polygons: 
         mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
         polygon = working.polygon[parent]
         large = [part for part in components if part.mesh.area >= LEAST_BODY * working.mesh.area]
-    whole = Mirror.of(mesh, polygon, n_polygons)
+    whole, posed = Mirror.of(mesh, polygon, n_polygons), topology_mirror(working.mesh, working.polygon, n_polygons)
     if whole is not None and all(_covers(whole, part) for part in large):
-        return [whole]
+        area = np.bincount(working.polygon, working.mesh.face_area, n_polygons)
+        return [whole if posed is None else whole.with_topology(posed, area)]
     large.sort(key=lambda part: -part.mesh.area)
-    found = [Mirror.of(part.mesh, part.polygon, n_polygons) for part in large]
-    return [mirror for mirror in found if mirror is not None]
+    of_bodies = [Mirror.of(part.mesh, part.polygon, n_polygons) for part in large]
+    found = [mirror for mirror in of_bodies if mirror is not None]
+    return found or ([] if posed is None else [Mirror.of_topology(posed)])
 
 
 def _covers(mirror: Mirror, component: Component) -> bool:

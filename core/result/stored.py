@@ -184,7 +184,7 @@ def _whole_numbers(a: dict[str, np.ndarray]) -> dict[str, tuple[tuple[int, ...],
     (n,), (p,), (c,) = a["vertex_candidates"].shape, a["candidates"].shape, a["candidate_area"].shape
     (k,), (r,) = a["graph.node_kind"].shape, a["graph.point_value"].shape
     s, q, e, t = (len(a[name]) for name in ("hierarchy.merges", "graph.arcs", "candidate_pairs", "contacts"))
-    mirrored = p if len(a["mirror"]) else 0
+    mirrored = p if len(a["mirror"]) or len(a["face_twin"]) else 0
     m, j = len(a["junctions"]), len(a["junction_length"])
     return {
         "candidates": ((p,), 0, c), "vertex_candidates": ((n,), -1, c), "candidate_pairs": ((e, 2), 0, c),

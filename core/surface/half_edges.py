@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sides of polygons as half-edges: which follows which round a polygon, and which lies across the edge."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .arrays import components
+from .mesh import TriMesh
+
+
+@dataclass(frozen=True, eq=False)
+class HalfEdges:
+    """Sides of polygons, each from a vertex to the next one round its polygon; h of them, of n vertices.
+
+    Attributes
+    ----------
+    start, end : (h,) int64
+        Vertices.
+    polygon : (h,) int64
+        In which each lies.
+    following, before : (h,) int64
+        The next side of the polygon, and the one before.
+    opposite : (h,) int64
+        The side of another polygon along the same edge, the other way; -1 at borders, at edges of three polygons and
+        more, and between polygons that are turned differently.
+    length : (h,) float64
+    """
+
+    start: np.ndarray
+    end: np.ndarray
+    polygon: np.ndarray
+    following: np.ndarray
+    before: np.ndarray
+    opposite: np.ndarray
+    length: np.ndarray
+
+    @classmethod
+    def of(cls, mesh: TriMesh, polygon: np.ndarray) -> HalfEdges:
+        """Make the half-edges of polygons from their triangles; polygon : (m,) int64, that of each triangle."""
+        side = np.arange(3 * mesh.n_faces)
+        following = side - side % 3 + (side + 1) % 3
+        opposite = np.full(len(side), -1)
+        plain = (mesh.edges.n_faces[mesh.edges.pair_edge] == 2) & ~mesh.same_way
+        first, second = mesh.edges.pair_sides[plain].T
+        opposite[first], opposite[second] = second, first
+        of_side = np.repeat(polygon, 3)
+        inside = (opposite >= 0) & (of_side[opposite] == of_side)
+        # Round the end of a side, across the diagonals that meet there, to the next side of the polygon. The way begins
+        # at a side that is no diagonal, and ends at one.
+        while len(turns := np.flatnonzero(inside[following] & ~inside)):
+            across = opposite[following[turns]]
+            following[turns] = across - across % 3 + (across + 1) % 3
+        kept = np.flatnonzero(~inside)
+        number = np.full(len(side) + 1, -1)
+        number[kept] = np.arange(len(kept))
+        following = number[following[kept]]
+        before = np.empty(len(kept), np.int64)
+        before[following] = np.arange(len(kept))
+        start = mesh.faces.ravel()[kept]
+        return cls(start, start[following], of_side[kept], following, before, number[opposite[kept]],
+                   mesh.edge_length[mesh.edges.face_edges.ravel()[kept]])
+
+    @property
+    def count(self) -> int:
+        """Number of half-edges, h."""
+        return len(self.start)
+
+    @cached_property
+    def piece(self) -> np.ndarray:
+        """(h,) int64, connected piece of the mesh in which each lies, all numbers in use."""
+        joined = np.flatnonzero(self.opposite >= 0)
+        here, there = np.arange(self.count), self.following
+        return components(self.count, np.concatenate([here, joined]),
+                          np.concatenate([there, self.opposite[joined]]))[1]

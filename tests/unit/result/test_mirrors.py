@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts of posed figures are symmetric, though no plane mirrors these."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import Parameters, decompose
+from core.parameters import METHODS
+from core.result.decomposition import Decomposition
+from core.result.numbering import Numbering
+
+
+@pytest.fixture(scope="module")
+def posed():
+    vertices, faces = shapes.mirrored_figure()
+    return shapes.posed(vertices), faces
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_parts_of_a_posed_figure_are_exactly_symmetric_at_every_detail(posed, method):
+    result = decompose(*posed, parameters=Parameters(method=method))
+    twin = result.face_twin
+    assert result.plane is None
+    assert (twin >= 0).all()
+    for detail in np.linspace(0.1, 1.0, 10):
+        labels = result.parts(detail=detail).labels
+        pairs = np.unique(np.stack([labels, labels[twin]]), axis=1)
+        assert len(pairs.T) == labels.max() + 1  # each part has one image, a part
+
+
+def test_parts_on_both_sides_are_named_by_side(posed):
+    vertices, faces = shapes.mirrored_figure()
+    result = decompose(*posed)
+    nothing = np.full(result.n_candidates, -1)
+    numbered = Numbering.of(result, nothing, np.zeros(0, np.int64)).parts(0.5)
+    names, labels = np.array(numbered.names), numbered.parts.labels
+    middle = np.bincount(labels, vertices[faces].mean(axis=1)[:, 0]) / np.bincount(labels)
+    ends = np.array([name[-2:] for name in names])
+    assert ((ends == ".L") == (middle > 0.2)).all()
+    assert ((ends == ".R") == (middle < -0.2)).all()
+    assert (ends == ".L").sum() == (ends == ".R").sum() >= 2
+
+
+def test_the_symmetry_of_a_pose_is_stored(posed):
+    result = decompose(*posed)
+    again = Decomposition.from_bytes(result.to_bytes())
+    assert np.array_equal(again.face_twin, result.face_twin)
+    assert np.array_equal(again.face_side, result.face_side)
+    assert again.plane is None
+
+
+def test_without_symmetry_nothing_has_a_twin(posed):
+    assert len(decompose(*posed, parameters=Parameters(symmetry=False)).face_twin) == 0
