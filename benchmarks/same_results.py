@@ -4,7 +4,7 @@
     python3 benchmarks/same_results.py OTHER MESHES [MESHES ...] [--preset NAME ...]
 
 OTHER is the folder of another checkout, MESHES are .npz with `vertices` and `faces`, .obj, .ply or .stl. Each mesh is
-decomposed by both checkouts with two presets or those given. Compared are all public arrays of the result - candidates,
+decomposed by both checkouts with all presets or those given. Compared are all public arrays of the result - candidates,
 field, hierarchy, graph - and of the parts at five levels of detail. An array that only one of the checkouts has is
 named: it may have been renamed. The exit status is 1 if an array that both have differs.
 """
@@ -24,7 +24,6 @@ packages.need("numpy", "scipy", "trimesh")
 import numpy as np
 from meshes import load_mesh
 
-PRESETS = ("Perceptual", "Berretti 2009")
 DETAILS = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 
@@ -33,7 +32,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("other", type=Path, metavar="OTHER")
     parser.add_argument("meshes", nargs="+", type=Path, metavar="MESHES")
-    parser.add_argument("--preset", nargs="+", default=PRESETS, metavar="NAME", help=f"default: {', '.join(PRESETS)}")
+    parser.add_argument("--preset", nargs="+", metavar="NAME", help="default: all that this checkout has")
     parser.add_argument("--write", type=Path, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.write:
@@ -41,10 +40,12 @@ def main() -> int:
         return 0
     if not (arguments.other / "core").is_dir():
         parser.error(f"{arguments.other} is no checkout: it has no folder core")
+    from core import PRESETS  # not above: where arrays are written, core is that of either checkout
+
     print("| mesh | preset | arrays | different | only here | only there |\n" + "| --- " * 6 + "|")
     same = True
     for path in arguments.meshes:
-        for preset in arguments.preset:
+        for preset in arguments.preset or PRESETS:
             here, there = (decomposed(checkout, path, preset) for checkout in (packages.ROOT, arguments.other))
             both = sorted(here.keys() & there.keys())
             different = [name for name in both if not equal(here[name], there[name])]
