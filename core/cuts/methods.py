@@ -8,7 +8,7 @@ from collections.abc import Callable
 from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebTopology
-from ..parameters import BERRETTI, LAVOUE, PERCEPTUAL, Parameters
+from ..parameters import BERRETTI, LAVOUE, LIU, PERCEPTUAL, Parameters
 from ..surface.coarsening import Pyramid
 from .berretti.method import berretti_candidates
 from .boosted_trees import BoostedTrees
@@ -62,6 +62,8 @@ def find_candidates(
         return candidates if n_pieces == 1 else candidates.within(piece[sets.element_face])
     if parameters.method == LAVOUE:
         label, hierarchy = lavoue_candidates(sets.mesh, parameters.n_clusters)
-    else:
+    elif parameters.method == LIU:
         label, hierarchy = liu_candidates(sets.mesh, parameters.outline_weight, progress)
+    else:
+        raise AssertionError(parameters.method)  # Parameters takes no other
     return Candidates(label[sets.element_face], hierarchy)
