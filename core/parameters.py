@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import wraps
 from typing import Any, ClassVar
@@ -16,10 +16,37 @@ from .errors import ParameterError, UnknownParameterError
 from .sentence import Sentence
 
 PERCEPTUAL, BERRETTI, LAVOUE, LIU = "perceptual", "berretti", "lavoue", "liu"
-METHODS = (PERCEPTUAL, BERRETTI, LAVOUE, LIU)
 TOGETHER, SEPARATE = "together", "separate"
 PIECES = (TOGETHER, SEPARATE)
 
+
+@dataclass(frozen=True)
+class Traits:
+    """In what a method differs from others, for the stages before and after it.
+
+    Attributes
+    ----------
+    heeds : tuple of str
+        The parameters that it heeds though not all methods do.
+    learned : bool
+        Whether its saliences were learned from what people drew, and so can be weighed against other learned ones.
+        Else it is as it was published, and so are its parts.
+    small_candidates : bool
+        Whether its candidates can be smaller than the caller's faces.
+    """
+
+    heeds: tuple[str, ...]
+    learned: bool = False
+    small_candidates: bool = False
+
+
+TRAITS = {
+    PERCEPTUAL: Traits(("follow_level_sets", "band_ratio"), learned=True, small_candidates=True),
+    BERRETTI: Traits(("follow_level_sets", "band_ratio", "small_region", "concavity_weight", "sigma")),
+    LAVOUE: Traits(("n_clusters",)),
+    LIU: Traits(("outline_weight",)),
+}
+METHODS = tuple(TRAITS)
 
 #: Names of parameters in version 0.1.0, and the names of today. The alpha of version 0.1.0 was the weight of concavity
 #: in one method and the width of a band in the other.
@@ -218,6 +245,11 @@ class Parameters:
                 Sentence("{name} must be true or false, not {value}.", name=name, value=_shown(value)), name)
         return bool(value)
 
+    @property
+    def traits(self) -> Traits:
+        """The traits of the method."""
+        return TRAITS[self.method]
+
     @classmethod
     def of(cls, values: Parameters | Mapping[str, Any] | None) -> Parameters:
         """Take parameters, a mapping of their values by name, or None for those of the first preset.
@@ -263,6 +295,17 @@ class Parameters:
 
 Parameters.RANGES = {f.name: f.metadata["range"] for f in fields(Parameters)
                      if "range" in f.metadata}
+
+
+def heeded(method: str, names: Sequence[str]) -> list[str]:
+    """Choose the parameters that count with a method: those that it heeds, and those that every method does.
+
+    method : str, one of METHODS. names : sequence of str, of parameters or other settings. Returns some of them, in
+    their order.
+    """
+    not_by_all = {name for traits in TRAITS.values() for name in traits.heeds}
+    return [name for name in names if name in TRAITS[method].heeds or name not in not_by_all]
+
 
 PERCEPTUAL_PRESET, BERRETTI_2009, LAVOUE_2005, LIU_2007 = "Perceptual", "Berretti 2009", "Lavoue 2005", "Liu 2007"
 PRESETS = {

@@ -214,6 +214,6 @@ def join_pieces(
         return found
     hierarchy = found.candidates.hierarchy
     parts = fine_parts(found.component.mesh, found.face_candidate, hierarchy, found.field.normalized,
-                       learned=parameters.method == "perceptual")
+                       learned=parameters.traits.learned)
     hierarchy, contacts = join_parts(parts, model)
     return replace(found, candidates=Candidates(found.candidates.element_candidate, hierarchy), contacts=contacts)

@@ -5,16 +5,10 @@ from __future__ import annotations
 
 import bpy
 
-from ..core.parameters import BERRETTI, LAVOUE, LIU, METHODS, PERCEPTUAL
+from ..core.parameters import heeded
 from ..scene import store
 from .fitting import Room
 from .panel import ReebPanel, SubPanel, draw_settings, facts
-
-#: The methods that heed a setting; all of them where none is named.
-HEEDED_BY = {
-    "small_region": (BERRETTI,), "concavity_weight": (BERRETTI,), "sigma": (BERRETTI,), "n_clusters": (LAVOUE,),
-    "outline_weight": (LIU,), "follow_level_sets": (PERCEPTUAL, BERRETTI), "band_ratio": (PERCEPTUAL, BERRETTI),
-}
 
 
 class REEB_PARTS_PT_advanced(SubPanel, bpy.types.Panel):
@@ -52,7 +46,7 @@ class SettingsPanel(ReebPanel):
     @classmethod
     def counting(cls, method: str) -> list[str]:
         """The names of the settings that count with a method."""
-        return [name for name in cls.names if method in HEEDED_BY.get(name, METHODS)]
+        return heeded(method, cls.names)
 
 
 class REEB_PARTS_PT_field(SettingsPanel, bpy.types.Panel):

@@ -17,7 +17,7 @@ from ..cuts.symmetric import symmetric_candidates, turned_candidates
 from ..cuts.symmetric_regions import MANY_FACES, symmetric_on_regions
 from ..field.agd import ScalarField
 from ..graph.reeb import ReebGraph
-from ..parameters import PERCEPTUAL, TOGETHER, Parameters
+from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
 from ..surface.arrays import components, is_last_of_each, last_of_each, sums_by
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
@@ -95,7 +95,7 @@ def _face_candidates(
         candidates = _symmetric(candidates, mirror)
     if mirrors and len(candidates.contacts):  # what an edge joins on one side, a contact may join on the other
         candidates = _with_loose_apart(candidates, working)
-    if parameters.method == PERCEPTUAL:  # the others are as they were published
+    if parameters.traits.learned:  # the others are as they were published
         candidates = without_slivers(candidates)
     if len(hint):  # after symmetry: of what was marked on one side only, the other knows nothing
         candidates = hinted_candidates(candidates, hint)
@@ -243,9 +243,8 @@ def _voted(
         return votes.loss(face, own, other) / width[face]
 
     label = connect(graph, fill_unlabeled(graph, votes.winners()))
-    # Patches of the method "perceptual" may be smaller than the caller's faces that were refined, and would be lost in
-    # them. The three other methods have larger candidates and do without.
-    held = loss if parameters.method == PERCEPTUAL else None
+    # Candidates may be smaller than the caller's faces that were refined, and would be lost in them.
+    held = loss if parameters.traits.small_candidates else None
     label = connect(graph, straighten(graph, label, parameters.smoothing, held))
     return FaceCandidates(graph, _contacts(working, results, graph), label, found.hierarchy)
 

@@ -174,6 +174,11 @@ def test_a_run_of_another_method_keeps_pinned_parts(mesh, way):
     check(mesh, parts, pinned)
 
 
+def test_every_method_is_tried():
+    choices = bpy.context.scene.reeb_parts.bl_rna.properties["method"].enum_items
+    assert [choice.identifier for choice in choices] == list(METHODS)
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_a_run_of_each_method_keeps_what_was_done_after_it(obj, method):
     bpy.context.scene.reeb_parts.symmetry = False
