@@ -191,7 +191,7 @@ def merge_and_record(subject: Subject, model=None) -> Run:
     rows, share, weight = [], [], []
 
     def judge(graph, borders):
-        features = graph.features(borders)
+        features = graph.features_(borders)
         people = graph.people(borders)
         rows.append(features.astype(np.float32))
         share.append(people)

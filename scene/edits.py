@@ -245,7 +245,7 @@ def _moved(mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int) ->
     numbers[candidate] = number
     graph = FaceGraph(found.n_candidates, found.candidate_pairs, found.candidate_pair_length, found.candidate_area)
     numbers = with_small_pieces(graph, stored.shown, numbers)
-    changed = {giver, number} | _part_pieces(mesh, stored, numbers, giver)
+    changed = {giver, number} | _part_pieces_(mesh, stored, numbers, giver)
     return _pinned(mesh, stored, numbers, changed)
 
 
@@ -331,7 +331,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     numbers[stored.decomposition.candidates[moved]] = face_numbers[moved]
     for number in sorted(concerned):
         if (numbers == number).any():
-            concerned |= _part_pieces(obj.data, stored, numbers, number)
+            concerned |= _part_pieces_(obj.data, stored, numbers, number)
     write(context, obj.data, stored, _with_pins(obj.data, stored, numbers, concerned))
     return face_numbers
 
@@ -387,7 +387,7 @@ def _finer(stored: Stored, decomposition: Decomposition) -> Stored:
     return Stored(decomposition, stored.previous_number[origin], stored.pinned[origin], stored.shown[origin])
 
 
-def _part_pieces(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, number: int) -> set[int]:
+def _part_pieces_(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, number: int) -> set[int]:
     """Give all but the largest piece of a part numbers of their own, unless they were apart from it already.
 
     Parts of pieces that touch nothing are in several; of each of these, too, the largest piece that is left stays.

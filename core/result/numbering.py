@@ -281,7 +281,7 @@ def _births(
     vote = _AreaVote.of(previous_number, area)
     number, births = np.zeros(len(area), np.int64), []
     for start, end in splits.root_intervals.tolist():
-        births.append(vote.give(start, end, len(births) + 1))
+        births.append(vote.give_(start, end, len(births) + 1))
         number[start:end] = births[-1]
     counts = (decomposition.n_candidates - splits.merge).tolist()
     for (start, middle, end), count in zip(splits.intervals.tolist(), counts, strict=True):
@@ -289,7 +289,7 @@ def _births(
         kept = int(number[start])
         weights = [(vote.area_of(kept, *side), area[slice(*side)].sum()) for side in sides]
         new = sides[1] if weights[0] >= weights[1] else sides[0]
-        births.append(vote.give(*new, count))
+        births.append(vote.give_(*new, count))
         number[slice(*new)] = births[-1]
     order = np.argsort(births)
     birth_order = order[np.searchsorted(np.array(births)[order], number)]
@@ -297,7 +297,7 @@ def _births(
     return _previous_first(number[place], birth_order[place], previous_number[place], vote.left_over)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class _AreaVote:
     """Which previous numbers new parts take, by the area that had them; parts are intervals of c places.
 
@@ -333,7 +333,7 @@ class _AreaVote:
             return 0.0
         return float(np.bincount(self.code[start:end] == code, self.area[start:end], 2)[1])
 
-    def give(self, start: int, end: int, count: int) -> int:
+    def give_(self, start: int, end: int, count: int) -> int:
         """Choose the number of a new part; ``count`` is the number of parts at its level."""
         # Of the numbers that are there alone: a table of all of them for every part would take the square of the time.
         codes, place = np.unique(self.code[start:end], return_inverse=True)

@@ -54,7 +54,7 @@ class FusionGraph:
             self.neighbors[one][other] = self.neighbors[one].get(other, 0.0) + length
             self.contours[one][other] = number + contours[0], max(longest, contours[1])
 
-    def merge(self, keep: int, gone: int) -> None:
+    def merge_(self, keep: int, gone: int) -> None:
         """Fuse region ``gone`` into region ``keep``."""
         self.area[keep] += self.area[gone]
         self.alive.discard(gone)
@@ -155,7 +155,7 @@ def fuse_small(
         neighbor = graph.longest_boundary(smallest)
         merges.append((neighbor, smallest))
         ratio.append(graph.area[smallest] / largest)
-        graph.merge(neighbor, smallest)
+        graph.merge_(neighbor, smallest)
     return np.array(merges, np.int64).reshape(-1, 2), np.array(ratio)
 
 
@@ -202,7 +202,7 @@ def fuse_weakest(
         worth, gone, keep = weakest
         merges.append((keep, gone))
         salience.append(worth)
-        graph.merge(keep, gone)
+        graph.merge_(keep, gone)
         if_gone = {gone: keep}
         ends = [(if_gone.get(a, a), if_gone.get(b, b)) for a, b in sides]
         sides = {(min(a, b), max(a, b)): side for (a, b), side in zip(ends, sides.values(), strict=True) if a != b}

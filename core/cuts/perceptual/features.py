@@ -110,9 +110,9 @@ def _table(columns: dict[str, np.ndarray], names: tuple[str, ...]) -> np.ndarray
     return table
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class RegionMeasures:
-    """What is measured on regions while they merge; a region that merged into another keeps its row.
+    """What is measured on regions while they merge, and changed by it; a region that merged keeps its row.
 
     Attributes
     ----------
@@ -146,7 +146,7 @@ class RegionMeasures:
     alive: np.ndarray
 
 
-def cut_features(
+def cut_features_(
     regions: RegionMeasures, ends: np.ndarray, border: np.ndarray, changed: Sequence[int] = ()
 ) -> np.ndarray:
     """Describe cuts between two regions by the features that the model judges.
@@ -170,12 +170,12 @@ def cut_features(
     area = rounded(regions.sums[ends, REGION.area])
     index = np.where(area[:, 0] > area[:, 1], ends[:, ::-1].T, ends.T)
     length = np.maximum(border[:, BORDER.length], 1e-9)
-    union = _shapes(regions, index, length, changed)
+    union = _shapes_(regions, index, length, changed)
     cut = _cut_columns(regions, _Sides.of(regions, index, border), border / length[:, None], length, union)
     return np.hstack([_table(cut, CUT), *regions.shape[index], union])
 
 
-def _shapes(regions: RegionMeasures, index: np.ndarray, length: np.ndarray, changed: Sequence[int]) -> np.ndarray:
+def _shapes_(regions: RegionMeasures, index: np.ndarray, length: np.ndarray, changed: Sequence[int]) -> np.ndarray:
     """Shape of the union of each two regions, (k, len(SHAPE)); brings up to date that of the changed ones.
 
     index : (2, k), the regions. length : (k,), of the cut between them. Few regions take as long as one: all in one go.

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...surface.arrays import distinct_pairs, sums_by
 from ...surface.mesh import TriMesh
-from .features import RegionMeasures, cut_features, region_shape
+from .features import RegionMeasures, cut_features_, region_shape
 from .measures import BORDER, REGION, SurfaceMeasures
 
 # While there are more than MANY_REGIONS regions, several pairs merge in one round: those whose cut is the weakest of
@@ -75,13 +75,13 @@ class RegionAdjacencyGraph:
         for index, (a, b) in enumerate(self.ends.tolist()):
             self.neighbors[a][b] = self.neighbors[b][a] = index
 
-    def features(self, borders: np.ndarray) -> np.ndarray:
-        """Compute the features of some borders.
+    def features_(self, borders: np.ndarray) -> np.ndarray:
+        """Compute the features of some borders, and anew the shape of regions that others have merged into.
 
-        borders : (k,) int64. Returns (k, len(FEATURES)) float64, see ``cut_features``.
+        borders : (k,) int64. Returns (k, len(FEATURES)) float64, see ``cut_features_``.
         """
         changed, self._changed = self._changed, []
-        return cut_features(self.regions, self.ends[borders], self.border[borders], changed)
+        return cut_features_(self.regions, self.ends[borders], self.border[borders], changed)
 
     def merge_(self, border: int) -> list[int]:
         """Merge the second region of a border into the first.
@@ -126,7 +126,7 @@ class RegionAdjacencyGraph:
 
     def measure_(self) -> None:
         """Compute the shape of regions anew into which others have merged since it was asked for features."""
-        self.features(np.empty(0, np.int64))
+        self.features_(np.empty(0, np.int64))
 
 
 def merge_all_(graph: RegionAdjacencyGraph, judge: Judge) -> tuple[np.ndarray, np.ndarray]:

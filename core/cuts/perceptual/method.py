@@ -331,7 +331,7 @@ def judge_by(model: BoostedTrees) -> Judge:
     model : BoostedTrees. Returns a callable that estimates, for each border, the share of people who would separate the
     regions on both sides, 0..1.
     """
-    return lambda graph, borders: model.predict(in_steps(graph.features(borders)))
+    return lambda graph, borders: model.predict(in_steps(graph.features_(borders)))
 
 
 def salience_of(share: np.ndarray, share_at_half: float = SHARE_AT_HALF) -> np.ndarray:

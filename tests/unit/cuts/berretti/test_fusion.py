@@ -55,9 +55,9 @@ def test_region_graph_by_hand():
     graph = FusionGraph(sets, 5, region)
     assert graph.area == pytest.approx([0.5, 1, 1, 1, 0.5])
     assert graph.neighbors[2] == pytest.approx({1: 1.0, 3: 1.0})
-    graph.merge(1, 2)
+    graph.merge_(1, 2)
     assert graph.neighbors[1] == pytest.approx({0: 1.0, 3: 1.0})
-    graph.merge(3, 0)  # not a neighbor of 3: only the bookkeeping is asked for
+    graph.merge_(3, 0)  # not a neighbor of 3: only the bookkeeping is asked for
     assert graph.neighbors[1] == pytest.approx({3: 2.0})
     assert graph.alive == {1, 3, 4}
     assert sum(graph.area[r] for r in graph.alive) == pytest.approx(4)
@@ -87,7 +87,7 @@ def test_bridges_are_the_contours_that_part_the_surface(made):
     while len(graph.alive) > 1:
         assert graph.bridges() == pytest.approx(by_trying(graph))
         first = min(graph.alive)
-        graph.merge(first, min(graph.neighbors[first]))
+        graph.merge_(first, min(graph.neighbors[first]))
 
 
 def test_a_ring_has_no_bridges():
@@ -118,7 +118,7 @@ def test_the_weakest_goes_first(made):
         else:
             assert area[gone] == pytest.approx(min(area[r] for r in graph.alive))
             assert keep == graph.longest_boundary(gone)
-        graph.merge(int(keep), int(gone))
+        graph.merge_(int(keep), int(gone))
     assert len(graph.alive) == 1
 
 

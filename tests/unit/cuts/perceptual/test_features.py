@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.cuts.perceptual.features import CUT, FEATURES, SHAPE, RegionMeasures, cut_features, region_shape
+from core.cuts.perceptual.features import CUT, FEATURES, SHAPE, RegionMeasures, cut_features_, region_shape
 from core.cuts.perceptual.measures import BORDER, REGION, THICKNESS_BINS, products, surface_measures
 from core.field.agd import ScalarField
 from core.graph.level_sets import cut_at_levels
@@ -73,7 +73,7 @@ def test_a_cut_between_a_larger_and_a_smaller_region():
         sums, lowest, highest, np.array([9.0, 4.0, 5.0, 8.0]), perimeter, np.array([3.0, 2.0, 1.0, 0.0]),
         np.stack([cut, cut + rest, rest, rest]), region_shape(sums, perimeter, lowest, highest),
         np.array([True, True, True, False]))
-    found = cut_features(regions, np.array([(0, 1)]), cut[None])
+    found = cut_features_(regions, np.array([(0, 1)]), cut[None])
     size = 0.5, np.sqrt(0.5)
     expected = {
         "log_length": np.log(0.5), "length_small": 0.5 / size[0], "length_large": 0.5 / size[1],

@@ -103,7 +103,7 @@ def test_sums_of_merged_regions_are_those_of_a_new_start(tree):
                    for a in alive for b, index in again.neighbors[a].items() if a < b]
         assert len(borders) == len(fresh.ends)
         old, new = np.transpose(borders)
-        np.testing.assert_allclose(again.features(old), fresh.features(new), rtol=1e-5, atol=1e-5)
+        np.testing.assert_allclose(again.features_(old), fresh.features_(new), rtol=1e-5, atol=1e-5)
 
 
 def test_merging_leaves_one_region_and_every_step_is_a_partition(tree):
@@ -175,7 +175,7 @@ def test_features_do_not_depend_on_scale_pose_or_order(tree, seed):
     graph = RegionAdjacencyGraph(mesh, measures, label)
     other = RegionAdjacencyGraph(moved, measured(moved), label[faces])
     assert other.ends.tolist() == graph.ends.tolist()
-    rows = [g.features(np.arange(len(g.ends))) for g in (graph, other)]
+    rows = [g.features_(np.arange(len(g.ends))) for g in (graph, other)]
     # Thickness is measured at probes, and which face is a probe depends on rounding.
     exact = [i for i, name in enumerate(FEATURES)
              if not any(word in name for word in ("thickness", "slenderness", "clearance", "hollowness", "siblings"))]
@@ -186,7 +186,7 @@ def test_every_feature_is_finite_on_awkward_meshes():
     for shape in (shapes.tetrahedron(), shapes.flat_grid(3, 2), shapes.box(), shapes.cylinder(4, 8, capped=False)):
         mesh = TriMesh(*shape)
         graph = RegionAdjacencyGraph(mesh, measured(mesh), np.arange(mesh.n_faces))
-        assert np.isfinite(graph.features(np.arange(len(graph.ends)))).all()
+        assert np.isfinite(graph.features_(np.arange(len(graph.ends)))).all()
 
 
 def test_a_region_that_is_hardly_larger_takes_hardly_anything():
