@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from operator import itemgetter
 
@@ -21,7 +21,7 @@ from .conformal import ConformalFactor, solved
 # a joint on either side. A joint of radius r that is bent by the angle t shortens its inner side by t r; so that no
 # face turns over there, the weights must not change faster than 1 / (t r). The second: the share of a vertex's fifth
 # largest weight that is taken from all its weights, so that none of the four that are kept begins with a step.
-_WAYS = ((1.6, 0.0), (1.6, 1.0), (2.4, 0.0), (1.2, 1.0))
+WAYS = ((1.6, 0.0), (1.6, 1.0), (2.4, 0.0), (1.2, 1.0))
 # In each round, faces that turned over in the one before, and those around them, resist a change of weights so many
 # times as much as they did. A way is left when so many rounds brought nothing better.
 _STIFFER, _PATIENCE = 4.0, 4
@@ -60,7 +60,9 @@ class Weights:
         return every
 
 
-def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weights:
+def smooth_weights(
+    table: CornerTable, labels: np.ndarray, bones: Bones, ways: Sequence[tuple[float, float]] = WAYS
+) -> Weights:
     """Find weights that change smoothly across each joint.
 
     A joint divides the parts of a tree of bones into those beyond, which are those of its bone and of the bones that
@@ -78,13 +80,16 @@ def smooth_weights(table: CornerTable, labels: np.ndarray, bones: Bones) -> Weig
         Bone of each face, 0..count-1.
     bones : Bones
         In the coordinates of the table.
+    ways : sequence of (float, float)
+        How far weights change on either side of a joint, in its radii, and how far a fifth bone counts, 0..1: what is
+        tried in turn until no face is turned over.
 
     Returns
     -------
     weights : Weights
     """
     table, first = table.joined()
-    tries = _tries(table, labels, bones)
+    tries = _tries(table, labels, bones, ways)
     best, fewest = next(tries)
     while fewest and (found := next(tries, None)):
         best, fewest = min((best, fewest), found, key=itemgetter(1))
@@ -146,10 +151,12 @@ def _joints(table: CornerTable, labels: np.ndarray, bones: Bones, reach: float) 
     return joints
 
 
-def _tries(table: CornerTable, labels: np.ndarray, bones: Bones) -> Iterator[tuple[Weights, int]]:
+def _tries(
+    table: CornerTable, labels: np.ndarray, bones: Bones, ways: Sequence[tuple[float, float]]
+) -> Iterator[tuple[Weights, int]]:
     """Weights of all ways and rounds, each with how many faces they turn over."""
     laplacian = ConformalFactor.of(table).laplacian
-    for reach, fifth in _WAYS:
+    for reach, fifth in ways:
         joints, stiffness = _joints(table, labels, bones, reach), np.zeros(table.n_faces)
         odds, stale = np.zeros((len(table.vertices), len(bones.parent))), joints
         fewest, since = np.inf, 0
