@@ -28,10 +28,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from joblib import Parallel, delayed
 from people import category_of, mesh_numbers
-from report import labels_path, run
+from report import run
 from report_page import COLORS, agreement_plot, parts_plot, seconds_plot, svg
 from robustness import CHANGES, compare
-from scores import mean
+from scores import labels_path, mean
 from tqdm import tqdm
 
 from core import Parameters, TriMesh, decompose

@@ -19,7 +19,6 @@ import argparse
 import csv
 import json
 import os
-import re
 import sys
 import time
 from dataclasses import asdict
@@ -35,7 +34,8 @@ packages.need("numpy", "scipy", "tqdm", "joblib", "matplotlib")
 import numpy as np
 from joblib import Parallel, delayed
 from people import category_of, mesh_numbers
-from scores import MEASURES, median_parts, score
+from report_page import page
+from scores import MEASURES, labels_path, median_parts, score
 from tqdm import tqdm
 
 from core import PRESETS, Parameters, TriMesh, decompose
@@ -61,8 +61,6 @@ def main() -> int:
     rows, failures = run(arguments.data, arguments.methods, numbers, arguments.jobs, arguments.out)
     if rows:
         write_table(arguments.out / "report.csv", rows)
-        from report_page import page
-
         (arguments.out / "report.html").write_text(page(arguments.data, arguments.out, rows), encoding="utf-8")
     for number, method, error in failures:
         print(f"report: {number}, {method}: {error}", file=sys.stderr)
@@ -127,11 +125,6 @@ def one_row(data: Path, number: int, method: str, out: Path) -> dict:
     partial.write_text(json.dumps({"made_with": made_with, "row": row}), encoding="utf-8")
     partial.replace(path)
     return row
-
-
-def labels_path(out: Path, method: str, number: int) -> Path:
-    """Where the labels of a mesh are, one number per face."""
-    return out / re.sub(r"\W+", "_", method.partition("=")[0].lower()) / f"{number}.npy"
 
 
 def write_table(path: Path, rows: list[dict]) -> None:

@@ -14,8 +14,7 @@ mpl.use("svg")
 import matplotlib.pyplot as plt
 import numpy as np
 from like_colors import like_colors
-from report import labels_path
-from scores import MEASURES, mean, typical
+from scores import MEASURES, labels_path, mean, typical
 
 from core.surface.mesh import TriMesh
 from core.uses.pictures import picture, png

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import numpy as np
 
 from core.metrics import (
@@ -69,3 +72,8 @@ def typical(people: np.ndarray) -> int:
 def median_parts(people: np.ndarray) -> int:
     """Median of the people's numbers of parts."""
     return int(np.median([len(np.unique(person)) for person in people]))
+
+
+def labels_path(out: Path, method: str, number: int) -> Path:
+    """Where the labels that are scored are in the folder of a report, one number per face of the mesh."""
+    return out / re.sub(r"\W+", "_", method.partition("=")[0].lower()) / f"{number}.npy"
