@@ -36,6 +36,6 @@ class FaceCandidates:
         """Part of each face, (p,) int64, at a level of detail, 0 to 1."""
         return self.hierarchy.parts(self.hierarchy.n_parts(detail))[self.label]
 
-    def with_contacts(self) -> FaceGraph:
+    def touching_graph(self) -> FaceGraph:
         """All faces that touch: the graph with the contacts, along no length, as pairs."""
         return self.graph.with_contacts(self.contacts)

@@ -50,7 +50,7 @@ def hinted_candidates(candidates: FaceCandidates, hint: np.ndarray) -> FaceCandi
     cell = _cells(graph, label, hint)
     area = np.bincount(cell, graph.area)
     own, said = (majority(cell, named, graph.area + ROUNDING * area.sum(), len(area)) for named in (label, hint))
-    pairs, _ = candidates.with_contacts().boundaries(cell)
+    pairs, _ = candidates.touching_graph().boundaries(cell)
     a, b = pairs.T
     salience = candidates.hierarchy.salience_between(own[a], own[b])
     other = said[a] != said[b]

@@ -28,7 +28,7 @@ def settle(candidates: FaceCandidates) -> FaceCandidates:
     """
     hierarchy = candidates.hierarchy
     present, label = renumbered(candidates.label)
-    touching, _ = candidates.with_contacts().boundaries(label)
+    touching, _ = candidates.touching_graph().boundaries(label)
     merge = hierarchy.merge_of(*present[touching].T)
     order = np.argsort(merge, kind="stable")
     order = order[merge[order] < len(hierarchy.merges)]

@@ -154,7 +154,7 @@ class _Mirroring:
     @cached_property
     def touching(self) -> FaceGraph:
         """The graph of the faces, with contacts."""
-        return self.found.with_contacts()
+        return self.found.touching_graph()
 
     def led_by(self, wedge: np.ndarray, dissolved: np.ndarray) -> FaceCandidates:
         """The candidates if a wedge leads and some faces make none of their own; wedge, dissolved : (p,) bool."""

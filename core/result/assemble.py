@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -70,10 +71,7 @@ def assemble(
     n_contacts = sum(len(r.contacts) for r in results)  # all others are links
     mirror = Mirror.joined(mirrors)
     return Decomposition(
-        candidates=candidates.label, vertex_candidates=tables.vertex_candidate,
-        candidate_area=tables.candidate_area, candidate_pairs=tables.pairs,
-        candidate_pair_length=tables.pair_length, junctions=tables.junctions, junction_length=tables.junction_length,
-        hierarchy=candidates.hierarchy, field=values,
+        **tables.attributes(), hierarchy=candidates.hierarchy, field=values,
         graph=ReebGraph.join([_in_field(r.graph, r.field) for r in results]), node_candidate=nodes,
         point_candidate=points, contacts=candidates.contacts, links=candidates.contacts[n_contacts:],
         mirror=mirror.plane, face_twin=mirror.twin,
@@ -116,30 +114,19 @@ def _symmetric(candidates: FaceCandidates, mirror: Mirror) -> FaceCandidates:
 
 @dataclass(frozen=True, eq=False)
 class CandidateTables:
-    """What follows from the candidates of the caller's faces.
+    """What follows from the candidates of the caller's faces: attributes of a ``Decomposition``, by the same names."""
 
-    Attributes
-    ----------
-    face_area : (p,) float64
-    vertex_candidate : (n,) int64
-        Candidate that has most of the faces at each vertex; -1 for a vertex of no face.
-    candidate_area : (c,) float64
-    pairs : (e, 2) int64
-        Candidates that touch, smaller index first.
-    pair_length : (e,) float64
-        Of the boundary between them.
-    junctions : (m, 2) int64
-    junction_length : (j,) float64
-        Candidates that meet at edges, three and more, see ``fans.junctions``.
-    """
-
-    face_area: np.ndarray
-    vertex_candidate: np.ndarray
+    candidates: np.ndarray
+    vertex_candidates: np.ndarray
     candidate_area: np.ndarray
-    pairs: np.ndarray
-    pair_length: np.ndarray
+    candidate_pairs: np.ndarray
+    candidate_pair_length: np.ndarray
     junctions: np.ndarray
     junction_length: np.ndarray
+
+    def attributes(self) -> dict[str, Any]:
+        """The arrays by the name of the attribute."""
+        return dict(vars(self))
 
 
 def tables_of(given: PolygonMesh, working: WorkingMesh, candidates: FaceCandidates) -> CandidateTables:
@@ -158,13 +145,13 @@ def tables_of(given: PolygonMesh, working: WorkingMesh, candidates: FaceCandidat
     -------
     tables : CandidateTables
     """
-    graph, label = candidates.with_contacts(), candidates.label
+    graph, label = candidates.touching_graph(), candidates.label
     sides = np.repeat(working.polygon, 3), working.mesh.edges.face_edges.ravel()
     pairs, length = boundaries(graph, label, *sides, working.mesh.edge_length)
     corners = given.triangles.faces.ravel()
     weight = np.repeat(given.triangles.face_area + LEAST_WEIGHT * given.triangles.area, 3)
     vertex = majority(corners, np.repeat(label[given.polygon], 3), weight, given.triangles.n_vertices)
-    return CandidateTables(graph.area, vertex, np.bincount(label, graph.area), pairs, length,
+    return CandidateTables(label, vertex, np.bincount(label, graph.area), pairs, length,
                            *junctions(label, *sides, working.mesh.edge_length))
 
 

@@ -42,14 +42,12 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
     label = candidates.label
     tables = tables_of(given, working, candidates)
     # Where the nodes of either side lie: most of a candidate of the whole is, mirrored back, in one of the half.
-    area = np.tile(tables.face_area, 2)
+    area = np.tile(graph.area, 2)
     home = majority(whole.candidates, np.tile(label, 2), area + LEAST_WEIGHT * area.sum(), whole.n_candidates)
     nothing = np.empty(0, np.int64)
     found = whole.asked(replace(whole.parameters, n_parts=0)).scaled(-given.exponent)
     return replace(
-        found, candidates=label, vertex_candidates=tables.vertex_candidate, candidate_area=tables.candidate_area,
-        candidate_pairs=tables.pairs, candidate_pair_length=tables.pair_length, junctions=tables.junctions,
-        junction_length=tables.junction_length, hierarchy=candidates.hierarchy,
+        found, **tables.attributes(), hierarchy=candidates.hierarchy,
         field=whole.field[:given.triangles.n_vertices], node_candidate=home[whole.node_candidate],
         point_candidate=home[whole.point_candidate], contacts=contacts, links=links, mirror=np.empty(0),
         face_twin=nothing, face_side=nothing.astype(np.int8),

@@ -18,7 +18,7 @@ def test_parts_are_candidates_whose_cuts_are_weak():
 
 def test_contacts_are_pairs_without_a_length():
     candidates = FaceCandidates(path(3), np.array([[0, 2]]), np.arange(3), Hierarchy.of(3, [], []))
-    graph = candidates.with_contacts()
+    graph = candidates.touching_graph()
     assert graph.pairs.tolist() == [[0, 1], [1, 2], [0, 2]]
     assert graph.length.tolist() == [1.0, 1.0, 0.0]
     assert len(candidates.graph.pairs) == 2
