@@ -39,7 +39,7 @@ from scores import MEASURES, labels_path, median_parts, score
 from tqdm import tqdm
 
 from core import PRESETS, Parameters, TriMesh, decompose
-from core.result.decomposition import VERSION
+from core.version import VERSION
 
 
 def main() -> int:

@@ -38,10 +38,10 @@ if TYPE_CHECKING:  # "as", so that a name counts as one of the package for those
     from .parameters import PRESETS as PRESETS
     from .parameters import Parameters as Parameters
     from .pipeline import decompose as decompose
-    from .result.decomposition import VERSION as VERSION
     from .result.decomposition import Decomposition as Decomposition
     from .result.decomposition import Parts as Parts
     from .surface.mesh import TriMesh as TriMesh
+    from .version import VERSION as VERSION
 
 # The module of each name, which is imported when the name is first used: Blender reads the parameters when it starts,
 # long before SciPy is needed.
@@ -59,7 +59,7 @@ _HOME = {
     "ReebGraph": "graph.reeb",
     "TriMesh": "surface.mesh",
     "UnknownParameterError": "errors",
-    "VERSION": "result.decomposition",
+    "VERSION": "version",
     "decompose": "pipeline",
 }
 

@@ -23,10 +23,10 @@ from ..surface.arrays import distinct_pairs, inverse, renumbered, sums_by
 from ..surface.labels import majority
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
+from ..version import VERSION
 from .fans import counted_again
 from .stored import DamagedError, NewerError, check, is_newer, read_archive, read_head
 
-VERSION = "0.2.0"
 _FORMAT = 1  # version of the layout that ``to_bytes`` writes
 
 

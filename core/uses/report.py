@@ -12,7 +12,8 @@ import numpy as np
 import scipy
 
 from ..graph.critical import KINDS
-from ..result.decomposition import VERSION, Decomposition, Parts
+from ..result.decomposition import Decomposition, Parts
+from ..version import VERSION
 from .colors import part_colors
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from urllib.parse import unquote
 
 from ..core.file_names import readable
 from ..core.parameters import Parameters
-from ..core.result.decomposition import VERSION
+from ..core.version import VERSION
 from ..model_files import check_ends
 
 FORMAT = 1  # version of what a record holds

@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 
 from ..core.errors import ReebError
-from ..core.result.decomposition import VERSION
+from ..core.version import VERSION
 from . import batch, decompose, similar
 from .words import say
 
