@@ -10,7 +10,8 @@ import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.uses.naming import Shapes, Suggestion, suggestions
+from ..core.uses.naming.method import Suggestion, suggestions
+from ..core.uses.naming.shapes import Shapes
 from . import bridge, mesh_arrays, placing, skeleton, store
 from .store import Stored
 

@@ -11,7 +11,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from core import decompose
-from core.uses.naming import Shapes, Suggestion, Touching, suggestions
+from core.uses.naming.method import Suggestion, suggestions
+from core.uses.naming.shapes import Shapes
+from core.uses.naming.touching import Touching
 
 SPOT = Path(__file__).parents[3] / "models" / "spot.obj"
 
