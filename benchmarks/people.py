@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from core.cuts.patches import concave_patches
 from core.cuts.perceptual.measures import SurfaceMeasures, surface_measures
 from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
 from core.cuts.perceptual.method import inflate
-from core.cuts.perceptual.patches import concave_patches
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.metrics import Overlap

@@ -20,8 +20,8 @@ from .graph.simplify import without_ripples
 from .parameters import TOGETHER, Parameters
 from .progress import Progress, Stopwatch
 from .result.assemble import assemble
+from .result.component_results import ComponentResult
 from .result.decomposition import Decomposition
-from .result.found import ComponentResult
 from .result.half import of_half
 from .result.mirrors import Mirror, find_mirrors
 from .surface.arguments import hints_of

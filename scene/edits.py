@@ -49,7 +49,7 @@ def check_unlocked(mesh: bpy.types.Mesh, numbers: Iterable[int]) -> None:
 
 def one_of_each_pair(stored: Stored, numbers: list[int]) -> list[int]:
     """Parts without those that change with their mirror images, which come before them."""
-    from ..core.result.mirroring import twin_numbers
+    from ..core.result.mirrored_edits import twin_numbers
 
     if not bpy.context.scene.reeb_parts.symmetry:
         return numbers
@@ -78,7 +78,7 @@ def merged_into_neighbors(mesh: bpy.types.Mesh, stored: Stored, numbers: list[in
 
     Of parts that are each other's nearest the largest takes the others. numbers : of parts.
     """
-    from ..core.result.mirroring import twin_numbers
+    from ..core.result.mirrored_edits import twin_numbers
 
     numbered = stored.shown_parts()
     into = {number: _neighbor(mesh, numbered, number) for number in numbers}
@@ -224,7 +224,7 @@ def _own_side(stored: Stored, number: int) -> np.ndarray:
     All 1 if the part is no mirror image of another. A part and its image cannot both take a candidate across the plane,
     and would change sides if they took from beyond it.
     """
-    from ..core.result.mirroring import twin_numbers
+    from ..core.result.mirrored_edits import twin_numbers
 
     found, shown = stored.decomposition, stored.shown
     twin = twin_numbers(stored.shown_parts()).get(number, number)
@@ -308,7 +308,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         other numbers then.
     """
     from ..core.result.editing import split_around
-    from ..core.result.mirroring import cleaned
+    from ..core.result.mirrored_edits import cleaned
 
     before, asked = stored.face_numbers, face_numbers
     face_numbers, also = _mirrored(obj.data, stored, before, asked, stored.decomposition.face_twin)
@@ -338,7 +338,7 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
 
 def _with_small_pieces(stored: Stored, graph: FaceGraph, after: np.ndarray, beside_taken: float) -> np.ndarray:
     """The part of each face after a change, (p,), with small pieces that it cuts off; on both sides alike."""
-    from ..core.result.mirroring import twin_numbers
+    from ..core.result.mirrored_edits import twin_numbers
     from ..core.result.remainders import halved_between_images, with_small_pieces
 
     found, numbered = stored.decomposition, stored.shown_parts()
@@ -474,7 +474,7 @@ def _mirrored(
 
     Returns the numbers after both, and those of the parts that the mirror image concerns.
     """
-    from ..core.result.mirroring import on_both_sides, twin_numbers
+    from ..core.result.mirrored_edits import on_both_sides, twin_numbers
 
     if not bpy.context.scene.reeb_parts.symmetry or not (twin >= 0).any():
         return after, []

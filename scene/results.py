@@ -9,9 +9,9 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.graph.fold import unfolded
 from ..core.result.numbering import NumberedParts
 from ..core.steps import Steps, finished
+from ..core.uses.graph_folding import unfolded
 from . import (
     armature,
     bridge,

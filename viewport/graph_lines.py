@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..core.graph.fold import unfolded
 from ..core.graph.reeb import ReebGraph
 from ..core.result.decomposition import Decomposition
+from ..core.uses.graph_folding import unfolded
 from ..scene import bridge
 from ..scene.store import Stored
 

@@ -19,7 +19,7 @@ from ..scene.seen_points import seen_points
 from .pointing import Model, Target
 
 if TYPE_CHECKING:
-    from ..core.graph.contours import Contours
+    from ..core.result.contour_cut import Contours
 
 
 class Knife:
@@ -41,7 +41,7 @@ class Knife:
         chosen : int
             -1 if there is none.
         """
-        from ..core.graph.contours import contours
+        from ..core.result.contour_cut import contours
 
         number = self.model.number(target)
         if number not in self._parts:
@@ -83,7 +83,7 @@ class Knife:
 
         face_graph : core.surface.labels.FaceGraph
         """
-        from ..core.graph.contours import contour_sides
+        from ..core.result.contour_cut import contour_sides
         from ..core.result.editing import two_sides
 
         found, chosen = self.contour(target)
@@ -126,7 +126,7 @@ def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, targ
 
 def _parts_beside(before: Model, after: store.Stored, new: int) -> int:
     """How many parts have come about beside a new one and its mirror image."""
-    from ..core.result.mirroring import twin_numbers
+    from ..core.result.mirrored_edits import twin_numbers
 
     made = np.setdiff1d(after.shown, before.numbers)
     return len(np.setdiff1d(made, [new, twin_numbers(after.shown_parts()).get(new, new)]))

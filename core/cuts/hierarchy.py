@@ -17,6 +17,9 @@ from ..surface.arrays import components, distinct_pairs, frozen, inverse
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+#: Salience between candidates that nothing brought near each other.
+LAST = 0.999
+
 
 @dataclass(frozen=True, eq=False)
 class Dendrogram:

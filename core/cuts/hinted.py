@@ -15,9 +15,8 @@ import numpy as np
 from ..surface.arrays import both_ways, components, is_last_of_each, on_grid, renumbered
 from ..surface.labels import FaceGraph, majority, spread
 from .face_candidates import FaceCandidates
-from .hierarchy import Hierarchy
+from .hierarchy import LAST, Hierarchy
 from .joining.linkage import average_linkage
-from .joining.method import LAST
 
 # What it adds to the log-odds that two candidates belong together if their hints are the same, and takes from them if
 # they differ.

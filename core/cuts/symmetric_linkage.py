@@ -10,8 +10,7 @@ import numpy as np
 
 from ..surface.arrays import rounded
 from ..surface.labels import FaceGraph
-from .hierarchy import Hierarchy
-from .joining.method import LAST
+from .hierarchy import LAST, Hierarchy
 from .symmetric_cells import Cells
 from .symmetry_group import SymmetryGroup
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..surface.arrays import components, expanded, sums_by
 from ..surface.mesh import TriMesh
-from .runs import FaceBridges, joined_by_faces
+from .bridged_levels import FaceBridges, joined_by_faces
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,9 +24,9 @@ from ..surface.arrays import components, is_last_of_each, last_of_each, sums_by
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh
+from .component_results import LEAST_WEIGHT, ComponentResult, FoundCandidates
 from .decomposition import Decomposition, too_many
-from .fans import boundaries, junctions
-from .found import LEAST_WEIGHT, ComponentResult, FoundCandidates
+from .junctions import boundaries, junctions
 from .mirrors import Mirror
 from .slivers import without_slivers
 from .votes import WIDTH, FaceVotes

@@ -24,7 +24,7 @@ from ..surface.labels import majority
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
 from ..version import VERSION
-from .fans import counted_again
+from .junctions import counted_again
 from .stored import DamagedError, NewerError, check, is_newer, read_archive, read_head
 
 _FORMAT = 1  # version of the layout that ``to_bytes`` writes
@@ -205,7 +205,8 @@ class Decomposition:
         Those of ``contacts`` whose faces do not touch: each body hangs on the nearest that is larger, so that all can
         be one part. Where pieces are decomposed separately, each is a body.
     junctions : (m, 2) int64
-        Three candidates and more that meet at edges: junctions, 0..j-1, and their candidates, see ``core.result.fans``.
+        Three candidates and more that meet at edges: junctions, 0..j-1, and their candidates, see
+        ``core.result.junctions``.
     junction_length : (j,) float64
         Length of the edges of each junction, in units of the vertices.
     """

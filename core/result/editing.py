@@ -13,13 +13,13 @@ import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
 from ..cuts.hierarchy import Dendrogram, Hierarchy
-from ..graph.contours import contours
 from ..graph.critical import SADDLE
 from ..surface.arrays import both_ways, components, symmetric_matrix
 from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, label_boundaries, majority, spread
+from .contour_cut import contours
 from .decomposition import Decomposition
-from .fans import boundaries, junctions
+from .junctions import boundaries, junctions
 
 
 def components_of(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:

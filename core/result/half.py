@@ -15,8 +15,8 @@ from ..surface.labels import connect, majority
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh, repair
 from .assemble import face_graph_of, tables_of
+from .component_results import LEAST_WEIGHT
 from .decomposition import Decomposition
-from .found import LEAST_WEIGHT
 
 
 def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:

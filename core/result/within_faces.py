@@ -19,7 +19,7 @@ from ..cuts.symmetric_regions import symmetric_on_regions
 from ..surface.labels import FaceGraph, connect
 from ..surface.mesh import TriMesh
 from ..surface.mirror_images import Images
-from .found import LEAST_WEIGHT, ComponentResult, FoundCandidates, firsts, merged_at_last
+from .component_results import LEAST_WEIGHT, ComponentResult, FoundCandidates, firsts, merged_at_last
 from .mirrors import Mirror
 
 

@@ -14,10 +14,10 @@ import bpy
 import numpy as np
 
 from ...core.graph.critical import KINDS
-from ...core.graph.fold import unfolded
 from ...core.graph.reeb import ReebGraph
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
+from ...core.uses.graph_folding import unfolded
 from .. import bridge, made_objects, mesh_arrays, part_names, store, transaction
 from ..made_objects import ROLE
 from ..temporary import remove_object

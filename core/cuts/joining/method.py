@@ -19,7 +19,7 @@ from ...surface.arrays import in_steps, on_grid, pair_keys, renumbered
 from ...surface.contact import TOUCH
 from ...surface.mesh import TriMesh
 from ..boosted_trees import BoostedTrees
-from ..hierarchy import Hierarchy
+from ..hierarchy import LAST, Hierarchy
 from .distant import FEATURES as DISTANT_FEATURES
 from .distant import DistantPairs, distant_pairs
 from .linkage import average_linkage
@@ -33,8 +33,6 @@ FINE, FINE_MEASURED = 0.06, 0.2
 WITHIN = 0.2
 # Share of people who put two parts together at which they are together at detail 0.5.
 SHARE_AT_HALF = 0.5
-# Salience between candidates that nothing brought near each other.
-LAST = 0.999
 # Small groups are more often one part than their pairs are judged to be: if the smaller of two has a share a of the
 # area, below LARGE, their odds are multiplied by (LARGE / a) ** EASE.
 LARGE, EASE = 0.1, 0.1

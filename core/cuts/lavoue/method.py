@@ -8,7 +8,7 @@ import numpy as np
 from ...surface.curvature import principal_curvatures
 from ...surface.mesh import TriMesh
 from ..hierarchy import Hierarchy
-from ..perceptual.patches import absorb_small
+from ..patches import absorb_small
 from .clusters import cluster
 from .regions import CurvatureGraph, grow_regions, merge_regions
 

@@ -11,10 +11,10 @@ import numpy as np
 
 from ...surface.mesh import TriMesh
 from ..hierarchy import Hierarchy
-from .bisection import best_cut, distances, rows
-from .contour import Outline
 from .embedding import geometric, structural
+from .outline import Outline
 from .patch_graph import PatchGraph
+from .row_cuts import best_cut, distances, rows
 
 MOST_PARTS = 32  # upper bound of the number of candidates of a piece
 LEAST_AREA = 0.004  # share of the area of a component below which there is no candidate

@@ -11,7 +11,7 @@ from ...surface.arrays import components, renumbered, sums_by
 from ...surface.curvature import curvature_across
 from ...surface.labels import label_boundaries
 from ...surface.mesh import TriMesh
-from ..perceptual.patches import concave_patches
+from ..patches import concave_patches
 
 N_PATCHES = 600  # upper bound of the number of patches
 CREASE_SCALE = (0.015,)  # width over which normals are smoothed, in units of the square root of the area

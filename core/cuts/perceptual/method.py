@@ -23,10 +23,11 @@ from ...surface.sheets import Inflated, inflated, sheet_faces
 from ..boosted_trees import BoostedTrees
 from ..hierarchy import Candidates, Hierarchy
 from ..minimum_cut import MovableCuts, move_cuts
+from ..patches import concave_patches
 from .features import FEATURES
+from .level_set_patches import level_set_patches
 from .measures import BORDER, surface_measures
 from .merging import Judge, RegionAdjacencyGraph, merge_all_
-from .patches import concave_patches, level_set_patches
 
 # Share of people who separate two regions, 0..1, from which on their cut stays at detail 0.5: of solids, and of sheets,
 # where what was learned from says it is certain.

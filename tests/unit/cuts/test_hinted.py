@@ -9,9 +9,8 @@ from results import same_partition
 from core import MeshError, Parameters, decompose
 from core.cuts import hinted
 from core.cuts.face_candidates import FaceCandidates
-from core.cuts.hierarchy import Hierarchy
+from core.cuts.hierarchy import LAST, Hierarchy
 from core.cuts.hinted import hinted_candidates
-from core.cuts.joining.method import LAST
 from core.parameters import METHODS
 from core.surface.labels import FaceGraph
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapes
 
+from core.cuts.patches import absorb_small, concave_patches
 from core.cuts.perceptual.features import FEATURES
 from core.cuts.perceptual.measures import BORDER, REGION, surface_measures
 from core.cuts.perceptual.merging import (
@@ -16,7 +17,6 @@ from core.cuts.perceptual.merging import (
     _share_of_its_own,
     merge_all_,
 )
-from core.cuts.perceptual.patches import absorb_small, concave_patches
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.surface.arrays import components

@@ -7,8 +7,8 @@ import shapes
 
 from core import Parameters, TriMesh, decompose
 from core.cuts.minimum_cut import WIDEST
+from core.cuts.patches import concave_patches
 from core.cuts.perceptual.method import MAX_FACES, SHARE_AT_HALF, perceptual_candidates, salience_of
-from core.cuts.perceptual.patches import concave_patches
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.metrics import rand_index_error

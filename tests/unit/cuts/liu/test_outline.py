@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from core.cuts.liu.contour import LANDMARKS, Outline, convexity, inner_distances, straightened
+from core.cuts.liu.outline import LANDMARKS, Outline, convexity, inner_distances, straightened
 
 
 def figure(inside, step=0.05):

@@ -6,7 +6,7 @@ from itertools import count
 import numpy as np
 import pytest
 
-from core.result.mirroring import cleaned, gathered, on_both_sides, without_crumbs
+from core.result.mirrored_edits import cleaned, gathered, on_both_sides, without_crumbs
 from core.surface.labels import FaceGraph
 
 BEFORE = [1, 1, 1, 3, 3, 3, 3, 2, 2, 2]

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 import shapes
 
-from core.graph import runs
+from core.graph import bridged_levels
+from core.graph.bridged_levels import joined_runs
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.graph.runs import joined_runs
 from core.surface.arrays import components
 from core.surface.mesh import TriMesh
 
@@ -114,7 +114,7 @@ def test_in_blocks_the_same_is_joined_as_all_at_once(most, monkeypatch):
     bridges = rng.integers(0, mesh.n_faces, (4000, 2))
     bridges = bridges[part[bridges[:, 0]] != part[bridges[:, 1]]]
     whole = cut_at_levels(mesh, values, uniform_levels(30), bridges)
-    monkeypatch.setattr(runs, "MAX_LINKS", most)
+    monkeypatch.setattr(bridged_levels, "MAX_LINKS", most)
     sets = cut_at_levels(mesh, values, uniform_levels(30), bridges)
     for name in ("element_piece", "segment_contour", "contour_pieces"):
         np.testing.assert_array_equal(getattr(sets, name), getattr(whole, name))
@@ -124,9 +124,9 @@ def test_two_that_others_have_joined_are_not_looked_at(monkeypatch):
     """A hundred triangles, all the same: each two have the same bridges, and 99 pairs join them."""
     mesh = TriMesh(*shapes.together(*(shapes.moved(shapes.Shape(np.eye(3), np.array([[0, 1, 2]])), (0, 0, 1e-3 * k))
                                       for k in range(100))))
-    looked_at, side_by_side = [], runs._side_by_side
-    monkeypatch.setattr(runs, "MAX_LINKS", 1000)
-    monkeypatch.setattr(runs, "_side_by_side", lambda pairs, contours: (
+    looked_at, side_by_side = [], bridged_levels._side_by_side
+    monkeypatch.setattr(bridged_levels, "MAX_LINKS", 1000)
+    monkeypatch.setattr(bridged_levels, "_side_by_side", lambda pairs, contours: (
         looked_at.append(len(pairs)), side_by_side(pairs, contours))[1])
     bridges = np.stack(np.triu_indices(100, 1), axis=1)
     sets = cut_at_levels(mesh, mesh.vertices[:, 0], uniform_levels(10), bridges)

@@ -8,8 +8,8 @@ from collections import Counter
 
 import numpy as np
 
-from .critical import SADDLE
-from .reeb import ReebGraph
+from ..graph.critical import SADDLE
+from ..graph.reeb import ReebGraph
 
 
 def arc_lengths(graph: ReebGraph) -> np.ndarray:

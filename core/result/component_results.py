@@ -10,8 +10,7 @@ from itertools import accumulate
 
 import numpy as np
 
-from ..cuts.hierarchy import Candidates, Hierarchy
-from ..cuts.joining.method import LAST
+from ..cuts.hierarchy import LAST, Candidates, Hierarchy
 from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebGraph, ReebTopology

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Patches that end at creases: the candidates of the method "perceptual".
+"""Patches that end at creases: what the methods "perceptual" and "liu" start from, and how small ones join others.
 
 Seeds are spread over the faces, each as far as possible from the others, and every face joins its nearest seed. The way
 from face to face is longer where the surface turns, and longest where it turns in a concavity. Borders between patches
@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...graph.level_sets import LevelSets, cut_at_levels, uniform_levels
-from ...surface.arrays import (
+from ..surface.arrays import (
     components,
     first_largest,
     last_of_each,
@@ -24,9 +23,9 @@ from ...surface.arrays import (
     weighted_sum,
     whole_steps,
 )
-from ...surface.labels import label_boundaries, longest_neighbor, majority
-from ...surface.mesh import TriMesh
-from ...surface.nearest_seeds import nearest_seeds
+from ..surface.labels import label_boundaries, longest_neighbor
+from ..surface.mesh import TriMesh
+from ..surface.nearest_seeds import nearest_seeds
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -40,7 +39,6 @@ CONCAVE = 20.0
 # Ways are measured in whole steps of so much of that unit: a hundredth of most ways, and more than rounding changes
 # turns by.
 WAY_STEP = 2.0**-14
-SLABS = 24  # number of slabs whose pieces are the patches of ``level_set_patches``
 SMALLEST = 0.0004  # share of the area of the surface below which a patch joins a neighbor
 
 
@@ -78,26 +76,7 @@ def concave_patches(mesh: TriMesh, count: int = N_PATCHES) -> np.ndarray:
         farthest = last_of_each(cell_number, distance, -np.arange(len(cell)), count=len(numbers))
         widest = farthest[np.argsort(-distance[farthest], kind="stable")][:more]
         seeds = np.concatenate([seeds, np.setdiff1d(widest, seeds)])
-    return absorb_small(mesh, _connected(mesh, cell), SMALLEST)
-
-
-def level_set_patches(sets: LevelSets) -> np.ndarray:
-    """Divide a surface into patches that end at level sets only: the pieces of SLABS slabs.
-
-    Parameters
-    ----------
-    sets : LevelSets
-        Level sets of one connected component, m faces.
-
-    Returns
-    -------
-    label : (m,) int64
-        Patch of each face, 0..c-1; every patch is connected.
-    """
-    coarse = cut_at_levels(sets.mesh, sets.values, uniform_levels(SLABS))
-    area = coarse.element_area + 1e-12 * sets.mesh.area
-    piece = majority(coarse.element_face, coarse.element_piece, area, sets.mesh.n_faces)
-    return absorb_small(sets.mesh, _connected(sets.mesh, piece), SMALLEST)
+    return absorb_small(mesh, connected_cells(mesh, cell), SMALLEST)
 
 
 def absorb_small(mesh: TriMesh, label: np.ndarray, least_share: float) -> np.ndarray:
@@ -131,6 +110,16 @@ def absorb_small(mesh: TriMesh, label: np.ndarray, least_share: float) -> np.nda
         label = renumbered(goal[label])[1]
 
 
+def connected_cells(mesh: TriMesh, cell: np.ndarray) -> np.ndarray:
+    """Divide cells of faces into their connected components.
+
+    mesh : TriMesh, m faces. cell : (m,) int64. Returns (m,) int64, components numbered in the order of their lowest
+    faces.
+    """
+    a, b = mesh.edges.pairs[cell[mesh.edges.pairs[:, 0]] == cell[mesh.edges.pairs[:, 1]]].T
+    return components(mesh.n_faces, a, b)[1]
+
+
 def _crease_graph(mesh: TriMesh) -> csr_array:
     """Symmetric (m, m) matrix of the lengths of the ways between neighboring faces; TURN has the formula."""
     turn = mesh.dihedral
@@ -156,9 +145,3 @@ def _first_seeds(mesh: TriMesh, count: int) -> np.ndarray:
 def _squares(vectors: np.ndarray) -> np.ndarray:
     """Squares of the lengths of vectors, (n, 3): (n,) float64."""
     return row_products(vectors, vectors)
-
-
-def _connected(mesh: TriMesh, cell: np.ndarray) -> np.ndarray:
-    """Connected component of each face within its cell, (m,) int64, numbered by the lowest face."""
-    a, b = mesh.edges.pairs[cell[mesh.edges.pairs[:, 0]] == cell[mesh.edges.pairs[:, 1]]].T
-    return components(mesh.n_faces, a, b)[1]

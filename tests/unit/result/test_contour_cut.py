@@ -6,7 +6,7 @@ import pytest
 import shapes
 from face_graphs import graph_of
 
-from core.graph.contours import Contours, contour_sides, contours
+from core.result.contour_cut import Contours, contour_sides, contours
 from core.surface.arrays import components
 from core.surface.corners import CornerTable
 from core.surface.labels import FaceGraph

@@ -8,8 +8,8 @@ import shapes
 
 from core import decompose
 from core.graph.critical import MAXIMUM, MINIMUM, SADDLE
-from core.graph.fold import arc_lengths, unfolded
 from core.graph.reeb import ReebGraph
+from core.uses.graph_folding import arc_lengths, unfolded
 
 
 def graph_of(kinds, positions, arcs):

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import shapes
 
-from core.cuts.liu.bisection import CHEAPEST, SOFT, best_cut, distances, rows
 from core.cuts.liu.embedding import FEW_PATCHES, SHARP, geometric, structural
 from core.cuts.liu.method import COST_AT_HALF, DEAREST, LEAST_AREA, bisect, liu_candidates
 from core.cuts.liu.patch_graph import PatchGraph
+from core.cuts.liu.row_cuts import CHEAPEST, SOFT, best_cut, distances, rows
 from core.surface.arrays import components
 from core.surface.mesh import TriMesh
 

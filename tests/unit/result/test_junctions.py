@@ -11,7 +11,7 @@ from core.parameters import PRESETS, Parameters
 from core.pipeline import decompose
 from core.result.decomposition import Decomposition
 from core.result.editing import split_candidates
-from core.result.fans import boundaries, counted_again, junctions
+from core.result.junctions import boundaries, counted_again, junctions
 from core.surface.corners import CornerTable
 from core.surface.labels import FaceGraph
 
