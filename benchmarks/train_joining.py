@@ -44,7 +44,8 @@ from core.metrics import rand_index_error
 from core.parameters import Parameters
 from core.pipeline import decompose_component
 from core.progress import Stopwatch
-from core.surface.arrays import components, renumbered
+from core.surface.arrays import renumbered
+from core.surface.components import components
 from core.surface.labels import majority
 from core.surface.mesh import TriMesh
 from core.surface.polygons import PolygonMesh

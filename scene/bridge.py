@@ -14,9 +14,9 @@ import numpy as np
 
 from ..core.sentence import Sentence
 from ..core.steps import Steps, finished
-from ..core.surface.arrays import cross, lengths
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
+from ..core.surface.vectors import cross, lengths
 from . import face_hints, mesh_arrays, modifiers, targets
 from .half_models import half_plane
 from .mesh_arrays import shown_points

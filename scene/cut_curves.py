@@ -11,8 +11,9 @@ import bpy
 import numpy as np
 
 from ..core.steps import Steps, stretched
-from ..core.surface.arrays import distinct_pairs, renumbered
+from ..core.surface.arrays import renumbered
 from ..core.surface.corners import CornerTable
+from ..core.surface.pairs import distinct_pairs
 from . import bridge, mesh_arrays
 from .pieces import smooth_faces
 from .temporary import freed

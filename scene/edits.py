@@ -21,7 +21,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts
 from ..core.sentence import Count
-from ..core.surface.arrays import components
+from ..core.surface.components import components
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
 from . import bridge, mesh_arrays, part_names, property_updates, reactions, store

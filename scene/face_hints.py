@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.surface.arrays import components
+from ..core.surface.components import components
 from . import mesh_arrays
 from .outputs import materials, seams
 

@@ -7,7 +7,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from numpy.typing import ArrayLike
 
 from ..core.sentence import Count
-from ..core.surface.arrays import both_ways, components
+from ..core.surface.components import components
+from ..core.surface.pairs import both_ways
 from ..scene import edits, mesh_arrays, part_names, store
 from ..scene.errors import SceneError
 from .pointing import Model, check_place

@@ -11,7 +11,8 @@ import numpy as np
 
 from ..errors import ReebError
 from ..sentence import Sentence
-from ..surface.arrays import frozen, on_grid
+from ..surface.arrays import frozen
+from ..surface.ties import on_grid
 
 ROWS = 8  # number of rows evaluated at once; their intermediate arrays fit into the processor's cache
 

@@ -9,8 +9,8 @@ from scipy.sparse.csgraph import dijkstra
 
 from ..errors import DisconnectedMeshError
 from ..sentence import Sentence
-from ..surface.arrays import symmetric_matrix
 from ..surface.mesh import ON_A_LINE, TriMesh
+from ..surface.pairs import symmetric_matrix
 from .sight import lines_in_sight
 
 

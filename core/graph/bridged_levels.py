@@ -14,7 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import components, distinct_pairs, expanded, last_of_each, ranges
+from ..surface.arrays import expanded, last_of_each, ranges
+from ..surface.components import components
+from ..surface.pairs import distinct_pairs
 
 MAX_LINKS = 100_000  # pairs of pieces that are looked at at once, of which each takes some 300 bytes
 

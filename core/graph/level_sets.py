@@ -13,7 +13,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..surface.arrays import components, expanded, sums_by
+from ..surface.arrays import expanded, sums_by
+from ..surface.components import components
 from ..surface.mesh import TriMesh
 from .bridged_levels import FaceBridges, joined_by_faces
 

@@ -13,7 +13,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..surface.arrays import components, last_of_each, sums_by
+from ..surface.arrays import last_of_each, sums_by
+from ..surface.components import components
 from .critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from .level_sets import LevelSets
 

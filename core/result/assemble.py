@@ -20,7 +20,8 @@ from ..field.agd import ScalarField
 from ..graph.reeb import ReebGraph
 from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
-from ..surface.arrays import components, is_last_of_each, last_of_each, sums_by
+from ..surface.arrays import is_last_of_each, last_of_each, sums_by
+from ..surface.components import components
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh

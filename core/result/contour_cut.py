@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parameters import Parameters
-from ..surface.arrays import components, renumbered, sums_by
+from ..surface.arrays import renumbered, sums_by
+from ..surface.components import components
 from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, connect, straighten
 

@@ -19,10 +19,11 @@ from ..graph.reeb import ReebGraph
 from ..parameters import SEPARATE, Parameters, present_names
 from ..sentence import Sentence
 from ..surface.arguments import whole_numbers
-from ..surface.arrays import distinct_pairs, inverse, renumbered, sums_by
+from ..surface.arrays import inverse, renumbered, sums_by
 from ..surface.labels import majority
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
+from ..surface.pairs import distinct_pairs
 from ..version import VERSION
 from .junctions import counted_again
 from .stored import DamagedError, NewerError, check, is_newer, read_archive, read_head

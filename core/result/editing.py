@@ -14,9 +14,10 @@ from scipy.sparse.csgraph import dijkstra
 
 from ..cuts.hierarchy import Dendrogram, Hierarchy
 from ..graph.critical import SADDLE
-from ..surface.arrays import both_ways, components, symmetric_matrix
+from ..surface.components import components
 from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, label_boundaries, majority, spread
+from ..surface.pairs import both_ways, symmetric_matrix
 from .contour_cut import contours
 from .decomposition import Decomposition
 from .junctions import boundaries, junctions

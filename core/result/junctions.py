@@ -14,8 +14,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import distinct_pairs, expanded, sums_by
+from ..surface.arrays import expanded, sums_by
 from ..surface.labels import FaceGraph
+from ..surface.pairs import distinct_pairs
 
 
 def boundaries(

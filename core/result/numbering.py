@@ -16,7 +16,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..surface.arrays import both_ways, distinct_pairs, stable_order, sums_by
+from ..surface.arrays import stable_order, sums_by
+from ..surface.pairs import both_ways, distinct_pairs
 from .decomposition import Decomposition, Parts
 from .levels import detail_between, strong_levels
 from .splits import Splits

@@ -8,8 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from ..cuts.face_candidates import FaceCandidates
-from ..surface.arrays import TIE, both_ways, components, renumbered
+from ..surface.arrays import renumbered
+from ..surface.components import components
 from ..surface.labels import label_boundaries
+from ..surface.pairs import both_ways
+from ..surface.ties import TIE
 
 # A connected region of a part of detail 0.5 is a sliver if it is smaller than TINY, a share of the area of its piece
 # (such parts were found 15 times on 150 benchmark meshes, where no person has made one), or smaller than SHARD times

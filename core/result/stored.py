@@ -17,7 +17,7 @@ import numpy as np
 
 from ..errors import ReebError
 from ..sentence import Sentence
-from ..surface.arrays import components
+from ..surface.components import components
 
 # Items that any other array has at most, per face and vertex, and on any mesh.
 PER_ELEMENT, AT_LEAST = 200, 100_000

@@ -11,7 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..cuts.hierarchy import Hierarchy
-from ..surface.arrays import distinct_pairs, sums_by
+from ..surface.arrays import sums_by
+from ..surface.pairs import distinct_pairs
 
 # A refined face leaves the part that has most of it only if this shortens the boundary by more than the area lost,
 # divided by this width, in units of the square root of the area of the component.

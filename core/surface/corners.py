@@ -7,8 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import cross, distinct_pairs, lengths, renumbered, stable_order, sums_by
+from .arrays import renumbered, stable_order, sums_by
 from .borders import joined_borders
+from .pairs import distinct_pairs
+from .vectors import cross, lengths
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import cross, expanded, lengths, rounded, row_products, sums_by, unit
+from .arrays import expanded, sums_by
+from .ties import rounded
+from .vectors import cross, lengths, row_products, unit
 
 #: Share of a polygon's area; what is folded by less is convex but for the rounding of its corners.
 FOLD = 1e-6

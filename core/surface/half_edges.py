@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import components
+from .components import components
 from .mesh import TriMesh
 
 

@@ -11,9 +11,9 @@ import numpy as np
 from ..errors import MeshError
 from ..sentence import Sentence
 from .arguments import numbers
-from .arrays import distinct_pairs
 from .corners import CornerTable, next_of_owner
 from .mirror_plane import MirrorPlane
+from .pairs import distinct_pairs
 from .polygons import PolygonMesh
 
 if TYPE_CHECKING:

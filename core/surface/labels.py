@@ -9,7 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import both_ways, components, distinct_pairs, inverse, last_of_each, sums_by
+from .arrays import inverse, last_of_each, sums_by
+from .components import components
+from .pairs import both_ways, distinct_pairs
 
 #: What it costs faces to change label: called with faces, their labels and the new labels.
 Loss = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]

@@ -10,7 +10,9 @@ import numpy as np
 
 from ..errors import MeshError
 from ..sentence import Sentence
-from .arrays import components, cross, frozen, lengths, renumbered, row_products, stable_order
+from .arrays import frozen, renumbered, stable_order
+from .components import components
+from .vectors import cross, lengths, row_products
 
 ON_A_LINE = 1e-11  # sine of an angle below which the corners of a face lie on a line, but for rounding
 LEVEL = 1e-12  # in units of the root of the area: what rises less between two faces is neither convex nor concave

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import inner_products
+from .vectors import inner_products
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ def nearest_seeds(graph: csr_array, seeds: np.ndarray) -> tuple[np.ndarray, np.n
     Parameters
     ----------
     graph : (n, n) scipy.sparse.csr_array
-        Symmetric; lengths of ways between neighbors whose sums are exact, see ``arrays.whole_steps``.
+        Symmetric; lengths of ways between neighbors whose sums are exact, see ``ties.whole_steps``.
     seeds : (k,) int64
         Nodes.
 

@@ -14,22 +14,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import (
-    DENSE,
-    TIE,
-    components,
-    frozen,
-    inner_products,
-    inverse,
-    ranks,
-    renumbered,
-    second_moments,
-    stable_order,
-    sums_by,
-    weighted_sum,
-)
+from .arrays import frozen, inverse, renumbered, stable_order, sums_by
+from .components import components
 from .mesh import TriMesh
 from .polygons import PolygonMesh
+from .ties import DENSE, TIE, ranks
+from .vectors import inner_products, second_moments, weighted_sum
 
 # The largest coordinate is so many cells, and the middle, where symmetric shapes have vertices, so far within its cell:
 # rounding is not to decide in which cell a point lies. Points of one cell are compared one by one. Of a dense mesh, on

@@ -13,13 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..sentence import Sentence
-from .arrays import TIE, components, distinct_pairs, frozen, inverse, renumbered, stable_order
+from .arrays import frozen, inverse, renumbered, stable_order
 from .borders import joined_borders
+from .components import components
 from .contact import Bridges, bridges
 from .mesh import TriMesh
 from .ordering import Ordering
 from .orientation import turn_outwards
+from .pairs import distinct_pairs
 from .polygons import MIN_FACES, PolygonMesh
+from .ties import TIE
 
 # Longest edge of the copy, in units of the square root of the component's area: half the radius of the disc that a base
 # vertex stands for, so that the field can vary within every disc.

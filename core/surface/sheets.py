@@ -15,12 +15,14 @@ import numpy as np
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import splu, spsolve
 
-from .arrays import inner_products, spread_evenly, sums_by, symmetric_matrix
+from .arrays import spread_evenly, sums_by
 from .balls import ball_radius
 from .labels import majority
 from .mesh import TriMesh
 from .nearest import search_tree
+from .pairs import symmetric_matrix
 from .preparation import split_edges
+from .vectors import inner_products
 from .winding import MOST_OF_SHEETS, winding_numbers
 
 # A sheet has at least this square of the length of its border, as a share of its area; a disc has 4 pi, a hemisphere

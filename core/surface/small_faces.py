@@ -9,11 +9,12 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import even_steps, lengths, rounded_order, row_products, weighted_sum
+from .arrays import even_steps, rounded_order
 from .contact import diameter
 from .mesh import TriMesh
 from .mirror_plane import MirrorPlane
 from .nearest import nearest, search_tree
+from .vectors import lengths, row_products, weighted_sum
 
 # How much a turned normal counts where the nearest face is searched, in units of the size, so that the two sides of a
 # wall are told apart.

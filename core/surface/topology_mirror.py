@@ -15,9 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import components, distinct_pairs, sums_by
+from .arrays import sums_by
+from .components import components
 from .half_edges import HalfEdges
 from .mesh import TriMesh
+from .pairs import distinct_pairs
 
 MOST_POLYGONS = 50_000  # denser meshes are scans, or subdivided: each polygon is like its neighbors
 # Steps from half-edge to half-edge after which colors are compared: after few of them asymmetric details hide little,

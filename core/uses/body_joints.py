@@ -7,8 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import components, cross, distinct_pairs, row_products, second_moments_of_each, sums_by
+from ..surface.arrays import sums_by
+from ..surface.components import components
 from ..surface.corners import CornerTable
+from ..surface.pairs import distinct_pairs
+from ..surface.vectors import cross, row_products, second_moments_of_each
 from .groups import beside, touching_groups
 from .hulls import Hull
 

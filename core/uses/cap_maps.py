@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import components, cross, renumbered, stable_order, sums_by, unit
+from ..surface.arrays import renumbered, stable_order, sums_by
+from ..surface.components import components
 from ..surface.corners import next_of_owner
+from ..surface.vectors import cross, unit
 
 # Faces of a cap that turn by more than this lie apart in the map, as where three parts meet.
 _TURN = np.radians(60)

@@ -12,18 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ..surface.arrays import (
-    components,
-    cross,
-    distinct_pairs,
-    lengths,
-    renumbered,
-    second_moments,
-    stable_order,
-    sums_by,
-)
+from ..surface.arrays import renumbered, stable_order, sums_by
+from ..surface.components import components
 from ..surface.corners import CornerTable
 from ..surface.ordering import principal_axes
+from ..surface.pairs import distinct_pairs
+from ..surface.vectors import cross, lengths, second_moments
 
 #: How many corners a hull has at most; game engines take 255, and are faster with fewer.
 MOST_CORNERS = 64

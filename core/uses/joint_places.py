@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from ..surface.arrays import rounded
+from ..surface.ties import rounded
 from .joint_shapes import REACH, Kind
 
 if TYPE_CHECKING:

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import components, renumbered
+from ..surface.arrays import renumbered
+from ..surface.components import components
 from .cap_surfaces import over_a_plane
 
 # A rim within another one may be so far off its plane, or off what is nearest of it where that is bent, too, as a share

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import are_among, components, distinct_pairs
+from ..surface.components import components
 from ..surface.mesh import EdgeTable
+from ..surface.pairs import are_among, distinct_pairs
 
 # A piece is a little smaller than the box.
 _ROOM = 1 - 1e-4

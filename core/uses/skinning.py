@@ -12,8 +12,9 @@ from scipy.sparse import csr_array, diags
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
-from ..surface.arrays import lengths, symmetric_matrix
 from ..surface.corners import CornerTable
+from ..surface.pairs import symmetric_matrix
+from ..surface.vectors import lengths
 from .bones import Bones, following
 from .conformal import ConformalFactor, solved
 

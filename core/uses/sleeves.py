@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import components, renumbered
+from ..surface.arrays import renumbered
+from ..surface.components import components
 
 
 @dataclass(frozen=True, eq=False)

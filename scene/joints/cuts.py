@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ...core.surface.arrays import components, distinct_pairs
+from ...core.surface.components import components
 from ...core.surface.mesh import EdgeTable
+from ...core.surface.pairs import distinct_pairs
 from .. import mesh_arrays
 from ..pieces import caps
 

@@ -9,7 +9,8 @@ from functools import cached_property
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ...core.surface.arrays import cross, sums_by, unit
+from ...core.surface.arrays import sums_by
+from ...core.surface.vectors import cross, unit
 
 
 def search_tree(points: np.ndarray, triangles: np.ndarray) -> BVHTree:

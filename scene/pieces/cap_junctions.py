@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...core.surface.arrays import components, lengths, renumbered, rounded, sums_by
+from ...core.surface.arrays import renumbered, sums_by
+from ...core.surface.components import components
+from ...core.surface.ties import rounded
+from ...core.surface.vectors import lengths
 from ...core.uses.cap_surfaces import common_order
 from ...core.uses.networks import nested_sides, own_places
 from .body_surface import search_tree

@@ -15,9 +15,10 @@ import bpy
 import numpy as np
 
 from ...core.steps import Steps, finished, stretched
-from ...core.surface.arrays import are_among, distinct_pairs, stable_order
+from ...core.surface.arrays import stable_order
 from ...core.surface.corners import edge_labels
 from ...core.surface.orientation import against_neighbors
+from ...core.surface.pairs import are_among, distinct_pairs
 from .. import element_layers, hidden, mesh_arrays, mesh_groups, outputs, property_updates
 from ..elements import CORNER, Elements
 from ..outputs import kept_aside, materials

@@ -11,8 +11,9 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ...core.surface.arrays import cross, renumbered, stable_order
+from ...core.surface.arrays import renumbered, stable_order
 from ...core.surface.reach import within_reach
+from ...core.surface.vectors import cross
 from .. import mesh_arrays, transaction
 from . import caps
 from .body_surface import search_tree

@@ -10,7 +10,7 @@ import pytest
 import shapes
 
 from core import PRESETS, Cancelled, EmptyMeshError, MeshError, Parameters, TriMesh, decompose
-from core.surface.arrays import components
+from core.surface.components import components
 from core.uses.colors import part_colors
 
 PAPER = "Berretti 2009"

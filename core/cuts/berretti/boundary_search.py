@@ -12,7 +12,8 @@ from scipy.sparse.csgraph import depth_first_order
 
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
-from ...surface.arrays import components, renumbered
+from ...surface.arrays import renumbered
+from ...surface.components import components
 
 SAMPLES = 128  # number of points along a contour at which k_min is sampled
 # With r the radius of a circle as long as the contour, E_concave = max(CREASE_WORTH * r * k_min, -MAX_WORTH), in units

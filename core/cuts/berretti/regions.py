@@ -9,7 +9,9 @@ import numpy as np
 
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
-from ...surface.arrays import components, distinct_pairs, renumbered
+from ...surface.arrays import renumbered
+from ...surface.components import components
+from ...surface.pairs import distinct_pairs
 from ..hierarchy import Hierarchy
 from .fusion import fuse_small, fuse_weakest
 

@@ -15,9 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ...surface.arrays import in_steps, on_grid, pair_keys, renumbered
+from ...surface.arrays import renumbered
 from ...surface.contact import TOUCH
 from ...surface.mesh import TriMesh
+from ...surface.pairs import pair_keys
+from ...surface.ties import in_steps, on_grid
 from ..boosted_trees import BoostedTrees
 from ..hierarchy import LAST, Hierarchy
 from .distant import FEATURES as DISTANT_FEATURES

@@ -12,9 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import distinct_pairs, last_of_each, rounded, second_moments_of_each, square_roots, sums_by
+from ...surface.arrays import last_of_each, sums_by
 from ...surface.contact import NEAR, SurfacePoints, diameter, near_pairs
 from ...surface.mesh import TriMesh
+from ...surface.pairs import distinct_pairs
+from ...surface.ties import rounded, square_roots
+from ...surface.vectors import second_moments_of_each
 
 RADII = (0.004, 0.012, NEAR)  # within which surfaces are counted as touching, in units of the diameter
 # Pairs of parts are looked at if either is among so many that come nearest to the other. A blade of a lawn comes near

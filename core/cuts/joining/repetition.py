@@ -14,8 +14,11 @@ import numpy as np
 from scipy.cluster.hierarchy import DisjointSet
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import components, on_grid, rounded, second_moments_of_each, sums_by
+from ...surface.arrays import sums_by
+from ...surface.components import components
 from ...surface.mesh import TriMesh
+from ...surface.ties import on_grid, rounded
+from ...surface.vectors import second_moments_of_each
 
 #: Pieces repeat each other if the logarithms of their size and extents are in the same cells of this width, or in cells
 #: that touch.

@@ -8,7 +8,7 @@ from scipy.linalg import eigh
 from scipy.sparse import diags_array
 from scipy.sparse.linalg import eigsh
 
-from ...surface.arrays import symmetric_matrix
+from ...surface.pairs import symmetric_matrix
 from .patch_graph import PatchGraph
 
 FEW_PATCHES = 250  # number of patches up to which dense matrices are faster

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import components, renumbered, sums_by
+from ...surface.arrays import renumbered, sums_by
+from ...surface.components import components
 from ...surface.curvature import curvature_across
 from ...surface.labels import label_boundaries
 from ...surface.mesh import TriMesh

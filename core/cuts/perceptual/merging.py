@@ -7,8 +7,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...surface.arrays import distinct_pairs, sums_by
+from ...surface.arrays import sums_by
 from ...surface.mesh import TriMesh
+from ...surface.pairs import distinct_pairs
 from .features import RegionMeasures, cut_features_, region_shape
 from .measures import BORDER, REGION, SurfaceMeasures
 

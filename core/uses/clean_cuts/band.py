@@ -8,8 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ...surface.arrays import cross, lengths, ranges, renumbered, sums_by
+from ...surface.arrays import ranges, renumbered, sums_by
 from ...surface.corners import CornerTable, next_of_owner
+from ...surface.vectors import cross, lengths
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +117,7 @@ class Band:
 
 def _around(table: CornerTable, vertices: np.ndarray, rings: int) -> np.ndarray:
     """The faces less than so many faces away from some vertices, (p,) bool."""
-    from scipy.sparse import csr_array  # imported here for the reason that surface.arrays.components gives
+    from scipy.sparse import csr_array  # imported here for the reason that surface.components gives
 
     n_corners = len(table.corner_vertex)
     count = np.bincount(table.corner_face, minlength=table.n_faces)

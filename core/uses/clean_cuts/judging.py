@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...surface.arrays import components, last_of_each, renumbered, sums_by
+from ...surface.arrays import last_of_each, renumbered, sums_by
+from ...surface.components import components
 from ...surface.corners import next_of_owner
 from .band import Band
 from .division import Division

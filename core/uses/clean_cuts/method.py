@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...steps import Steps, finished, stretched
-from ...surface.arrays import components, renumbered, stable_order
+from ...surface.arrays import renumbered, stable_order
+from ...surface.components import components
 from ...surface.corners import CornerTable
 from .band import Band
 from .division import Division, divide

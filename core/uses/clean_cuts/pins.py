@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import stable_order, unit
+from ...surface.arrays import stable_order
+from ...surface.vectors import unit
 from .band import Band
 from .turning import turning
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...surface.arrays import components, sums_by
+from ...surface.arrays import sums_by
+from ...surface.components import components
 from .band import Band
 
 # A plane fits if no point of a curve is farther from it than so many edges and such a share of the curve's radius; if

@@ -9,7 +9,9 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, eye_array
 
 from ...steps import Steps
-from ...surface.arrays import cross, distinct_pairs, last_of_each, lengths, sums_by
+from ...surface.arrays import last_of_each, sums_by
+from ...surface.pairs import distinct_pairs
+from ...surface.vectors import cross, lengths
 from .band import Band
 from .pins import Pins
 

@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.surface.arrays import components
+from core.surface.components import components
 from core.surface.mesh import TriMesh
 
 SURFACES = {

@@ -7,16 +7,10 @@ import numpy as np
 import pytest
 
 from core.surface.arrays import (
-    MANY_ELEMENTS,
-    are_among,
-    components,
-    cross,
     expanded,
     first_of_rows,
     is_last_of_each,
     last_of_each,
-    lengths,
-    pair_keys,
     ranges,
     renumbered,
     rounded_order,
@@ -78,55 +72,7 @@ def test_the_first_of_equal_rows():
         assert (first == np.unique(rows, axis=0, return_index=True)[1]).all()
 
 
-def test_products_and_lengths_are_those_of_numpy():
-    a, b = np.random.default_rng(0).normal(size=(2, 500, 3))
-    assert (cross(a, b) == np.cross(a, b)).all()
-    assert (lengths(a) == np.linalg.norm(a, axis=1)).all()
-
-
-def named_by_the_lowest(n, a, b):
-    """The lowest element that each hangs together with."""
-    lowest = np.arange(n)
-    while True:
-        lower = lowest.copy()
-        np.minimum.at(lower, a, lowest[b])
-        np.minimum.at(lower, b, lowest[a])
-        if (lower == lowest).all():
-            return lowest
-        lowest = lower
-
-
-@pytest.mark.parametrize("n", [0, 1, 300, 3 * MANY_ELEMENTS])
-@pytest.mark.parametrize("share", [0.0, 0.3, 0.6, 2.0])
-def test_components_are_numbered_by_their_lowest_elements(n, share):
-    a, b = np.random.default_rng(n).integers(0, max(n, 1), (2, int(share * n)))
-    count, label = components(n, a, b)
-    names, expected = np.unique(named_by_the_lowest(n, a, b), return_inverse=True)
-    assert count == len(names)
-    assert (label == expected.reshape(-1)).all()
-
-
-def test_components_of_what_cannot_be_halved():
-    """A star hooks one element to another only in each round; a path comes down in one."""
-    n = 4 * MANY_ELEMENTS
-    middle, rest = np.full(n - 1, n - 1), np.arange(n - 1)
-    for a, b in ((middle, rest), (rest, middle), (rest, rest + 1), (rest[::-1], rest[::-1] + 1)):
-        assert components(n, a, b)[0] == 1
-
-
 def test_the_last_of_a_group_without_elements_is_none():
     group, key = np.array([0, 2, 2, 0]), np.array([1.0, 1.0, 3.0, 1.0])
     assert last_of_each(group, key, count=4).tolist() == [3, -1, 2, -1]
     assert is_last_of_each(group, key, count=4).tolist() == [False, False, True, True]
-
-
-def test_keys_of_pairs_are_in_the_order_of_the_pairs():
-    pairs = np.array([(i, j) for i in range(3) for j in range(3)])
-    assert pair_keys(pairs, 3).tolist() == list(range(9))
-
-
-def test_which_pairs_are_among_others():
-    pairs, others = np.array([(1, 2), (2, 1), (0, 0), (5, 9)]), np.array([(5, 9), (2, 1)])
-    assert are_among(pairs, others).tolist() == [False, True, False, True]
-    assert are_among(pairs, others[:0]).tolist() == 4 * [False]
-    assert are_among(pairs[:0], others).tolist() == []

@@ -7,7 +7,7 @@ import shapes
 
 from core import TriMesh
 from core.surface import contact
-from core.surface.arrays import components
+from core.surface.components import components
 from core.surface.contact import MAX_POINTS, SurfacePoints, bridges, diameter, near_pairs
 
 

@@ -7,9 +7,9 @@ import shapes
 
 from core import decompose
 from core.metrics import rand_index_error
-from core.surface.arrays import cross, lengths
 from core.surface.ears import fans, without_folds
 from core.surface.polygons import PolygonMesh
+from core.surface.vectors import cross, lengths
 
 ARROW = [(0, 0), (2, 3), (0, 1.2), (-2, 3)]
 LETTER_H = [(0, 0), (1, 0), (1, 2), (3, 2), (3, 0), (4, 0), (4, 5), (3, 5), (3, 3), (1, 3), (1, 5), (0, 5)]

@@ -6,9 +6,10 @@ import pytest
 import shapes
 
 from core.errors import EmptyMeshError, MeshError
-from core.surface.arrays import components, first_largest
+from core.surface.components import components
 from core.surface.mesh import EdgeTable, TriMesh
 from core.surface.polygons import PolygonMesh
+from core.surface.ties import first_largest
 
 CLOSED = {
     "tetrahedron": (shapes.tetrahedron, 2), "octahedron": (shapes.octahedron, 2),

@@ -13,7 +13,7 @@ from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
 from core.parameters import Parameters
 from core.pipeline import decompose
-from core.surface.arrays import components
+from core.surface.components import components
 from core.surface.mesh import TriMesh
 
 LEAST = 1e-9  # a threshold at which no region is small

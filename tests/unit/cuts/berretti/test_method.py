@@ -12,7 +12,7 @@ from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
 from core.parameters import Parameters
-from core.surface.arrays import components
+from core.surface.components import components
 from core.surface.curvature import k_min
 from core.surface.mesh import TriMesh
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from core.cuts.joining.linkage import average_linkage
-from core.surface.arrays import components
+from core.surface.components import components
 
 
 def test_four_members_by_hand():

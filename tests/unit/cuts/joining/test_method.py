@@ -7,7 +7,7 @@ import shapes
 
 from core import Parameters, TriMesh, decompose
 from core.metrics import rand_index_error
-from core.surface.arrays import components
+from core.surface.components import components
 
 
 def shells(shape, label):

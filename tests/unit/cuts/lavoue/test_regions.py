@@ -8,7 +8,7 @@ import shapes
 from core import Parameters, decompose
 from core.cuts.lavoue.method import curvature_features, lavoue_candidates
 from core.cuts.lavoue.regions import SLIVER_AREA, SLIVER_WEIGHT, CurvatureGraph, grow_regions, merge_regions
-from core.surface.arrays import components
+from core.surface.components import components
 from core.surface.mesh import TriMesh
 
 

@@ -19,8 +19,8 @@ from core.cuts.perceptual.merging import (
 )
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.surface.arrays import components
 from core.surface.coarsening import Pyramid
+from core.surface.components import components
 from core.surface.mesh import TriMesh
 
 

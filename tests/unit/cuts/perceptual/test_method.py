@@ -12,8 +12,8 @@ from core.cuts.perceptual.method import MAX_FACES, SHARE_AT_HALF, perceptual_can
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.metrics import rand_index_error
-from core.surface.arrays import components
 from core.surface.coarsening import Pyramid
+from core.surface.components import components
 
 
 def halves(shape, labels):
