@@ -118,10 +118,54 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
 
     given : PolygonMesh. together : bool. Returns the same surface, and where its elements are in the one given.
     """
-    mesh = given.triangles
-    ordering = Ordering.of(mesh, given.polygon, given.n_polygons)
-    a = mesh.faces[:, 0]
-    count, piece = _pieces(mesh)
+    place = _places(given.triangles.vertices)
+    ordering = _by_place(_at_places(given.triangles, place), given.polygon, given.n_polygons, together)
+    if len(ordering.vertex) < len(place):
+        ordering = _with_split_vertices(ordering, place, given)
+    triangles, triangle = ordering.sorted(given.triangles, given.polygon)
+    number = inverse(ordering.polygon)[given.polygon[triangle]]
+    return replace(given, triangles=triangles, polygon=frozen(number, np.int64),
+                   vertex_rank=frozen(ordering.vertex, np.int64)), ordering
+
+
+def _places(points: np.ndarray) -> np.ndarray:
+    """Number the places at which points, (n, 3), lie, in the order of their first points; (n,) int64.
+
+    Files split vertices where textures or normals have seams, some at every corner.
+    """
+    x, y, z = (_mixed(column, factor) for column, factor in zip(points.T, _MIX, strict=True))
+    mixed = x ^ y ^ z
+    in_order = np.sort(mixed)
+    if not (in_order[1:] == in_order[:-1]).any():
+        return np.arange(len(points))
+    first, place = np.unique(mixed, return_index=True, return_inverse=True)[1:]
+    return inverse(np.argsort(first))[place.reshape(-1)]
+
+
+def _at_places(mesh: TriMesh, place: np.ndarray) -> TriMesh:
+    """The mesh with one vertex at each place; place : (n,) int64."""
+    count = int(place.max(initial=-1)) + 1
+    if count == mesh.n_vertices:
+        return mesh
+    vertices = np.empty((count, 3))
+    vertices[place] = mesh.vertices
+    return TriMesh(vertices, place[mesh.faces])
+
+
+def _with_split_vertices(ordering: Ordering, place: np.ndarray, given: PolygonMesh) -> Ordering:
+    """The order of places, (n,), as one of vertices: those at one place follow each other as their faces do."""
+    rank = inverse(ordering.polygon)[given.polygon]
+    first_face = np.full(len(place), given.n_polygons)
+    backwards = stable_order(rank)[::-1]
+    first_face[given.triangles.faces[backwards]] = rank[backwards, None]  # NumPy keeps the last value of each place
+    return replace(ordering, vertex=np.lexsort((first_face, inverse(ordering.vertex)[place])))
+
+
+def _by_place(mesh: TriMesh, of_triangle: np.ndarray, n_polygons: int, together: bool) -> Ordering:
+    """What ``sorted_by_place`` finds, of a mesh with one vertex at each place; of_triangle : (m,), the polygons."""
+    ordering = Ordering.of(mesh, of_triangle, n_polygons)
+    a, b, c = mesh.faces.T
+    count, piece = components(mesh.n_vertices, np.concatenate([a, b]), np.concatenate([b, c]))
     size = np.bincount(piece[a])
     in_whole, in_given = inverse(ordering.vertex), np.arange(mesh.n_vertices)
     large = np.flatnonzero((size >= LEAST_PIECE * mesh.n_faces) & (size < mesh.n_faces))
@@ -129,26 +173,10 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
     for chosen, by_whole in zip(large.tolist(), beside.tolist(), strict=True):
         faces = np.flatnonzero(piece[a] == chosen)
         part, index = mesh.submesh(faces)
-        names, polygon = renumbered(given.polygon[faces])
+        names, polygon = renumbered(of_triangle[faces])
         rank = (in_whole if by_whole else in_given)[index]
         ordering = ordering.with_piece(Ordering.of(part, polygon, len(names), rank), index, names)
-    triangles, triangle = ordering.sorted(mesh, given.polygon)
-    number = inverse(ordering.polygon)[given.polygon[triangle]]
-    return replace(given, triangles=triangles, polygon=frozen(number, np.int64),
-                   vertex_rank=frozen(ordering.vertex, np.int64)), ordering
-
-
-def _pieces(mesh: TriMesh) -> tuple[int, np.ndarray]:
-    """How many pieces there are, and that of each vertex, (n,) int64; where files split vertices, no piece ends."""
-    a, b, c = mesh.faces.T
-    first, second = np.concatenate([a, b]), np.concatenate([b, c])
-    count, piece = components(mesh.n_vertices, first, second)
-    if count == 1:
-        return count, piece
-    x, y, z = (_mixed(column, factor) for column, factor in zip(mesh.vertices.T, _MIX, strict=True))
-    place = np.unique(x ^ y ^ z, return_inverse=True)[1]
-    count, piece = components(int(place.max()) + 1, place[first], place[second])
-    return count, piece[place]
+    return ordering
 
 
 def _mixed(values: np.ndarray, factor: int) -> np.ndarray:

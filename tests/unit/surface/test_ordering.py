@@ -10,6 +10,7 @@ from shapes import Shape
 from core import Parameters, decompose
 from core.surface.ordering import principal_axes, sorted_by_place
 from core.surface.polygons import PolygonMesh
+from core.surface.preparation import repair
 
 
 def bent(shape):
@@ -167,3 +168,25 @@ def test_pieces_of_whole_numbers_are_sorted_alike_at_any_size(seed):
     for other in others:
         np.testing.assert_array_equal(other.vertex, one.vertex)
         np.testing.assert_array_equal(other.polygon, one.polygon)
+
+
+TREE_AND_BALL = shapes.together(shapes.tube_tree(step=0.2), shapes.moved(shapes.icosphere(2), (0.2, 0, 2.5)))
+SPLIT = {"pieces": bent(TREE_AND_BALL),
+         "figure": bent(shapes.mirrored_figure(0.2)), "fin": bent(shapes.with_fin(shapes.icosphere(2))), **LOPSIDED}
+
+
+@pytest.mark.parametrize("name", SPLIT)
+@pytest.mark.parametrize("share", [0.01, 0.5, 1.0])
+def test_vertices_that_files_split_change_nothing(name, share):
+    """Some or all corners of faces have vertices of their own, as in .stl files: the repaired mesh is the same."""
+    rng, shape = np.random.default_rng(7), SPLIT[name]
+    whole = repair(sorted_by_place(PolygonMesh.of(*shape))[0])
+    faces = shape.faces.copy()
+    split = np.flatnonzero(rng.random(faces.size) < share)
+    faces.flat[split] = len(shape.vertices) + np.arange(len(split))
+    points = np.concatenate([shape.vertices, shape.vertices[shape.faces.flat[split]]])
+    order = rng.permutation(len(faces))
+    soup = repair(sorted_by_place(PolygonMesh.of(points, faces[order]))[0])
+    assert np.array_equal(soup.mesh.vertices, whole.mesh.vertices)
+    assert np.array_equal(soup.mesh.faces, whole.mesh.faces)
+    assert np.array_equal(soup.polygon, whole.polygon)
