@@ -131,14 +131,20 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
 def _places(points: np.ndarray) -> np.ndarray:
     """Number the places at which points, (n, 3), lie, in the order of their first points; (n,) int64.
 
-    Files split vertices where textures or normals have seams, some at every corner.
+    Files split vertices where textures or normals have seams, some at every corner. Those that differ by rounding only
+    are at one place: moved, they may not differ. Of a dense mesh only those that do not differ at all are.
     """
-    x, y, z = (_mixed(column, factor) for column, factor in zip(points.T, _MIX, strict=True))
-    mixed = x ^ y ^ z
-    in_order = np.sort(mixed)
+    if len(points) <= DENSE:
+        size = float(np.ptp(points, axis=0).max(initial=0.0))
+        x, y, z = (ranks(column, size).astype(np.uint64) for column in points.T)
+        number = x << np.uint64(40) | y << np.uint64(20) | z
+    else:
+        x, y, z = (_mixed(column, factor) for column, factor in zip(points.T, _MIX, strict=True))
+        number = x ^ y ^ z
+    in_order = np.sort(number)
     if not (in_order[1:] == in_order[:-1]).any():
         return np.arange(len(points))
-    first, place = np.unique(mixed, return_index=True, return_inverse=True)[1:]
+    first, place = np.unique(number, return_index=True, return_inverse=True)[1:]
     return inverse(np.argsort(first))[place.reshape(-1)]
 
 

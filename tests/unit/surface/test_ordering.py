@@ -190,3 +190,17 @@ def test_vertices_that_files_split_change_nothing(name, share):
     assert np.array_equal(soup.mesh.vertices, whole.mesh.vertices)
     assert np.array_equal(soup.mesh.faces, whole.mesh.faces)
     assert np.array_equal(soup.polygon, whole.polygon)
+
+
+@pytest.mark.parametrize("offset", [(3.0, -2.0, 5.0), (0.0, 64.0, 0.0), (-8.0, 4.0, 2.0)])
+def test_vertices_that_differ_by_rounding_are_at_one_place_before_and_after_a_move(offset):
+    """Two pieces touch at a vertex whose coordinates differ in the last bit: moved, they are equal."""
+    rng = np.random.default_rng(3)
+    large, small = bent(shapes.tube_tree(step=0.2)), bent(shapes.icosphere(1, 0.2))
+    at = large.vertices[rng.integers(len(large.vertices), size=12)]
+    balls = [Shape(small.vertices - small.vertices[0] + at[k] + 2e-16 * (k % 3), small.faces) for k in range(12)]
+    vertices, faces = shapes.together(large, *balls)
+    order = sorted_mesh(Shape(vertices, faces))[1]
+    moved = sorted_mesh(Shape(vertices + offset, faces))[1]
+    assert np.array_equal(moved.polygon, order.polygon)
+    assert np.array_equal(moved.vertex, order.vertex)
