@@ -118,7 +118,7 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
 
     given : PolygonMesh. together : bool. Returns the same surface, and where its elements are in the one given.
     """
-    place = _places(given.triangles.vertices)
+    place = _places(given.triangles)
     ordering = _by_place(_at_places(given.triangles, place), given.polygon, given.n_polygons, together)
     if len(ordering.vertex) < len(place):
         ordering = _with_split_vertices(ordering, place, given)
@@ -128,14 +128,15 @@ def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonM
                    vertex_rank=frozen(ordering.vertex, np.int64)), ordering
 
 
-def _places(points: np.ndarray) -> np.ndarray:
-    """Number the places at which points, (n, 3), lie, in the order of their first points; (n,) int64.
+def _places(mesh: TriMesh) -> np.ndarray:
+    """Number the places at which vertices lie, in the order of their first vertices; (n,) int64.
 
     Files split vertices where textures or normals have seams, some at every corner. Those that differ by rounding only
     are at one place: moved, they may not differ. Of a dense mesh only those that do not differ at all are.
     """
+    points = mesh.vertices
     if len(points) <= DENSE:
-        size = float(np.ptp(points, axis=0).max(initial=0.0))
+        size = float(np.ptp(points[mesh.used], axis=0).max(initial=0.0))  # others can be anywhere
         x, y, z = (ranks(column, size).astype(np.uint64) for column in points.T)
         number = x << np.uint64(40) | y << np.uint64(20) | z
     else:
