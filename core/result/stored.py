@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A stored result is input like any other: bounded reading and checks of everything in it.
+"""A result as bytes, and back. A stored result is input like any other: bounded reading, checks of everything in it.
 
 The bytes are an .npz file, which may be damaged, made by hand, or written by another version.
 """
@@ -11,17 +11,33 @@ import json
 import re
 import zipfile
 import zlib
-from typing import Any
+from dataclasses import asdict, fields
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import ReebError
+from ..errors import ParameterError, ReebError
+from ..graph.reeb import ReebGraph
+from ..parameters import SEPARATE, Parameters, present_names
 from ..sentence import Sentence
 from ..surface.components import components
+from ..version import VERSION
 
 # Items that any other array has at most, per face and vertex, and on any mesh.
 PER_ELEMENT, AT_LEAST = 200, 100_000
 MAX_HEAD = 4_000_000  # bytes
+FORMAT = 1  # version of the layout that ``write`` writes
+
+#: The attributes of a ``Decomposition`` that are arrays.
+TABLES = ("candidates", "vertex_candidates", "candidate_area", "candidate_pairs",
+          "candidate_pair_length", "field", "node_candidate", "point_candidate", "contacts", "mirror",
+          "face_twin", "face_side", "links", "junctions", "junction_length")
+# All arrays that ``write`` writes.
+_STORED = (*TABLES, "hierarchy.merges", "hierarchy.salience", *(f"graph.{f.name}" for f in fields(ReebGraph)))
+_UNKNOWN_TO_0_1_0: dict[str, np.ndarray] = {
+    "contacts": np.empty((0, 2), np.int64), "mirror": np.empty(0), "face_twin": np.empty(0, np.int64),
+    "face_side": np.empty(0, np.int8), "links": np.empty((0, 2), np.int64),
+    "junctions": np.empty((0, 2), np.int64), "junction_length": np.empty(0)}
 
 
 class DamagedError(ReebError):
@@ -40,7 +56,65 @@ class NewerError(ReebError):
             "version, or decompose again.", version=str(version)[:20]))
 
 
-def read_archive(data: bytes, names: tuple[str, ...], counts: tuple[int, int] | None) -> dict[str, np.ndarray]:
+class StoredResult(NamedTuple):
+    """What is stored of a result, in the order in which ``Decomposition.from_arrays`` takes it.
+
+    Attributes
+    ----------
+    arrays : dict of str -> array
+        Those that ``Decomposition.to_arrays`` gives.
+    parameters : Parameters
+    notes : tuple of str
+    seconds : dict of str -> float
+    version : str
+        Of the product that wrote it.
+    """
+
+    arrays: dict[str, np.ndarray]
+    parameters: Parameters
+    notes: tuple[str, ...]
+    seconds: dict[str, float]
+    version: str
+
+
+def write(arrays: dict[str, np.ndarray], parameters: Parameters, notes: tuple[str, ...], seconds: dict[str, float],
+          version: str) -> bytes:
+    """Write a result, given as ``StoredResult`` has it: returns compressed bytes that ``read`` reads."""
+    head = {"format": FORMAT, "parameters": asdict(parameters), "notes": notes, "seconds": seconds, "version": version}
+    stream = io.BytesIO()
+    # As np.savez_compressed would, but in a quarter of its time for a fourteenth more bytes.
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        for name, array in (arrays | {"head": np.frombuffer(json.dumps(head).encode(), np.uint8)}).items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
+                np.lib.format.write_array(file, array, allow_pickle=False)
+    return stream.getvalue()
+
+
+def read(data: bytes, counts: tuple[int, int] | None = None) -> StoredResult:
+    """Read a result that ``write`` wrote, in this version or an earlier one.
+
+    Parameters, and what is raised, are those of ``Decomposition.from_bytes``.
+    """
+    arrays = _read_archive(data, ("head", *_STORED), counts)
+    head = _read_head(arrays.pop("head", None))
+    for name, array in _UNKNOWN_TO_0_1_0.items():
+        arrays.setdefault(name, array)
+    _check(arrays, counts)
+    arrays["graph.node_kind"] = arrays["graph.node_kind"].astype(np.int8)
+    arrays["face_side"] = arrays["face_side"].astype(np.int8)
+    return StoredResult(arrays, _parameters(head["parameters"], head["version"]), tuple(head["notes"]),
+                        head["seconds"], head["version"])
+
+
+def _parameters(values: dict, version: str) -> Parameters:
+    """Parameters of a stored result; version 0.1.0 had other names for some, and neither bodies nor symmetry."""
+    try:
+        return Parameters(**{"pieces": SEPARATE, "symmetry": False} | present_names(values)[0])
+    except ParameterError as error:  # one that this version does not know, or a value that it does not
+        raise (NewerError(version) if is_newer(version, VERSION) else DamagedError()) from error
+
+
+def _read_archive(data: bytes, names: tuple[str, ...], counts: tuple[int, int] | None) -> dict[str, np.ndarray]:
     """Read the arrays of an .npz file, none larger than such a result can have.
 
     Parameters
@@ -98,17 +172,13 @@ def _plain(array: np.ndarray, name: str) -> np.ndarray:
     return array.astype(np.int64 if array.dtype.kind in "iu" else np.float64)
 
 
-def read_head(array: np.ndarray | None, known: int, own: str) -> dict[str, Any]:
+def _read_head(array: np.ndarray | None) -> dict[str, Any]:
     """Read what stands beside the arrays.
 
     Parameters
     ----------
     array : (k,) uint8 or None
         JSON.
-    known : int
-        The format that can be read.
-    own : str
-        This version.
 
     Returns
     -------
@@ -130,8 +200,8 @@ def read_head(array: np.ndarray | None, known: int, own: str) -> dict[str, Any]:
         version, layout = head["version"], head["format"]
         if type(layout) is not int or not isinstance(version, str):
             raise DamagedError
-        if layout != known:
-            if is_newer(version, own):
+        if layout != FORMAT:
+            if is_newer(version, VERSION):
                 raise NewerError(version)
             raise ReebError(Sentence("The stored parts were written by another version. Decompose again."))
         texts = all(isinstance(note, str) for note in head["notes"])
@@ -149,7 +219,7 @@ def is_newer(version: str, than: str) -> bool:
     return one > other
 
 
-def check(arrays: dict[str, np.ndarray], counts: tuple[int, int] | None) -> None:
+def _check(arrays: dict[str, np.ndarray], counts: tuple[int, int] | None) -> None:
     """Raise DamagedError unless the arrays of a result fit each other.
 
     arrays : as ``Decomposition.to_bytes`` stores them. counts : numbers of vertices and faces, if they are known.
