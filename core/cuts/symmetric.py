@@ -112,6 +112,8 @@ def _best(
     None if all are less alike.
     """
     mirroring = _Mirroring(candidates, group)
+    if not mirroring.whole > 0:  # what has images are specks without an area
+        return None
     best, least = None, np.inf
     for wedge in wedges:
         made = mirroring.led_by(wedge, np.zeros(len(wedge), bool))
