@@ -92,8 +92,9 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
         images = Images(parts.twin, whole.mirror.moved(rigid, turn[:3, 3]))
     graph, back = parts.decomposition.graph, turn[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
     plane = parts.decomposition.plane
-    if images is None and plane is not None:
-        images = Images.of_parts(parts.twin, plane.moved(back, turn[:3, 3]), table, parts.labels, area)
+    if images is None:
+        images = Images.of_parts(parts.twin, None if plane is None else plane.moved(back, turn[:3, 3]), table,
+                                 parts.labels, area)
     line = np.concatenate([graph.point_position, graph.node_position]) @ back.T + turn[:3, 3]
     surface = (table, parts.labels, area, np.nan_to_num(parts.decomposition.field), line,
                np.concatenate([parts.point_part, parts.node_part]), images)

@@ -67,23 +67,24 @@ class Images:
     twin : (count,) int64
         The mirror image of each, itself if it is its own, -1 if it has none. Of two, the first is the one that is
         looked at.
-    mirror : MirrorPlane
-        In units of the vertices.
+    mirror : MirrorPlane or None
+        In units of the vertices; None for a model that is symmetric but for its pose, whose bones are images by the
+        tree that they make, not by their places.
     """
 
     twin: np.ndarray
-    mirror: MirrorPlane
+    mirror: MirrorPlane | None
 
     @classmethod
-    def of_parts(cls, twin: np.ndarray, mirror: MirrorPlane, table: CornerTable, labels: np.ndarray,
+    def of_parts(cls, twin: np.ndarray, mirror: MirrorPlane | None, table: CornerTable, labels: np.ndarray,
                  area: np.ndarray) -> Images | None:
-        """The parts of a mesh that is its own mirror image, or almost: what was posed since has no images.
+        """The parts of a mesh that is its own mirror image, or almost: what was posed beside a plane has no images.
 
         Parameters
         ----------
         twin : (count,) int64
             As of ``Parts``.
-        mirror : MirrorPlane
+        mirror : MirrorPlane or None
         table, labels, area
             As for ``part_bones``.
 
@@ -92,11 +93,12 @@ class Images:
         images : Images or None
             None if no part is its own image: one of two sides, on which nothing is between them, is the root.
         """
-        middle, mean = _middles(table, labels, _weights(area))
-        size, there = float(np.linalg.norm(np.ptp(mean, axis=0))), np.maximum(twin, 0)
-        off = np.linalg.norm(mirror.mirrored(middle) - middle[there], axis=1)
-        even = (twin >= 0) & (np.maximum(off, off[there]) <= _ALMOST * size)
-        images = cls(np.where(even, twin, -1), mirror)
+        if mirror is not None:
+            middle, mean = _middles(table, labels, _weights(area))
+            size, there = float(np.linalg.norm(np.ptp(mean, axis=0))), np.maximum(twin, 0)
+            off = np.linalg.norm(mirror.mirrored(middle) - middle[there], axis=1)
+            twin = np.where((twin >= 0) & (np.maximum(off, off[there]) <= _ALMOST * size), twin, -1)
+        images = cls(twin, mirror)
         return images if images.own.any() else None
 
     @property
@@ -106,7 +108,7 @@ class Images:
 
     @property
     def own(self) -> np.ndarray:
-        """(count,) bool, which are their own images: their bones lie in the plane."""
+        """(count,) bool, which are their own images: their bones lie in the plane, if there is one."""
         return self.twin == np.arange(len(self.twin))
 
     @property
@@ -120,8 +122,8 @@ class Images:
         return Images(np.where(twin < 0, -1, part_bone[twin]), self.mirror)
 
     def onto_plane(self, points: np.ndarray) -> np.ndarray:
-        """The feet of points, (k, 3), on the plane, (k, 3)."""
-        return points - self.mirror.heights(points)[:, None] * self.mirror.normal
+        """The feet of points, (k, 3), on the plane, (k, 3); without one the points."""
+        return points if self.mirror is None else points - self.mirror.heights(points)[:, None] * self.mirror.normal
 
 
 def part_bones(
@@ -200,13 +202,13 @@ class _Joints:
 
     @classmethod
     def between(cls, table: CornerTable, labels: np.ndarray, images: Images | None) -> _Joints:
-        """Cuts, and contacts between what no cuts connect, with their images."""
+        """Cuts, and contacts between what no cuts connect, with their images at a plane."""
         low, high = table.edge_labels(labels)
         cut = np.flatnonzero(low < high)
         pairs, which = distinct_pairs(low[cut], high[cut])
         length = np.bincount(which, np.maximum(table.edge_length(cut), 1e-300), len(pairs))
         contacts = dict(touching_groups(table, labels, pairs))
-        if images is not None:
+        if images is not None and images.mirror is not None:
             for pair, places in list(contacts.items()):
                 low_one, high_one = np.sort(images.twin[list(pair)]).tolist()
                 if low_one >= 0:
@@ -246,7 +248,7 @@ def _middles(table: CornerTable, labels: np.ndarray, weight: np.ndarray) -> tupl
 def _up(images: Images | None) -> np.ndarray:
     """The direction of bones that would have no length, (3,): upwards, or as nearly as the plane of symmetry goes."""
     up, side = np.eye(3)[[2, 0]]
-    if images is None:
+    if images is None or images.mirror is None:
         return up
     normal = images.mirror.normal
     within = side - normal[0] * normal if abs(normal[2]) > 0.9 else up - normal[2] * normal
@@ -254,7 +256,12 @@ def _up(images: Images | None) -> np.ndarray:
 
 
 def _even(images: Images, points: np.ndarray) -> np.ndarray:
-    """Ends of bones, (count, 3), as images of each other: of two the first counts; their own ones are in the plane."""
+    """Ends of bones, (count, 3), as images of each other: of two the first counts; their own ones are in the plane.
+
+    Without a plane they stay where they are.
+    """
+    if images.mirror is None:
+        return points
     first = points[images.first]
     image = images.first != np.arange(len(points))
     return np.where(images.own[:, None], images.onto_plane(points),
@@ -287,19 +294,20 @@ def limb_bones(
         of_bones = None if images is None else images.of_bones(bone_part, part_bone)
         bones = part_bones(table, of_face, area, height, line, np.where(line_part < 0, -1, part_bone[line_part]),
                            of_bones)
-        held, neck = bone_part.copy(), _necks(table, of_face, area, bones)
-        for bone in np.flatnonzero(~neck if of_bones is None else ~neck[of_bones.first]).tolist():
-            held[bone] = bone_part[bones.parent[bone]]
-        if (held == bone_part).all():
-            return bones, _own_part(bone_part, part_bone), part_bone
-        # What hangs on a part that itself hangs on another follows in the next round.
-        owner = held[part_bone]
+        hangs = _hanging(bones, _necks(table, of_face, area, bones), of_bones)
+        if not hangs.any():
+            return bones, bone_part, part_bone
+        owner = np.where(hangs, bone_part[bones.parent], bone_part)[part_bone]
 
 
-def _own_part(bone_part: np.ndarray, part_bone: np.ndarray) -> np.ndarray:
-    """The part that names each bone, (k,) int64, or, where another bone moves that one, the first that it moves."""
-    first = np.unique(part_bone, return_index=True)[1]
-    return np.where(part_bone[bone_part] == np.arange(len(bone_part)), bone_part, first)
+def _hanging(bones: Bones, neck: np.ndarray, images: Images | None) -> np.ndarray:
+    """Which bones, (count,) bool, become one with those that they hang on, of those that begin at no neck.
+
+    Each waits for all that follows it: once a leg of several parts is one, its cut may be a neck. And for its image.
+    """
+    hangs = ~neck if images is None else ~neck[images.first]
+    last = hangs & ((following(bones.parent, bones.order) & hangs).sum(axis=1) == 1)
+    return last if images is None else last & last[images.image]
 
 
 def _necks(table: CornerTable, labels: np.ndarray, area: np.ndarray, bones: Bones) -> np.ndarray:

@@ -44,6 +44,20 @@ def test_a_bone_for_each_part_in_one_tree(obj):
     assert not obj.modifiers
 
 
+@pytest.mark.parametrize("detail", [0.5, 0.9])
+def test_bones_of_a_posed_figure_are_there_on_both_sides(make, detail):
+    """No plane says so, but the faces' images do."""
+    vertices, faces = shapes.mirrored_figure()
+    obj = make(shapes.Shape(shapes.posed(vertices), faces))
+    bpy.ops.reeb_parts.decompose(detail=detail)
+    bpy.ops.reeb_parts.armature()
+    bones = rig_of(obj).data.bones
+    assert sum(bone.name.endswith(".L") for bone in bones) > 1
+    for bone in bones:
+        image = bones[bpy.utils.flip_name(bone.name)]
+        assert bone.parent is None or image.parent.name == bpy.utils.flip_name(bone.parent.name)
+
+
 def test_a_bone_starts_at_the_cut_and_ends_in_the_tip(make):
     """A dumbbell in three parts: the neck is a bone between the balls, or one ball is the body."""
     obj = make(shapes.tube_tree())

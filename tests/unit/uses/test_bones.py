@@ -7,11 +7,14 @@ import shapes
 
 from core.surface.corners import CornerTable
 from core.surface.mirror_plane import MirrorPlane
-from core.uses.bones import Images, part_bones
+from core.uses.bones import Images, limb_bones, part_bones
 
 
-def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None, twin=None):
-    """Parts of one face each, with the given middles; an edge of the given middle and length at each cut."""
+def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None, twin=None, limbs=False, plane=True):
+    """Parts of one face each, with the given middles; an edge of the given middle and length at each cut.
+
+    limbs : what ``limb_bones`` says of them. plane : whether there is one, x = 0, if there are images.
+    """
     count = len(centers)
     height = np.arange(count, dtype=float) if height is None else height
     vertices, edges, at_vertex = [], [], []
@@ -33,9 +36,11 @@ def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None
     vertex, edge = np.array([corner for face in corners for corner in face]).T
     face = np.repeat(np.arange(count), [len(found) for found in corners])
     table = CornerTable(np.array(vertices), np.array(edges), vertex, edge, face, count)
-    images = None if twin is None else Images(np.array(twin), MirrorPlane(np.array([1.0, 0, 0]), 0.0))
-    return part_bones(table, np.arange(count), np.ones(count), np.array(at_vertex),
-                      np.array(line, float).reshape(-1, 3), np.array(line_part, int), images)
+    mirror = MirrorPlane(np.array([1.0, 0, 0]), 0.0) if plane else None
+    images = None if twin is None else Images(np.array(twin), mirror)
+    return (limb_bones if limbs else part_bones)(
+        table, np.arange(count), np.ones(count), np.array(at_vertex), np.array(line, float).reshape(-1, 3),
+        np.array(line_part, int), images)
 
 
 def test_an_arm_of_three_parts_is_a_chain():
@@ -129,6 +134,36 @@ def test_without_anything_in_the_plane_there_are_two_trees():
                  [(0, 0, 0), (3, 0, 0), (-3, 0, 0)], twin=[1, 0, 3, 2])
     assert made.parent.tolist() == [-1, -1, 0, 1]
     np.testing.assert_allclose(made.head[[1, 3]], mirrored(made.head[[0, 2]]))
+
+
+@pytest.mark.parametrize("plane", [True, False])
+@pytest.mark.parametrize("seed", range(12))
+def test_limbs_are_images_however_parts_hang_together(seed, plane):
+    """Three parts in the middle, eight beside it with their images, one without; some cuts are no necks.
+
+    A bone could be named by a part that another bone moves. The image of the name was not that of the bone then, and a
+    boot had a bone where the other one had none.
+    """
+    rng = np.random.default_rng(seed)
+    twin = np.array([0, 1, 2, *np.arange(11, 19), *np.arange(3, 11), -1])
+    image = np.where(twin < 0, np.arange(20), twin)
+    center = rng.normal(size=(20, 3)) * 5
+    center[:3, 0] = 0
+    center[11:19] = mirrored(center[3:11])
+    drawn = np.sort(rng.integers(0, 20, (12, 2)), axis=1)
+    cuts = np.unique(np.sort(np.concatenate([drawn, image[drawn]]), axis=1), axis=0)
+    cuts = cuts[cuts[:, 0] != cuts[:, 1]]
+    joints = (center[cuts[:, 0]] + center[cuts[:, 1]]) / 2
+    made, bone_part, part_bone = bones(center, cuts.tolist(), joints, height=np.arange(20.0), twin=twin, limbs=True,
+                                       plane=plane)
+    with_image = bone_part[twin[bone_part] >= 0]
+    of_bone = part_bone[image[bone_part]]
+    assert 1 < len(bone_part) < 20
+    for part in with_image.tolist():
+        bone = part_bone[part]
+        assert bone_part[of_bone[bone]] == twin[part]
+        above = made.parent[bone]
+        assert made.parent[of_bone[bone]] == (-1 if above < 0 else of_bone[above])
 
 
 @pytest.mark.parametrize("normal", [(1, 0, 0), (0, 0, 1), (0.6, 0, 0.8)])
