@@ -308,14 +308,15 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         other numbers then.
     """
     from ..core.result.editing import split_around
-    from ..core.result.mirrored_edits import cleaned
+    from ..core.result.mirrored_edits import MirroredChange, cleaned
 
     before, asked = stored.face_numbers, face_numbers
     face_numbers, also = _mirrored(obj.data, stored, before, asked, stored.decomposition.face_twin)
     if also:
         mesh_tables = mesh_tables or bridge.face_graph(obj)
         found = stored.decomposition
-        face_numbers = cleaned(mesh_tables[0], found.contacts, found.face_twin, before, asked, face_numbers)
+        face_numbers = cleaned(
+            MirroredChange(mesh_tables[0], found.contacts, found.face_twin, before, asked, face_numbers))
     if beside_taken:  # last, as a part and its image may cut off together what neither does alone
         mesh_tables = mesh_tables or bridge.face_graph(obj)
         face_numbers = _with_small_pieces(stored, mesh_tables[0], face_numbers, beside_taken)

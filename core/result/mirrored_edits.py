@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -24,14 +26,11 @@ def twin_numbers(numbered: NumberedParts) -> dict[int, int]:
     return dict(zip(numbered.numbers[has].tolist(), numbered.numbers[twin[has]].tolist(), strict=True))
 
 
-def cleaned(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, before: np.ndarray, asked: np.ndarray,
-            both: np.ndarray) -> np.ndarray:
-    """Have the mirror image of a change consist of as few regions as the change itself, and leave as few.
+@dataclass(frozen=True, eq=False)
+class MirroredChange:
+    """A change by hand and its mirror image.
 
-    Where faces have no exact images the image may be scattered, see ``gathered``, or leave a few faces alone that the
-    change did not, see ``without_crumbs``.
-
-    Parameters
+    Attributes
     ----------
     graph : FaceGraph
         Of p faces.
@@ -40,57 +39,86 @@ def cleaned(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, before: np
     twin : (p,) int64
         Mirror image of each face; -1 for none.
     before, asked, both : (p,) int64
-        Number of the part of each face before a change, after it, and after its mirror image, too.
+        Number of the part of each face before the change, after it, and after its mirror image, too.
+    """
+
+    graph: FaceGraph
+    contacts: np.ndarray
+    twin: np.ndarray
+    before: np.ndarray
+    asked: np.ndarray
+    both: np.ndarray
+
+    @property
+    def extra(self) -> np.ndarray:
+        """(p,) bool, faces that the image changed."""
+        return self.both != self.asked
+
+    @cached_property
+    def touching(self) -> FaceGraph:
+        """All faces that touch: the graph with the contacts."""
+        return self.graph.with_contacts(self.contacts)
+
+
+def cleaned(change: MirroredChange) -> np.ndarray:
+    """Have the mirror image of a change consist of as few regions as the change itself, and leave as few.
+
+    Where faces have no exact images the image may be scattered, see ``gathered``, or leave a few faces alone that the
+    change did not, see ``without_crumbs``.
+
+    Parameters
+    ----------
+    change : MirroredChange
+        Of p faces.
 
     Returns
     -------
     both : (p,) int64
         As asked where no more than half of the image would be left.
     """
-    found = gathered(graph, contacts, twin, before, asked, both)
-    # What touches its part is in one region with it: to be alone is to have no contact, either.
-    return without_crumbs(graph.with_contacts(contacts), before, asked, found)
+    return without_crumbs(replace(change, both=gathered(change)))
 
 
-def without_crumbs(graph: FaceGraph, before: np.ndarray, asked: np.ndarray, both: np.ndarray) -> np.ndarray:
+def without_crumbs(change: MirroredChange) -> np.ndarray:
     """Give what the mirror image of a change cut off by chance to the part around it; regions that changed stay.
 
     Where faces have no exact images, the image of a cut may leave a few of them alone that the cut itself did not.
 
-    graph : with its contacts. before, asked, both : as of ``cleaned``.
+    change : MirroredChange, of p faces. Returns the number of the part of each face, (p,) int64.
     """
-    extra = both != asked
+    # What touches its part is in one region with it: to be alone is to have no contact, either.
+    graph, both, extra = change.touching, change.both, change.extra
     region = graph.regions(both)[1]
     small = np.bincount(region, graph.area)[region] < CRUMB * np.bincount(both, graph.area)[both]
-    concerned = np.isin(both, np.concatenate([asked[extra], both[extra]]))
-    left = np.bincount(region, both != before)[region] == 0
+    concerned = np.isin(both, np.concatenate([change.asked[extra], both[extra]]))
+    left = np.bincount(region, both != change.before)[region] == 0
     return np.where(small & concerned & left, connect(graph, both), both)
 
 
-def gathered(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, before: np.ndarray, asked: np.ndarray,
-             both: np.ndarray) -> np.ndarray:
-    """Have the mirror image of a change in as many regions as the change itself; arguments as of ``cleaned``.
+def gathered(change: MirroredChange) -> np.ndarray:
+    """Have the mirror image of a change in as many regions as the change itself.
 
     Where faces have no exact images, as on surfaces that lie inside each other, the image of a region may be scattered:
     the region that has most of it stays, and the others go to what is around them in the same part. As asked, without
     an image, where less than half of the image would be left.
+
+    change : MirroredChange, of p faces. Returns the number of the part of each face, (p,) int64.
     """
-    extra = both != asked
+    area, extra = change.graph.area, change.extra
     # Crumbs of the image first: what lies around one may be a single region without it.
-    once = _without_strays(graph, contacts, twin, before, asked, both, True)
-    result = _without_strays(graph, contacts, twin, before, asked, once, False)
-    lost = graph.area[extra & (result != both)].sum()
-    return asked if lost > 0.5 * graph.area[extra].sum() else result
+    once = _without_strays(change, image_only=True)
+    result = _without_strays(replace(change, both=once), image_only=False)
+    lost = area[extra & (result != change.both)].sum()
+    return change.asked if lost > 0.5 * area[extra].sum() else result
 
 
-def _without_strays(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, before: np.ndarray, asked: np.ndarray,
-                    both: np.ndarray, image_only: bool) -> np.ndarray:
+def _without_strays(change: MirroredChange, image_only: bool) -> np.ndarray:
     """One round of ``gathered``. image_only : only what the image alone consists of goes to what is around it."""
-    extra = both != asked
+    graph, before, both, extra = change.graph, change.before, change.both, change.extra
     if not extra.any():
         return both
     region = graph.regions(both)[1]
-    stray = _strays(graph.area, region, graph.regions(before)[1], graph.regions(asked)[1], twin, extra)
+    stray = _strays(change, region)
     if image_only:
         stray[region[~extra]] = False
     number, area = np.zeros(len(stray), np.int64), np.bincount(region, graph.area)
@@ -99,7 +127,7 @@ def _without_strays(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, be
     main = last_of_each(number, ~stray, area, count=int(number.max()) + 1)[number]
     stray &= main != np.arange(len(stray))
     # Nothing goes to another part than those that its own part is cut into.
-    touching = graph.with_contacts(contacts)
+    touching = change.touching
     first, second = touching.pairs.T
     near = (before[first] == before[second]) | (region[first] == region[second])
     weight = np.where(stray[region], 1e-9, 1.0) * graph.area  # so that it is the strays that move
@@ -107,13 +135,13 @@ def _without_strays(graph: FaceGraph, contacts: np.ndarray, twin: np.ndarray, be
     return number[connect(around, np.where(stray, main, np.arange(len(stray)))[region])]
 
 
-def _strays(area: np.ndarray, region: np.ndarray, former: np.ndarray, wanted: np.ndarray, twin: np.ndarray,
-            extra: np.ndarray) -> np.ndarray:
+def _strays(change: MirroredChange, region: np.ndarray) -> np.ndarray:
     """Regions after the image of a change that are neither the best image of a region before it nor what it left.
 
-    area : (p,) float64. region, former, wanted : (p,) int64, of each face after and before the change, and after it
-    without its image. twin : (p,) int64. extra : (p,) bool, faces that the image changed. Returns (r,) bool.
+    region : (p,) int64, of each face after the image. Returns (r,) bool.
     """
+    area, twin, extra = change.graph.area, change.twin, change.extra
+    former, wanted = (change.graph.regions(number)[1] for number in (change.before, change.asked))
     stray = np.ones(int(region.max()) + 1, bool)
     # Those that the image left alone were there, or are wanted; of those that it cut, most of what is left stays.
     whole = np.bincount(wanted)[wanted] == np.bincount(region)[region]
