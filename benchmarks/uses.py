@@ -27,7 +27,7 @@ from meshes import load_mesh
 
 from core import decompose
 from core.surface.corners import CornerTable
-from core.uses.bones import following, limb_bones
+from core.uses.bones import BoneSurface, following, limb_bones
 from core.uses.hulls import part_hulls, part_volumes
 from core.uses.skinning import BENT, bends, smooth_weights, turned_over
 from core.uses.unfold import unfolding_seams
@@ -59,10 +59,10 @@ def measured(vertices: np.ndarray, faces: np.ndarray) -> tuple[float, ...]:
     result = decompose(vertices, faces)
     parts, table = result.parts(), CornerTable.of(vertices, faces)
     graph = result.graph
-    bones, _, part_bone = limb_bones(
+    bones, _, part_bone = limb_bones(BoneSurface(
         table, parts.labels, np.linalg.norm(table.face_vectors(), axis=1), np.nan_to_num(result.field),
         np.concatenate([graph.point_position, graph.node_position]),
-        np.concatenate([parts.point_part, parts.node_part]))
+        np.concatenate([parts.point_part, parts.node_part])))
     volume = np.abs(part_volumes(table, parts.labels)).sum()
     hulls = [round(sum(hull.volume for some in part_hulls(table, parts.labels, count) for hull in some) / volume, 3)
              for count in HULLS]

@@ -78,7 +78,7 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
 
     limbs : bool, only bones of parts that can be bent where they are cut.
     """
-    from ..core.uses.bones import Images, limb_bones, part_bones  # imports SciPy
+    from ..core.uses.bones import BoneSurface, Images, limb_bones, part_bones  # imports SciPy
 
     mesh, parts, world, shape = obj.data, numbered.parts, placing.world_matrix(obj), bridge.read_shape(obj)
     place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
@@ -96,13 +96,13 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
         images = Images.of_parts(parts.twin, None if plane is None else plane.moved(back, turn[:3, 3]), table,
                                  parts.labels, area)
     line = np.concatenate([graph.point_position, graph.node_position]) @ back.T + turn[:3, 3]
-    surface = (table, parts.labels, area, np.nan_to_num(parts.decomposition.field), line,
-               np.concatenate([parts.point_part, parts.node_part]), images)
+    surface = BoneSurface(table, parts.labels, area, np.nan_to_num(parts.decomposition.field), line,
+                          np.concatenate([parts.point_part, parts.node_part]), images)
     bone_part = part_bone = np.arange(parts.count)
     if limbs:
-        bones, bone_part, part_bone = limb_bones(*surface)
+        bones, bone_part, part_bone = limb_bones(surface)
     else:
-        bones = part_bones(*surface)
+        bones = part_bones(surface)
     twin = np.empty(0, np.int64) if whole is None else part_bone[parts.twin[bone_part]]
     return Skeleton(place, bones, _names(mesh, numbered, whole, bone_part), table, part_bone[parts.labels], twin,
                     np.empty(0, bool) if whole is None else whole.on_plane,

@@ -8,7 +8,7 @@ without folds or a loss of volume, and moves with the part that it hangs on.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import coo_matrix
@@ -86,7 +86,7 @@ class Images:
             As of ``Parts``.
         mirror : MirrorPlane or None
         table, labels, area
-            As for ``part_bones``.
+            As of ``BoneSurface``.
 
         Returns
         -------
@@ -126,13 +126,11 @@ class Images:
         return points if self.mirror is None else points - self.mirror.heights(points)[:, None] * self.mirror.normal
 
 
-def part_bones(
-    table: CornerTable, labels: np.ndarray, area: np.ndarray, height: np.ndarray, line: np.ndarray,
-    line_part: np.ndarray, images: Images | None = None,
-) -> Bones:
-    """Make a bone for each part, and a tree of bones along the cuts between parts, and contacts between their pieces.
+@dataclass(frozen=True, eq=False)
+class BoneSurface:
+    """A surface and all that its bones are made from.
 
-    Parameters
+    Attributes
     ----------
     table : CornerTable
         p faces and n vertices.
@@ -149,17 +147,33 @@ def part_bones(
     images : Images, optional
         Of the parts, for a mesh that is its own mirror image: so are the bones and their tree then, but for those of
         parts without an image.
-
-    Returns
-    -------
-    bones : Bones
     """
-    table, count = table.joined()[0], int(labels.max()) + 1
-    weight = _weights(area)
+
+    table: CornerTable
+    labels: np.ndarray
+    area: np.ndarray
+    height: np.ndarray
+    line: np.ndarray
+    line_part: np.ndarray
+    images: Images | None = None
+
+    def joined(self) -> BoneSurface:
+        """The same with one vertex at each place."""
+        return replace(self, table=self.table.joined()[0])
+
+
+def part_bones(surface: BoneSurface) -> Bones:
+    """Make a bone for each part, and a tree of bones along the cuts between parts, and contacts between their pieces.
+
+    surface : BoneSurface. Returns Bones, one for each of its parts.
+    """
+    surface = surface.joined()
+    table, labels, images, count = surface.table, surface.labels, surface.images, int(surface.labels.max()) + 1
+    weight = _weights(surface.area)
     middle, _ = _middles(table, labels, weight)
     size = np.bincount(labels, weight, count)
     joints = _Joints.between(table, labels, images)
-    of_part = np.bincount(labels, weight * table.face_means(height), count) / size
+    of_part = np.bincount(labels, weight * table.face_means(surface.height), count) / size
     known = joints.pairs, joints.length, of_part
     parent, order = _tree(count, *known) if images is None else _even_tree(images, *known)
     head, beyond = middle.copy(), following(parent, order)
@@ -173,7 +187,7 @@ def part_bones(
     shown = joints.by_cut(parent) | (beyond @ size >= _SHOWN * size[parent])
     for part in order:
         children = np.flatnonzero((parent == part) & shown)
-        ends, center_line, center = head[children], line[line_part == part], middle[[part]]
+        ends, center_line, center = head[children], surface.line[surface.line_part == part], middle[[part]]
         if images is not None and images.own[part]:
             ends, center_line, center = (images.onto_plane(points) for points in (ends, center_line, center))
         tail[part] = _end(head[part], ends, center_line, center, parent[part] < 0)
@@ -268,16 +282,12 @@ def _even(images: Images, points: np.ndarray) -> np.ndarray:
                     np.where(image[:, None], images.mirror.mirrored(first), points))
 
 
-def limb_bones(
-    table: CornerTable, labels: np.ndarray, area: np.ndarray, height: np.ndarray, line: np.ndarray,
-    line_part: np.ndarray, images: Images | None = None,
-) -> tuple[Bones, np.ndarray, np.ndarray]:
+def limb_bones(surface: BoneSurface) -> tuple[Bones, np.ndarray, np.ndarray]:
     """Make bones for parts that can be bent where they are cut; all other parts have that of the part they hang on.
 
     Parameters
     ----------
-    table, labels, area, height, line, line_part, images
-        As for ``part_bones``.
+    surface : BoneSurface
 
     Returns
     -------
@@ -287,14 +297,14 @@ def limb_bones(
     part_bone : (count,) int64
         The bone that moves each part.
     """
-    table, owner = table.joined()[0], np.arange(int(labels.max()) + 1)
+    surface, owner = surface.joined(), np.arange(int(surface.labels.max()) + 1)
     while True:
         bone_part, part_bone = np.unique(owner, return_inverse=True)
-        of_face = part_bone[labels]
-        of_bones = None if images is None else images.of_bones(bone_part, part_bone)
-        bones = part_bones(table, of_face, area, height, line, np.where(line_part < 0, -1, part_bone[line_part]),
-                           of_bones)
-        hangs = _hanging(bones, _necks(table, of_face, area, bones), of_bones)
+        images = None if surface.images is None else surface.images.of_bones(bone_part, part_bone)
+        in_limbs = replace(surface, labels=part_bone[surface.labels], images=images,
+                           line_part=np.where(surface.line_part < 0, -1, part_bone[surface.line_part]))
+        bones = part_bones(in_limbs)
+        hangs = _hanging(bones, _necks(in_limbs, bones), images)
         if not hangs.any():
             return bones, bone_part, part_bone
         owner = np.where(hangs, bone_part[bones.parent], bone_part)[part_bone]
@@ -310,8 +320,9 @@ def _hanging(bones: Bones, neck: np.ndarray, images: Images | None) -> np.ndarra
     return last if images is None else last & last[images.image]
 
 
-def _necks(table: CornerTable, labels: np.ndarray, area: np.ndarray, bones: Bones) -> np.ndarray:
-    """Whether each bone begins at a neck, (count,) bool; true for roots."""
+def _necks(surface: BoneSurface, bones: Bones) -> np.ndarray:
+    """Whether each bone begins at a neck, (count,) bool; true for roots. surface : joined."""
+    table, labels, area = surface.table, surface.labels, surface.area
     low, high = table.edge_labels(labels)
     center = table.face_means(table.vertices)
     beyond, neck = following(bones.parent, bones.order), bones.parent < 0

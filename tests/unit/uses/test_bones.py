@@ -7,7 +7,7 @@ import shapes
 
 from core.surface.corners import CornerTable
 from core.surface.mirror_plane import MirrorPlane
-from core.uses.bones import Images, limb_bones, part_bones
+from core.uses.bones import BoneSurface, Images, limb_bones, part_bones
 
 
 def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None, twin=None, limbs=False, plane=True):
@@ -38,9 +38,9 @@ def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None
     table = CornerTable(np.array(vertices), np.array(edges), vertex, edge, face, count)
     mirror = MirrorPlane(np.array([1.0, 0, 0]), 0.0) if plane else None
     images = None if twin is None else Images(np.array(twin), mirror)
-    return (limb_bones if limbs else part_bones)(
+    return (limb_bones if limbs else part_bones)(BoneSurface(
         table, np.arange(count), np.ones(count), np.array(at_vertex), np.array(line, float).reshape(-1, 3),
-        np.array(line_part, int), images)
+        np.array(line_part, int), images))
 
 
 def test_an_arm_of_three_parts_is_a_chain():
@@ -88,7 +88,8 @@ def test_bones_are_the_same_at_any_scale(scale):
         table = CornerTable.of(scale * vertices, faces)
         area = np.linalg.norm(table.face_vectors(), axis=1)
         labels = np.repeat([0, 1], len(faces) // 2)
-        return part_bones(table, labels, area, np.zeros(len(vertices)), np.empty((0, 3)), np.empty(0, np.int64))
+        return part_bones(
+            BoneSurface(table, labels, area, np.zeros(len(vertices)), np.empty((0, 3)), np.empty(0, np.int64)))
 
     assert np.linalg.norm(made(1.0).tail - made(1.0).head, axis=1) == pytest.approx(0.02 * np.sqrt(3))
     np.testing.assert_allclose(made(scale).tail / scale, made(1.0).tail, rtol=1e-12, atol=1e-12)
@@ -170,7 +171,8 @@ def test_limbs_are_images_however_parts_hang_together(seed, plane):
 def test_a_bone_without_length_stays_in_the_plane(normal):
     table = CornerTable.of(*shapes.octahedron())
     images = Images(np.array([0]), MirrorPlane(np.array(normal, float), 0.0))
-    made = part_bones(table, np.zeros(8, int), np.ones(8), np.zeros(6), np.zeros((0, 3)), np.zeros(0, int), images)
+    made = part_bones(
+        BoneSurface(table, np.zeros(8, int), np.ones(8), np.zeros(6), np.zeros((0, 3)), np.zeros(0, int), images))
     assert np.linalg.norm(made.tail - made.head) > 0.01
     assert np.abs(images.mirror.heights(np.concatenate([made.head, made.tail]))).max() < 1e-12
 
@@ -182,8 +184,8 @@ def boxes(*places, twin=None):
     images = None if twin is None else Images(np.array(twin), MirrorPlane(np.array([1.0, 0, 0]), 0.0))
     part = np.zeros(len(table.vertices), int)
     part[table.corner_vertex] = labels[table.corner_face]
-    return part_bones(table, labels, np.linalg.norm(table.face_vectors(), axis=1), part.astype(float),
-                      np.zeros((0, 3)), np.zeros(0, int), images)
+    return part_bones(BoneSurface(table, labels, np.linalg.norm(table.face_vectors(), axis=1), part.astype(float),
+                                  np.zeros((0, 3)), np.zeros(0, int), images))
 
 
 def box_about(middle, size=(1, 1, 1)):

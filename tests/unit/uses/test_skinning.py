@@ -8,7 +8,7 @@ import shapes
 from core import decompose
 from core.surface.corners import CornerTable
 from core.uses import skinning
-from core.uses.bones import Bones, following, limb_bones
+from core.uses.bones import Bones, BoneSurface, following, limb_bones
 from core.uses.skinning import bends, limited, smooth_weights, turned_over
 
 
@@ -208,7 +208,8 @@ def test_bends_are_rotations_across_the_bone():
 def limbs(table, labels, height):
     """Bones of the parts that can be bent, and the bone of each face."""
     area = np.linalg.norm(table.face_vectors(), axis=1)
-    bones, bone_part, part_bone = limb_bones(table, labels, area, height, np.empty((0, 3)), np.empty(0, np.int64))
+    bones, bone_part, part_bone = limb_bones(
+        BoneSurface(table, labels, area, height, np.empty((0, 3)), np.empty(0, np.int64)))
     assert (part_bone[bone_part] == np.arange(len(bone_part))).all()
     return bones, part_bone
 
