@@ -181,16 +181,15 @@ def joint_places(cap: Cap, bodies: tuple[Body, Body], wanted: Wanted, first: int
     if frame is None:
         return Places((), first, 0.0, bent=True)
     grid = _Grid(cap, frame)
-    flat, room = _candidates(grid, bodies)
-    width = 2 * float(room.max(initial=0.0))
+    room = _Room(grid, bodies, wanted, *_candidates(grid, bodies))
+    width = 2 * float(room.room.max(initial=0.0))
     radius = wanted.size / 2 if wanted.size else _SHARE * width / 2
     for count in range(wanted.count, 0, -1):
         for share in _SMALLER:
             if 2 * share * radius < wanted.least:
                 break
             for into in (first, 1 - first):
-                found = _of_size(grid, bodies, wanted, flat, room, share * radius, into, count)
-                if found:
+                if found := room.joints(share * radius, into, count):
                     return Places(found, into, width)
     return Places((), first, width)
 
@@ -331,38 +330,61 @@ def _with_room(grid: _Grid, bodies: tuple[Body, Body], flat: np.ndarray) -> tupl
     return flat[both], grid.depth(grid.world(flat[both], ((low + high) / 2)[both]))
 
 
-def _of_size(grid: _Grid, bodies: tuple[Body, Body], wanted: Wanted, flat: np.ndarray, room: np.ndarray,
-             radius: float, into: int, count: int) -> tuple[Joint, ...]:
-    """So many joints of a size into a piece, at the best places; none if there is no room for all of them."""
-    reach = REACH[wanted.kind] * radius + wanted.clearance
-    wall = max(wanted.wall, _WALL * radius)
-    wide = np.flatnonzero(room >= reach + wall)
-    if len(wide) < count:
-        return ()
-    wide = np.unique(np.concatenate([wide[:1], wide[:: len(wide) // _MOST + 1]]))
-    flat, room = flat[wide], room[wide]
-    deep, least = (wanted.depth, wanted.depth) if wanted.depth else (
-        radius * np.array(_DEPTH.get(wanted.kind, _DEEP))).tolist()
-    low, high = _under(grid, flat, reach)
-    sign = 1.0 if into else -1.0
-    trial = _Trial(grid, flat, reach, wall)
-    start, end = (low, high) if into else (high, low)
-    free = trial.is_free(bodies, low, high)
-    depth = trial.depth(bodies[into], end, sign, deep + wanted.clearance) - wanted.clearance
-    if wanted.kind.both_sides:
-        depth = np.minimum(depth, trial.depth(bodies[1 - into], start, -sign, deep + wanted.clearance)
-                           - wanted.clearance)
-    else:
-        free &= trial.holds(bodies[1 - into], start, -sign, _FOOT * radius)
-    good = np.flatnonzero(np.isfinite(low) & (depth >= least * (1 - 1e-9)) & free)
-    chosen = good[_packed(flat[good], room[good], count, 2 * reach + wall)]
-    if not len(chosen):
-        return ()
-    axes = grid.axes if into else grid.axes * [[1], [-1], [-1]]
-    deep = float(depth[chosen].min())
-    foot = deep if wanted.kind.both_sides else _FOOT * radius
-    return tuple(Joint(grid.world(flat[i], np.zeros(())), axes, radius, float(min(sign * start[i], sign * end[i])),
-                       float(max(sign * start[i], sign * end[i])), deep, foot) for i in chosen.tolist())
+@dataclass(frozen=True, eq=False)
+class _Room:
+    """Places of a cap for joints.
+
+    bodies : the two pieces. flat, room : (k, 2) and (k,), see _candidates.
+    """
+
+    grid: _Grid
+    bodies: tuple[Body, Body]
+    wanted: Wanted
+    flat: np.ndarray
+    room: np.ndarray
+
+    def joints(self, radius: float, into: int, count: int) -> tuple[Joint, ...]:
+        """So many joints of a size into a piece, at the best places; none if there is no room for all of them."""
+        reach = REACH[self.wanted.kind] * radius + self.wanted.clearance
+        wall = max(self.wanted.wall, _WALL * radius)
+        wide = np.flatnonzero(self.room >= reach + wall)
+        if len(wide) < count:
+            return ()
+        wide = np.unique(np.concatenate([wide[:1], wide[:: len(wide) // _MOST + 1]]))
+        flat, room = self.flat[wide], self.room[wide]
+        low, high = _under(self.grid, flat, reach)
+        depth = self._depth(_Trial(self.grid, flat, reach, wall), low, high, radius, into)
+        good = np.flatnonzero(depth >= 0)
+        chosen = good[_packed(flat[good], room[good], count, 2 * reach + wall)]
+        return self._made(flat[chosen], low[chosen], high[chosen], depth[chosen], radius, into)
+
+    def _depth(self, trial: _Trial, low: np.ndarray, high: np.ndarray, radius: float, into: int) -> np.ndarray:
+        """How deep a joint can be at each of some places, (k,) float64; -1 where it cannot be.
+
+        low, high : (k,), of the cap under the joint; nan if it does not go so far.
+        """
+        wanted, bodies, sign = self.wanted, self.bodies, 1.0 if into else -1.0
+        deep, least = (wanted.depth, wanted.depth) if wanted.depth else (
+            radius * np.array(_DEPTH.get(wanted.kind, _DEEP))).tolist()
+        start, end = (low, high) if into else (high, low)
+        free = trial.is_free(bodies, low, high)
+        depth = trial.depth(bodies[into], end, sign, deep + wanted.clearance) - wanted.clearance
+        if wanted.kind.both_sides:
+            depth = np.minimum(depth, trial.depth(bodies[1 - into], start, -sign, deep + wanted.clearance)
+                               - wanted.clearance)
+        else:
+            free &= trial.holds(bodies[1 - into], start, -sign, _FOOT * radius)
+        return np.where(np.isfinite(low) & (depth >= least * (1 - 1e-9)) & free, depth, -1.0)
+
+    def _made(self, flat: np.ndarray, low: np.ndarray, high: np.ndarray, depth: np.ndarray, radius: float,
+              into: int) -> tuple[Joint, ...]:
+        """Joints at the places chosen, all as deep as the least deep can be. low, high, depth : (k,), see _depth."""
+        deep = float(depth.min(initial=np.inf))
+        foot = deep if self.wanted.kind.both_sides else _FOOT * radius
+        axes = self.grid.axes if into else self.grid.axes * [[1], [-1], [-1]]
+        ends = np.sort([low, high] if into else [-low, -high], axis=0)
+        return tuple(Joint(self.grid.world(place, np.zeros(())), axes, radius, first, last, deep, foot)
+                     for place, first, last in zip(flat, *ends.tolist(), strict=True))
 
 
 def _under(grid: _Grid, flat: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
