@@ -32,7 +32,7 @@ def add_parameters(group: argparse._ArgumentGroup) -> None:
         elif "range" in meta:
             low, high = meta["range"]
             words["help"] += limits_of(low, high, getattr(Parameters, field.name))
-            group.add_argument(name, type=int if field.type == "int" else float, metavar="N", **words)
+            group.add_argument(name, type=int if meta["whole"] else float, metavar="N", **words)
         else:
             words["help"] += f" (default {'on' if field.default else 'off'})"
             group.add_argument(name, action=argparse.BooleanOptionalAction, **words)

@@ -75,10 +75,10 @@ def present_names(values: dict) -> tuple[dict, tuple[Sentence, ...]]:
         Sentence("The parameter {old} is called {new} now.", old=name, new=", ".join(RENAMED[name])) for name in old)
 
 
-def _number(default: float, low: float, high: float, label: str, text: str) -> Any:
-    """Field of a parameter that is a number from ``low`` to ``high``."""
-    return field(default=default,
-                 metadata={"range": (low, high), "label": label, "description": text})
+def _number_field(default: float, low: float, high: float, label: str, text: str) -> Any:
+    """Field of a parameter that is a number from ``low`` to ``high``; a whole one if its default is an int."""
+    return field(default=default, metadata={
+        "range": (low, high), "whole": isinstance(default, int), "label": label, "description": text})
 
 
 def _with_warnings(values: dict) -> dict:
@@ -115,8 +115,9 @@ def _with_old_names(cls: type) -> type:
 class Parameters:
     """The parameters of a run, all optional; the description of each is in its field's metadata.
 
-    The metadata of a field holds its "range", (lowest, highest), if it is a number, its "choices" if it is one of
-    several words, and always a "label" and a "description" for tooltips. ``Parameters.RANGES`` has all ranges by name.
+    The metadata of a field holds its "range", (lowest, highest), and whether it is "whole", if it is a number, its
+    "choices" if it is one of several words, and always a "label" and a "description" for tooltips.
+    ``Parameters.RANGES`` has all ranges by name.
 
     Names of version 0.1.0 are understood as well, with a DeprecationWarning. Values whose meaning is plain are taken
     and converted: "0.5" and NumPy's numbers, 2.0 for a whole number, 1 for true.
@@ -139,13 +140,13 @@ class Parameters:
         "choices": PIECES, "label": "Pieces",
         "description": "Whether pieces that touch without being joined form parts together, like a sleeve and an arm, "
                        "or each piece is decomposed on its own"})
-    detail: float = _number(
+    detail: float = _number_field(
         0.5, 0.0, 1.0, "Detail",
         "How readily the surface is cut: 0 gives as few parts as possible, 1 every candidate")
-    n_parts: int = _number(
+    n_parts: int = _number_field(
         0, 0, 100_000, "Number of Parts",
         "Exactly this many parts instead of a level of detail; 0 lets Detail decide")
-    base_spacing: float = _number(
+    base_spacing: float = _number_field(
         0.005, 0.0005, 0.05, "Base Spacing",
         "Share of the area around each point that distances are measured from; smaller is "
         "slower and finer (the paper's 0.005 S)")
@@ -153,30 +154,30 @@ class Parameters:
         "label": "Equalize",
         "description": "Give every range of distances the same area, so that long limbs do not "
                        "hide short ones (the paper's s(p))"})
-    n_slabs: int = _number(
+    n_slabs: int = _number_field(
         100, 8, 1000, "Levels",
         "Number of slabs the surface is cut into before parts are formed (1 / epsilon)")
-    small_region: float = _number(
+    small_region: float = _number_field(
         0.05, 0.0005, 0.5, "Small Region",
         "Berretti 2009: parts smaller than this share of the largest one join a neighbor; 0.01 keeps fingers")
-    concavity_weight: float = _number(
+    concavity_weight: float = _number_field(
         0.5, 0.0, 1.0, "Concavity",
         "Berretti 2009: how far a cut may slide to lie in a crease; 0 leaves it where it is (the paper's alpha)")
-    band_ratio: float = _number(
+    band_ratio: float = _number_field(
         0.5, 0.0, 1.0, "Band",
         "How far to either side a cut may move into a crease, as a share of the radius of a circle "
         "as long as the cut; 0 leaves it where it is")
-    sigma: float = _number(
+    sigma: float = _number_field(
         0.15, 0.0, 0.25, "Crease Length",
         "Berretti 2009: how much of a cut's length must be concave to count (the paper's sigma)")
-    n_clusters: int = _number(
+    n_clusters: int = _number_field(
         0, 0, 32, "Curvature Classes",
         "Lavoue 2005: number of classes of curvature that the surface is sorted into; 0 chooses it from the data")
-    outline_weight: float = _number(
+    outline_weight: float = _number_field(
         0.5, 0.0, 1.0, "Outline",
         "Liu 2007: how far the outline of a part, unfolded into the plane, counts when its cut is judged; 0 judges by "
         "the cut alone")
-    smoothing: int = _number(
+    smoothing: int = _number_field(
         10, 0, 100, "Smoothing",
         "Rounds that take saw teeth off the cuts, a face at a time; 0 leaves them as they fall")
     follow_level_sets: bool = field(default=False, metadata={
@@ -187,7 +188,7 @@ class Parameters:
         "label": "Symmetry",
         "description": "Where the model is its own mirror image, or most of it is, make its parts so, too. Changes by "
                        "hand are made on both sides"})
-    loose_part: float = _number(
+    loose_part: float = _number_field(
         0.01, 0.0, 1.0, "Small Loose Part",
         "Loose parts with less than this share of the whole area are one part each")
 
@@ -199,15 +200,15 @@ class Parameters:
             if isinstance(value, np.ndarray) and value.ndim == 0:
                 value = value.item()
             if limits is not None:
-                value = self._number(item.name, value, limits, item.type == "int")
+                value = self._as_number(item.name, value, limits, item.metadata["whole"])
             elif "choices" in item.metadata:
-                value = self._choice(item.name, value, item.metadata["choices"])
+                value = self._as_choice(item.name, value, item.metadata["choices"])
             else:
-                value = self._switch(item.name, value)
+                value = self._as_switch(item.name, value)
             object.__setattr__(self, item.name, value)
 
     @staticmethod
-    def _number(name: str, value: Any, limits: tuple[float, float], whole: bool) -> float | int:
+    def _as_number(name: str, value: Any, limits: tuple[float, float], whole: bool) -> float | int:
         """A value as a number, or a whole one, between two limits; raises ParameterError if it is none."""
         low, high = limits
         try:
@@ -229,7 +230,7 @@ class Parameters:
         return int(number) if whole else number
 
     @staticmethod
-    def _choice(name: str, value: Any, choices: tuple[str, ...]) -> str:
+    def _as_choice(name: str, value: Any, choices: tuple[str, ...]) -> str:
         """A value as one of some words; raises ParameterError if it is none."""
         if not isinstance(value, str) or value not in choices:
             raise ParameterError(
@@ -238,7 +239,7 @@ class Parameters:
         return str(value)
 
     @staticmethod
-    def _switch(name: str, value: Any) -> bool:
+    def _as_switch(name: str, value: Any) -> bool:
         """A value as true or false; raises ParameterError if it is neither."""
         if not isinstance(value, (bool, np.bool_, int, np.integer)) or value not in (0, 1):
             raise ParameterError(

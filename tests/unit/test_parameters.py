@@ -4,6 +4,7 @@
 from dataclasses import FrozenInstanceError, fields
 from decimal import Decimal
 from fractions import Fraction
+from typing import get_type_hints
 
 import numpy as np
 import pytest
@@ -64,6 +65,7 @@ def test_ranges_contain_the_defaults_and_every_field_explains_itself():
             low, high = Parameters.RANGES[item.name]
             assert low <= item.default <= high
             assert low < high
+            assert get_type_hints(Parameters)[item.name] is (int if item.metadata["whole"] else float)
 
 
 def test_parameters_cannot_be_changed():
