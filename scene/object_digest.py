@@ -11,7 +11,7 @@ animation or a driver sets, and our own marks.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import bpy
@@ -22,12 +22,13 @@ _OURS = "reeb_parts"  # how the names of our custom properties begin
 _DIGEST = "looks "  # how a digest begins; what earlier versions kept is a list as text
 
 # What is no work, follows from something else, or would lead elsewhere. The ends of a joint are pieces, which may be
-# made anew under other names.
+# made anew under other names. The last two get another value as soon as a later Blender opens the file.
 _PASSING = {
     "rna_type", "data", "hide_viewport", "hide", "select", "select_head", "select_tail", "tag", "mode", "dimensions",
     "matrix_world", "matrix_local", "matrix_basis", "matrix", "active", "is_active", "active_material",
     "active_material_index", "active_shape_key_index", "show_expanded", "show_group_selector", "show_manage_panel",
     "open_warnings_panel", "motion_path", "point_cache", "bone", "child", "object1", "object2",
+    "bake_target", "fuzzy",
 }  # fmt: skip
 # Of an object, what has settings of its own; to ask for others, such as its force field, would make them.
 _PARTS = "modifiers", "constraints", "vertex_groups", "material_slots"
@@ -35,14 +36,31 @@ _ITEMS = {"targets", "curves", "points"}  # what there are several of, deeper in
 _NAMED = bpy.types.ID, bpy.types.Bone, bpy.types.PoseBone, bpy.types.BoneCollection  # told by name where pointed at
 _DEEPEST = 5
 
+# Settings whose default is another in some Blenders from 4.2 to 5.2, or wrong there, or that some lack, with what they
+# are from the start. One of these names that means something else elsewhere is told there in every Blender alike.
+_ON = {
+    "visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter",
+    "visible_shadow", "show_empty_image_perspective", "show_empty_image_orthographic", "enabled",
+    "use_deform", "use_inherit_rotation", "use_local_location", "use_cyclic_offset", "use_custom_shape_bone_size",
+    "use_location_x", "use_location_y", "use_location_z", "use_rotation_x", "use_rotation_y", "use_rotation_z",
+    "use_scale_x", "use_scale_y", "use_scale_z", "use_relative_location", "use_curve_radius", "lock_location_x",
+    "lock_location_y", "lock_location_z", "lock_rotation_x", "lock_rotation_y", "lock_rotation_z",
+    "use_clamp_overlap", "loop_slide", "use_limit_surface", "use_mirror_merge",
+}  # fmt: skip
+_FROM_THE_START: dict[str, Any] = dict.fromkeys(_ON, 1) | {
+    "use_add": 0, "use_axis": [1, 0, 0], "delimit": [], "data_types_verts": [], "data_types_edges": [],
+    "data_types_loops": [], "data_types_polys": [], "rotation_range": "NX", "up_axis": "UP_Y",
+    "display_type": "ARMATURE_DEFINED", "edge_weight": "bevel_weight_edge", "vertex_weight": "bevel_weight_vert",
+    "read_data": ["ATTRIBUTES", "COLOR", "POLY", "UV", "VERT"],
+}  # fmt: skip
+
 
 def digest(item: bpy.types.Object) -> str:
     """A text of some 40 letters that differs once somebody has worked on an object; not in Edit Mode."""
     moving = set(_moving_paths(item.animation_data))
     told: list[Any] = [_told(item, "", moving)]
     for name in _PARTS:
-        told += [_told(part, f'{name}["{bpy.utils.escape_identifier(part.name)}"].', moving)
-                 for part in getattr(item, name)]
+        told += _told_each(getattr(item, name), name, moving)
     told += [_told(body, "", moving) for body in (item.rigid_body, item.rigid_body_constraint) if body]
     told += [len(_own_collections(item)), item.asset_data is not None, *_animation(item.animation_data)]
     if item.type == "MESH":
@@ -75,6 +93,13 @@ def _told(struct: bpy.types.bpy_struct, path: str, moving: set[str], depth: int 
             if value != _default(prop):
                 found.append((name, value))
     return [*found, *_custom(struct)]
+
+
+def _told_each(parts: Iterable[bpy.types.bpy_struct], path: str, moving: set[str]) -> list[list[tuple[str, Any]]]:
+    """What is told of each modifier, constraint or such; path : of where they are."""
+    # What a later Blender has made and this one does not know has not even a name.
+    names = [bpy.utils.escape_identifier(getattr(part, "name", "")) for part in parts]
+    return [_told(part, f'{path}["{name}"].', moving) for name, part in zip(names, parts, strict=True)]
 
 
 def _told_inside(struct: bpy.types.bpy_struct, prop: bpy.types.Property, path: str, moving: set[str],
@@ -115,7 +140,9 @@ def _plain(value: Any) -> Any:
 
 
 def _default(prop: bpy.types.Property) -> Any:
-    """The default of a property, in such types."""
+    """The default of a property, in such types: the same in every Blender, since files go from one to the other."""
+    if prop.identifier in _FROM_THE_START:
+        return _FROM_THE_START[prop.identifier]
     if getattr(prop, "is_array", False):
         return list(prop.default_array)
     return sorted(prop.default_flag) if getattr(prop, "is_enum_flag", False) else prop.default
@@ -170,10 +197,10 @@ def _bones(rig: bpy.types.Object, moving: set[str]) -> list[Any]:
     told: list[Any] = [rig.data.collections.keys()]
     for bone in rig.data.bones:
         rest = [round(value, 5) for value in (*bone.head_local, *bone.tail_local)]
-        told.append((rest, _told(bone, "", set())))
+        # The head of a connected bone is its parent's tail, and some Blenders say its own radius, which nothing shows.
+        told.append((rest, _told(bone, "", {"head_radius"} if bone.use_connect else set())))
     for bone in rig.pose.bones if rig.pose else ():
         path = f'pose.bones["{bpy.utils.escape_identifier(bone.name)}"].'
         told.append(_told(bone, path, moving))
-        told += [_told(part, f'{path}constraints["{bpy.utils.escape_identifier(part.name)}"].', moving)
-                 for part in bone.constraints]
+        told += _told_each(bone.constraints, f"{path}constraints", moving)
     return told
