@@ -112,6 +112,25 @@ def test_both_sides_change(mesh, edit):
     assert paired(mesh)
 
 
+@pytest.mark.parametrize("edit", ["split", "grow", "shrink", "merge_neighbour"])
+def test_both_sides_of_a_posed_figure_change(make, edit):
+    """No plane mirrors it; sides are those of the figure as it stood."""
+    vertices, faces = shapes.mirrored_figure()
+    center = vertices[faces].mean(axis=1)
+    twin = np.linalg.norm(center[:, None] * (-1, 1, 1) - center, axis=2).argmin(axis=1)
+    mesh = make(shapes.Shape(shapes.posed(vertices), faces), "Figure").data
+    bpy.ops.reeb_parts.decompose()
+    left = part(mesh, ".L")
+    assert center[face_numbers(mesh) == left.number, 0].mean() > 0
+    assert any(entry.name == left.name[:-1] + "R" for entry in mesh.reeb_parts.parts)
+    before = face_numbers(mesh)
+    choose(mesh, left)
+    assert getattr(bpy.ops.reeb_parts, edit)() == {"FINISHED"}
+    after = face_numbers(mesh)
+    assert (after != before).any()
+    assert len(set(zip(after.tolist(), after[twin].tolist(), strict=True))) == len(set(after.tolist()))
+
+
 def test_two_images_marked_are_split_once(mesh):
     count = len(mesh.reeb_parts.parts)
     left = part(mesh, ".L")
