@@ -1,8 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cutting a component into candidates, the finest parts, and deciding in which order they merge.
 
-``methods`` chooses the method: ``berretti`` follows the paper [Berretti2009], ``perceptual`` cuts where people cut,
-``lavoue`` where curvature changes [Lavoue2005], ``liu`` in two again and again [Liu2007]. All give
-``hierarchy.Candidates``; ``minimum_cut`` moves cuts into creases for the first two. What follows takes and gives
-``face_candidates.FaceCandidates``, once the candidates are on the caller's faces.
+- ``methods``: chooses the method of cutting
+- ``berretti``: by the rules of the paper [Berretti2009]
+- ``perceptual``: where people cut
+- ``lavoue``: where curvature changes [Lavoue2005]
+- ``liu``: in two again and again [Liu2007]
+- ``patches``: patches that end at creases, which several methods start from
+- ``boosted_trees``: the regression trees that judge cuts and joints
+- ``hierarchy``: what all methods give: candidates, and the order in which they merge
+- ``minimum_cut``: cuts moved into creases, for the first two methods
+
+What follows every method, on the caller's faces:
+
+- ``joining``: one hierarchy of those of several pieces
+- ``face_candidates``: what each of the next steps takes and gives
+- ``symmetric``: candidates made the same on all sides of a symmetric shape
+- ``symmetry_group``: the mirrorings and turns that map a shape onto itself
+- ``symmetric_cells``: candidates of the side that leads, and their images
+- ``symmetric_linkage``: merges that happen together with their images
+- ``symmetric_regions``: symmetric candidates of a dense mesh, on regions of its faces
+- ``hinted``: heeds labels that the mesh brings along, such as materials
+- ``settling``: lets merge only what touches
 """

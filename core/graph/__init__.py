@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Reeb graph of a field: from the values at the vertices to pieces, contours, nodes and arcs.
 
-``level_sets`` cuts the surface into slabs, ``critical`` classifies vertices, ``reeb`` contracts pieces and contours to
-a graph, ``simplify`` cancels its ripples. ``contours`` finds a contour on the caller's own faces, to cut a part there.
+- ``level_sets``: the surface cut into slabs, their pieces and contours
+- ``bridged_levels``: level sets that run on across bridges between loose parts
+- ``critical``: minima, saddles and maxima among the vertices
+- ``reeb``: pieces and contours contracted to a graph
+- ``simplify``: ripples of the graph cancelled
 """

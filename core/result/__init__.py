@@ -1,6 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The result of a run, and work on it by hand: from candidates to parts with numbers that last.
 
-``assemble`` brings what was found on the components back to the caller's faces, ``decomposition`` is the result and
-reads parts from it, ``splits`` and ``numbering`` give parts numbers, ``editing`` changes parts by hand.
+From the components to the result:
+
+- ``component_results``: what the stages found on the components
+- ``mirrors``: the planes of symmetry of the caller's mesh
+- ``votes``: which candidate each of the caller's faces gets
+- ``within_faces``: symmetry within the caller's faces, where these are too large to be mirrored
+- ``slivers``: what is left of parts where cuts moved or sides were mirrored
+- ``junctions``: boundaries at edges where more than two faces meet
+- ``assemble``: brings all of it back to the caller's faces
+- ``half``: the result of a half model, from that of the whole
+
+The result itself:
+
+- ``decomposition``: the result, and the parts that are read from it
+- ``stored``: the result as bytes, and back
+- ``levels``: at which detail there are so many parts
+- ``splits``: in which order parts come apart as the detail rises
+- ``numbering``: numbers of parts that last
+- ``whole``: the parts of a half model together with their images
+
+Changes by hand:
+
+- ``editing``: where a part splits, what it takes or gives
+- ``contour_cut``: contours of the field to cut a part along
+- ``remainders``: small pieces that a change cuts off
+- ``mirrored_edits``: changes made on both sides of a plane of symmetry
 """

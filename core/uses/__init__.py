@@ -1,10 +1,42 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Uses of a result.
 
-``colors`` chooses colors for parts, ``report`` describes a result as JSON, ``pictures`` draws it, ``bones`` makes
-bones for an armature and ``skinning`` their weights, ``clean_cuts`` smooth curves to cut along, ``cap_surfaces``
-helps to close what is cut. ``unfold`` finds seams along which parts can be unfolded, by the scale that ``conformal``
-predicts; ``stacking`` finds parts that can lie over each other in the map, and ``distortion`` measures it.
-``descriptors`` finds parts that are alike, ``correspondence`` the same parts on another model. ``hulls`` makes convex
-hulls, ``threemf`` writes parts for slicers, and ``options`` reads parameters from a command line.
+What is said and shown of it:
+
+- ``colors``: colors for parts
+- ``report``: the report as JSON
+- ``pictures``: pictures without a renderer
+- ``naming``: names for parts that say what they are
+- ``graph_folding``: which nodes and arcs are worth showing beside some parts
+- ``groups``: where groups of parts that no cuts connect touch
+- ``descriptors``: what a part is like, in numbers, to find parts that are alike
+- ``correspondence``: the same parts on another model
+
+Parts that move:
+
+- ``bones``: bones for an armature
+- ``skinning``: the weights with which bones move a surface
+- ``motion``: how groups of points have moved
+- ``body_joints``: joints between parts as rigid bodies
+- ``hulls``: convex hulls to collide with
+
+Maps:
+
+- ``unfold``: seams along which parts can be unfolded
+- ``conformal``: the scale of a map that keeps angles, without making it
+- ``stacking``: parts that can lie over each other in a map
+- ``distortion``: how much a map changes areas and angles
+
+Parts as pieces:
+
+- ``clean_cuts``: smooth curves to cut along
+- ``networks``: networks of such curves, taken apart where few go across
+- ``rims``: rims that lie within each other
+- ``cap_surfaces``: surfaces across closed curves
+- ``sleeves``: the faces beside a curve, which a cap may follow
+- ``cap_maps``: caps in a UV map
+- ``sections``: planes in which long pieces are cut, and what lies in them
+- ``joint_shapes``: the solids of pegs, keys and dowels
+- ``joint_places``: where two pieces can be joined
+- ``threemf``: parts in a file for slicers
 """

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The method of [Berretti2009]: from the level sets and the Reeb graph of a component to candidates.
 
-``regions`` forms regions and ranks them, ``boundary_search`` moves the cuts between them along the Reeb graph to
-concavities, ``method`` runs these steps.
+- ``regions``: regions between events, fused and ranked
+- ``fusion``: which regions are fused: small ones, and those that do not stick out
+- ``boundary_search``: each cut moved along its arc of the Reeb graph to a concavity
+- ``method``: runs these steps
 """

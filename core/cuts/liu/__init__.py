@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The method of [Liu2007]: from the patches of a component to candidates, by one bisection after another.
 
-``patch_graph`` reduces a surface to some hundred patches, ``embedding`` lays a part of them into the plane, ``outline``
-judges its outline there and finds points in different parts, ``row_cuts`` finds the best cut between two points,
-``method`` runs these steps.
+- ``patch_graph``: a surface reduced to some hundred patches
+- ``embedding``: a part of them laid into the plane
+- ``outline``: its outline there judged, and points found in different parts
+- ``row_cuts``: the best cut between two points
+- ``method``: runs these steps
 """

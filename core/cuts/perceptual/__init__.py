@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cuts where people cut: from the level sets and the field of a component to candidates, by a learned model.
 
-``patches`` divides the surface between creases, ``measures`` and ``thickness`` measure every face once, ``features``
-describes a cut by sums of measures, ``boosted_trees`` judges it, ``merging`` merges the weakest cuts first, ``method``
-runs these steps.
+- ``level_set_patches``: patches that end at level sets only, for cuts that stay on them
+- ``measures``: every face and pair of faces measured once
+- ``thickness``: the solid under each face, and the space above it
+- ``features``: what the model is told of a cut, from sums of measures
+- ``merging``: the weakest cuts merged first
+- ``method``: runs these steps
 """

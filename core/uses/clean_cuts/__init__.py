@@ -9,4 +9,15 @@ level pass through the middle of the border as it was, so that no part grows at 
 fits the curve, the curve is the section with the plane. A curve goes through creases that the border follows.
 
 A border that is smooth already stays along the edges of faces, and so does one whose curve would take a part away.
+
+- ``band``: the faces near the borders
+- ``shares``: each part's share of the surface around a vertex
+- ``sides``: in which part each vertex is, and where curves cross edges
+- ``pins``: vertices that curves go through, at creases
+- ``planes``: planes in place of curves that they fit
+- ``turning``: how much a curve turns
+- ``judging``: which curves are used
+- ``division``: faces divided where curves run
+- ``curves``: the curves as lines to draw
+- ``method``: runs these steps
 """
