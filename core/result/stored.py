@@ -285,4 +285,6 @@ def _is_whole(array: np.ndarray, shape: tuple[int, ...], low: int, high: int) ->
 
 
 def _is_real(array: np.ndarray, shape: tuple[int, ...], finite: bool) -> bool:
-    return array.shape == shape and array.dtype.kind == "f" and (not finite or bool(np.isfinite(array).all()))
+    # Where nothing touches, 0.1.0 wrote the lengths, of which there are none, as whole numbers.
+    real = array.dtype.kind == "f" or not array.size
+    return array.shape == shape and real and (not finite or bool(np.isfinite(array).all()))

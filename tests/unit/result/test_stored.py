@@ -11,6 +11,7 @@ import pytest
 import shapes
 
 from core.errors import ReebError
+from core.parameters import Parameters
 from core.pipeline import decompose
 from core.result.decomposition import Decomposition
 from core.result.stored import DamagedError, NewerError, is_newer
@@ -89,6 +90,20 @@ def test_an_array_that_is_missing_or_of_another_shape_or_kind(name):
                   lambda array: array.astype("M8[s]") if array.dtype.kind == "i" else array.astype(str)):
         with pytest.raises(DamagedError):
             Decomposition.from_bytes(changed(**{key: wrong}), COUNTS)
+
+
+def test_lengths_of_no_pairs_may_be_whole_numbers():
+    """Version 0.1.0 wrote them so where no two candidates touch, as on a ball."""
+    ball = decompose(*shapes.icosphere(1), Parameters.preset("Berretti 2009"))
+    assert ball.n_candidates == 1
+    with np.load(io.BytesIO(ball.to_bytes())) as stored:
+        arrays = dict(stored)
+    arrays["candidate_pair_length"] = np.empty(0, np.int64)
+    stream = io.BytesIO()
+    np.savez_compressed(stream, **arrays)
+    again = Decomposition.from_bytes(stream.getvalue(), (ball.n_vertices, ball.n_faces))
+    assert again.candidate_pair_length.dtype == np.float64
+    assert again.parts().labels.tolist() == ball.parts().labels.tolist()
 
 
 @pytest.mark.parametrize("name", ["mirror", "face_twin", "face_side"])
