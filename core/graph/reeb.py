@@ -74,7 +74,11 @@ class ReebGraph:
 
     @property
     def n_loops(self) -> int:
-        """Number of independent loops (first Betti number): the genus of a closed orientable surface."""
+        """Number of independent loops (first Betti number).
+
+        Of a closed orientable surface its genus, but for loops thinner than a slab, and for surfaces that are so even
+        that the graph is one node: a thin ring has none.
+        """
         return self.n_arcs - self.n_nodes + self.n_components
 
     @cached_property

@@ -310,7 +310,7 @@ def _vertex_field(
     n_cut = sum(len(np.unique(piece[r.component.faces])) for r in results)
     notes = _body_notes if parameters.pieces == TOGETHER else _piece_notes
     if n_pieces == 1:
-        return values, (Sentence("Nothing protrudes: the mesh is one part."),) if n_flat else ()
+        return values, (Sentence("Nothing protrudes: the surface is even."),) if n_flat else ()
     return values, tuple(notes(n_cut, n_pieces - n_cut, len(results), n_flat))
 
 
@@ -335,9 +335,7 @@ def _piece_notes(n_cut: int, n_small: int, n_bodies: int, n_flat: int) -> Iterat
     else:
         yield Sentence("{n} loose parts are decomposed each on its own.", n=n_bodies)
     if n_flat:
-        yield Sentence("{n} of the loose parts {n:is so even that nothing protrudes: one part|are so even that "
-                       "nothing protrudes: one part each}.",
-                       n=n_flat)
+        yield Sentence("{n} of the loose parts {n:is|are} so even that nothing protrudes.", n=n_flat)
 
 
 def _graph_candidates(results: list[ComponentResult], label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -327,6 +327,18 @@ def test_sphere_is_one_part(preset):
     assert result.graph.n_nodes == 1
 
 
+@pytest.mark.parametrize("pieces", ["together", "separate"])
+def test_what_is_even_is_not_said_to_be_one_part_where_it_has_more(preset, pieces):
+    """A number that is asked for, materials, or a method that heeds no field part it nevertheless."""
+    ball = shapes.icosphere(2)
+    for mesh in (ball, shapes.together(ball, shapes.moved(ball, (9, 0, 0)))):
+        hints = mesh.vertices[mesh.faces].mean(axis=1)[:, 2] > 0
+        result = decompose(*mesh, parameters=replace(preset, pieces=pieces), hints=hints.astype(int))
+        assert result.parts(n_parts=4).count == 4 or result.n_candidates < 4
+        assert noted(result, "othing protrudes")
+        assert not noted(result, "one part")
+
+
 def test_border(preset):
     result = sound_triangles(shapes.flat_grid(30, 6), preset)
     assert noted(result, "border edges")

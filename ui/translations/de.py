@@ -756,10 +756,9 @@ TEXTS = {
     "{n} loose parts are decomposed each on its own.": "{n} lose Teile werden jedes für sich zerlegt.",
     "{n} loose parts are decomposed each on its own; {small} small {small:one is one|ones are one} part each.":
         "{n} lose Teile werden jedes für sich zerlegt; davon sind klein und je ein einziges Teil: {small}.",
-    "{n} of the loose parts {n:is so even that nothing protrudes: one part|are so even that nothing protrudes: one "
-    "part each}.":
-        "Lose Teile, die so gleichmäßig sind, dass nichts vorsteht: {n}; sie sind je ein einziges Teil.",
-    "Nothing protrudes: the mesh is one part.": "Nichts steht vor: das Mesh ist ein einziges Teil.",
+    "{n} of the loose parts {n:is|are} so even that nothing protrudes.":
+        "Lose Teile, die so gleichmäßig sind, dass nichts vorsteht: {n}.",
+    "Nothing protrudes: the surface is even.": "Nichts steht vor: die Oberfläche ist gleichmäßig.",
     "The mesh was decomposed together with its mirror image.":
         "Das Mesh wurde zusammen mit seinem Spiegelbild zerlegt.",
     "A mirror plane is four numbers: its normal, and its distance from the origin.":

@@ -695,10 +695,8 @@ TEXTS = {
     "{n} loose parts are decomposed each on its own.": "{n} 个松散块各自单独分解。",
     "{n} loose parts are decomposed each on its own; {small} small {small:one is one|ones are one} part each.":
         "{n} 个松散块各自单独分解；其中 {small} 个小块各为一个部件。",
-    "{n} of the loose parts {n:is so even that nothing protrudes: one part|are so even that nothing protrudes: one "
-    "part each}.":
-        "其中 {n} 个松散块过于均匀，没有突出部分：各为一个部件。",
-    "Nothing protrudes: the mesh is one part.": "没有突出部分：网格为一个部件。",
+    "{n} of the loose parts {n:is|are} so even that nothing protrudes.": "其中 {n} 个松散块过于均匀，没有突出部分。",
+    "Nothing protrudes: the surface is even.": "没有突出部分：表面过于均匀。",
     "The mesh was decomposed together with its mirror image.": "网格已与其镜像一起分解。",
     "A mirror plane is four numbers: its normal, and its distance from the origin.":
         "镜像平面由四个数字表示：法向及其到原点的距离。",
