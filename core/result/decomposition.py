@@ -21,6 +21,7 @@ from ..surface.labels import majority
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
 from ..surface.pairs import distinct_pairs
+from ..surface.ties import first_largest
 from ..version import VERSION
 from . import stored
 from .junctions import counted_again
@@ -333,8 +334,9 @@ class Decomposition:
     def group(self, candidate_part: np.ndarray) -> Parts:
         """Make parts of any grouping of the candidates.
 
-        Part 0 is the part of most area. The others are sorted by the mean index of their faces, so that the parts of a
-        mesh have the same labels in all its poses.
+        Part 0 is the part of most area; of parts whose areas differ by rounding only, as those of twins do, the first
+        of them. The others are sorted by the mean index of their faces, so that the parts of a mesh have the same
+        labels in all its poses.
 
         Parameters
         ----------
@@ -358,7 +360,8 @@ class Decomposition:
         area = np.bincount(part, self.candidate_area)
         n_faces = np.bincount(self.candidates, minlength=self.n_candidates)
         middle = np.bincount(part, n_faces * self._face_order) / np.bincount(part, n_faces)
-        middle[np.lexsort((middle, -area))[0]] = -1.0
+        order = np.argsort(middle, kind="stable")
+        middle[order[first_largest(area[order])]] = -1.0
         return Parts(self, inverse(np.argsort(middle, kind="stable"))[part])
 
     def scaled(self, exponent: int) -> Decomposition:

@@ -18,6 +18,7 @@ import numpy as np
 
 from ..surface.arrays import stable_order, sums_by
 from ..surface.pairs import both_ways, distinct_pairs
+from ..surface.ties import TIE, first_largest, ranks
 from .decomposition import Decomposition, Parts
 from .levels import detail_between, strong_levels
 from .splits import Splits
@@ -121,9 +122,9 @@ def _votes(decomposition: Decomposition) -> np.ndarray:
 def follow(part: np.ndarray, previous_number: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """Number new parts by their overlap with numbered old parts.
 
-    Pairs of a new part and an old number are taken by falling overlap, each part and each number once; of equal
-    overlaps, the pair of the smaller part and then that of the smaller number comes first. Parts that are left over get
-    the smallest numbers that ``previous_number`` does not contain.
+    Pairs of a new part and an old number are taken by falling overlap, each part and each number once; of overlaps that
+    are equal but for rounding, the pair of the smaller part and then that of the smaller number comes first. Parts that
+    are left over get the smallest numbers that ``previous_number`` does not contain.
 
     Parameters
     ----------
@@ -145,7 +146,7 @@ def follow(part: np.ndarray, previous_number: np.ndarray, weight: np.ndarray) ->
     pairs, pair = distinct_pairs(part[known], previous_number[known])
     overlap = sums_by(pair, weight[known], len(pairs))
     taken = set()
-    for new, number in pairs[np.argsort(-overlap, kind="stable")].tolist():
+    for new, number in pairs[stable_order(ranks(-np.log(overlap), 1.0))].tolist():
         if not numbers[new] and number not in taken:
             numbers[new] = number
             taken.add(number)
@@ -289,13 +290,21 @@ def _births(
         sides = (start, middle), (middle, end)
         kept = int(number[start])
         weights = [(vote.area_of(kept, *side), area[slice(*side)].sum()) for side in sides]
-        new = sides[1] if weights[0] >= weights[1] else sides[0]
+        new = sides[0] if _is_larger(weights[1], weights[0]) else sides[1]
         births.append(vote.give_(*new, count))
         number[slice(*new)] = births[-1]
     order = np.argsort(births)
     birth_order = order[np.searchsorted(np.array(births)[order], number)]
     place = np.argsort(splits.order)
     return _previous_first(number[place], birth_order[place], previous_number[place], vote.left_over)
+
+
+def _is_larger(areas: tuple[float, ...], others: tuple[float, ...]) -> bool:
+    """Whether the first of some areas that differs from its like by more than rounding is larger than that."""
+    for area, other in zip(areas, others, strict=True):
+        if abs(area - other) > TIE * max(area, other):  # twins have areas whose last digits change with the pose
+            return area > other
+    return False
 
 
 @dataclass(eq=False)
@@ -339,9 +348,9 @@ class _AreaVote:
         # Of the numbers that are there alone: a table of all of them for every part would take the square of the time.
         codes, place = np.unique(self.code[start:end], return_inverse=True)
         mine = np.bincount(place, self.area[start:end])
-        mine[~self.free[codes] | (2 * mine <= self.total[codes])] = 0.0
+        mine[~self.free[codes] | (2 * mine <= (1 + TIE) * self.total[codes])] = 0.0
         if mine.any():
-            code = codes[mine.argmax()]
+            code = codes[first_largest(mine)]
             self.free[code] = False
             return int(self.known[code])
         while count in self.taken:

@@ -102,6 +102,7 @@ def read(data: bytes, counts: tuple[int, int] | None = None) -> StoredResult:
     _check(arrays, counts)
     arrays["graph.node_kind"] = arrays["graph.node_kind"].astype(np.int8)
     arrays["face_side"] = arrays["face_side"].astype(np.int8)
+    arrays["candidate_pair_length"] = arrays["candidate_pair_length"].astype(np.float64)
     return StoredResult(arrays, _parameters(head["parameters"], head["version"]), tuple(head["notes"]),
                         head["seconds"], head["version"])
 

@@ -76,6 +76,12 @@ def test_any_grouping():
     assert parts.cut_length.tolist() == [3]
 
 
+@pytest.mark.parametrize("rounding", [-1e-15, 0.0, 1e-15, 1e-7])
+def test_of_two_parts_as_large_as_each_other_the_first_is_part_0_in_every_pose(rounding):
+    result = replace(row(), candidate_area=np.array([1.0, 2.0, 6.0, 6.0 * (1 + rounding)]))
+    assert result.parts(n_parts=4).labels.tolist() == [1, 2, 2, 0, 0, 0, 3]
+
+
 @pytest.mark.parametrize("groups", [[0], np.zeros(10_000, int), np.zeros((3, 2), int), "x", [0.5, 1, 2], None, 7])
 def test_a_grouping_that_is_none_is_refused(groups, tree):
     with pytest.raises(ParameterError, match=r"Groups must be \d+ whole numbers, one for each candidate."):
