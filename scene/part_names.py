@@ -48,7 +48,7 @@ def free_name(mesh: bpy.types.Mesh, number: int, name: str) -> str:
 class Naming:
     """Gives names to several parts of a mesh, one after the other: what is asked for each is looked up once for all.
 
-    ``free`` and ``keep`` say and do what ``free_name`` and ``keep_name`` do, for a part after the other.
+    ``free`` and ``keep`` say and do what ``free_name`` and ``keep_name`` do, for a part, or two images, after the other.
     """
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
@@ -65,15 +65,18 @@ class Naming:
         self._taken = Counter(name for names in self._known.values() for name in names)
         self._full: Counter[str] = Counter()  # how many endings of a name are taken for sure, the first ones
 
-    def free(self, number: int, name: str) -> str:
-        """A name for a part that no other one has; ``keep`` comes next."""
-        for own in self._known[number]:
+    def free(self, names: dict[int, str]) -> dict[int, str]:
+        """Names for parts, by number, that no other ones have, with one number behind all; ``keep`` comes next."""
+        for own in [own for number in names for own in self._known[number]]:
             self._taken[own] -= 1
             if not self._taken[own]:
                 self._released(own)
-        while self._taken[found := with_ending(name, self._full[name])]:
-            self._full[name] += 1
-        return found
+        count = max(self._full[name] for name in names.values())
+        while any(self._taken[with_ending(name, count)] for name in names.values()):
+            count += 1
+        if len(names) == 1:  # of two, either may be what has an ending
+            self._full[next(iter(names.values()))] = count
+        return {number: with_ending(name, count) for number, name in names.items()}
 
     def keep(self, number: int, name: str) -> None:
         """Remember the name that a part has now; ``end`` comes after all."""
@@ -126,6 +129,21 @@ def twins(mesh: bpy.types.Mesh) -> dict[int, int]:
     numbers = {part.own_name: part.number for part in mesh.reeb_parts.parts}
     images = {number: numbers.get(bpy.utils.flip_name(name), number) for name, number in numbers.items()}
     return {number: image for number, image in images.items() if image != number}
+
+
+def in_pairs(mesh: bpy.types.Mesh, names: dict[int, str]) -> list[dict[int, str]]:
+    """Names of parts by number, those of two mirror images together if one is the other's flipped, else one by one."""
+    images, left, found = twins(mesh), dict(names), []
+    for number, name in names.items():
+        if number not in left:
+            continue
+        both = [number]
+        image = images.get(number)
+        flips = image in left and left[image] == bpy.utils.flip_name(name) != name
+        if flips and len(name.encode()) <= _LONGEST - _ROOM:  # behind a longer name, a number takes the place of a side
+            both.append(image)
+        found.append({each: left.pop(each) for each in both})
+    return found
 
 
 def of_side(name: str, side: int, is_image: bool) -> str:

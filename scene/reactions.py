@@ -87,22 +87,24 @@ def _take_name(part: bpy.types.PropertyGroup) -> None:
 def give_names(mesh: bpy.types.Mesh, names: dict[int, str]) -> int:
     """Name parts by number, in the order given; a name that another part has gets a number behind it.
 
-    Returns how many parts were named.
+    Of mirror images both get the same number. Returns how many parts were named.
     """
     listed = {part.number: part for part in mesh.reeb_parts.parts}
-    parts = [listed[number] for number in names if number in listed]
+    known = {number: name for number, name in names.items() if number in listed}
     naming, users = part_names.Naming(mesh), targets.users(mesh)
     with property_updates.quiet():
-        for part in parts:
-            part.name = naming.free(part.number, names[part.number])
-            for obj in users[:1]:
-                vertex_groups.rename(obj, part)
-            materials.rename(part)
-            naming.keep(part.number, part.name)
+        for together in part_names.in_pairs(mesh, known):
+            for number, name in naming.free(together).items():
+                part = listed[number]
+                part.name = name
+                for obj in users[:1]:
+                    vertex_groups.rename(obj, part)
+                materials.rename(part)
+                naming.keep(number, part.name)
     naming.end()
     for obj in users:
         graph_objects.update_names(obj)
-    return len(parts)
+    return len(known)
 
 
 def show_graph(obj: bpy.types.Object | None, shown: bool, context: bpy.types.Context) -> None:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,6 +29,9 @@ _NECK = 1.3  # a part between head and body that is less long may be the head, a
 _REACH = 1.3  # an arm or a tail is at least so many times as long as wide
 _BROAD = 1.2  # a part between them, of an upright creature, that is so many times as wide as the head has the shoulders
 _BENT = 1.2  # a handle is at least so many times as long as wide, as it is bent
+
+# Words for what is beside the middle; a head, a neck, a tail and a body are there once.
+_TWICE = frozenset({"arm", "leg", "ear", "handle"})
 
 _FOUR = 4  # legs of a creature that has its head where a head is looked for
 
@@ -63,6 +66,9 @@ def suggestions(shapes: Shapes) -> list[Suggestion]:
     Where no plane of symmetry tells which way a creature looks, it is a way in which it has a head, and of these that
     in which most parts have a word.
 
+    Two parts that are mirror images have one name, with two sides: of two words that which there may be two of, of two
+    places and kinds those of the first.
+
     Returns
     -------
     names : list of Suggestion
@@ -74,7 +80,11 @@ def suggestions(shapes: Shapes) -> list[Suggestion]:
         if "head" in found.values() and ("head" not in words.values() or len(found) > len(words)):
             shapes, words = other, found
     has_head = "head" in words.values()
-    return [_suggestion(shapes, part, words.get(part, ""), has_head) for part in range(shapes.parts.count)]
+    names = [_suggestion(shapes, part, words.get(part, ""), has_head) for part in range(shapes.parts.count)]
+    for one, image in shapes.pairs:
+        side = int(shapes.parts.side[one])
+        names[one], names[image] = replace(names[one], side=side), replace(names[one], side=-side)
+    return names
 
 
 def _words(shapes: Shapes) -> dict[int, str]:
@@ -84,12 +94,15 @@ def _words(shapes: Shapes) -> dict[int, str]:
     for word, found in creature:
         for part in found:
             words.setdefault(part, word)
-    return words
+    for pair in shapes.pairs:
+        theirs = [words.pop(part) for part in pair if part in words]
+        words |= dict.fromkeys(pair, next((word for word in theirs if word in _TWICE), ""))
+    return {part: word for part, word in words.items() if word}
 
 
 def _suggestion(shapes: Shapes, part: int, word: str, has_head: bool) -> Suggestion:
     """The name of a part: of its word, or without one of its kind. has_head : whether a part is called head."""
-    if part == shapes.body:
+    if part == shapes.body and not shapes.paired[part]:
         return Suggestion(word or "body")
     offset = shapes.offset[part].copy()
     if word in {"leg", "arm", "ear"}:
@@ -162,7 +175,8 @@ def _stands(shapes: Shapes) -> bool:
 
 def _midst(shapes: Shapes, others: list[int]) -> list[int]:
     """Parts among which head and neck of a creature are. others : parts that hang on the body and are no legs."""
-    midst = [part for part in others if abs(shapes.aside[part]) < MIDST and part not in shapes.trunk]
+    midst = [part for part in others if abs(shapes.aside[part]) < MIDST and part not in shapes.trunk
+             and not shapes.paired[part]]
     if shapes.upright:
         return midst
     return [part for part in midst if shapes.ahead * shapes.offset[part, 1 - shapes.across] > AHEAD]

@@ -211,6 +211,12 @@ class Shapes:
         """(k,) bool, whether a part has a mirror image that is another part."""
         return self.parts.side != 0
 
+    @cached_property
+    def pairs(self) -> list[tuple[int, int]]:
+        """Every two parts that are mirror images."""
+        return [(part, int(self.parts.twin[part])) for part in np.flatnonzero(self.paired).tolist()
+                if part < self.parts.twin[part]]
+
 
 def _longest(center: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """The longest axis of a model seen from above, (2,), or (0,) if it is not clear. center, weight : of the faces."""

@@ -240,3 +240,25 @@ def test_the_report_of_paint_does_not_count_the_mirror_image_as_what_is_left(mes
     assert f"1 face of {name} does not touch" in said
     assert "what is left" not in said
     assert "0 faces" not in said
+
+
+@pytest.mark.parametrize("in_pose", [False, True])
+def test_suggested_names_of_images_are_images(make, in_pose):
+    """Each part was named alone, and of equal names each got the next number, whatever its image has."""
+    vertices, faces = shapes.mirrored_figure()
+    obj = make(shapes.Shape(shapes.posed(vertices) if in_pose else vertices, faces), "Figure")
+    bpy.ops.reeb_parts.decompose()
+    for count in (12, 20, 35):
+        obj.data.reeb_parts.n_parts = count
+        parts = obj.data.reeb_parts.parts
+        own = {entry.number: entry.own_name for entry in parts}
+        numbers = {name: number for number, name in own.items()}
+        parts[0].name = "piece.L.001"  # of which one side is taken
+        bpy.ops.reeb_parts.suggest_names()
+        names = {entry.number: entry.name for entry in parts}
+        assert len(set(names.values())) == len(names)
+        images = {number: numbers.get(bpy.utils.flip_name(name), number) for number, name in own.items()}
+        paired = [number for number in images if len({number, images[number]} - {parts[0].number}) == 2]
+        assert len(paired) > 4
+        for number in paired:
+            assert names[number] == bpy.utils.flip_name(names[images[number]]) != names[images[number]]

@@ -61,6 +61,31 @@ def test_in_which_direction_it_walks_does_not_matter(cow, turn):
         (name.word, name.place) for name in names if name.word != "piece"]
 
 
+def images_have_one_name(vertices, faces, result, turn, n_parts):
+    parts = result.parts(n_parts=n_parts)
+    names = named(vertices, faces, result, turn, n_parts=n_parts)
+    for part in np.flatnonzero(parts.side).tolist():
+        name, image = names[part], names[parts.twin[part]]
+        assert (name.word, name.place) == (image.word, image.place)
+        assert name.side == -image.side == parts.side[part]
+        assert name.word not in {"body", "head", "neck", "tail"}
+    return bool(parts.side.any())
+
+
+def test_mirror_images_have_one_name(creature):
+    assert sum(images_have_one_name(*creature, np.eye(3), count) for count in range(3, 40)) > 20
+
+
+def test_mirror_images_have_one_name_in_a_pose():
+    """No plane tells which way it looks, but the faces' images are known."""
+    vertices, faces = shapes.mirrored_figure()
+    vertices = shapes.posed(vertices)
+    result = decompose(vertices, faces)
+    assert result.plane is None
+    for degrees in (0, 40, 90):
+        assert sum(images_have_one_name(vertices, faces, result, heading(degrees), n) for n in range(3, 40)) > 20
+
+
 def heading(degrees):
     """A turn about the third axis, (3, 3)."""
     cos, sin = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
