@@ -166,12 +166,14 @@ class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> None:
         obj = targets.active_object(context)
-        pieces = [piece for piece in piece_objects.piece_objects(obj) if in_layer(context, piece)]
+        # Appended alone to another file, an object comes with its pieces, but these are in no scene.
+        piece_objects.make_collection(context, obj)
+        pieces = piece_objects.piece_objects(obj)
         piece_objects.hide_original(context, obj)
         piece_objects.show_pieces(context, obj, True)
         shading.show_pieces(context)
         _show_in_local_view(context, pieces)
-        select_objects(context, pieces, active=pieces[0] if pieces else None)
+        select_objects(context, pieces, active=pieces[0])
 
 
 class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):

@@ -390,6 +390,62 @@ def test_the_original_or_its_pieces_are_seen(obj):
     assert kept not in pieces()
 
 
+def shown_pieces():
+    """How many pieces are seen after Show Separated Parts, with their original hidden."""
+    bpy.ops.reeb_parts.show_pieces()
+    assert bpy.context.view_layer.objects["Tree"].hide_get()
+    assert bpy.context.view_layer.objects.active == pieces()[0]
+    return sum(piece.visible_get() for piece in pieces())
+
+
+@pytest.mark.parametrize("hidden_by", ["exclude", "hide_viewport"])
+def test_pieces_are_shown_though_their_collection_was_not_seen(obj, hidden_by):
+    """The original was hidden, and nothing was seen in its place."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    bpy.ops.reeb_parts.show_original()
+    setattr(bpy.context.view_layer.layer_collection.children["Parts of Tree"], hidden_by, True)
+    activate(obj)
+    assert shown_pieces() == len(pieces()) > 2
+
+
+def test_pieces_are_shown_in_another_scene(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(hide=False)
+    other = bpy.data.scenes.new("Other")
+    other.collection.objects.link(obj)
+    bpy.context.window.scene = other
+    activate(obj)
+    assert shown_pieces() == len(pieces()) > 2
+
+
+def test_pieces_are_shown_in_a_file_that_got_their_original_alone(obj, tmp_path):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "tree.blend"))
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(str(tmp_path / "tree.blend")) as (_, wanted):
+        wanted.objects = ["Tree"]
+    bpy.context.scene.collection.objects.link(bpy.data.objects["Tree"])
+    bpy.data.objects["Tree"].hide_set(False)
+    activate(bpy.data.objects["Tree"])
+    assert shown_pieces() == len(pieces()) > 2
+
+
+def test_pieces_are_shown_from_within_an_excluded_collection(obj):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(hide=False)
+    scene, ours = bpy.context.scene.collection, bpy.data.collections["Parts of Tree"]
+    around = bpy.data.collections.new("Around")
+    scene.children.link(around)
+    around.children.link(ours)
+    scene.children.unlink(ours)
+    bpy.context.view_layer.layer_collection.children["Around"].exclude = True
+    activate(obj)
+    assert shown_pieces() == len(pieces()) > 2
+    assert bpy.context.view_layer.layer_collection.children["Around"].exclude
+
+
 def test_the_original_or_its_pieces_are_rendered(obj):
     """A piece that is out of renders, which is the user's work, stays so; that the others are for a while is none."""
     bpy.ops.reeb_parts.decompose()
