@@ -48,7 +48,7 @@ def free_name(mesh: bpy.types.Mesh, number: int, name: str) -> str:
 class Naming:
     """Gives names to several parts of a mesh, one after the other: what is asked for each is looked up once for all.
 
-    ``free`` and ``keep`` say and do what ``free_name`` and ``keep_name`` do, for a part, or two images, after the other.
+    ``free`` and ``keep`` say and do what ``free_name`` and ``keep_name`` do, for a part, or two images, after another.
     """
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
@@ -139,8 +139,8 @@ def in_pairs(mesh: bpy.types.Mesh, names: dict[int, str]) -> list[dict[int, str]
             continue
         both = [number]
         image = images.get(number)
-        flips = image in left and left[image] == bpy.utils.flip_name(name) != name
-        if flips and len(name.encode()) <= _LONGEST - _ROOM:  # behind a longer name, a number takes the place of a side
+        fits = len(name.encode()) <= _LONGEST - _ROOM  # behind a longer one, a number takes the place of the side
+        if fits and image is not None and left.get(image) == bpy.utils.flip_name(name) != name:
             both.append(image)
         found.append({each: left.pop(each) for each in both})
     return found
