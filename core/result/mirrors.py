@@ -39,7 +39,8 @@ class Mirror:
     first : float
         1.0 or -1.0, the side of the first face beside the plane: it leads where both sides are equally good.
     exact : bool
-        Whether all faces are exact mirror images of others, or of themselves.
+        Whether all faces are exact mirror images of others, or of themselves; or whether twins hang together alike.
+        Then nothing that was found speaks against them.
     across : tuple of Mirror
         Of an exact one: others across it and each other that are exact, too.
     within : tuple of Images
@@ -93,8 +94,8 @@ class Mirror:
 
     @classmethod
     def of_topology(cls, found: TopologyMirror) -> Mirror:
-        """The symmetry of a mesh in another pose: without a plane, and exact if all faces have twins."""
-        return cls(np.empty(0), found.twin, found.side.astype(np.float64), exact=bool((found.twin >= 0).all()))
+        """The symmetry of a mesh in another pose: without a plane."""
+        return cls(np.empty(0), found.twin, found.side.astype(np.float64), exact=True)
 
     def with_topology(self, found: TopologyMirror, area: np.ndarray) -> Mirror:
         """This one with the twins that follow from how faces hang together, which are exact whatever the pose.
@@ -108,7 +109,7 @@ class Mirror:
         side = found.side if area @ (found.side * self.height) >= 0 else -found.side
         by_plane = (found.twin < 0) & (self.twin >= 0) & (found.twin[self.twin] < 0)
         return replace(self, twin=np.where(by_plane, self.twin, found.twin),
-                       height=np.where(by_plane, self.height, side), within=())
+                       height=np.where(by_plane, self.height, side), within=(), exact=True)
 
     @classmethod
     def of_faces(cls, images: Images, mesh: TriMesh) -> Mirror:
