@@ -264,7 +264,7 @@ def mean_intersection_over_union(first: ArrayLike, second: ArrayLike, weight: Ar
     return float(overlap.largest(ratio)[1][of_second > 0].mean())
 
 
-def cut_discrepancy(mesh: TriMesh, first: ArrayLike, second: ArrayLike) -> float:
+def cut_discrepancy(mesh: Any, first: ArrayLike, second: ArrayLike) -> float:
     """Mean distance along edges from the cuts of each labeling to those of the other, by the size of the mesh.
 
     Cuts are the edges between faces of different labels. The mean is over the ends of the cuts of both labelings,
@@ -272,8 +272,8 @@ def cut_discrepancy(mesh: TriMesh, first: ArrayLike, second: ArrayLike) -> float
 
     Parameters
     ----------
-    mesh : TriMesh
-        m faces.
+    mesh : TriMesh, or what another library calls a mesh
+        With ``vertices`` and m ``faces``, triangles.
     first, second : (m,) array_like of int
         Labels of the faces.
 
@@ -287,11 +287,14 @@ def cut_discrepancy(mesh: TriMesh, first: ArrayLike, second: ArrayLike) -> float
     ------
     ParameterError
         The labels are no whole numbers, or not one for each face.
+    MeshError
+        There is no mesh, or its arrays are wrong.
 
     Notes
     -----
     One search by Dijkstra's algorithm from all cuts of each labeling: O(n log n) time for n vertices.
     """
+    mesh = TriMesh.of(mesh)
     first, second = _numbered(first), _numbered(second)
     for label in (first, second):
         _check_count(len(label), mesh.n_faces, "labels")

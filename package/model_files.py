@@ -19,6 +19,7 @@ from .core.errors import ReebError
 from .core.file_names import readable
 from .core.memory import lacks_memory
 from .core.sentence import Sentence
+from .core.surface.arguments import corners, positions
 from .obj_files import parse_obj
 from .ply_files import ASCII, read_ply
 
@@ -27,6 +28,7 @@ BY_BLENDER = (".blend", ".fbx")
 #: Files in which z is up by custom; y is in all others.
 Z_UP = (".stl", ".ply", ".3mf", *BY_BLENDER)
 ARRAYS = ".npz"  # the arrays ``vertices`` and ``faces``, as NumPy stores them
+_NO_ARRAYS = Sentence("it has no arrays of numbers vertices and faces.")
 # What trimesh counts among the files of meshes: another name for .stl, and points without faces.
 _OTHERS = {"stl_ascii", "xyz"}
 
@@ -128,6 +130,8 @@ def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         return reader(path)
     except MemoryError:
         raise
+    except ReebError as error:  # of the arrays in it
+        raise _unreadable(path, str(error)) from error
     except ImportError as error:
         raise NoReaderError(Sentence("{path} needs a package that is not there ({reason}). What most files need comes "
                                      'with pip install "reeb-parts[formats]".', path=path, reason=error)) from error
@@ -140,9 +144,19 @@ def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of NumPy's own file."""
     # NumPy would leave a damaged file open that it has opened itself.
-    with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
-        faces = data["faces"].astype(np.int64)
-        return data["vertices"].astype(np.float64), faces, np.arange(len(faces))
+    with path.open("rb") as file:
+        if file.read(2) != b"PK":  # or it would be taken for Python's own objects
+            raise ReebError(_NO_ARRAYS)
+        file.seek(0)
+        with np.load(file, allow_pickle=False) as data:
+            try:
+                vertices, faces = data["vertices"], data["faces"]
+            except (KeyError, ValueError) as error:  # there are none, or they are Python's own objects
+                raise ReebError(_NO_ARRAYS) from error
+    flat, sizes = corners(faces)
+    if (sizes != 3).any():
+        raise ReebError(Sentence("Triangles must have shape (m, 3), not {shape}.", shape=np.shape(faces)))
+    return positions(vertices), flat.reshape(-1, 3), np.arange(len(sizes))
 
 
 def _read_obj(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -212,7 +226,8 @@ def _read_by_blender(path: Path, blender: str | Path | None,
                      temporary: str | Path | None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of a file that a Blender reads; raises ModelFileError."""
     if blender is None:
-        raise NoReaderError(Sentence("{path} can be read by Blender only. Say where it is with --blender.", path=path))
+        raise NoReaderError(Sentence("{path} can be read by Blender only. Say where it is with --blender, in "
+                                     "Python with blender=.", path=path))
     script = Path(__file__).with_name("blender_export.py")
     with tempfile.TemporaryDirectory(prefix=HIDDEN, dir=temporary) as folder:
         out = Path(folder) / "model.npz"

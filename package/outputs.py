@@ -10,8 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .core.errors import ParameterError
 from .core.file_names import file_name
 from .core.result.decomposition import Decomposition, Parts
+from .core.sentence import Sentence
+from .core.surface.arguments import whole_numbers
 from .core.surface.mesh import TriMesh
 from .core.uses.colors import linear, part_colors
 from .core.uses.pictures import picture, png
@@ -27,6 +30,9 @@ if TYPE_CHECKING:
 LABELS = (".npy", ".txt", ".seg")
 COLORED = (".ply", ".glb", ".obj")
 PARTS = ("obj", "ply", "stl", "glb", "off")
+# Pixels of each side of a picture; in larger ones than LARGEST_FINE no edge is smoothed, which would take four times
+# as long and is hardly seen.
+LARGEST_PICTURE, LARGEST_FINE = 4096, 2000
 
 
 def json_bytes(result: dict[str, Any]) -> bytes:
@@ -146,11 +152,42 @@ def _ply_bytes(mesh: trimesh.Trimesh, rounding: Rounding) -> bytes:
     return head + end + positions + body[len(positions) // 2 :]  # vertices come first, and have nothing else
 
 
-def picture_bytes(model: Model, result: Decomposition, parts: Parts, size: int, graph: bool = True) -> bytes:
+def picture_bytes(model: Any, result: Decomposition, parts: Parts, size: int, graph: bool = True) -> bytes:
     """A PNG of the model in the colors of its parts, with the Reeb graph over it.
 
-    size : int, width and height in pixels. Returns bytes.
+    Parameters
+    ----------
+    model : Model, or what another library calls a mesh
+        With ``vertices`` and triangles as ``faces``; what says nothing of its upward axis is seen from its widest side.
+    result : Decomposition
+        Of this model.
+    parts : Parts
+        Of this result.
+    size : int
+        Width and height in pixels, 1 to LARGEST_PICTURE.
+    graph : bool
+        Whether the graph is drawn.
+
+    Returns
+    -------
+    data : bytes
+
+    Raises
+    ------
+    MeshError
+        There is no mesh, or its arrays are wrong.
+    ParameterError
+        There is no such size, or the parts are those of another number of faces.
     """
-    colors = part_colors(parts.count, parts.cuts)[parts.labels[model.polygon]]
-    mesh = TriMesh(model.vertices, model.faces)
-    return png(picture(mesh, colors, size, model.up, result.graph if graph else None, fine=2))
+    given = whole_numbers(size)
+    if given is None or given.ndim or not 1 <= given <= LARGEST_PICTURE:
+        raise ParameterError(Sentence("The size of a picture is a whole number of pixels, 1 to {most}, not {size}.",
+                                      most=LARGEST_PICTURE, size=size), "size")
+    mesh = TriMesh.of(model)
+    polygon = getattr(model, "polygon", np.arange(mesh.n_faces))
+    if int(polygon.max(initial=-1)) + 1 != len(parts.labels):
+        raise ParameterError(Sentence("The parts are of {n} faces, the model has {faces}.", n=len(parts.labels),
+                                      faces=int(polygon.max(initial=-1)) + 1), "parts")
+    colors = part_colors(parts.count, parts.cuts)[parts.labels[polygon]]
+    fine = 2 if given <= LARGEST_FINE else 1
+    return png(picture(mesh, colors, int(given), getattr(model, "up", ""), result.graph if graph else None, fine))

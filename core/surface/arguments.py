@@ -13,17 +13,21 @@ from ..errors import MeshError
 from ..sentence import Sentence
 
 _EXACT = 2.0**53  # up to here every whole number is a float64
+_LAST = np.uint64(2**63 - 1)  # the last number of int64
 
 
-def numbers(values: Any) -> np.ndarray | None:
+def numbers(values: Any, truth: bool = False) -> np.ndarray | None:
     """Values as an array of float64, whole numbers as they are; None if they are no numbers.
 
-    values : anything. Texts of numbers are numbers, and what is missing among them is nan; truth values are not, nor
-    are complex numbers, dates, and rows of different lengths.
+    values : anything. Texts of numbers are numbers, and what is missing among them is nan; truth values are not, unless
+    ``truth`` says that they are taken as they are; nor are complex numbers, dates, rows of different lengths, and what
+    is masked.
     """
     try:
+        if np.ma.is_masked(values):
+            return None
         array = np.asarray(values)
-        if array.dtype.kind in "iu":
+        if array.dtype.kind in "iu" or (truth and array.dtype.kind == "b"):
             return array
         if array.dtype.kind == "O":
             # Truth values and texts in between would become numbers.
@@ -39,10 +43,18 @@ def numbers(values: Any) -> np.ndarray | None:
 
 def positions(values: Any) -> np.ndarray:
     """Positions of vertices, of any shape; raises MeshError if they are no numbers."""
+    _check_masks(values)
     array = numbers(values)
     if array is None:
         raise MeshError(Sentence("Vertices must be rows of three numbers."))
     return array
+
+
+def _check_masks(values: Any) -> None:
+    """Raise MeshError where an array has values that are masked: what lies under the mask stands for nothing."""
+    if np.ma.is_masked(values):
+        raise MeshError(Sentence("{n} {n:number is|numbers are} masked. Leave out the vertices and faces that have them.",
+                                 n=int(np.ma.count_masked(values))))
 
 
 def whole_numbers(values: Any) -> np.ndarray | None:
@@ -50,9 +62,19 @@ def whole_numbers(values: Any) -> np.ndarray | None:
     array = numbers(values)
     if array is None or array.dtype.kind == "i":
         return array if array is None else array.astype(np.int64)
+    if array.dtype.kind == "u":
+        return array.astype(np.int64) if (array <= _LAST).all() else None
     if not (np.abs(array) < _EXACT).all() or (array % 1).any():
         return None
     return array.astype(np.int64)
+
+
+def _indices(values: Any) -> np.ndarray | None:
+    """As ``whole_numbers``; of unsigned numbers beyond int64 the last of int64, an index that no vertex has either."""
+    array = numbers(values)
+    if array is not None and array.dtype == np.uint64:
+        return np.minimum(array, _LAST).astype(np.int64)
+    return whole_numbers(values)
 
 
 def corners(faces: Any) -> tuple[np.ndarray, np.ndarray]:
@@ -60,7 +82,8 @@ def corners(faces: Any) -> tuple[np.ndarray, np.ndarray]:
 
     faces : (p, k) array_like of whole numbers, or a sequence of p such sequences. Raises MeshError.
     """
-    array = whole_numbers(faces)
+    _check_masks(faces)
+    array = _indices(faces)
     if array is not None and array.size == 0 and array.ndim < 3:
         array = array.reshape(0, 3)
     if array is not None and array.ndim == 2:
@@ -78,11 +101,11 @@ def corners(faces: Any) -> tuple[np.ndarray, np.ndarray]:
 def _rows(faces: Sequence) -> tuple[np.ndarray, np.ndarray]:
     """As ``corners``, of faces with different numbers of corners."""
     if all(type(face) in (list, tuple) for face in faces):
-        flat = whole_numbers(list(chain.from_iterable(faces)))
+        flat = _indices(list(chain.from_iterable(faces)))
         if flat is not None and flat.ndim == 1:
             return flat, np.array(list(map(len, faces)), np.int64)
     # One by one, which is slower and can tell where it is wrong.
-    read = [whole_numbers(face) for face in faces]
+    read = [_indices(face) for face in faces]
     rows = [row for row in read if row is not None and row.ndim == 1]
     if len(rows) < len(read):
         wrong = [index for index, row in enumerate(read) if row is None or row.ndim != 1]
@@ -94,8 +117,13 @@ def _rows(faces: Sequence) -> tuple[np.ndarray, np.ndarray]:
 
 
 def hints_of(hints: Any, n_faces: int) -> np.ndarray:
-    """Labels of faces that the caller has, numbered from 0, (n_faces,) int64; MeshError if they are anything else."""
-    array = whole_numbers(hints)
+    """Labels of faces that the caller has, numbered from 0, (n_faces,) int64; MeshError if they are anything else.
+
+    hints : (n_faces,) array_like of whole numbers, of any size if their type has them, or of truth values.
+    """
+    array = numbers(hints, truth=True)
+    if array is not None and array.dtype.kind == "f":
+        array = whole_numbers(array)
     if array is None or array.shape != (n_faces,):
         raise MeshError(Sentence("Hints must be one whole number for each of the {n} faces.", n=n_faces))
     return np.unique(array, return_inverse=True)[1].astype(np.int64)

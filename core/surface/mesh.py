@@ -6,6 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from typing import Any
+
 import numpy as np
 
 from ..errors import MeshError
@@ -95,6 +97,19 @@ class TriMesh:
                 vertices=bad,
             )
         check_corners(self.faces, self.n_vertices)
+
+    @classmethod
+    def of(cls, mesh: Any) -> TriMesh:
+        """What another library calls a mesh as a TriMesh.
+
+        mesh : anything with ``vertices``, (n, 3), and ``faces``, (m, 3), such as a ``trimesh.Trimesh``; a TriMesh is
+        returned as it is. Raises MeshError.
+        """
+        if isinstance(mesh, cls):
+            return mesh
+        if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
+            raise MeshError(Sentence("{type} is no mesh: give vertices and faces.", type=type(mesh).__name__))
+        return cls(mesh.vertices, mesh.faces)
 
     @property
     def n_vertices(self) -> int:

@@ -25,6 +25,7 @@ from ..meshes import decompose
 from ..model_files import read_model
 from ..output_files import OutputFileError, write_files
 from ..outputs import (
+    LARGEST_PICTURE,
     COLORED,
     LABELS,
     PARTS,
@@ -56,7 +57,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                        help="format of those files (default: %(default)s)")
     files.add_argument("--picture", type=file_of((".png",)), metavar="OUT.png",
                        help="a picture of the parts with the graph")
-    files.add_argument("--picture-size", type=number(16, 4096, int), default=640, metavar="N",
+    files.add_argument("--picture-size", type=number(16, LARGEST_PICTURE, int), default=640, metavar="N",
                        help="its width and height in pixels, 16 to 4096 (default: %(default)s)")
     add_parameters(parser.add_argument_group("parameters"))
 

@@ -14,10 +14,13 @@ import pytest
 import reeb_parts
 import shapes
 import trimesh
+from reeb_parts.core.metrics import cut_discrepancy
+from reeb_parts.outputs import picture_bytes
 
 from core import VERSION, decompose
 
 ROOT = Path(__file__).resolve().parents[2]
+VERTICES, FACES = shapes.box()
 
 
 def test_the_wheel_has_all_of_core_and_of_the_package_and_nothing_of_blender(wheel):
@@ -162,6 +165,45 @@ def test_arrays_are_read_as_they_are(tmp_path):
     model = reeb_parts.read_model(tmp_path / "tree.npz")
     assert (model.vertices == shape.vertices).all()
     assert (model.faces == shape.faces).all()
+
+
+@pytest.mark.parametrize(("arrays", "said"), [
+    ({"faces": FACES + 0.4}, "Face indices must be whole numbers"),
+    ({"vertices": VERTICES + 1j}, "Vertices must be rows of three numbers"),
+    ({"vertices": None}, "it has no arrays of numbers vertices and faces"),
+    ({"faces": None}, "it has no arrays of numbers vertices and faces"),
+    ({"faces": np.array([[0, 1, 2], [1, 2]], object)}, "it has no arrays of numbers vertices and faces"),
+    ({"faces": FACES[:, [0, 1, 2, 2]]}, "Triangles must have shape"),
+])
+def test_arrays_that_are_no_mesh_are_refused(tmp_path, arrays, said):
+    given = {"vertices": VERTICES, "faces": FACES} | arrays
+    np.savez(tmp_path / "box.npz", **{name: array for name, array in given.items() if array is not None})
+    with pytest.raises(reeb_parts.ModelFileError, match=f"box.npz could not be read: {said}"):
+        reeb_parts.read_model(tmp_path / "box.npz")
+
+
+def test_what_is_no_npz_is_said_to_have_no_arrays(tmp_path):
+    (tmp_path / "junk.npz").write_bytes(np.random.default_rng(0).bytes(500))
+    with pytest.raises(reeb_parts.ModelFileError, match="it has no arrays of numbers vertices and faces"):
+        reeb_parts.read_model(tmp_path / "junk.npz")
+
+
+def test_meshes_of_other_libraries_are_drawn_and_compared():
+    mesh = trimesh.Trimesh(VERTICES, FACES, process=False)
+    result = reeb_parts.decompose(mesh)
+    parts = result.parts()
+    assert picture_bytes(mesh, result, parts, 16).startswith(b"\x89PNG")
+    assert cut_discrepancy(mesh, np.arange(12) // 6, np.arange(12) // 6) == 0
+    for wrong in (None, VERTICES):
+        with pytest.raises(reeb_parts.MeshError, match="is no mesh: give vertices and faces"):
+            picture_bytes(wrong, result, parts, 16)
+        with pytest.raises(reeb_parts.MeshError, match="is no mesh: give vertices and faces"):
+            cut_discrepancy(wrong, parts.labels, parts.labels)
+    for size in (0, -1, "a", 1.5, None, 5000):
+        with pytest.raises(reeb_parts.ParameterError, match="whole number of pixels, 1 to 4096"):
+            picture_bytes(mesh, result, parts, size)
+    with pytest.raises(reeb_parts.ParameterError, match="The parts are of 12 faces, the model has 8"):
+        picture_bytes(trimesh.Trimesh(*shapes.octahedron(), process=False), result, parts, 16)
 
 
 def test_damaged_arrays_are_not_left_open(tmp_path):

@@ -747,6 +747,8 @@ TEXTS = {
         "Zusammenfallende Randpunkte: {n}; sie gelten als verbunden.",
     "{n} {n:triangle faces inwards or against its|triangles face inwards or against their} neighbors.":
         "Dreiecke, die nach innen oder gegen ihre Nachbarn zeigen: {n}.",
+    "{n} {n:number is|numbers are} masked. Leave out the vertices and faces that have them.":
+        "Maskierte Zahlen: {n}. Lassen Sie die Punkte und Flächen weg, zu denen sie gehören.",
     "{n} pieces that touch form one body.": "{n} Stücke, die sich berühren, bilden einen Körper.",
     "{n} pieces form {bodies} bodies; what touches is decomposed together.":
         "{n} Stücke bilden {bodies} Körper; was sich berührt, wird gemeinsam zerlegt.",

@@ -11,6 +11,7 @@ import shapes
 
 from core.errors import MeshError, ParameterError
 from core.pipeline import decompose
+from core.surface.arguments import hints_of
 from core.surface.polygons import PolygonMesh
 
 VERTICES, FACES = shapes.box()
@@ -80,6 +81,34 @@ def test_vertices_that_are_none(vertices):
 def test_faces_that_are_none(faces):
     with pytest.raises(MeshError):
         decompose(VERTICES, faces)
+
+
+def test_an_index_beyond_all_integers_is_that_of_a_vertex_that_does_not_exist():
+    faces = FACES.astype(np.uint64)
+    faces[3, 1] = 2**63 + 5
+    for given in (faces, list(faces), [*faces, np.array([0, 1, 2, 3], np.uint64)]):
+        with pytest.raises(MeshError, match=r"^1 of 1[23] faces names a vertex that does not exist \(first: face 3;"):
+            decompose(VERTICES, given)
+
+
+def test_what_is_masked_is_refused():
+    """Under the mask anything may be."""
+    vertices, faces = np.ma.array(VERTICES), np.ma.array(FACES)
+    assert same(vertices, faces)
+    vertices[:2], faces[5] = np.ma.masked, np.ma.masked
+    with pytest.raises(MeshError, match="^6 numbers are masked"):
+        decompose(vertices, FACES)
+    with pytest.raises(MeshError, match="^3 numbers are masked"):
+        decompose(VERTICES, faces)
+    with pytest.raises(MeshError, match="whole number for each of the 12 faces"):
+        decompose(VERTICES, FACES, hints=np.ma.array(np.arange(12), mask=np.arange(12) == 3))
+
+
+@pytest.mark.parametrize("hints", [
+    np.arange(12) > 5, (np.arange(12) > 5).tolist(), np.uint64(2**63) + (np.arange(12) > 5).astype(np.uint64),
+    np.uint64(2**64 - 2) + (np.arange(12) > 5).astype(np.uint64)])
+def test_hints_may_be_truth_values_and_any_whole_numbers(hints):
+    assert hints_of(hints, 12).tolist() == [0] * 6 + [1] * 6
 
 
 def test_the_faces_that_are_wrong_are_listed():
