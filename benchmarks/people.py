@@ -17,6 +17,7 @@ from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.metrics import Overlap
 from core.parameters import Parameters
+from core.surface.arrays import sums_by
 from core.surface.coarsening import Pyramid
 from core.surface.mesh import TriMesh
 from core.surface.polygons import PolygonMesh
@@ -80,8 +81,7 @@ def varied(vertices: np.ndarray, faces: np.ndarray, rng: np.random.Generator) ->
     mesh = TriMesh(vertices, faces)
     kind = rng.integers(3)
     if kind == 1:
-        normal = np.stack([np.bincount(mesh.faces.ravel(), np.repeat(c, 3), mesh.n_vertices)
-                           for c in mesh.area_normals.T], axis=1)
+        normal = sums_by(mesh.faces.ravel(), np.repeat(mesh.area_normals, 3, axis=0), mesh.n_vertices)
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
         step = np.median(mesh.edge_length) * rng.uniform(0.03, 0.15)
         return vertices + step * rng.normal(size=(mesh.n_vertices, 1)) * normal

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.result.numbering import NumberedParts
+from ..core.surface.arrays import sums_by
 from . import mesh_arrays, placing
 
 _middles: list[tuple[tuple, np.ndarray]] = []  # the last ones, with what they are of
@@ -22,7 +23,7 @@ def middles(mesh: bpy.types.Mesh, numbered: NumberedParts) -> np.ndarray:
     candidate, part = _candidate_middles(mesh, numbered.candidates), numbered.parts.candidate_part
     weight = numbered.parts.decomposition.candidate_area + 1e-300
     total = np.bincount(part, weight)
-    return np.stack([np.bincount(part, weight * axis) for axis in candidate.T], axis=1) / total[:, None]
+    return sums_by(part, weight[:, None] * candidate, len(total)) / total[:, None]
 
 
 def _candidate_middles(mesh: bpy.types.Mesh, candidates: np.ndarray) -> np.ndarray:
@@ -32,7 +33,7 @@ def _candidate_middles(mesh: bpy.types.Mesh, candidates: np.ndarray) -> np.ndarr
         center, area = mesh_arrays.face_middles(mesh)
         area += 1e-300
         total = np.bincount(candidates, area)
-        found = np.stack([np.bincount(candidates, area * axis) for axis in center.T], axis=1) / total[:, None]
+        found = sums_by(candidates, area[:, None] * center, len(total)) / total[:, None]
         _middles[:] = [(key, found)]
     return _middles[0][1]
 

@@ -9,6 +9,7 @@ from scipy.sparse import csr_array, diags_array
 from .arrays import sums_by
 from .mesh import TriMesh
 from .pairs import symmetric_matrix
+from .vectors import second_moments_of_each
 
 SCALES = (0.01, 0.02, 0.04)  # widths over which normals are smoothed, in units of sqrt(area)
 MAX_CURVATURE = 60.0  # bound of ``curvature_across``, in units of 1 / sqrt(area)
@@ -62,10 +63,9 @@ def principal_curvatures(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
     edge = mesh.vertices[end] - mesh.vertices[start]
     length = np.linalg.norm(edge, axis=1)
     direction = np.divide(edge, length[:, None], out=np.zeros_like(edge), where=length[:, None] > 0)
-    tensor = (0.5 * mesh.dihedral * length)[:, None, None] * (
-        direction[:, :, None] * direction[:, None, :])
-    tensor = tensor.reshape(-1, 9)
-    sums = sums_by(start, tensor, mesh.n_vertices) + sums_by(end, tensor, mesh.n_vertices)
+    turn = 0.5 * mesh.dihedral * length
+    at_start, at_end = (second_moments_of_each(at, direction, turn, mesh.n_vertices) for at in (start, end))
+    sums = (at_start + at_end).reshape(-1, 9)
     normals = sums_by(mesh.faces.ravel(), np.repeat(mesh.area_normals, 3, axis=0), mesh.n_vertices)
     area = mesh.vertex_area.copy()
     a, b = mesh.edges.vertices.T

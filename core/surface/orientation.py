@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..sentence import Sentence
-from .arrays import even_steps
+from .arrays import even_steps, sums_by
 from .components import components
 from .corners import CornerTable
 from .mesh import TriMesh
@@ -140,7 +140,7 @@ def _inside_out(mesh: TriMesh, chosen: np.ndarray) -> np.ndarray:
         return chosen
     count, piece = mesh.face_components
     area = np.bincount(piece, mesh.face_area, count)
-    middle = np.stack([np.bincount(piece, mesh.face_area * x, count) for x in mesh.face_centroids.T], axis=1)
+    middle = sums_by(piece, mesh.face_area[:, None] * mesh.face_centroids, count)
     away = mesh.face_centroids - (middle / np.where(area > 0, area, 1.0)[:, None])[piece]
     volume = _sums(piece, row_products(mesh.area_normals, away), count)
     inside_out = chosen & (volume < 0) & (area >= LEAST_AREA * mesh.area)

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import even_steps, rounded_order
+from .arrays import even_steps, rounded_order, sums_by
 from .contact import diameter
 from .mesh import TriMesh
 from .mirror_plane import MirrorPlane
@@ -166,8 +166,8 @@ class SmallFaces:
             return elements
         area = np.bincount(polygon, elements.area, self.n_polygons)[self.present]
         position, normal = (
-            np.stack([np.bincount(polygon, elements.area * column, self.n_polygons) for column in columns.T],
-                     axis=1)[self.present] / area[:, None] for columns in (elements.position, elements.normal))
+            sums_by(polygon, elements.area[:, None] * vectors, self.n_polygons)[self.present] / area[:, None]
+            for vectors in (elements.position, elements.normal))
         return Elements(position, normal, area)
 
     def inwards(self, plane: MirrorPlane) -> MirrorPlane:

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ...result.decomposition import Parts
+from ...surface.arrays import sums_by
 from .touching import LOOSE, Touching
 
 # None of the numbers of creatures is sharp: each 0.7 or 1.4 times as large names 1,401 to 1,474 parts of rigged models
@@ -97,7 +98,7 @@ class Shapes:
         parts = touching.parts
         labels, count, center, points = parts.labels, parts.count, center @ turn.T, points @ turn.T
         total = np.bincount(labels, weight, count)
-        middle = np.stack([np.bincount(labels, weight * axis, count) for axis in center.T], axis=1) / total[:, None]
+        middle = sums_by(labels, weight[:, None] * center, count) / total[:, None]
         low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
         np.minimum.at(low, labels[point_face], points)
         np.maximum.at(high, labels[point_face], points)
