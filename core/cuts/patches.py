@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..surface.arrays import last_of_each, renumbered
-from ..surface.components import components
+from ..surface.components import components, roots
 from ..surface.labels import label_boundaries, longest_neighbor
 from ..surface.mesh import TriMesh
 from ..surface.nearest_seeds import nearest_seeds
@@ -99,9 +99,7 @@ def absorb_small(mesh: TriMesh, label: np.ndarray, least_share: float) -> np.nda
         goal = np.where((area < least_share) & larger, goal, np.arange(len(area)))
         if (goal == np.arange(len(area))).all():
             return label
-        while (goal[goal] != goal).any():
-            goal = goal[goal]
-        label = renumbered(goal[label])[1]
+        label = renumbered(roots(goal)[label])[1]
 
 
 def connected_cells(mesh: TriMesh, cell: np.ndarray) -> np.ndarray:

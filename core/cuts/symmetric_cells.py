@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ..surface.arrays import renumbered
-from ..surface.components import components
+from ..surface.components import components, roots
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
 from ..surface.pairs import pair_keys
 from ..surface.ties import rounded
@@ -243,9 +243,7 @@ def _joined(
     touching, length = graph.boundaries(cell)
     goal = longest_neighbor(touching, length, len(area))
     goal = np.where(small & ~gone & (goal >= 0) & (area[goal] > area), goal, np.arange(len(area)))
-    while (goal[goal] != goal).any():
-        goal = goal[goal]
-    return goal[_beside(touching, length, gone)]
+    return roots(goal)[_beside(touching, length, gone)]
 
 
 def _beside(touching: np.ndarray, length: np.ndarray, gone: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ import heapq
 import numpy as np
 
 from ..field.agd import ScalarField
+from ..surface.components import roots
 from .level_sets import LevelSets
 from .reeb import ReebTopology
 
@@ -216,7 +217,7 @@ class _WorkGraph:
     def result(self) -> ReebTopology:
         """Topology of the nodes and arcs that are left, numbered anew in their old order."""
         n = len(self.at_node)
-        root = _roots(self.parent)
+        root = roots(np.array(self.parent, np.int64))
         owner = root[self.piece_owner]
         keeps = root == np.arange(len(root))
         node_id = np.where(keeps[:n], np.cumsum(keeps[:n]) - 1, -1)
@@ -225,8 +226,8 @@ class _WorkGraph:
         at_node = owner < n
         arcs = [arc for arc in self.arcs if arc is not None]
         contour_arc = self.topology.contour_arc
-        contour_arc = np.where(self.contours_dropped[contour_arc], -1,
-                               arc_id[_roots(self.arc_alias)[contour_arc]])
+        of_alias = arc_id[roots(np.array(self.arc_alias, np.int64))]
+        contour_arc = np.where(self.contours_dropped[contour_arc], -1, of_alias[contour_arc])
         return ReebTopology(
             piece_node=np.where(at_node, node_id[np.minimum(owner, n - 1)], -1),
             piece_arc=np.where(at_node, -1, arc_id[np.maximum(owner - n, 0)]) if len(arc_id)
@@ -234,11 +235,3 @@ class _WorkGraph:
             contour_arc=contour_arc,
             arcs=node_id[np.array(arcs, np.int64).reshape(-1, 2)],
             n_nodes=int(keeps[:n].sum()))
-
-
-def _roots(parent: list[int]) -> np.ndarray:
-    """Where each element ends that goes on to its parent until one is its own, (n,) int64."""
-    root = np.array(parent, np.int64)
-    while (root[root] != root).any():
-        root = root[root]
-    return root

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..surface.arrays import last_of_each
 from ..surface.labels import FaceGraph, connect
+from ..surface.pairs import distinct_pairs
 from .numbering import NumberedParts
 
 CRUMB = 0.02  # share of its part's area below which a region that the image of a change leaves alone is no part
@@ -164,9 +165,8 @@ def _shared(first: np.ndarray, second: np.ndarray, area: np.ndarray) -> tuple[np
 
     first, second : (f,) int64, of each face. area : (f,) float64.
     """
-    count = int(second.max(initial=0)) + 1
-    pairs, index = np.unique(first * count + second, return_inverse=True)
-    return *np.divmod(pairs, count), np.bincount(index, area, len(pairs))
+    pairs, index = distinct_pairs(first, second)
+    return *pairs.T, np.bincount(index, area, len(pairs))
 
 
 def on_both_sides(

@@ -11,7 +11,7 @@ from ..cuts.face_candidates import FaceCandidates
 from ..surface.arrays import renumbered
 from ..surface.components import components
 from ..surface.labels import label_boundaries
-from ..surface.pairs import both_ways
+from ..surface.pairs import both_ways, distinct_pairs
 from ..surface.ties import TIE
 
 # A connected region of a part of detail 0.5 is a sliver if it is smaller than TINY, a share of the area of its piece
@@ -53,8 +53,8 @@ def without_slivers(candidates: FaceCandidates) -> FaceCandidates:
 def _are_slivers(area: np.ndarray, part: np.ndarray, region: np.ndarray, piece: np.ndarray) -> np.ndarray:
     """Whether the region of each candidate is a sliver, (c,) bool; area, part, region, piece : (c,), of candidates."""
     of_region = np.bincount(region, area)[region]
-    on_piece = renumbered(part * (piece.max() + 1) + piece)[1]
-    largest = np.zeros(on_piece.max() + 1)
+    pairs, on_piece = distinct_pairs(part, piece)
+    largest = np.zeros(len(pairs))
     np.maximum.at(largest, on_piece, of_region)
     return (of_region < TINY * np.bincount(piece, area)[piece]) | (of_region < SHARD * largest[on_piece])
 

@@ -36,8 +36,7 @@ def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     # Each element goes to a lower one that it is joined with, and on to where that one goes, as far down as it comes.
     goal = np.arange(n)
     goal[np.maximum(a, b)] = np.minimum(a, b)
-    while ((lower := goal[goal]) != goal).any():
-        goal = lower
+    goal = roots(goal)
     lowest = np.flatnonzero(goal == np.arange(n))
     place = np.empty(n, np.int64)
     place[lowest] = np.arange(len(lowest))
@@ -48,6 +47,16 @@ def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     further = components if len(lowest) < n // 2 else _few_components
     count, label = further(len(lowest), a[apart], b[apart])
     return count, label[place]
+
+
+def roots(parent: np.ndarray) -> np.ndarray:
+    """Find where each element ends that goes on to its parent until one is its own.
+
+    parent : (n,) int64, without a circle. Returns (n,) int64, elements that are their own parents.
+    """
+    while ((further := parent[parent]) != parent).any():
+        parent = further
+    return parent
 
 
 def _joined_in_turn(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
