@@ -18,7 +18,7 @@ from itertools import product
 
 import numpy as np
 
-from ..surface.labels import FaceGraph, majority
+from ..surface.labels import FaceGraph, disagreement, majority
 from .face_candidates import FaceCandidates
 from .symmetric_cells import make_cells
 from .symmetric_linkage import symmetric_linkage
@@ -166,7 +166,7 @@ class _Mirroring:
 
     def error(self, made: FaceCandidates) -> float:
         """How unlike the parts of some candidates are to those found, the mean over DETAILS."""
-        return float(np.mean([_disagreement(made.parts(detail), parts, self.concerned)
+        return float(np.mean([disagreement(made.parts(detail), parts, self.concerned)
                               for detail, parts in zip(DETAILS, self.parts_found, strict=True)]))
 
 
@@ -203,11 +203,3 @@ def _mirrored_area(graph: FaceGraph, image: np.ndarray) -> np.ndarray:
     """Area of the faces, (p,), in the connected pieces that have a twin somewhere; 0 of those in others."""
     count, piece = graph.pieces
     return np.where((np.bincount(piece, (image[1:] >= 0).any(axis=0), count) > 0)[piece], graph.area, 0.0)
-
-
-def _disagreement(first: np.ndarray, second: np.ndarray, area: np.ndarray) -> float:
-    """Share of pairs of points that one labeling of the faces, (p,), joins and the other separates."""
-    width = int(second.max()) + 1
-    together = np.bincount(first * width + second, area, (int(first.max()) + 1) * width).reshape(-1, width)
-    apart = sum((together.sum(axis=axis) ** 2).sum() for axis in (0, 1)) - 2 * (together**2).sum()
-    return float(apart / area.sum() ** 2)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..surface.arrays import expanded, sums_by
 from ..surface.components import components
-from ..surface.mesh import TriMesh
+from ..surface.mesh import LEAST_WEIGHT, TriMesh
 from .bridged_levels import FaceBridges, joined_by_faces
 
 
@@ -112,6 +112,11 @@ class LevelSets:
         first = np.append(True, last[:-1])
         share = below - np.where(first, 0.0, np.append(0.0, below[:-1]))
         return np.maximum(share, 0.0) * self.mesh.face_area[self.element_face]
+
+    @property
+    def element_weight(self) -> np.ndarray:
+        """(E,) float64, weight of the vote of each element: its area; elements without one vote after all others."""
+        return self.element_area + LEAST_WEIGHT * self.mesh.area
 
     @cached_property
     def piece_area(self) -> np.ndarray:

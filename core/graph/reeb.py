@@ -276,7 +276,7 @@ def _node_means(sets: LevelSets, topology: ReebTopology) -> tuple[np.ndarray, np
     """Mean level, (k,), and mean position, (k, 3), of each node's pieces, weighted by area."""
     node = topology.piece_node[sets.element_piece]
     inside = node >= 0
-    weight = sets.element_area[inside] + 1e-12 * sets.mesh.area
+    weight = sets.element_weight[inside]
     node = node[inside]
     total = np.bincount(node, weight, topology.n_nodes)
     bounds = np.concatenate([[0.0], sets.levels, [1.0]])

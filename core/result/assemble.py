@@ -23,9 +23,10 @@ from ..sentence import Sentence
 from ..surface.arrays import is_last_of_each, last_of_each, sums_by
 from ..surface.components import components
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
+from ..surface.mesh import LEAST_WEIGHT
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh
-from .component_results import LEAST_WEIGHT, ComponentResult, FoundCandidates
+from .component_results import ComponentResult, FoundCandidates
 from .decomposition import Decomposition, too_many
 from .junctions import boundaries, junctions
 from .mirrors import Mirror
@@ -150,7 +151,7 @@ def tables_of(given: PolygonMesh, working: WorkingMesh, candidates: FaceCandidat
     sides = np.repeat(working.polygon, 3), working.mesh.edges.face_edges.ravel()
     pairs, length = boundaries(graph, label, *sides, working.mesh.edge_length)
     corners = given.triangles.faces.ravel()
-    weight = np.repeat(given.triangles.face_area + LEAST_WEIGHT * given.triangles.area, 3)
+    weight = np.repeat(given.triangles.face_weight, 3)
     vertex = majority(corners, np.repeat(label[given.polygon], 3), weight, given.triangles.n_vertices)
     return CandidateTables(label, vertex, np.bincount(label, graph.area), pairs, length,
                            *junctions(label, *sides, working.mesh.edge_length))
@@ -278,7 +279,7 @@ def _contacts(working: WorkingMesh, results: list[ComponentResult], graph: FaceG
         return pairs
     mesh = working.mesh
     face_body = body[working.polygon]
-    weight = mesh.face_area + LEAST_WEIGHT * mesh.area
+    weight = mesh.face_weight
     area = np.bincount(face_body, weight, joined)
     center = sums_by(face_body, weight[:, None] * mesh.face_centroids, joined)
     center /= np.where(area > 0, area, 1.0)[:, None]
@@ -346,10 +347,9 @@ def _graph_candidates(results: list[ComponentResult], label: np.ndarray) -> tupl
         element_label = label[r.component.polygon[sets.element_face]]
         node = topology.piece_node[sets.element_piece]
         inside = node >= 0
-        area = sets.element_area[inside] + LEAST_WEIGHT * sets.mesh.area
-        nodes.append(majority(node[inside], element_label[inside], area, topology.n_nodes))
+        nodes.append(majority(node[inside], element_label[inside], sets.element_weight[inside], topology.n_nodes))
         segment_label = label[r.component.polygon[sets.segment_face]]
-        of_contour = majority(sets.segment_contour, segment_label,
-                              sets.segment_length + LEAST_WEIGHT, sets.n_contours)
+        length = sets.segment_length + LEAST_WEIGHT * np.sqrt(sets.mesh.area)
+        of_contour = majority(sets.segment_contour, segment_label, length, sets.n_contours)
         points.append(of_contour[topology.arc_contours(sets)[0]])
     return np.concatenate(nodes), np.concatenate(points)

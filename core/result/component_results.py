@@ -18,10 +18,6 @@ from ..surface.arrays import renumbered
 from ..surface.labels import majority
 from ..surface.preparation import Component, WorkingMesh
 
-# Added to the areas and lengths by which faces vote for labels: as a share of the area of the mesh, and in units of the
-# vertices. Faces without an area vote with this weight, after all others.
-LEAST_WEIGHT = 1e-12
-
 
 @dataclass(frozen=True, eq=False)
 class ComponentResult:
@@ -56,9 +52,8 @@ class ComponentResult:
     @cached_property
     def face_candidate(self) -> np.ndarray:
         """(m,) int64, the candidate that has most of each face of the component's mesh."""
-        mesh = self.component.mesh
-        area = self.sets.element_area + LEAST_WEIGHT * mesh.area
-        return majority(self.sets.element_face, self.candidates.element_candidate, area, mesh.n_faces)
+        sets = self.sets
+        return majority(sets.element_face, self.candidates.element_candidate, sets.element_weight, sets.mesh.n_faces)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +83,7 @@ class FoundCandidates:
         first = firsts([r.candidates.hierarchy.n_candidates for r in results])
         face = [r.component.polygon[r.sets.element_face] for r in results]
         label = [k + r.candidates.element_candidate for k, r in zip(first, results, strict=True)]
-        area = [r.sets.element_area + LEAST_WEIGHT * r.sets.mesh.area for r in results]
+        area = [r.sets.element_weight for r in results]
         nothing = np.empty(0, np.int64), np.empty(0)  # of nothing but small pieces none is decomposed
         return cls(np.concatenate([nothing[0], *face]), np.concatenate([nothing[0], *label]),
                    np.concatenate([nothing[1], *area]), Hierarchy.join([r.candidates.hierarchy for r in results]))
@@ -101,7 +96,7 @@ class FoundCandidates:
         if not rest.any():
             return replace(self, hierarchy=merged_at_last(self.hierarchy))
         names, numbers = renumbered(working.mesh.face_components[1][rest])
-        area = working.mesh.face_area[rest] + LEAST_WEIGHT * working.mesh.area
+        area = working.mesh.face_weight[rest]
         return FoundCandidates(np.concatenate([self.face, working.polygon[rest]]),
                                np.concatenate([self.label, self.hierarchy.n_candidates + numbers]),
                                np.concatenate([self.area, area]),

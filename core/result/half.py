@@ -12,10 +12,10 @@ from ..cuts.face_candidates import FaceCandidates
 from ..cuts.settling import settle
 from ..sentence import Sentence
 from ..surface.labels import connect, majority
+from ..surface.mesh import LEAST_WEIGHT
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh, repair
 from .assemble import face_graph_of, tables_of
-from .component_results import LEAST_WEIGHT
 from .decomposition import Decomposition
 
 

@@ -17,9 +17,9 @@ from ..cuts.hierarchy import Hierarchy
 from ..cuts.settling import settle
 from ..cuts.symmetric_regions import symmetric_on_regions
 from ..surface.labels import FaceGraph, connect
-from ..surface.mesh import TriMesh
+from ..surface.mesh import LEAST_WEIGHT, TriMesh
 from ..surface.mirror_images import Images
-from .component_results import LEAST_WEIGHT, ComponentResult, FoundCandidates, firsts, merged_at_last
+from .component_results import ComponentResult, FoundCandidates, firsts, merged_at_last
 from .mirrors import Mirror
 
 
@@ -59,7 +59,7 @@ def _symmetric(results: list[ComponentResult], planes: list[Images]) -> FaceCand
     first = firsts([r.candidates.hierarchy.n_candidates for r in results])
     label = np.concatenate([k + r.face_candidate for k, r in zip(first, results, strict=True)])
     hierarchy = Hierarchy.join([r.candidates.hierarchy for r in results])
-    graph = FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
+    graph = FaceGraph.of(mesh)
     candidates = settle(FaceCandidates(graph, contacts, connect(graph, label), hierarchy))
     for images in planes:  # of planes across each other each keeps the symmetry in those before it
         mirror = Mirror.of_faces(images, mesh)

@@ -11,6 +11,7 @@ import numpy as np
 
 from .arrays import inverse, last_of_each, sums_by
 from .components import components
+from .mesh import LEAST_WEIGHT, TriMesh
 from .pairs import both_ways, distinct_pairs
 
 #: What it costs faces to change label: called with faces, their labels and the new labels.
@@ -122,6 +123,27 @@ def spread(label: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         label[a[reached]] = label[b[reached]]
 
 
+def disagreement(first: np.ndarray, second: np.ndarray, weight: np.ndarray) -> float:
+    """Compute the share of pairs of points that one labeling joins and the other separates: 1 minus the Rand index.
+
+    Parameters
+    ----------
+    first, second : (n,) int64
+        Label of each face in the two labelings, 0 or more, and few: a table has all pairs of them.
+    weight : (n,) float64
+        How much of the points is on each face, such as its area.
+
+    Returns
+    -------
+    share : float
+        0..1.
+    """
+    width = int(second.max()) + 1
+    together = np.bincount(first * width + second, weight, (int(first.max()) + 1) * width).reshape(-1, width)
+    apart = sum((together.sum(axis=axis) ** 2).sum() for axis in (0, 1)) - 2 * (together**2).sum()
+    return float(apart / weight.sum() ** 2)
+
+
 @dataclass(frozen=True, eq=False)
 class FaceGraph:
     """Which faces touch, along what length, and how large they are.
@@ -142,10 +164,15 @@ class FaceGraph:
     length: np.ndarray
     area: np.ndarray
 
+    @classmethod
+    def of(cls, mesh: TriMesh) -> FaceGraph:
+        """The faces of a mesh that share an edge."""
+        return cls(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
+
     @cached_property
     def weight(self) -> np.ndarray:
         """(n_faces,) float64, weight of the vote of each face: its area; faces without one vote after all others."""
-        return self.area + 1e-12 * self.area.sum()
+        return self.area + LEAST_WEIGHT * self.area.sum()
 
     def regions(self, label: np.ndarray) -> tuple[int, np.ndarray]:
         """How many connected regions of one label there are, and which each face is in, (n_faces,) int64."""

@@ -17,6 +17,9 @@ from .components import components
 from .vectors import cross, lengths, row_products
 
 ON_A_LINE = 1e-11  # sine of an angle below which the corners of a face lie on a line, but for rounding
+# What faces without an area weigh where faces vote for labels by their areas, as a share of the area of the mesh, and
+# what is added to all the others. Lengths vote with this share of its root.
+LEAST_WEIGHT = 1e-12
 LEVEL = 1e-12  # in units of the root of the area: what rises less between two faces is neither convex nor concave
 
 
@@ -143,6 +146,11 @@ class TriMesh:
     def face_area(self) -> np.ndarray:
         """(m,) float64, area of each face, in squared units of the vertices."""
         return lengths(self.area_normals)
+
+    @property
+    def face_weight(self) -> np.ndarray:
+        """(m,) float64, weight of the vote of each face: its area; faces without one vote after all others."""
+        return self.face_area + LEAST_WEIGHT * self.area
 
     @cached_property
     def face_normals(self) -> np.ndarray:

@@ -11,6 +11,7 @@ import shapes
 
 from core import PRESETS, Cancelled, EmptyMeshError, MeshError, Parameters, TriMesh, decompose
 from core.surface.components import components
+from core.surface.labels import disagreement
 from core.uses.colors import part_colors
 
 PAPER = "Berretti 2009"
@@ -24,10 +25,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 def rand_index(a, b, weight):
     """Share of pairs of area on whose being together two labellings agree."""
-    weight = weight / weight.sum()
-    cell = np.unique(a * (b.max() + 1) + b, return_inverse=True)[1].reshape(-1)
-    together = sum(x * (np.bincount(k, weight) ** 2).sum() for k, x in ((a, 1), (b, 1), (cell, -2)))
-    return 1 - together
+    return 1 - disagreement(a, b, weight)
 
 
 def same_up_to_names(a, b):

@@ -51,8 +51,7 @@ def berretti_candidates(
     candidate = regions.piece_region[sets.element_piece]
     if parameters.follow_level_sets:
         return Candidates(candidate, regions.hierarchy)
-    area = sets.element_area + 1e-12 * sets.mesh.area
-    label = majority(sets.element_face, candidate, area, sets.mesh.n_faces)
+    label = majority(sets.element_face, candidate, sets.element_weight, sets.mesh.n_faces)
     across = curvature_across(sets.mesh, SCALES[:1])[0]
     label = move_cuts(MovableCuts(sets.mesh, across, parameters.band_ratio), label, regions.hierarchy)
     return Candidates(label[sets.element_face], regions.hierarchy)

@@ -50,7 +50,7 @@ class PatchGraph:
         """
         label = concave_patches(mesh, N_PATCHES)
         count, unit = int(label.max()) + 1, np.sqrt(mesh.area)
-        weight = mesh.face_area + 1e-12 * mesh.area
+        weight = mesh.face_weight
         area = np.bincount(label, weight, count)
         center = sums_by(label, weight[:, None] * mesh.face_centroids, count) / area[:, None]
         concave = np.maximum(-curvature_across(mesh, CREASE_SCALE)[0], 0.0)

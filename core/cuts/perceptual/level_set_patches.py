@@ -26,6 +26,5 @@ def level_set_patches(sets: LevelSets) -> np.ndarray:
         Patch of each face, 0..c-1; every patch is connected.
     """
     coarse = cut_at_levels(sets.mesh, sets.values, uniform_levels(SLABS))
-    area = coarse.element_area + 1e-12 * sets.mesh.area
-    piece = majority(coarse.element_face, coarse.element_piece, area, sets.mesh.n_faces)
+    piece = majority(coarse.element_face, coarse.element_piece, coarse.element_weight, sets.mesh.n_faces)
     return absorb_small(sets.mesh, connected_cells(sets.mesh, piece), SMALLEST)

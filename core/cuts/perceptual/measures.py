@@ -132,7 +132,7 @@ def _contour_length(sets: LevelSets) -> np.ndarray:
     count = sum(np.bincount(p, minlength=sets.n_pieces) for p in pieces)
     length = np.divide(total, count, out=np.full(sets.n_pieces, np.sqrt(sets.mesh.area)),
                        where=count > 0)
-    area = sets.element_area + 1e-12 * sets.mesh.area
+    area = sets.element_weight
     of_face = (np.bincount(sets.element_face, area * length[sets.element_piece], sets.mesh.n_faces)
                / np.bincount(sets.element_face, area, sets.mesh.n_faces))
     return np.clip(of_face / np.sqrt(sets.mesh.area), 0.01, 20.0)

@@ -313,7 +313,7 @@ def _prolong_labels(mesh: TriMesh, step: Coarsening, label: np.ndarray) -> np.nd
     # Where all three differ, the smallest; -1 where none is known.
     least = np.minimum(np.minimum(p, q), r)
     label = np.where(most >= 0, most, np.where(least > label.max(), -1, least))
-    graph = FaceGraph(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
+    graph = FaceGraph.of(mesh)
     return connect(graph, fill_unlabeled(graph, label))
 
 

@@ -9,6 +9,7 @@ from face_graphs import boundary_length, graph_of, n_connected, patches, path
 from core.surface.labels import (
     FaceGraph,
     connect,
+    disagreement,
     fill_unlabeled,
     label_boundaries,
     longest_neighbor,
@@ -16,6 +17,16 @@ from core.surface.labels import (
     straighten,
 )
 from core.surface.mesh import TriMesh
+
+
+def test_disagreement_by_counting_pairs():
+    """{0, 1, 2}, {3, 4} and {0, 1}, {2, 3}, {4}: the pairs 02, 12, 34 and 23 are joined by one of them alone."""
+    first, second = np.array([[0, 0, 0, 1, 1], [0, 0, 1, 1, 2]])
+    weight = np.array([1.0, 1.0, 2.0, 3.0, 3.0])
+    assert disagreement(first, second, np.ones(5)) == pytest.approx(2 * 4 / 5**2)
+    assert disagreement(first, second, weight) == pytest.approx(2 * (2 + 2 + 9 + 6) / 10**2)
+    assert disagreement(second, first, weight) == disagreement(first, second, weight)
+    assert disagreement(first, 1 - first, weight) == 0
 
 
 def test_majority_by_hand():
