@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ..core.options import add_parameters, dashed, limits_of, number
+from ..core.options import add_parameters, dashed, limits_of, named_file, number
 from ..scene.settings import HintProperties, JointProperties, OutputProperties, OverlayProperties, SeparateProperties
 
 #: Lengths of units in meters, with what Blender calls them.
@@ -46,7 +46,7 @@ def parser(description: str | None) -> argparse.ArgumentParser:
 
 def _add_files(files: argparse._ArgumentGroup) -> None:
     files.add_argument("--save", type=Path, metavar="OUT.blend", help="the scene with the parts in it")
-    files.add_argument("--json", type=_named_file, metavar="OUT.json",
+    files.add_argument("--json", type=named_file, metavar="OUT.json",
                        help="the JSON that also goes to standard output")
     files.add_argument("--labels", action="store_true", help="also list the part of every face in the JSON")
     files.add_argument("--check", action="store_true",
@@ -148,13 +148,6 @@ def _default(name: str) -> object:
     prop = next(cls.__annotations__[name] for cls in SeparateProperties.__mro__
                 if name in getattr(cls, "__annotations__", {}))
     return prop.keywords["default"]
-
-
-def _named_file(text: str) -> Path:
-    """Read the name of a file; argparse turns the error into a sentence."""
-    if text == "-":
-        raise argparse.ArgumentTypeError("- is no file; standard output has the JSON in any case")
-    return Path(text)
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -7,6 +7,7 @@ import argparse
 import math
 from collections.abc import Callable
 from dataclasses import fields, replace
+from pathlib import Path
 
 from .parameters import PRESETS, RENAMED, Parameters, present_names
 from .sentence import Sentence
@@ -104,3 +105,13 @@ def number(low: float, high: float = math.inf, kind: type[float] | type[int] = f
         raise argparse.ArgumentTypeError(f"must be {limits}, not {text}")
 
     return read
+
+
+def named_file(text: str) -> Path:
+    """Read the name of a file that an option gives.
+
+    text : str. Returns Path. Raises ``argparse.ArgumentTypeError`` for -, of which argparse makes a sentence.
+    """
+    if text == "-":
+        raise argparse.ArgumentTypeError("- is no file; standard output has the JSON in any case")
+    return Path(text)

@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 
-from .core.surface.ears import fans, without_folds
+from .core.surface.ears import triangulated
 
 _MARK = b"\xef\xbb\xbf"  # some editors begin files in UTF-8 with it
 _COMMENT = re.compile(rb"#[^\n]*")
@@ -47,8 +47,7 @@ def parse_obj(text: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     text = _CONTINUED.sub(b" ", _COMMENT.sub(b"", text))
     vertices = _vertices(text)
     corner, sizes = _corners(text, len(vertices))
-    triangles, polygon = fans(corner, sizes)
-    return vertices, without_folds(vertices, triangles, sizes), polygon
+    return vertices, *triangulated(vertices, corner, sizes)
 
 
 def _vertices(text: bytes) -> np.ndarray:

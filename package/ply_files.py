@@ -18,7 +18,7 @@ from typing import IO, TYPE_CHECKING
 
 import numpy as np
 
-from .core.surface.ears import fans, without_folds
+from .core.surface.ears import triangulated
 
 if TYPE_CHECKING:
     from plyfile import PlyData, PlyElement
@@ -64,8 +64,7 @@ def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     corner, sizes = _corners(data["face"])
     if ((corner < 0) | (corner >= len(vertices))).any():
         raise ValueError("a face has a vertex that is not there")
-    triangles, polygon = fans(corner, sizes)
-    return vertices, without_folds(vertices, triangles, sizes), polygon
+    return vertices, *triangulated(vertices, corner, sizes)
 
 
 def _data(path: Path) -> PlyData:

@@ -16,7 +16,7 @@ import numpy as np
 from ..core.surface.arrays import ranges
 from ..core.surface.corners import CornerTable
 
-POINT, EDGE, FACE, CORNER = DOMAINS = "POINT", "EDGE", "FACE", "CORNER"
+POINT, EDGE, FACE, CORNER = "POINT", "EDGE", "FACE", "CORNER"
 
 
 @dataclass(frozen=True, eq=False)

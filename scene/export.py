@@ -32,8 +32,6 @@ EXPORTERS = {
 }
 # The color of a dowel.
 _PLAIN = (0.8, 0.8, 0.8)
-#: What can be written.
-FORMATS = (*EXPORTERS, "3mf")
 
 
 def export_parts(files: RunFiles, objects: Iterable[tuple[bpy.types.Object, Iterable[int] | None]], folder: Path,
@@ -50,7 +48,7 @@ def export_parts(files: RunFiles, objects: Iterable[tuple[bpy.types.Object, Iter
     folder : Path
         Made if it is not there.
     kind : str
-        Of FORMATS.
+        Of EXPORTERS, or "3mf".
     close : bool
         Close the holes that the cuts leave.
     one_file : bool

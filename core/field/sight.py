@@ -14,7 +14,7 @@ import numpy as np
 
 from ..surface.mesh import ON_A_LINE, TriMesh
 from ..surface.ties import TIE
-from ..surface.vectors import lengths, row_products
+from ..surface.vectors import cross_in_plane, lengths, row_products
 
 WIDE = 0.5  # cosine of 60 degrees: the angle up to which directions of paths are near enough to each other
 NEEDLE = 4.0  # ratio of a triangle's longest side to its height above that from which on it is one
@@ -85,8 +85,8 @@ def lines_in_sight(mesh: TriMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         corner, place = _behind(mesh, windows)
         # Lines along a limit count, despite rounding: what lies there is on one with the vertex that limits the window.
         least = -TIE * lengths(place)
-        inside = ((_cross(windows.from_, place) >= least * lengths(windows.from_))
-                  & (_cross(place, windows.to) >= least * lengths(windows.to)))
+        inside = ((cross_in_plane(windows.from_, place) >= least * lengths(windows.from_))
+                  & (cross_in_plane(place, windows.to) >= least * lengths(windows.to)))
         if step:  # the first lines cross one edge
             found.append((windows.source[inside], corner[inside], lengths(place[inside])))
         windows = _next_windows(mesh, across, windows, corner, place)
@@ -147,14 +147,10 @@ def _next_windows(
     face, first = np.divmod(windows.side, 3)
     ahead = mesh.faces[face, first] == windows.ends[:, 0]  # whether the side begins at its right end
     to_right, to_left = (across[3 * face + (first + np.where(ahead, a, b)) % 3] for a, b in ((2, 1), (1, 2)))
-    right_of, left_of = _cross(windows.from_, place) <= 0, _cross(place, windows.to) <= 0  # the far corner is
+    # Where the far corner is.
+    right_of, left_of = cross_in_plane(windows.from_, place) <= 0, cross_in_plane(place, windows.to) <= 0
     by_right = _Windows(windows.source, to_right, np.stack([windows.ends[:, 0], corner], axis=1), windows.right, place,
                         windows.from_, np.where(left_of[:, None], windows.to, place))
     by_left = _Windows(windows.source, to_left, np.stack([corner, windows.ends[:, 1]], axis=1), place, windows.left,
                        np.where(right_of[:, None], windows.from_, place), windows.to)
     return _open(by_right, ~right_of).joined(_open(by_left, ~left_of))
-
-
-def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Cross products of vectors of a plane, (w,): above 0 where b, (w, 2), is to the left of a, (w, 2)."""
-    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]

@@ -27,6 +27,14 @@ from . import stored
 from .junctions import counted_again
 
 
+def default_name(number: int) -> str:
+    """Name a part until the user gives it another name.
+
+    number : int, 1 or more. Returns "Part 01" and so on.
+    """
+    return f"Part {number:02d}"
+
+
 @dataclass(frozen=True, eq=False)
 class Parts:
     """Parts at one level of detail, as a grouping of the candidates; other tables are computed when first asked for.
@@ -74,7 +82,7 @@ class Parts:
     @property
     def names(self) -> tuple[str, ...]:
         """Name of each part: Part 01, Part 02 and so on."""
-        return tuple(f"Part {i + 1:02d}" for i in range(self.count))
+        return tuple(default_name(i + 1) for i in range(self.count))
 
     @cached_property
     def twin(self) -> np.ndarray:

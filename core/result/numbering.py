@@ -19,7 +19,7 @@ import numpy as np
 from ..surface.arrays import stable_order, sums_by
 from ..surface.pairs import both_ways, distinct_pairs
 from ..surface.ties import TIE, first_largest, ranks
-from .decomposition import Decomposition, Parts
+from .decomposition import Decomposition, Parts, default_name
 from .levels import detail_between, strong_levels
 from .splits import Splits
 
@@ -103,14 +103,6 @@ class NumberedParts:
         first = np.where(side != 0, np.minimum(self.numbers, self.numbers[twin]), self.numbers)
         return tuple(default_name(number) + {1: ".L", -1: ".R"}.get(where, "")
                      for number, where in zip(first.tolist(), side.tolist(), strict=True))
-
-
-def default_name(number: int) -> str:
-    """Name a part until the user gives it another name.
-
-    number : int, 1 or more. Returns "Part 01" and so on.
-    """
-    return f"Part {number:02d}"
 
 
 def _votes(decomposition: Decomposition) -> np.ndarray:

@@ -7,7 +7,7 @@ import numpy as np
 
 from .arrays import expanded, sums_by
 from .ties import rounded
-from .vectors import cross, lengths, row_products, unit
+from .vectors import cross, cross_in_plane, lengths, row_products, unit
 
 #: Share of a polygon's area; what is folded by less is convex but for the rounding of its corners.
 FOLD = 1e-6
@@ -36,6 +36,17 @@ def fans(corner: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     start = np.cumsum(sizes) - sizes
     polygon, at = expanded(start, sizes - 2)
     return corner[np.stack([start[polygon], at + 1, at + 2], axis=1)], polygon
+
+
+def triangulated(
+    vertices: np.ndarray, corner: np.ndarray, sizes: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Cut polygons into triangles that do not lie on each other.
+
+    vertices : (n, 3) float64. corner, sizes and what is returned: as of ``fans``.
+    """
+    triangles, polygon = fans(corner, sizes)
+    return without_folds(vertices, triangles, sizes), polygon
 
 
 def without_folds(vertices: np.ndarray, triangles: np.ndarray, sizes: np.ndarray) -> np.ndarray:
@@ -165,5 +176,4 @@ def _ear_cost(place: np.ndarray, left: np.ndarray, first: np.ndarray, ear: np.nd
 
 def _turn(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
     """Twice the area of triangles in the plane, positive where they are counterclockwise."""
-    (ux, uy), (vx, vy) = (np.moveaxis(vector, -1, 0) for vector in (b - a, c - a))
-    return ux * vy - uy * vx
+    return cross_in_plane(b - a, c - a)

@@ -14,6 +14,11 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1)
 
 
+def cross_in_plane(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Cross products of vectors of a plane, (..., 2) each: above 0 where b is to the left of a. Returns (...)."""
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
 def lengths(vectors: np.ndarray) -> np.ndarray:
     """Lengths of vectors, (n, 2 or 3): those of ``np.linalg.norm``, several times as fast. Returns (n,) float64."""
     return np.sqrt(row_products(vectors, vectors))

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from ..surface.ties import rounded
+from ..surface.vectors import cross_in_plane
 from .joint_shapes import REACH, Kind
 
 if TYPE_CHECKING:
@@ -271,12 +272,13 @@ class _Grid:
         """The lowest and the highest place of the cap over places, (k, 2): two (k,) float64, nan beside the cap."""
         low, high = np.empty(len(flat)), np.empty(len(flat))
         a, b, c = self.seen.transpose(1, 0, 2)
-        twice = _turn(b - a, c - a)
+        twice = cross_in_plane(b - a, c - a)
         solid = np.abs(twice) > 1e-12 * self.size**2
         a, b, c, twice = a[solid], b[solid], c[solid], twice[solid]
         for part in np.array_split(np.arange(len(flat)), len(flat) * len(a) // 1_000_000 + 1):
             p = flat[part, None]
-            v, w = _turn(p - a[:, :2], (c - a)[:, :2]) / twice, _turn((b - a)[:, :2], p - a[:, :2]) / twice
+            v = cross_in_plane(p - a[:, :2], (c - a)[:, :2]) / twice
+            w = cross_in_plane((b - a)[:, :2], p - a[:, :2]) / twice
             over = (v >= -1e-9) & (w >= -1e-9) & (v + w <= 1 + 1e-9)
             height = a[:, 2] + v * (b - a)[:, 2] + w * (c - a)[:, 2]
             least = np.where(over, height, np.inf).min(axis=1, initial=np.inf)
@@ -298,11 +300,6 @@ class _Grid:
     def world(self, flat: np.ndarray, height: np.ndarray) -> np.ndarray:
         """Points over places, (..., 2) and (...): (..., 3)."""
         return self.origin + np.concatenate([flat, height[..., None]], axis=-1) @ self.axes
-
-
-def _turn(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """The third component of the cross products of vectors."""
-    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
 def _candidates(grid: _Grid, bodies: tuple[Body, Body]) -> tuple[np.ndarray, np.ndarray]:

@@ -19,7 +19,7 @@ from pathlib import Path
 
 from ..core.file_names import readable
 from ..core.memory import keep_freed_memory
-from ..core.options import add_parameters, chosen_parameters, number
+from ..core.options import add_parameters, chosen_parameters, named_file, number
 from ..core.sentence import Sentence
 from ..meshes import decompose
 from ..model_files import read_model
@@ -46,7 +46,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                         "trimesh reads; .blend and .fbx with --blender")
     parser.add_argument("--blender", metavar="PATH", help="the Blender that reads .blend and .fbx")
     files = parser.add_argument_group("files to write")
-    files.add_argument("--json", type=_named_file, metavar="OUT.json",
+    files.add_argument("--json", type=named_file, metavar="OUT.json",
                        help="the JSON that also goes to standard output")
     files.add_argument("--labels", type=file_of(LABELS), metavar="OUT.npy",
                        help=f"the part of each face, from 0 ({', '.join(LABELS)})")
@@ -147,13 +147,6 @@ class _Progress:
         if round(20 * share) > self._last:
             self._last = round(20 * share)
             say(f"{stage} {share:.0%}")
-
-
-def _named_file(text: str) -> Path:
-    """Read the name of a file; argparse turns the error into a sentence."""
-    if text == "-":
-        raise argparse.ArgumentTypeError("- is no file; standard output has the JSON in any case")
-    return Path(text)
 
 
 def file_of(kinds: tuple[str, ...]) -> Callable[[str], Path]:

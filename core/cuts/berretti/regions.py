@@ -23,15 +23,12 @@ class Regions:
     Attributes
     ----------
     piece_region : (P,) int64
-        Region of each piece, 0..count-1.
-    count : int
-        Number of regions.
+        Region of each piece.
     hierarchy : Hierarchy
         Merges of the regions, the weakest boundary first, until one is left.
     """
 
     piece_region: np.ndarray
-    count: int
     hierarchy: Hierarchy
 
 
@@ -78,7 +75,7 @@ def rank_regions(sets: LevelSets, region: np.ndarray, small_region: float) -> Re
     """
     names, region = renumbered(region)
     merges, salience = fuse_weakest(sets, len(names), region, small_region)
-    return Regions(region, len(names), Hierarchy.of(len(names), merges, salience))
+    return Regions(region, Hierarchy.of(len(names), merges, salience))
 
 
 def regions_between_events(sets: LevelSets, topology: ReebTopology) -> tuple[int, np.ndarray]:
@@ -147,9 +144,9 @@ def with_finer(sets: LevelSets, topology: ReebTopology, regions: Regions, small_
     count, fine = components(sets.n_pieces, *sets.contour_pieces[joined].T)
     merges, ratio = fuse_small(sets, count, fine, inside)
     least = regions.hierarchy.salience.min(initial=0.5)
-    one_of = np.empty(regions.count, np.int64)  # a piece of each region stands for it
+    one_of = np.empty(regions.hierarchy.n_candidates, np.int64)  # a piece of each region stands for it
     one_of[regions.piece_region] = fine
-    return Regions(fine, count, Hierarchy.of(
+    return Regions(fine, Hierarchy.of(
         count, np.concatenate([merges, one_of[regions.hierarchy.merges]]),
         np.concatenate([least * ratio / (ratio + small_region), regions.hierarchy.salience])))
 

@@ -64,10 +64,10 @@ def test_parts_of_the_papers_decision_are_connected(made):
 def test_without_concavity_the_regions_stay():
     sets, topology, element, hierarchy = candidates(shapes.tube_tree(), (0.3, 1, 0.2), concavity_weight=0.0)
     regions = berretti_regions(sets, topology, PAPER.small_region)
-    kept = regions.hierarchy.parts(regions.count)[regions.piece_region]
+    kept = regions.hierarchy.parts(regions.hierarchy.n_candidates)[regions.piece_region]
     regions = with_finer(sets, topology, regions, PAPER.small_region)
     # What is finer merges first, and then the regions are what they were.
-    assert regions.count > kept.max() + 1
+    assert regions.hierarchy.n_candidates > kept.max() + 1
     again = regions.hierarchy.parts(int(kept.max()) + 1)[regions.piece_region]
     assert len(np.unique(again * sets.n_pieces + kept)) == kept.max() + 1
     np.testing.assert_array_equal(element, regions.piece_region[sets.element_piece])
