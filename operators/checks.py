@@ -27,11 +27,16 @@ class REEB_PARTS_OT_check_pieces(PieceOperator, bpy.types.Operator):
     bl_label = "Check Parts"
 
     def run(self, context: bpy.types.Context) -> None:
-        chosen = [targets.active_object(context), *targets.selected_objects(context)]
-        pieces = list(dict.fromkeys(obj for obj in chosen if piece_objects.original(obj) is not None))
+        pieces = _chosen_pieces(context)
         piece_objects.check_pieces(pieces)
         redraw.sidebars()
         report_unsound(self, pieces)
+
+
+def _chosen_pieces(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The active one and all selected ones."""
+    chosen = [targets.active_object(context), *targets.selected_objects(context)]
+    return list(dict.fromkeys(obj for obj in chosen if piece_objects.original(obj) is not None))
 
 
 class REEB_PARTS_OT_select_faults(PieceOperator, bpy.types.Operator):
@@ -71,13 +76,17 @@ class REEB_PARTS_OT_repair_piece(PieceOperator, bpy.types.Operator):
     bl_label = "Repair Part"
 
     def run(self, context: bpy.types.Context) -> None:
-        piece = piece_objects.active_piece(context)
-        if piece.data.users > 1:
-            raise SceneError(rpt_("Other objects share the mesh of {name}").format(name=piece.name))
-        before, after = piece_repairs.repair(piece, bridge.world_stretch(piece))
-        if after == before:
-            raise SceneError(rpt_("Nothing of {name} can be repaired").format(name=piece.name))
-        report_unsound(self, [piece])
+        pieces = _chosen_pieces(context)
+        for piece in pieces:
+            targets.check_object(piece)
+        shared = ", ".join(piece.name for piece in pieces if piece.data.users > 1)
+        if shared:
+            raise SceneError(rpt_("Other objects share the mesh of {name}").format(name=shared))
+        found = [piece_repairs.repair(piece, bridge.world_stretch(piece)) for piece in pieces]
+        if all(after == before for before, after in found):
+            raise SceneError(rpt_("Nothing of {name} can be repaired").format(
+                name=", ".join(piece.name for piece in pieces)))
+        report_unsound(self, pieces)
 
 
 def report_kept(operator: bpy.types.Operator, n_kept: int) -> None:

@@ -119,6 +119,15 @@ def against_neighbors(table: CornerTable) -> np.ndarray:
     return flip & (mends & ~one_sided)[piece]
 
 
+def looks_inwards(table: CornerTable) -> bool:
+    """Whether a mesh is closed, its faces agree, and it encloses less than nothing: they look inwards."""
+    two = np.bincount(table.corner_edge, minlength=len(table.edges)) == 2
+    if not two.all() or table.contrary_edges().any():
+        return False
+    away = table.face_means(table.vertices) - table.vertices.mean(axis=0)
+    return bool(_sums(np.zeros(table.n_faces, np.int64), row_products(table.face_vectors(), away), 1)[0] < 0)
+
+
 def _to_other_side(table: CornerTable, flip: np.ndarray, piece: np.ndarray, closed: np.ndarray) -> np.ndarray:
     """Which of c pieces look to the wrong side once some faces are turned, (c,) bool; see ``against_neighbors``.
 

@@ -16,8 +16,8 @@ import numpy as np
 
 from ...core.steps import Steps, finished, stretched
 from ...core.surface.arrays import stable_order
-from ...core.surface.corners import edge_labels
-from ...core.surface.orientation import against_neighbors
+from ...core.surface.corners import CornerTable, edge_labels
+from ...core.surface.orientation import against_neighbors, looks_inwards
 from ...core.surface.pairs import are_among, distinct_pairs
 from .. import element_layers, hidden, mesh_arrays, mesh_groups, outputs, property_updates
 from ..elements import CORNER, Elements
@@ -93,7 +93,7 @@ def piece_meshes(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterabl
         Numbers of the parts; loose edges and vertices belong to none.
     close : bool
         Fill the holes that the cuts leave; for that, border vertices that are one for Decompose are made one, and faces
-        are turned so that neighbors agree.
+        are turned so that neighbors agree, and closed pieces look outwards.
     smooth : (3, 3) float64, optional
         What the object does to its mesh, see bridge.world_stretch: faces are divided where smooth cuts run. Without
         it, cuts run along the edges of faces.
@@ -151,8 +151,17 @@ def _agreeing(whole: Elements) -> Elements:
     """The elements with faces turned so that neighbors agree: caps and joints go by what is outside."""
     table = whole.corner_table()
     flip = against_neighbors(table)
-    if not flip.any():
-        return whole
+    return _turned(whole, table, flip) if flip.any() else whole
+
+
+def _outwards(piece: Elements) -> Elements:
+    """The elements of a piece, all of its faces turned if it is closed and they look inwards."""
+    table = piece.corner_table()
+    return _turned(piece, table, np.ones(table.n_faces, bool)) if looks_inwards(table) else piece
+
+
+def _turned(whole: Elements, table: CornerTable, flip: np.ndarray) -> Elements:
+    """The elements, whose corners are given, too, with some faces turned, (p,) bool."""
     for name in {_NORMAL, _CUSTOM} & whole.layers.keys():
         layer = whole.layers[name]
         if layer.domain == CORNER:
@@ -204,6 +213,7 @@ class PlainMesh:
         piece = self.whole.taken(chosen)
         if holes is not None:
             piece, left = holes.closed(piece, chosen, self._mesh)
+            piece = _outwards(piece)
         return element_layers.made(piece, self._mesh), left
 
     def free(self) -> None:

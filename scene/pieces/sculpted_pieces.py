@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
+from ...core.surface.orientation import looks_inwards
 from ...core.steps import Steps
 from .. import element_layers, mesh_arrays, mesh_groups, targets
 from ..temporary import freed
@@ -57,7 +58,12 @@ class SculptedMesh:
         gone = np.ones(len(self.whole.count), bool)
         gone[faces] = False
         _with_bmesh(piece, lambda bm: _delete(bm, gone))
-        return piece, 0 if holes is None else holes.close(piece, chosen.vertices, chosen.edges)
+        if holes is None:
+            return piece, 0
+        left = holes.close(piece, chosen.vertices, chosen.edges)
+        if looks_inwards(mesh_arrays.corner_table(piece)):
+            piece.flip_normals()
+        return piece, left
 
     def free(self) -> None:
         """Remove the copy."""

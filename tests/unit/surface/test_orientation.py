@@ -11,7 +11,7 @@ from core import decompose
 from core.metrics import rand_index_error
 from core.surface.corners import CornerTable
 from core.surface.mesh import TriMesh
-from core.surface.orientation import against_neighbors, turn_outwards
+from core.surface.orientation import against_neighbors, looks_inwards, turn_outwards
 
 
 def with_holes(shape, share=0.03, seed=0):
@@ -117,3 +117,15 @@ def test_what_has_one_side_only_stays_as_it_is():
     table = CornerTable.of(points, np.concatenate([across, ahead[:, ::-1]], axis=1))
     assert table.contrary_edges().sum() == 1
     assert not against_neighbors(table).any()
+
+
+def test_what_looks_inwards_is_closed_and_agrees():
+    """A ball, turned; around another one that is turned, as a hollow one has, it is none; nor is half of one."""
+    ball = shapes.icosphere(2)
+    turned = shapes.inside_out(ball)
+    hollow = shapes.together(ball, shapes.inside_out(shapes.Shape(0.5 * ball.vertices, ball.faces)))
+    one_turned = np.concatenate([turned.faces[:1, ::-1], turned.faces[1:]])
+    assert looks_inwards(CornerTable.of(*turned))
+    assert looks_inwards(CornerTable.of(turned.vertices + 1e6, turned.faces))
+    for other in (ball, hollow, (turned.vertices, turned.faces[1:]), (turned.vertices, one_turned)):
+        assert not looks_inwards(CornerTable.of(*other))

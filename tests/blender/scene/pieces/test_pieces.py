@@ -1420,15 +1420,29 @@ def test_faces_that_look_both_ways_are_found_and_repaired(obj, checks, capfd, sh
     assert volume(piece.data) == pytest.approx(size, rel=1e-3)
 
 
+def test_all_selected_pieces_are_repaired(obj, checks):
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(caps=True)
+    for piece in pieces():
+        piece.data.flip_normals()
+        piece.select_set(True)
+    bpy.context.view_layer.objects.active = pieces()[0]
+    bpy.ops.reeb_parts.check_pieces()
+    assert not any(checks.kept(piece).sound for piece in pieces())
+    assert bpy.ops.reeb_parts.repair_piece() == {"FINISHED"}
+    assert all(checks.kept(piece).sound for piece in pieces())
+
+
+@pytest.mark.parametrize("share", [0.3, 1.0])
 @pytest.mark.parametrize("style", [{"cut": "FACES"}, {}, {"joints": "ROUND"}])
-def test_pieces_of_a_model_with_turned_faces_are_those_of_the_model_without(rich, checks, capfd, style):
-    """Faces of pieces with closed holes agree; the corners keep what they carry."""
+def test_pieces_of_a_model_with_turned_faces_are_those_of_the_model_without(rich, checks, capfd, style, share):
+    """Faces of pieces with closed holes look outwards, also if none of the model does; corners keep what they carry."""
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(caps=True, **KEEP, **style)
     want = [(volume(piece.data), corners_of(piece.data)) for piece in pieces()]
     activate(rich)
     bpy.ops.reeb_parts.clear()
-    turn(rich.data, np.random.default_rng(0).random(len(rich.data.polygons)) < 0.3)
+    turn(rich.data, np.random.default_rng(0).random(len(rich.data.polygons)) < share)
     bpy.ops.reeb_parts.decompose()
     capfd.readouterr()
     bpy.ops.reeb_parts.separate(caps=True, **KEEP, **style)
