@@ -14,8 +14,8 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
-from ...core.surface.orientation import looks_inwards
 from ...core.steps import Steps
+from ...core.surface.orientation import looks_inwards
 from .. import element_layers, mesh_arrays, mesh_groups, targets
 from ..temporary import freed
 from . import smooth_faces
