@@ -14,7 +14,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Color
 
 from ..core.file_names import file_name
-from ..core.uses.threemf import Assembly, Body, write_3mf
+from ..core.uses.threemf import Assembly, ColoredMesh, write_3mf
 from . import bridge, file_checks, mesh_arrays, part_names, placing, store
 from .errors import SceneError
 from .pieces import piece_objects
@@ -158,7 +158,7 @@ def _write(files: RunFiles, path: Path, obj: bpy.types.Object, pieces: dict[str,
     return path
 
 
-def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object]) -> tuple[Body, ...]:
+def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object]) -> tuple[ColoredMesh, ...]:
     """Pieces in the place of an object as bodies of a 3MF file, in the colors of their parts."""
     world = np.array(placing.world_matrix(obj), np.float64)
     mirrored = np.linalg.det(world[:3, :3]) < 0
@@ -167,7 +167,7 @@ def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object]) -> tuple
     for name, piece in pieces.items():
         points = mesh_arrays.shown_points(piece).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
         triangles = mesh_arrays.triangles(piece.data)[0].astype(np.int64)[:, :: -1 if mirrored else 1]
-        bodies.append(Body(name, colors.get(name, _PLAIN), points * millimeters(), triangles))
+        bodies.append(ColoredMesh(name, colors.get(name, _PLAIN), points * millimeters(), triangles))
     return tuple(bodies)
 
 

@@ -78,7 +78,7 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
 
     limbs : bool, only bones of parts that can be bent where they are cut.
     """
-    from ..core.uses.bones import BoneSurface, Images, limb_bones, part_bones  # imports SciPy
+    from ..core.uses.bones import BoneSurface, PartImages, limb_bones, part_bones  # imports SciPy
 
     mesh, parts, world, shape = obj.data, numbered.parts, placing.world_matrix(obj), bridge.read_shape(obj)
     place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)
@@ -89,11 +89,11 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
     else:
         rigid, parts, area = turn[:3, :3] @ bridge.unstretch(shape.stretch), whole.parts, np.tile(area, 2)
         table = replace(whole.table, vertices=whole.table.vertices @ rigid.T + turn[:3, 3])
-        images = Images(parts.twin, whole.mirror.moved(rigid, turn[:3, 3]))
+        images = PartImages(parts.twin, whole.mirror.moved(rigid, turn[:3, 3]))
     graph, back = parts.decomposition.graph, turn[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
     plane = parts.decomposition.plane
     if images is None:
-        images = Images.of_parts(parts.twin, None if plane is None else plane.moved(back, turn[:3, 3]), table,
+        images = PartImages.of_parts(parts.twin, None if plane is None else plane.moved(back, turn[:3, 3]), table,
                                  parts.labels, area)
     line = np.concatenate([graph.point_position, graph.node_position]) @ back.T + turn[:3, 3]
     surface = BoneSurface(table, parts.labels, area, np.nan_to_num(parts.decomposition.field), line,

@@ -59,7 +59,7 @@ class Bones:
 
 
 @dataclass(frozen=True, eq=False)
-class Images:
+class PartImages:
     """Which parts, or bones, are mirror images of which, so that bones are exact ones.
 
     Attributes
@@ -77,7 +77,7 @@ class Images:
 
     @classmethod
     def of_parts(cls, twin: np.ndarray, mirror: MirrorPlane | None, table: CornerTable, labels: np.ndarray,
-                 area: np.ndarray) -> Images | None:
+                 area: np.ndarray) -> PartImages | None:
         """The parts of a mesh that is its own mirror image, or almost: what was posed beside a plane has no images.
 
         Parameters
@@ -90,7 +90,7 @@ class Images:
 
         Returns
         -------
-        images : Images or None
+        images : PartImages or None
             None if no part is its own image: one of two sides, on which nothing is between them, is the root.
         """
         if mirror is not None:
@@ -116,10 +116,10 @@ class Images:
         """(count,) int64, the first of each and its image."""
         return np.minimum(self.image, np.arange(len(self.twin)))
 
-    def of_bones(self, bone_part: np.ndarray, part_bone: np.ndarray) -> Images:
+    def of_bones(self, bone_part: np.ndarray, part_bone: np.ndarray) -> PartImages:
         """Those of bones of which several parts may have one; see ``limb_bones``."""
         twin = self.twin[bone_part]
-        return Images(np.where(twin < 0, -1, part_bone[twin]), self.mirror)
+        return PartImages(np.where(twin < 0, -1, part_bone[twin]), self.mirror)
 
     def onto_plane(self, points: np.ndarray) -> np.ndarray:
         """The feet of points, (k, 3), on the plane, (k, 3); without one the points."""
@@ -144,7 +144,7 @@ class BoneSurface:
         Points on the center lines of the parts, in units of the vertices.
     line_part : (r,) int64
         Part of each point.
-    images : Images, optional
+    images : PartImages, optional
         Of the parts, for a mesh that is its own mirror image: so are the bones and their tree then, but for those of
         parts without an image.
     """
@@ -155,7 +155,7 @@ class BoneSurface:
     height: np.ndarray
     line: np.ndarray
     line_part: np.ndarray
-    images: Images | None = None
+    images: PartImages | None = None
 
     def joined(self) -> BoneSurface:
         """The same with one vertex at each place."""
@@ -215,7 +215,7 @@ class _Joints:
     contacts: dict[tuple[int, int], np.ndarray]
 
     @classmethod
-    def between(cls, table: CornerTable, labels: np.ndarray, images: Images | None) -> _Joints:
+    def between(cls, table: CornerTable, labels: np.ndarray, images: PartImages | None) -> _Joints:
         """Cuts, and contacts between what no cuts connect, with their images at a plane."""
         low, high = table.edge_labels(labels)
         cut = np.flatnonzero(low < high)
@@ -259,7 +259,7 @@ def _middles(table: CornerTable, labels: np.ndarray, weight: np.ndarray) -> tupl
     return sums_by(labels, weight[:, None] * center, len(share)) / share[:, None], center
 
 
-def _up(images: Images | None) -> np.ndarray:
+def _up(images: PartImages | None) -> np.ndarray:
     """The direction of bones that would have no length, (3,): upwards, or as nearly as the plane of symmetry goes."""
     up, side = np.eye(3)[[2, 0]]
     if images is None or images.mirror is None:
@@ -269,7 +269,7 @@ def _up(images: Images | None) -> np.ndarray:
     return within / np.linalg.norm(within)
 
 
-def _even(images: Images, points: np.ndarray) -> np.ndarray:
+def _even(images: PartImages, points: np.ndarray) -> np.ndarray:
     """Ends of bones, (count, 3), as images of each other: of two the first counts; their own ones are in the plane.
 
     Without a plane they stay where they are.
@@ -310,7 +310,7 @@ def limb_bones(surface: BoneSurface) -> tuple[Bones, np.ndarray, np.ndarray]:
         owner = np.where(hangs, bone_part[bones.parent], bone_part)[part_bone]
 
 
-def _hanging(bones: Bones, neck: np.ndarray, images: Images | None) -> np.ndarray:
+def _hanging(bones: Bones, neck: np.ndarray, images: PartImages | None) -> np.ndarray:
     """Which bones, (count,) bool, become one with those that they hang on, of those that begin at no neck.
 
     Each waits for all that follows it: once a leg of several parts is one, its cut may be a neck. And for its image.
@@ -389,7 +389,7 @@ def _tree(count: int, pairs: np.ndarray, length: np.ndarray, height: np.ndarray)
 
 
 def _even_tree(
-    images: Images, pairs: np.ndarray, length: np.ndarray, height: np.ndarray
+    images: PartImages, pairs: np.ndarray, length: np.ndarray, height: np.ndarray
 ) -> tuple[np.ndarray, list[int]]:
     """As ``_tree``, but its own mirror image: a part in the plane hangs on none beside it, or is a root."""
     used = np.unique(images.first)
@@ -416,7 +416,7 @@ def _even_tree(
     return parent, both
 
 
-def _own_side(images: Images, part: int, above: int, pairs: np.ndarray, length: np.ndarray) -> int:
+def _own_side(images: PartImages, part: int, above: int, pairs: np.ndarray, length: np.ndarray) -> int:
     """Which a part hangs on, another one or its image: what it touches more, and its image, if it has one."""
     image, other = images.image[[part, above]].tolist()
 

@@ -34,7 +34,7 @@ _NO_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class ColoredMesh:
     """One piece of an assembly.
 
     Attributes
@@ -61,11 +61,11 @@ class Assembly:
     Attributes
     ----------
     name : str
-    bodies : tuple of Body
+    bodies : tuple of ColoredMesh
     """
 
     name: str
-    bodies: tuple[Body, ...]
+    bodies: tuple[ColoredMesh, ...]
 
 
 def write_3mf(path: Path, assemblies: Iterable[Assembly]) -> None:
@@ -97,11 +97,11 @@ def write_3mf(path: Path, assemblies: Iterable[Assembly]) -> None:
                     file.write(piece.encode())
 
 
-def _cleaned(body: Body) -> Body:
+def _cleaned(body: ColoredMesh) -> ColoredMesh:
     """The body without triangles of fewer than three different vertices, and without vertices of no triangle."""
     a, b, c = body.triangles.T
     used, triangles = renumbered(body.triangles[(a != b) & (b != c) & (c != a)])
-    return Body(body.name, body.color, body.vertices[used], triangles)
+    return ColoredMesh(body.name, body.color, body.vertices[used], triangles)
 
 
 def _model(assemblies: list[Assembly]) -> Iterator[str]:
@@ -127,7 +127,7 @@ def _model(assemblies: list[Assembly]) -> Iterator[str]:
     yield from _assembled(assemblies, bodies)
 
 
-def _assembled(assemblies: list[Assembly], bodies: list[Body]) -> Iterator[str]:
+def _assembled(assemblies: list[Assembly], bodies: list[ColoredMesh]) -> Iterator[str]:
     """The objects that are made of bodies, the end of the resources, and the build."""
     low = np.min([body.vertices.min(axis=0) for body in bodies], axis=0) if bodies else np.zeros(3)
     place = " ".join(f"{value:.9g}" for value in (1, 0, 0, 0, 1, 0, 0, 0, 1, *(0.0 - low)))

@@ -21,7 +21,7 @@ def search_tree(points: np.ndarray, triangles: np.ndarray) -> BVHTree:
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class BodySurface:
     """Some triangles of a mesh, with numbers of their own for the vertices.
 
     Attributes
@@ -45,7 +45,7 @@ class Body:
     vertices: np.ndarray
 
     @classmethod
-    def of(cls, points: np.ndarray, triangles: np.ndarray, labels: np.ndarray, curve: np.ndarray) -> Body:
+    def of(cls, points: np.ndarray, triangles: np.ndarray, labels: np.ndarray, curve: np.ndarray) -> BodySurface:
         """Triangles of a mesh with points (n, 3), as they are around a curve, (k, 3)."""
         on = np.zeros(len(points), bool)
         on[triangles] = True

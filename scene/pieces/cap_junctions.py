@@ -20,7 +20,7 @@ from .body_surface import search_tree
 from .discs import LED_IN, PLAIN
 
 if TYPE_CHECKING:
-    from .body_surface import Body
+    from .body_surface import BodySurface
     from .discs import Discs
 
 # A way that is nearer to the surface than such a share of the distance from its ends is bent; so often it is pushed
@@ -273,7 +273,7 @@ def _crossings(sheets: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
     return sheet[pairs[apart]]
 
 
-def _middles(starts: np.ndarray, mean: np.ndarray, body: Body, side: float) -> list[np.ndarray]:
+def _middles(starts: np.ndarray, mean: np.ndarray, body: BodySurface, side: float) -> list[np.ndarray]:
     """Places for a middle: the mean of some places, half the way through the body from there, what most of them see.
 
     starts : (k, 3), the points that the body has as its own.
@@ -295,7 +295,7 @@ def _middles(starts: np.ndarray, mean: np.ndarray, body: Body, side: float) -> l
     return found
 
 
-def _sees(ends: np.ndarray, starts: np.ndarray, body: Body) -> np.ndarray:
+def _sees(ends: np.ndarray, starts: np.ndarray, body: BodySurface) -> np.ndarray:
     """Whether nothing lies between some places and others, which may be on the surface, (k,) bool."""
     way = ends - starts
     length = np.linalg.norm(way, axis=1)
@@ -304,7 +304,7 @@ def _sees(ends: np.ndarray, starts: np.ndarray, body: Body) -> np.ndarray:
     return np.minimum(backwards, body.free_way(starts, way, 1e-3 * float(np.median(length)))) > 0.999 * length
 
 
-def _bent(start: np.ndarray, middle: np.ndarray, step: float, body: Body, side: float) -> np.ndarray:
+def _bent(start: np.ndarray, middle: np.ndarray, step: float, body: BodySurface, side: float) -> np.ndarray:
     """A way from a place on the surface to a middle, pushed off the surface."""
     n = int(np.clip(np.linalg.norm(middle - start) / step, 2, _MOST))
     share = (np.arange(1, n) / n)[:, None]

@@ -13,7 +13,7 @@ from ...core.uses.cap_surfaces import spread
 
 if TYPE_CHECKING:
     from ...core.uses.sleeves import Sleeve
-    from .body_surface import Body
+    from .body_surface import BodySurface
     from .disc import Disc
 
 # How often a surface that leaves the body is pushed back, and how near to the body's surface it may come, as a share
@@ -27,7 +27,7 @@ _HOPELESS, _IN_VAIN = 60, 3
 _STRAIGHT, _DEPTHS = 0.35, (0.35, 0.1)
 
 
-def pushed(disc: Disc, curve: np.ndarray, body: Body, side: float, held: np.ndarray | None = None) -> Disc:
+def pushed(disc: Disc, curve: np.ndarray, body: BodySurface, side: float, held: np.ndarray | None = None) -> Disc:
     """The surface with the points that leave the body held a little inside it, and the others smooth between them.
 
     side : 1 if the faces of the body look outwards, -1 if they look inwards. held : (m,) bool, points that stay.
@@ -57,7 +57,7 @@ def _between(disc: Disc, curve: np.ndarray, places: np.ndarray, held: np.ndarray
     return spread(disc.weights, np.concatenate([curve, places])[fixed], fixed)[len(curve) :]
 
 
-def steep(disc: Disc, curve: np.ndarray, body: Body, side: float) -> Disc:
+def steep(disc: Disc, curve: np.ndarray, body: BodySurface, side: float) -> Disc:
     """The surface led straight into the body from its rim, where that is far from the faces on both sides; pulled off.
 
     Arguments as of ``pushed``.
@@ -66,7 +66,7 @@ def steep(disc: Disc, curve: np.ndarray, body: Body, side: float) -> Disc:
     return pulled(replace(disc, places=_between(disc, curve, places, beside)), curve, body, side, beside)
 
 
-def _led_in(disc: Disc, curve: np.ndarray, body: Body, side: float) -> tuple[np.ndarray, np.ndarray]:
+def _led_in(disc: Disc, curve: np.ndarray, body: BodySurface, side: float) -> tuple[np.ndarray, np.ndarray]:
     """Which points are next to the rim, (m,) bool, and all places, these ones straight in from the rim."""
     k = len(curve)
     of_rim = (disc.triangles < k).any(axis=1)
@@ -96,7 +96,7 @@ def _led_in(disc: Disc, curve: np.ndarray, body: Body, side: float) -> tuple[np.
     return held, places
 
 
-def pulled(disc: Disc, curve: np.ndarray, body: Body, side: float, held: np.ndarray | None = None) -> Disc:
+def pulled(disc: Disc, curve: np.ndarray, body: BodySurface, side: float, held: np.ndarray | None = None) -> Disc:
     """The surface with the triangles that cross the body pulled off the faces that they cross; the best of all tries.
 
     Arguments as of ``pushed``.
@@ -127,7 +127,7 @@ def pulled(disc: Disc, curve: np.ndarray, body: Body, side: float, held: np.ndar
     return best
 
 
-def depths(sleeve: Sleeve, curve: np.ndarray, body: Body,
+def depths(sleeve: Sleeve, curve: np.ndarray, body: BodySurface,
            side: float) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
     """Vertices of a sleeve that are not on its curve, (j,) int64, where they are, and places under them, (j, 3) each.
 

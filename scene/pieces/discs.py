@@ -19,7 +19,7 @@ from ...core.uses.cap_surfaces import away_from_curve, harmonic_weights, in_a_ci
 from ...core.uses.rims import is_inside
 from ...core.uses.sleeves import Sleeve, sleeve
 from .. import mesh_arrays
-from .body_surface import Body
+from .body_surface import BodySurface
 from .disc import Disc
 from .disc_fitting import depths, pulled, pushed, steep
 
@@ -69,7 +69,7 @@ class _Tries:
         How they are seen in a plane.
     plain : list of Disc
         The plain surfaces.
-    wide : Body and float, or None
+    wide : BodySurface and float, or None
         See ``Discs._wide``.
     best : Found
     done : int
@@ -82,7 +82,7 @@ class _Tries:
         self.curve, self.is_single = np.concatenate(curves), len(curves) == 1
         self.rims = _seen(curves) if len(self.curve) > 3 else []
         self.plain: list[Disc] = []
-        self.wide: tuple[Body, float] | None = None
+        self.wide: tuple[BodySurface, float] | None = None
         self.best = Found(None, 0, np.empty(0, np.int64))
         self.done, self.follows_surface = 0, False
 
@@ -145,13 +145,13 @@ class Discs:
             self._flat[key] = near is None or all(self._fits(curve, order, near) for order in (1, -1))
         return self._flat[key]
 
-    def _fits(self, curve: np.ndarray, step: int, body: Body) -> bool:
+    def _fits(self, curve: np.ndarray, step: int, body: BodySurface) -> bool:
         """Whether the triangles that Blender makes of a face cross nothing and are inside."""
         corners = np.arange(len(curve), dtype=np.int32)[::step]
         triangles, _ = mesh_arrays.triangulated(curve.astype(np.float32), np.array([len(curve)], np.int32), corners)
         return not len(body.crossings(curve, triangles)[0]) and not self._is_outside(curve, triangles, body)
 
-    def _choose(self, tries: _Tries, candidates: Iterator[tuple[Disc, Body]]) -> None:
+    def _choose(self, tries: _Tries, candidates: Iterator[tuple[Disc, BodySurface]]) -> None:
         """Keep the first surface that is inside and crosses nothing, else the one that nearly does."""
         for disc, body in candidates:
             places, best = np.concatenate([tries.curve, disc.places]), tries.best
@@ -164,7 +164,7 @@ class Discs:
             if not faults:
                 break
 
-    def _plain(self, tries: _Tries) -> Iterator[tuple[Disc, Body]]:
+    def _plain(self, tries: _Tries) -> Iterator[tuple[Disc, BodySurface]]:
         """Surfaces across curves with the body around each: as they are seen in a plane, then pushed off the body."""
         curve = tries.curve
         for found in filter(None, map(partial(_disc, curve), tries.rims)):
@@ -176,13 +176,13 @@ class Discs:
             body, side = self._wide(tries)
             yield pushed(found, curve, body, side), body
 
-    def _led_in(self, tries: _Tries) -> Iterator[tuple[Disc, Body]]:
+    def _led_in(self, tries: _Tries) -> Iterator[tuple[Disc, BodySurface]]:
         """These surfaces led straight in."""
         for found in tries.plain:
             body, side = self._wide(tries)
             yield steep(found, tries.curve, body, side), body
 
-    def _last(self, tries: _Tries) -> Iterator[tuple[Disc, Body]]:
+    def _last(self, tries: _Tries) -> Iterator[tuple[Disc, BodySurface]]:
         """What takes long: the plain surfaces pulled off the body, with more points, and such that follow its faces."""
         if not tries.plain:
             return
@@ -197,7 +197,7 @@ class Discs:
             for found in self._along_surface(curve, side):
                 yield found, self.around(curve, np.concatenate([curve, found.places]), 0.0) or body
 
-    def _wide(self, tries: _Tries) -> tuple[Body, float]:
+    def _wide(self, tries: _Tries) -> tuple[BodySurface, float]:
         """More of the body around a curve than what is near, and whether its faces look outwards, see ``side``."""
         if tries.wide is None:
             curve, disc = tries.curve, tries.plain[0]
@@ -218,12 +218,12 @@ class Discs:
                 if found is not None:
                     yield from _sleeved(found, curve, body, side)
 
-    def _is_outside(self, places: np.ndarray, triangles: np.ndarray, body: Body) -> bool:
+    def _is_outside(self, places: np.ndarray, triangles: np.ndarray, body: BodySurface) -> bool:
         """Whether most of a surface lies on the wrong side of a body."""
         samples = _samples(places, triangles)
         return bool(self.side(samples, body) * np.median(body.heights(samples)) > 0)
 
-    def side(self, places: np.ndarray, body: Body) -> float:
+    def side(self, places: np.ndarray, body: BodySurface) -> float:
         """Whether the faces around some places, of which most should be inside, look outwards, 1, or inwards, -1.
 
         If most are on the other side of the faces, a closed mesh tells which of the two is wrong; else it is the faces.
@@ -246,12 +246,12 @@ class Discs:
         is_open = np.bincount(component[ends[index[times != 2], 0]], minlength=count) > 0
         return component, (volume > 0) & ~is_open
 
-    def around(self, curve: np.ndarray, places: np.ndarray, margin: float) -> Body | None:
+    def around(self, curve: np.ndarray, places: np.ndarray, margin: float) -> BodySurface | None:
         """The surface of the mesh in the bounding box of some places, wider by such a share of its diagonal."""
         low, high = places.min(axis=0), places.max(axis=0)
         margin *= float(np.linalg.norm(high - low))
         near = self._within(low - margin, high + margin)
-        return Body.of(self._points, self._triangles[near], self._labels[near], curve) if len(near) else None
+        return BodySurface.of(self._points, self._triangles[near], self._labels[near], curve) if len(near) else None
 
     def _within(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """Triangles whose bounding box meets a box; (k,) int64."""
@@ -368,7 +368,7 @@ def _joining(triangles: np.ndarray, k: int) -> np.ndarray:
     return table.vertices[(table.n_faces == 2) & (table.vertices < k).all(axis=1)]
 
 
-def _sleeved(found: Sleeve, curve: np.ndarray, body: Body, side: float) -> Iterator[Disc]:
+def _sleeved(found: Sleeve, curve: np.ndarray, body: BodySurface, side: float) -> Iterator[Disc]:
     """Surfaces under the faces of a sleeve, closed by one across its end; if it has none, several depths are tried."""
     k = len(curve)
     vertex, on, ways = depths(found, curve, body, side)

@@ -138,7 +138,7 @@ def _cut_in_creases(
 
 
 @dataclass(frozen=True, eq=False)
-class Solid:
+class InflatedComponent:
     """A component whose sheets are inflated.
 
     Attributes
@@ -156,7 +156,7 @@ class Solid:
     field: ScalarField
 
 
-def inflate(sets: LevelSets, field: ScalarField) -> Solid | None:
+def inflate(sets: LevelSets, field: ScalarField) -> InflatedComponent | None:
     """Inflate the sheets of a component.
 
     Parameters
@@ -168,7 +168,7 @@ def inflate(sets: LevelSets, field: ScalarField) -> Solid | None:
 
     Returns
     -------
-    solid : Solid or None
+    solid : InflatedComponent or None
         None if the component has no sheets.
     """
     sheet = sheet_faces(sets.mesh, field.agd[sets.mesh.faces].mean(axis=1))
@@ -177,7 +177,8 @@ def inflate(sets: LevelSets, field: ScalarField) -> Solid | None:
     shape = inflated(sets.mesh, sheet)
     values, normalized, agd = (of_vertex[shape.vertex_source].mean(axis=1)
                                for of_vertex in (field.values, field.normalized, field.agd))
-    return Solid(shape, cut_at_levels(shape.mesh, values, sets.levels), ScalarField(values, normalized, agd))
+    return InflatedComponent(shape, cut_at_levels(shape.mesh, values, sets.levels),
+                             ScalarField(values, normalized, agd))
 
 
 def _cut_solid(

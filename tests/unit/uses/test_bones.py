@@ -7,7 +7,7 @@ import shapes
 
 from core.surface.corners import CornerTable
 from core.surface.mirror_plane import MirrorPlane
-from core.uses.bones import BoneSurface, Images, limb_bones, part_bones
+from core.uses.bones import BoneSurface, PartImages, limb_bones, part_bones
 
 
 def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None, twin=None, limbs=False, plane=True):
@@ -37,7 +37,7 @@ def bones(centers, cuts, joints, line=(), line_part=(), height=None, length=None
     face = np.repeat(np.arange(count), [len(found) for found in corners])
     table = CornerTable(np.array(vertices), np.array(edges), vertex, edge, face, count)
     mirror = MirrorPlane(np.array([1.0, 0, 0]), 0.0) if plane else None
-    images = None if twin is None else Images(np.array(twin), mirror)
+    images = None if twin is None else PartImages(np.array(twin), mirror)
     return (limb_bones if limbs else part_bones)(BoneSurface(
         table, np.arange(count), np.ones(count), np.array(at_vertex), np.array(line, float).reshape(-1, 3),
         np.array(line_part, int), images))
@@ -170,7 +170,7 @@ def test_limbs_are_images_however_parts_hang_together(seed, plane):
 @pytest.mark.parametrize("normal", [(1, 0, 0), (0, 0, 1), (0.6, 0, 0.8)])
 def test_a_bone_without_length_stays_in_the_plane(normal):
     table = CornerTable.of(*shapes.octahedron())
-    images = Images(np.array([0]), MirrorPlane(np.array(normal, float), 0.0))
+    images = PartImages(np.array([0]), MirrorPlane(np.array(normal, float), 0.0))
     made = part_bones(
         BoneSurface(table, np.zeros(8, int), np.ones(8), np.zeros(6), np.zeros((0, 3)), np.zeros(0, int), images))
     assert np.linalg.norm(made.tail - made.head) > 0.01
@@ -181,7 +181,7 @@ def boxes(*places, twin=None):
     """Bones of boxes, each a part of its own: (middle, size) of each."""
     table = CornerTable.of(*shapes.together(*(box_about(*place) for place in places)))
     labels = np.repeat(np.arange(len(places)), 12)
-    images = None if twin is None else Images(np.array(twin), MirrorPlane(np.array([1.0, 0, 0]), 0.0))
+    images = None if twin is None else PartImages(np.array(twin), MirrorPlane(np.array([1.0, 0, 0]), 0.0))
     part = np.zeros(len(table.vertices), int)
     part[table.corner_vertex] = labels[table.corner_face]
     return part_bones(BoneSurface(table, labels, np.linalg.norm(table.face_vectors(), axis=1), part.astype(float),
@@ -228,8 +228,8 @@ def test_a_part_that_was_posed_has_no_image():
         (0, 0, 0), (3, 0, 0), (-3, 0, 0), (5, 0, 0), (-5, 0, 2)))))
     labels, twin = np.repeat(np.arange(5), 12), np.array([0, 2, 1, 4, 3])
     plane = MirrorPlane(np.array([1.0, 0, 0]), 0.0)
-    images = Images.of_parts(twin, plane, table, labels, np.ones(60))
+    images = PartImages.of_parts(twin, plane, table, labels, np.ones(60))
     assert images.twin.tolist() == [0, 2, 1, -1, -1]
     assert images.first.tolist() == [0, 1, 1, 3, 4]
     beside = np.where(twin == 0, -1, twin)
-    assert Images.of_parts(beside, plane, table, labels, np.ones(60)) is None
+    assert PartImages.of_parts(beside, plane, table, labels, np.ones(60)) is None

@@ -6,12 +6,12 @@ import pytest
 import shapes
 from threemf_reader import read_3mf
 
-from core.uses.threemf import Assembly, Body, write_3mf
+from core.uses.threemf import Assembly, ColoredMesh, write_3mf
 
 
 def ball(name="Ball", color=(1.0, 0.5, 0.0), shift=0.0):
     vertices, faces = shapes.icosphere(2)
-    return Body(name, color, vertices + shift, faces)
+    return ColoredMesh(name, color, vertices + shift, faces)
 
 
 def test_bodies_come_back_with_names_colors_and_places(tmp_path):
@@ -35,9 +35,10 @@ def test_names_of_any_letters(tmp_path, name):
 
 
 def test_what_the_format_has_no_place_for_is_left_out(tmp_path):
-    flat = Body("Flat", (0, 0, 0), np.eye(3), np.array([[0, 1, 1]]))
+    flat = ColoredMesh("Flat", (0, 0, 0), np.eye(3), np.array([[0, 1, 1]]))
     vertices, faces = shapes.icosphere(1)
-    more = Body("More", (0, 0, 0), np.concatenate([[[99.0, 99, 99]], vertices]), np.append(faces + 1, [[5, 5, 6]], 0))
+    more = ColoredMesh("More", (0, 0, 0), np.concatenate([[[99.0, 99, 99]], vertices]),
+                       np.append(faces + 1, [[5, 5, 6]], 0))
     write_3mf(tmp_path / "it.3mf", [Assembly("Whole", (flat, more)), Assembly("Nothing", (flat,))])
     (body,), places = read_3mf(tmp_path / "it.3mf")
     assert (len(body.vertices), len(body.triangles), len(places)) == (len(vertices), len(faces), 1)
@@ -52,6 +53,6 @@ def test_the_same_bodies_give_the_same_bytes(tmp_path):
 @pytest.mark.parametrize("size", [1e-12, 1e12])
 def test_numbers_of_any_size(tmp_path, size):
     vertices, faces = shapes.icosphere(1)
-    write_3mf(tmp_path / "it.3mf", [Assembly("Whole", (Body("Ball", (0, 0, 0), size * vertices, faces),))])
+    write_3mf(tmp_path / "it.3mf", [Assembly("Whole", (ColoredMesh("Ball", (0, 0, 0), size * vertices, faces),))])
     (body,), _ = read_3mf(tmp_path / "it.3mf")
     assert body.vertices == pytest.approx(size * vertices, rel=1e-8, abs=1e-8 * size)
