@@ -136,6 +136,22 @@ def face_graph(obj: bpy.types.Object, shape: Shape | None = None) -> tuple[FaceG
     return graph, replace(table, corner_vertex=mesh_arrays.face_corners(mesh)[0])
 
 
+def stretched_graphs(obj: bpy.types.Object, *stretches: np.ndarray) -> list[FaceGraph]:
+    """The faces of an object's mesh with areas and lengths as ``face_graph`` gives them, once for each (3, 3) stretch.
+
+    Not in Edit Mode.
+    """
+    points, (triangles, polygon) = shown_points(obj).astype(np.float64), mesh_arrays.triangles(obj.data)
+    found = []
+    for stretch in stretches:
+        table = mesh_arrays.joined_table(obj.data, points @ stretch.T)
+        pairs, edge = table.face_pairs()
+        a, b, c = (points @ stretch.T)[triangles].transpose(1, 0, 2)
+        area = np.bincount(polygon, 0.5 * lengths(cross(b - a, c - a)), table.n_faces)
+        found.append(FaceGraph(table.n_faces, pairs, table.edge_length(edge), area))
+    return found
+
+
 def face_centers(obj: bpy.types.Object) -> np.ndarray:
     """Mean of the corners of each face, (p, 3) float64, along the object's axes in units of the world."""
     points = shown_points(obj).astype(np.float64) @ world_stretch(obj).T

@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 
 from ..core.uses.report import bounding_boxes, report
 from . import bridge, mesh_arrays, part_names, placing, store
 from .pieces import part_meshes, piece_checks
+from .store import Stored
 from .temporary import removed
 
 
@@ -23,10 +26,9 @@ def object_report(obj: bpy.types.Object, labels: bool = False, check: bool = Fal
         Nothing is stored, or the mesh was edited since.
     """
     mesh = obj.data
-    stored = store.load(mesh)
+    world, stretch = np.array(placing.world_matrix(obj), np.float64), store.stretch_of(mesh)
+    stored = _measured(obj, store.load(mesh), stretch)
     numbered = stored.shown_parts()
-    world = np.array(placing.world_matrix(obj), np.float64)
-    stretch = store.stretch_of(mesh)
     from_result = world.copy()
     from_result[:3, :3] = world[:3, :3] @ bridge.unstretch(stretch)
     vertex, face = mesh_arrays.face_corners(mesh)
@@ -41,6 +43,19 @@ def object_report(obj: bpy.types.Object, labels: bool = False, check: bool = Fal
         for part, found in zip(result["parts"], _checks(obj, stored.face_numbers, numbered.numbers), strict=True):
             part["check"] = found
     return result
+
+
+def _measured(obj: bpy.types.Object, stored: Stored, stretch: np.ndarray) -> Stored:
+    """A result with the areas and lengths that its mesh has as the object shows it.
+
+    Of objects that share a mesh, the first was decomposed; and any may have been scaled since. stretch : (3, 3) float64,
+    that of then.
+    """
+    now = bridge.world_stretch(obj)
+    if np.allclose(now, stretch, rtol=1e-5, atol=1e-5 * np.abs(stretch).max()):
+        return stored
+    before, after = bridge.stretched_graphs(obj, stretch, now)
+    return replace(stored, decomposition=stored.decomposition.remeasured(before, after))
 
 
 def _checks(obj: bpy.types.Object, face_numbers: np.ndarray, numbers: np.ndarray) -> list[dict]:

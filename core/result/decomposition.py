@@ -17,7 +17,7 @@ from ..parameters import Parameters
 from ..sentence import Sentence
 from ..surface.arguments import whole_numbers
 from ..surface.arrays import inverse, renumbered, sums_by
-from ..surface.labels import majority
+from ..surface.labels import FaceGraph, majority
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
 from ..surface.pairs import distinct_pairs
@@ -385,6 +385,42 @@ class Decomposition:
                        candidate_pair_length=np.ldexp(self.candidate_pair_length, exponent),
                        junction_length=np.ldexp(self.junction_length, exponent))
 
+    def remeasured(self, before: FaceGraph, now: FaceGraph) -> Decomposition:
+        """Copy the result of a mesh as that of the mesh stretched, with other areas, lengths and radii.
+
+        Each area and length changes as the faces and edges do that are there; what has none of them, and radii, by the
+        square root of the factor of the whole area, which is exact where all directions are stretched alike.
+
+        Parameters
+        ----------
+        before, now : FaceGraph
+            Of the p faces as they were when they were decomposed, and stretched; with the same pairs.
+
+        Returns
+        -------
+        decomposition : Decomposition
+            Of the same parts; positions and the plane of symmetry stay.
+        """
+        scale = float(np.sqrt(_ratio(now.area.sum(), before.area.sum(), 1.0)))
+        area = _ratio(self._area_sums(now), self._area_sums(before), scale**2)
+        length = _ratio(self._pair_sums(now), self._pair_sums(before), scale)
+        graph = replace(self.graph, point_radius=scale * self.graph.point_radius)
+        return replace(self, graph=graph, candidate_area=self.candidate_area * area,
+                       candidate_pair_length=self.candidate_pair_length * length,
+                       junction_length=scale * self.junction_length)
+
+    def _area_sums(self, graph: FaceGraph) -> np.ndarray:
+        """(c,) float64, area of the faces of each candidate."""
+        return np.bincount(self.candidates, graph.area, self.n_candidates)
+
+    def _pair_sums(self, graph: FaceGraph) -> np.ndarray:
+        """(e,) float64, length of the edges between the two candidates of each pair."""
+        found = np.sort(self.candidates[graph.pairs], axis=1)
+        every = np.concatenate([np.sort(self.candidate_pairs, axis=1).reshape(-1, 2), found])
+        pairs, place = distinct_pairs(*every.T)
+        n_pairs = len(self.candidate_pairs)
+        return sums_by(place[n_pairs:], graph.length, len(pairs))[place[:n_pairs]]
+
     def reordered(self, ordering: Ordering) -> Decomposition:
         """Copy the result of a mesh that was sorted as that of the mesh in the caller's order.
 
@@ -451,3 +487,9 @@ def too_many(asked: int, n_candidates: int) -> tuple[Sentence, ...]:
     if asked <= n_candidates:
         return ()
     return (Sentence("{asked} parts were asked for; there are {n} at most.", asked=asked, n=n_candidates),)
+
+
+def _ratio(now: np.ndarray, before: np.ndarray, otherwise: float) -> np.ndarray:
+    """Quotients of two arrays; where there is none, another number."""
+    there = np.asarray(before) > 0
+    return np.where(there, now / np.where(there, before, 1.0), otherwise)

@@ -15,6 +15,7 @@ from core.graph.reeb import ReebGraph
 from core.parameters import Parameters
 from core.pipeline import decompose
 from core.result.decomposition import Decomposition
+from core.surface.labels import FaceGraph
 
 
 def row():
@@ -238,3 +239,19 @@ def test_areas_grow_with_the_square_of_lengths():
     larger = row().scaled(3)
     assert larger.candidate_area.tolist() == [64.0, 128.0, 384.0, 64.0]
     assert larger.candidate_pair_length.tolist() == [4.0, 12.0, 20.0]
+
+
+def test_a_stretched_mesh_has_other_areas_and_lengths():
+    """Candidates grow by 2, 8, 9 and 18, all by 9; of the three pairs the last has no edge, so that the root tells."""
+    result, pairs = row(), np.array([(0, 1), (2, 3)])
+    before = FaceGraph(7, pairs, np.ones(2), np.ones(7))
+    now = FaceGraph(7, pairs, np.array([2.0, 5.0]), np.array([2.0, 8.0, 8.0, 9.0, 9.0, 9.0, 18.0]))
+    larger = result.remeasured(before, now)
+    assert larger.candidate_area.tolist() == [2.0, 16.0, 54.0, 18.0]
+    assert larger.candidate_pair_length.tolist() == [1.0, 7.5, 7.5]
+
+
+def test_radii_of_a_mesh_stretched_alike_everywhere_grow_with_it(tree):
+    none = np.empty((0, 2), np.int64)
+    before, now = (FaceGraph(tree.n_faces, none, np.empty(0), area * np.ones(tree.n_faces)) for area in (1.0, 4.0))
+    assert tree.remeasured(before, now).graph.point_radius == pytest.approx(2.0 * tree.graph.point_radius)
