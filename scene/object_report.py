@@ -48,8 +48,9 @@ def object_report(obj: bpy.types.Object, labels: bool = False, check: bool = Fal
 def _measured(obj: bpy.types.Object, stored: Stored, stretch: np.ndarray) -> Stored:
     """A result with the areas and lengths that its mesh has as the object shows it.
 
-    Of objects that share a mesh, the first was decomposed; and any may have been scaled since. stretch : (3, 3) float64,
-    that of then.
+    Of objects that share a mesh, the first was decomposed; and any may have been scaled since.
+
+    stretch : (3, 3) float64, that of then.
     """
     now = bridge.world_stretch(obj)
     if np.allclose(now, stretch, rtol=1e-5, atol=1e-5 * np.abs(stretch).max()):
