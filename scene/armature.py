@@ -12,8 +12,17 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from ..core.result.numbering import NumberedParts
-from ..core.surface.corners import CornerTable
-from . import made_objects, modifiers, outputs, part_names, placing, property_updates, targets, transaction
+from . import (
+    made_objects,
+    mesh_arrays,
+    modifiers,
+    outputs,
+    part_names,
+    placing,
+    property_updates,
+    targets,
+    transaction,
+)
 from .errors import SceneError
 from .modes import call_with, set_mode
 from .pieces import part_meshes, piece_objects
@@ -186,7 +195,7 @@ def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types
     """Blender's own weights, found on a copy; where it finds none, the smooth ones."""
     from ..core.uses.skinning import Weights, limited
 
-    copy = _whole_mesh(skeleton.table) if skeleton.is_half else part_meshes.plain_copy(obj.data)
+    copy = mesh_arrays.mesh_of(skeleton.table, NAME) if skeleton.is_half else part_meshes.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
     with removed(bpy.data.meshes, copy), removed(bpy.data.objects, twin):
         twin.vertex_groups.clear()
@@ -211,15 +220,6 @@ def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types
                 mass[vertex.index, column[entry.group]] = entry.weight
     found, known = limited(mass), mass.any(axis=1, keepdims=True)
     return Weights(np.where(known, found.bone, smooth.bone), np.where(known, found.weight, smooth.weight))
-
-
-def _whole_mesh(table: CornerTable) -> bpy.types.Mesh:
-    """A new mesh of the faces of a table, for the caller to remove."""
-    mesh = bpy.data.meshes.new(NAME)
-    starts = np.flatnonzero(np.diff(table.corner_face, prepend=-1))
-    faces = [corners.tolist() for corners in np.split(table.corner_vertex, starts)[1:]]
-    mesh.from_pydata(table.vertices.tolist(), [], faces)
-    return mesh
 
 
 def _write_weights(obj: bpy.types.Object, groups: list[str], weights: Weights) -> None:

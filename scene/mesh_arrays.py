@@ -158,6 +158,15 @@ def corner_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> Corn
     return CornerTable(points.astype(np.float64), edge_ends(mesh), vertex, corner_edges(mesh), face, len(mesh.polygons))
 
 
+def mesh_of(table: CornerTable, name: str) -> bpy.types.Mesh:
+    """A new mesh of the faces of a table, for the caller to remove; its edges have numbers of their own."""
+    mesh = bpy.data.meshes.new(name)
+    starts = np.flatnonzero(np.diff(table.corner_face, prepend=-1))
+    faces = [corners.tolist() for corners in np.split(table.corner_vertex, starts)[1:]]
+    mesh.from_pydata(table.vertices.tolist(), [], faces)
+    return mesh
+
+
 def joined_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> CornerTable:
     """As ``corner_table``, with border vertices joined that are one for Decompose: see core.surface.borders.
 

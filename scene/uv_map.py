@@ -15,7 +15,6 @@ from ..core.uses.stacking import double_corners
 from . import made_objects, mesh_arrays, store, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
-from .pieces import part_meshes
 from .selection import nothing_selected
 from .store import Stored
 from .temporary import removed
@@ -86,16 +85,19 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, op
     if find(mesh) is None and len(mesh.uv_layers) >= _LAYERS:
         raise SceneError(
             rpt_("{name} has as many UV maps as Blender allows. Remove one and try again.").format(name=mesh.name))
-    table = mesh_arrays.corner_table(mesh, mesh_arrays.shown_points(obj) @ store.stretch_of(mesh).T)
+    # Joined: parts hang together where only their vertices are split, as in .glb files, and so do their islands.
+    table = mesh_arrays.joined_table(mesh, mesh_arrays.shown_points(obj) @ store.stretch_of(mesh).T)
     image = _images(table, stored) if stack else np.full(len(mesh.loops), -1)
     double = double_corners(table, ~_left_out(table, image))
-    seams = mesh_arrays.read(mesh.edges, "use_seam", bool)
-    seams |= mesh_arrays.cut_edges(mesh, _of_faces_below(table, stored.face_numbers, double))
+    low, high = table.edge_labels(_of_faces_below(table, stored.face_numbers, double))
+    seams = low < high
+    by_hand = mesh_arrays.read(mesh.edges, "use_seam", bool)
+    seams[table.corner_edge[by_hand[mesh_arrays.corner_edges(mesh)]]] = True
     if open_parts:
         seams |= _unfolding_seams(table, seams, _left_out(table, double))
     image = np.where(double >= 0, double, image)
     image = np.where((image >= 0) & (double[image] >= 0), double[image], image)  # images of doubles
-    flat = _unwrapped(context, obj, table, seams, method, image)
+    flat = _unwrapped(context, table, seams, method, image)
     flat = np.where(image[:, None] >= 0, flat[image], flat)
     return _write(mesh, flat), _distortion(table, flat, image)
 
@@ -159,20 +161,28 @@ def _write(mesh: bpy.types.Mesh, flat: np.ndarray) -> str:
     return layer.name
 
 
-def _unwrapped(context: bpy.types.Context, obj: bpy.types.Object, table: CornerTable, seams: np.ndarray, method: str,
+def _unwrapped(context: bpy.types.Context, table: CornerTable, seams: np.ndarray, method: str,
                image: np.ndarray) -> np.ndarray:
-    """The UV coordinates of each corner, (c, 2) float32; unwrapped on a copy, so that no selection is touched.
+    """The UV coordinates of each corner, (c, 2) float32; unwrapped on a mesh of its own, of the table.
 
-    Faces whose corners are images of others, (c,), are left out.
+    seams : (e,) bool. Faces whose corners are images of others, (c,), are left out.
     """
-    copy = part_meshes.plain_copy(obj.data)
-    twin = bpy.data.objects.new(copy.name, copy)
-    with removed(bpy.data.meshes, copy), removed(bpy.data.objects, twin):
-        _prepare(twin, table.vertices, seams, _left_out(table, image))
+    # At size 1: Blender's unwrapping has limits that are lengths and areas, below which models of millimeters are.
+    low, size = table.vertices.min(axis=0), np.ptp(table.vertices, axis=0).max()
+    mesh = mesh_arrays.mesh_of(replace(table, vertices=(table.vertices - low) / (size or 1.0)), UV_MAP)
+    twin = bpy.data.objects.new(mesh.name, mesh)
+    with removed(bpy.data.meshes, mesh), removed(bpy.data.objects, twin):
+        seam = np.zeros(len(mesh.edges), bool)
+        seam[mesh_arrays.corner_edges(mesh)] = seams[table.corner_edge]
+        mesh.edges.foreach_set("use_seam", seam)
+        for items in (mesh.vertices, mesh.edges, mesh.polygons):
+            items.foreach_set("select", np.ones(len(items), bool))
+        mesh.polygons.foreach_set("hide", _left_out(table, image))
+        mesh.uv_layers.new(name=UV_MAP)
         context.scene.collection.objects.link(twin)
         with nothing_selected(context.view_layer):
             _unwrap_all(context, twin, method)
-        return mesh_arrays.read(copy.uv_layers.active.uv, "vector", np.float32, 2)
+        return mesh_arrays.read(mesh.uv_layers.active.uv, "vector", np.float32, 2)
 
 
 def _unwrap_all(context: bpy.types.Context, twin: bpy.types.Object, method: str) -> None:
@@ -193,24 +203,3 @@ def _unwrap_all(context: bpy.types.Context, twin: bpy.types.Object, method: str)
     call_with(bpy.ops.uv.average_islands_scale, twin)
     call_with(bpy.ops.uv.pack_islands, twin, margin=_MARGIN)
     set_mode(twin, "OBJECT")
-
-
-def _prepare(twin: bpy.types.Object, points: np.ndarray, seams: np.ndarray, left_out: np.ndarray) -> None:
-    """Give a copy the shape that is seen, at size 1, our seams and one UV map; select all but some faces, (p,) bool."""
-    mesh = twin.data
-    if mesh.shape_keys:
-        name = mesh.shape_keys.name
-        twin.shape_key_clear()
-        if left := bpy.data.shape_keys.get(name):  # before Blender 5, those of a copy stay, with a user too many
-            bpy.data.batch_remove([left])
-    # At size 1: Blender's unwrapping has limits that are lengths and areas, below which models of millimeters are.
-    low, size = points.min(axis=0), np.ptp(points, axis=0).max()
-    mesh.vertices.foreach_set("co", ((points - low) / (size or 1.0)).astype(np.float32).ravel())
-    mesh.edges.foreach_set("use_seam", seams)
-    for items in (mesh.vertices, mesh.edges, mesh.polygons):
-        items.foreach_set("hide", np.zeros(len(items), bool))
-        items.foreach_set("select", np.ones(len(items), bool))
-    mesh.polygons.foreach_set("hide", left_out)
-    for name in mesh.uv_layers.keys():  # noqa: SIM118
-        mesh.uv_layers.remove(mesh.uv_layers[name])
-    mesh.uv_layers.new(name=UV_MAP)

@@ -5,6 +5,8 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 from snapshot import changes, check_undo, snapshot
 
 MAP = "Reeb Parts UV"
@@ -54,6 +56,44 @@ def test_the_map_is_torn_along_the_cuts(obj):
     assert torn[cuts(obj.data)].all()
     assert torn.mean() < 0.25
     assert obj.data.uv_layers.active.name == MAP
+
+
+def n_islands(mesh):
+    """Groups of faces that share a place in space and in the map."""
+    uv = read(mesh.uv_layers[MAP].uv, "vector", np.float32, 2)
+    points = read(mesh.vertices, "co", np.float32, 3)[read(mesh.loops, "vertex_index", np.int32)]
+    place = np.unique(np.concatenate([points, uv], axis=1).round(4), axis=0, return_inverse=True)[1].ravel()
+    face = np.repeat(np.arange(len(mesh.polygons)), read(mesh.polygons, "loop_total", np.int32))
+    count, _ = connected_components(coo_array((np.ones(len(face)), (face, len(mesh.polygons) + place)),
+                                              (len(mesh.polygons) + place.max() + 1,) * 2))
+    return count
+
+
+def test_parts_hang_together_where_only_vertices_are_split(make, tree):
+    """Each piece of a surface between such seams, as .glb files have them, was an island of its own."""
+    maps = []
+    for shape in (tree, shapes.unjoined(tree)):
+        obj = make(shape)
+        bpy.ops.reeb_parts.decompose()
+        bpy.ops.reeb_parts.unwrap()
+        maps.append((len(obj.data.reeb_parts.parts), n_islands(obj.data)))
+    assert maps[0] == maps[1]
+
+
+def test_seams_by_hand_are_those_of_split_edges(make, tree):
+    """Of two edges at one place either may be marked."""
+    found = []
+    for marked in (False, True):
+        obj = make(shapes.unjoined(tree))
+        bpy.ops.reeb_parts.decompose(n_parts=1)
+        middle = read(obj.data.polygons, "center", np.float32, 3)[:, 2]
+        if marked:
+            for polygon in obj.data.polygons:
+                for loop in polygon.loop_indices if middle[polygon.index] > np.quantile(middle, 0.9) else ():
+                    obj.data.edges[obj.data.loops[loop].edge_index].use_seam = True
+        bpy.ops.reeb_parts.unwrap()
+        found.append(n_islands(obj.data))
+    assert found[1] > found[0] + 10
 
 
 def test_a_model_of_millimeters_has_the_map_of_one_of_meters(make, tree):
