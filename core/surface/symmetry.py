@@ -20,7 +20,9 @@ LEAST = 0.85  # share of the area that must be matched for a plane to be one of 
 # Upper bounds of the points that stand for the surface, and that are mirrored: to choose among planes, and to find the
 # place of one.
 COARSE, FINE = (1_000, 100), (12_000, 500)
-EQUAL = 0.05  # planes whose shares differ by less are equal: the first of them is taken, in all poses the same
+# Of planes whose shares differ by less than CLOSE by few probes, those are equal that differ by less than EQUAL by many:
+# the first of them is taken, in all poses the same.
+CLOSE, EQUAL = 0.1, 0.02
 SOME = 300  # number of polygons by which it is seen whether a plane is exact; the first that is comes before all others
 LIKELY = 0.5  # share of the area that the best plane must match already when few points are looked at
 # A plane is improved until a step moves its normal and its offset by less: STILL where its place is to be found, ROUGH
@@ -51,11 +53,15 @@ def mirror_plane(faces: SmallFaces) -> MirrorPlane | None:
     share = max(plane.share for plane in tried)
     if share < LIKELY:
         return None
-    chosen = next(k for k, plane in enumerate(tried) if plane.share >= share - EQUAL)
+    many, probes = elements.some(FINE[0]), elements.some(FINE[1])
     likely = [k for k, plane in enumerate(tried) if plane.share >= LIKELY]
+    close = [k for k in likely if tried[k].share >= share - CLOSE]
+    chosen = close[0]
+    if len(close) > 1:
+        finer = [judged(tried[k], many, probes).share for k in close]
+        chosen = next(k for k, fine in zip(close, finer, strict=True) if fine >= max(finer) - EQUAL)
     if len(likely) > 1:
         chosen = next((k for k in likely if is_exact(faces.polygons, start[k])), chosen)
-    many, probes = elements.some(FINE[0]), elements.some(FINE[1])
     best, = _improved([tried[chosen]], many, probes)
     if best.share < LEAST:
         return None
