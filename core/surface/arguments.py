@@ -53,8 +53,9 @@ def positions(values: Any) -> np.ndarray:
 def _check_masks(values: Any) -> None:
     """Raise MeshError where an array has values that are masked: what lies under the mask stands for nothing."""
     if np.ma.is_masked(values):
-        raise MeshError(Sentence("{n} {n:number is|numbers are} masked. Leave out the vertices and faces that have them.",
-                                 n=int(np.ma.count_masked(values))))
+        raise MeshError(Sentence(
+            "{n} {n:number is|numbers are} masked. Leave out the vertices and faces that have them.",
+            n=int(np.ma.count_masked(values))))
 
 
 def whole_numbers(values: Any) -> np.ndarray | None:

@@ -20,8 +20,8 @@ LEAST = 0.85  # share of the area that must be matched for a plane to be one of 
 # Upper bounds of the points that stand for the surface, and that are mirrored: to choose among planes, and to find the
 # place of one.
 COARSE, FINE = (1_000, 100), (12_000, 500)
-# Of planes whose shares differ by less than CLOSE by few probes, those are equal that differ by less than EQUAL by many:
-# the first of them is taken, in all poses the same.
+# Of planes whose shares by few probes differ by less than CLOSE, those are equal whose shares by many differ by less than
+# EQUAL: the first of them is taken, in all poses the same.
 CLOSE, EQUAL = 0.1, 0.02
 SOME = 300  # number of polygons by which it is seen whether a plane is exact; the first that is comes before all others
 LIKELY = 0.5  # share of the area that the best plane must match already when few points are looked at

@@ -25,9 +25,9 @@ from ..meshes import decompose
 from ..model_files import read_model
 from ..output_files import OutputFileError, write_files
 from ..outputs import (
-    LARGEST_PICTURE,
     COLORED,
     LABELS,
+    LARGEST_PICTURE,
     PARTS,
     colored_bytes,
     json_bytes,
