@@ -12,7 +12,7 @@ from ..core.steps import Steps
 from ..scene.reporting import PartOperator
 from ..scene.store import Stored
 from ..viewport import pointing
-from ..viewport.knife import Knife, cut_at
+from ..viewport.knife import Knife, cut_at, nothing_there
 from ..viewport.pointing import Target
 from ..viewport.view_tool import ViewTool
 
@@ -41,16 +41,30 @@ class REEB_PARTS_OT_cut(ViewTool, PartOperator, bpy.types.Operator):
 
     def begin(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         self.knife = Knife(obj, self.model)
+        self.told = self.hint()
 
     def hover(self, context: bpy.types.Context, target: Target | None, event: bpy.types.Event) -> None:
-        cut = context.scene.reeb_parts_use.cut
-        if target is None or cut == "FACES":
-            self.preview.show(None if target is None else self.knife.ring(target))
+        self._tell(self.hint())
+        if target is None:
+            self.preview.show(None)
         else:
-            self.preview.show(self.knife.ring(target), partial(self._finding_curve, target, cut == "PLANAR"))
+            cut = context.scene.reeb_parts_use.cut
+            self.preview.show(self.knife.ring(target), partial(self._finding_curve, target, cut))
 
-    def _finding_curve(self, target: Target, planar: bool) -> Steps[np.ndarray]:
-        return self.knife.finding_curve(self.model_object(), target, planar)
+    def _finding_curve(self, target: Target, cut: str) -> Steps[np.ndarray]:
+        """The lines of the cut, in steps; where there is none, the status bar says so."""
+        obj = self.model_object()
+        lines = yield from self.knife.finding_curve(obj, target, cut == "PLANAR", cut == "FACES")
+        if not len(lines):
+            self._tell(nothing_there(obj, self.model.number(target)))
+        return lines
+
+    def _tell(self, text: str) -> None:
+        """Say something in the status bar, until something else is said; Blender's timers have no window."""
+        if text != self.told:
+            self.told = text
+            for workspace in bpy.data.workspaces:
+                workspace.status_text_set(text)
 
     def press(self, context: bpy.types.Context, target: Target, event: bpy.types.Event) -> set[str]:
         obj = context.view_layer.objects.active

@@ -54,20 +54,24 @@ class Knife:
         found, chosen = self.contour(target)
         return found.moved(self.seen)[found.label == chosen]
 
-    def finding_curve(self, obj: bpy.types.Object, target: Target, planar: bool) -> Steps[np.ndarray]:
+    def finding_curve(self, obj: bpy.types.Object, target: Target, planar: bool,
+                      along_faces: bool = False) -> Steps[np.ndarray]:
         """Find the lines that Separate would cut along there, in steps; as those of ``ring``.
 
-        The object, which has to be the one that was read, is not touched any more.
+        None where nothing would be cut off; where faces stay whole, those of the ring. The object, which has to be the
+        one that was read, is not touched any more.
         """
         if self._surface is None:
             self._surface = bridge.face_graph(obj)[0], *cut_curves.read(obj)
-        return self._finding_curve(*self._surface, target, planar)
+        return self._finding_curve(*self._surface, target, planar, along_faces)
 
     def _finding_curve(self, face_graph: FaceGraph, table: CornerTable, points: np.ndarray, target: Target,
-                       planar: bool) -> Steps[np.ndarray]:
+                       planar: bool, along_faces: bool) -> Steps[np.ndarray]:
         yield 0.0
         side = self.sides(target, face_graph)
         if side is None:
+            return np.empty((0, 2, 3))
+        if along_faces:
             return self.ring(target)
         yield 0.1
         old, new = self.model.number(target), int(self.model.numbers.max()) + 1
@@ -113,7 +117,7 @@ def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, targ
     tables = bridge.face_graph(obj)
     side = Knife(obj, model).sides(target, tables[0])
     if side is None:
-        raise SceneError(rpt_("Nothing of {name} would be cut off there. Point at another place.").format(name=name))
+        raise SceneError(nothing_there(obj, number))
     new = edits.free_number(obj.data, model.stored)
     edits.assign_faces(context, obj, model.stored, np.where(side, new, model.numbers), tables)
     part_list.make_active(obj.data, new)
@@ -122,6 +126,12 @@ def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, targ
     if not more:
         return told
     return told + "; " + rpt_("what is left is in {n} {n:part|parts} more").format(n=Count(more))
+
+
+def nothing_there(obj: bpy.types.Object, number: int) -> str:
+    """What is said where nothing of a part would be cut off."""
+    return rpt_("Nothing of {name} would be cut off there. Point at another place.").format(
+        name=part_names.part_name(obj.data, number))
 
 
 def _parts_beside(before: Model, after: store.Stored, new: int) -> int:

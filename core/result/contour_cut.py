@@ -150,7 +150,8 @@ def contour_sides(
     Returns
     -------
     side : (p,) bool or None
-        Faces of the part on the upper side of the cut, which is straightened; None if one side would have no face.
+        Faces of the part on the upper side of the cut, which is straightened unless one side would vanish; None if one
+        side has no face.
     """
     piece = components(graph.n_faces, *graph.pairs[inside[graph.pairs].all(axis=1)].T)[1]
     inside = inside & np.isin(piece, piece[inside & crossed])
@@ -168,8 +169,11 @@ def contour_sides(
     if side is None:
         side = _sides(part, above, cut, between)
         assert side is not None  # no face above the level is joined with one below it
-    label = connect(part, straighten(part, side.astype(np.int64), STRAIGHTEN))
-    if label.all() or not label.any():
+    for label in (straighten(part, side.astype(np.int64), STRAIGHTEN), side.astype(np.int64)):
+        label = connect(part, label)
+        if label.any() and not label.all():
+            break
+    else:
         return None
     result = np.zeros(graph.n_faces, bool)
     result[ids] = label == 1

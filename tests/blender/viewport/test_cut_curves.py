@@ -195,6 +195,22 @@ def test_the_ring_of_the_knife_is_what_is_cut(tree, modules):
     check_same(lines, points[cut], np.linalg.norm(np.ptp(lines.reshape(-1, 3), axis=0)))
 
 
+@pytest.mark.parametrize("along_faces", [False, True])
+def test_at_rest_there_is_no_ring_where_nothing_would_be_cut_off(tree, modules, along_faces):
+    """A click there is refused; the ring stayed, also one around much of a part."""
+    model = modules.pointing.Model(tree)
+    knife, graph = modules.knife.Knife(tree, model), modules.bridge.face_graph(tree)[0]
+    arcs = next(item for item in tree.children if item.get("reeb_parts_role") == "arcs")
+    places = [arcs.matrix_world @ point.co.to_3d() for spline in arcs.data.splines for point in spline.points]
+    targets = [model.at(tree, place, True) for place in places]
+    refused = [target for target in targets if knife.sides(target, graph) is None]
+    assert 0 < len(refused) < len(targets)
+    for target in (refused[0], next(target for target in targets if target not in refused)):
+        lines = modules.steps.finished(knife.finding_curve(tree, target, False, along_faces))
+        assert bool(len(lines)) == (target not in refused)
+        assert len(knife.ring(target)) or target not in refused
+
+
 def test_rings_at_rest_are_the_curve_of_the_parts_that_are_shown(tree, modules):
     model = modules.pointing.Model(tree)
     tool = modules.ring_tool.RingTool()

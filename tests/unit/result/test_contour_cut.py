@@ -209,3 +209,16 @@ def test_the_cut_along_a_contour_has_no_saw_teeth():
     above[face[2, 2]] = True
     everything = np.ones(rows * columns, bool)
     assert contour_sides(graph, everything, above, everything).tolist() == right.tolist()
+
+
+def test_what_would_vanish_is_cut_off_with_its_saw_teeth():
+    """A corner of a grid of squares: to take it off shortens the cut, to nothing. The ring was shown all the same."""
+    rows, columns = 5, 6
+    face = np.arange(rows * columns).reshape(rows, columns)
+    pairs = np.concatenate([np.stack([face[:, :-1].ravel(), face[:, 1:].ravel()], axis=1),
+                            np.stack([face[:-1].ravel(), face[1:].ravel()], axis=1)])
+    graph = FaceGraph(rows * columns, pairs, np.ones(len(pairs)), np.ones(rows * columns))
+    corner = face.ravel() == 0
+    everything = np.ones(rows * columns, bool)
+    assert contour_sides(graph, everything, corner, everything).tolist() == corner.tolist()
+    assert contour_sides(graph, everything, everything, everything) is None
