@@ -73,7 +73,7 @@ OPERATORS = {
     "Give Each Part a Material": "Jedem Teil ein Material geben",
     "Unwrap along Cuts": "Entlang der Schnitte abwickeln",
     "Export to Files...": "In Dateien exportieren...",
-    "Export Parts to Files": "Teile in Dateien exportieren",
+    "Export Parts to Files": "Teile exportieren",
     "Make Collision Hulls": "Kollisionshüllen erstellen",
     "Make Collision Hulls of Parts": "Kollisionshüllen aus Teilen erstellen",
     "Make Rigid Bodies": "Starrkörper erstellen",
@@ -84,8 +84,8 @@ OPERATORS = {
     "Hide Parts": "Teile verbergen",
     "Keep Object": "Objekt behalten",
     "Rename Part": "Teil umbenennen",
-    "Grow to Next Crease": "Wachsen bis zur nächsten Falte",
-    "Shrink to Next Crease": "Schrumpfen bis zur nächsten Falte",
+    "Grow to Next Crease": "Bis zur nächsten Falte vergrößern",
+    "Shrink to Next Crease": "Bis zur nächsten Falte verkleinern",
 }
 
 TOOLS = {
@@ -113,7 +113,7 @@ TOOLS = {
     "Magnets": "Magnete",
     "None": "Keine",
     "Merge": "Zusammenführen",
-    "Grow": "Wachsen",
+    "Grow": "Vergrößern",
     "Rename": "Umbenennen",
     "Hide": "Verbergen",
     "Frame": "Heranholen",
