@@ -17,7 +17,8 @@ from ..surface.components import components
 from ..surface.corners import CornerTable
 from ..surface.ordering import principal_axes
 from ..surface.pairs import distinct_pairs
-from ..surface.vectors import cross, lengths, second_moments
+from ..surface.ties import first_largest
+from ..surface.vectors import cross, inner_products, lengths, second_moments
 
 #: How many corners a hull has at most; game engines take 255, and are faster with fewer.
 MOST_CORNERS = 64
@@ -286,13 +287,41 @@ def _hull(points: np.ndarray, most: int) -> Hull:
     found = ConvexHull((points - middle) / scale)
     if len(found.vertices) > most:
         corners = points[found.vertices]
-        kept = np.unique((_directions(most) @ (corners - middle).T).argmax(axis=1))
-        return _hull(corners[kept], most)
+        return _hull(corners[_outermost(_as_round(corners), most)], most)
     used, triangles = renumbered(found.simplices)
     a, b, c = points[found.simplices].transpose(1, 0, 2)
     inward = (cross(b - a, c - a) * found.equations[:, :3]).sum(axis=1) < 0
     triangles[inward] = triangles[inward][:, ::-1]
     return Hull(points[used], triangles.astype(np.int64))
+
+
+def _as_round(points: np.ndarray) -> np.ndarray:
+    """Points, (n, 3), around their middle, shortened along their length and width: as far out each way on average.
+
+    Hulls stay hulls with the same shares of the volume.
+    """
+    offset = points - points.mean(axis=0)
+    spread, axes = np.linalg.eigh(second_moments(offset, np.full(len(points), 1 / len(points))))
+    return offset @ (axes / np.sqrt(spread.clip(1e-12 * spread.max()))) @ axes.T
+
+
+def _outermost(corners: np.ndarray, most: int) -> np.ndarray:
+    """So many of the corners of a hull, (k, 3), whose own hull has nearly its volume: (most,) int64 or fewer.
+
+    Half of them are outermost in directions that are spread evenly, of which several may have the same corner. Then the
+    corner that is farthest from the hull of those found follows, again and again.
+    """
+    kept = np.unique((_directions(most // 2) @ corners.T).argmax(axis=1))
+    found = ConvexHull(corners[kept], incremental=True)
+    while len(kept) < most:
+        outside = (inner_products(corners, found.equations[:, :3]) + found.equations[:, 3]).max(axis=1)
+        outside[kept] = 0.0
+        farthest = first_largest(outside.clip(0.0))
+        if not outside[farthest] > 0:
+            break
+        kept = np.append(kept, farthest)
+        found.add_points(corners[[farthest]])
+    return kept
 
 
 def _solid(points: np.ndarray, size: float) -> np.ndarray:

@@ -58,6 +58,16 @@ def test_a_fine_ball_gets_few_corners_and_keeps_its_size():
     assert hull.volume > 0.85 * hulls((vertices, faces), most=10_000)[0].volume
 
 
+@pytest.mark.parametrize("stretched", [(1, 1, 8), (1, 0.1, 8), (1e-3, 1e-3, 1)])
+def test_what_is_long_has_as_many_corners_as_it_may(stretched):
+    """Of directions that are spread evenly around it, many have the same corner."""
+    vertices, faces = shapes.icosphere(3)
+    (hull,) = hulls((vertices * stretched, faces))
+    check(hull)
+    assert len(hull.vertices) == 64
+    assert hull.volume > 0.9 * hulls((vertices * stretched, faces), most=10_000)[0].volume
+
+
 @pytest.mark.parametrize("points", [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 0, 0], [2, 0, 0]],
                                     [[1, 2, 3], [1, 2, 3], [1, 2, 3]]])
 def test_what_is_flat_gets_a_thin_one(points):
