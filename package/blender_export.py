@@ -3,9 +3,9 @@
 
     blender --background --factory-startup --python blender_export.py -- MODEL OUT.npz
 
-Meshes are those of the objects themselves, without their modifiers, in the places that the scene gives them, once more
-for each instance of a collection. What Reeb Parts has made of a model that is there - pieces, dowels, hulls - is that
-model a second time, and left out.
+Meshes are those of the objects themselves, in the mix of their shape keys, without their modifiers, in the places that
+the scene gives them, once more for each instance of a collection. What Reeb Parts has made of a
+model that is there - pieces, dowels, hulls - is that model a second time, and left out.
 """
 
 import sys
@@ -52,6 +52,18 @@ def _placed() -> list[tuple[bpy.types.Object, np.ndarray]]:
     return [(obj, matrix) for obj, matrix in found if obj.type == "MESH" and not _is_made_of_another(obj)]
 
 
+def _points(obj: bpy.types.Object) -> np.ndarray:
+    """Positions of the vertices of an object, (n, 3) float32: of relative shape keys the mix that is seen."""
+    keys = obj.data.shape_keys
+    mixed = keys is not None and (keys.use_relative or obj.show_only_shape_key)
+    key = obj.shape_key_add(name="Mix", from_mix=True) if mixed else None
+    place = np.empty(3 * len(obj.data.vertices), np.float32)
+    (key.data if key else obj.data.vertices).foreach_get("co", place)
+    if key:
+        obj.shape_key_remove(key)
+    return place.reshape(-1, 3)
+
+
 def export(path: str, out: str) -> None:
     """Read the model and write vertices (n, 3), triangles (m, 3) and the polygon (m,) of each triangle.
 
@@ -77,14 +89,13 @@ def _export(path: str, out: str) -> None:
     for obj, matrix in _placed():
         mesh = obj.data
         mesh.calc_loop_triangles()
-        place, corner = np.empty(3 * len(mesh.vertices), np.float32), np.empty(3 * len(mesh.loop_triangles), np.int32)
+        corner = np.empty(3 * len(mesh.loop_triangles), np.int32)
         polygon = np.empty(len(mesh.loop_triangles), np.int32)
-        mesh.vertices.foreach_get("co", place)
         mesh.loop_triangles.foreach_get("vertices", corner)
         mesh.loop_triangles.foreach_get("polygon_index", polygon)
         if np.linalg.det(matrix[:3, :3]) < 0:  # a mirror image would look inwards
             corner = corner.reshape(-1, 3)[:, ::-1]
-        vertices.append(place.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3])
+        vertices.append(_points(obj) @ matrix[:3, :3].T + matrix[:3, 3])
         triangles.append(corner.reshape(-1, 3).astype(np.int64) + n_vertices)
         polygons.append(polygon.astype(np.int64) + n_polygons)
         n_vertices += len(mesh.vertices)

@@ -59,6 +59,35 @@ def test_what_blender_cannot_read_is_said(tmp_path):
         reeb_parts.read_model(tmp_path / "broken.blend", os.environ["BLENDER"])
 
 
+def test_shape_keys_are_read_as_they_are_mixed(tmp_path):
+    """A cube of side 2; one key of value 0.5 doubles it, but for the lower half; one is muted, one has no value."""
+    path = made_by_blender("""
+import bpy, sys
+bpy.ops.wm.read_homefile(use_empty=True)
+bpy.ops.mesh.primitive_cube_add(size=2)
+cube = bpy.context.object
+group = cube.vertex_groups.new(name="Upper")
+group.add([v.index for v in cube.data.vertices if v.co.z > 0], 1.0, "REPLACE")
+cube.shape_key_add(name="Basis")
+for name, value, mute in (("Large", 0.5, False), ("Muted", 1.0, True), ("None", 0.0, False)):
+    key = cube.shape_key_add(name=name, from_mix=False)
+    key.value, key.mute = value, mute
+    for point in key.data:
+        point.co = 2 * point.co
+cube.data.shape_keys.key_blocks["Large"].vertex_group = "Upper"
+other = bpy.data.objects.new("Only", cube.data)
+other.location.x = 10
+bpy.context.collection.objects.link(other)
+other.active_shape_key_index, other.show_only_shape_key = 3, True
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
+""", tmp_path / "keys.blend")
+    points = reeb_parts.read_model(path, os.environ["BLENDER"]).vertices
+    mixed, only = points[:8], points[8:] - (10, 0, 0)
+    assert sorted(np.abs(mixed[:, 0]).tolist()) == pytest.approx([1.0] * 4 + [1.5] * 4)
+    assert sorted(set(mixed[:, 2].tolist())) == pytest.approx([-1.0, 1.5])
+    assert np.abs(only) == pytest.approx(2.0)
+
+
 def test_a_mirrored_object_looks_outwards(tmp_path):
     path = tmp_path / "mirrored.blend"
     make = """

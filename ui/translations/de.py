@@ -747,6 +747,7 @@ TEXTS = {
         "Zusammenfallende Randpunkte: {n}; sie gelten als verbunden.",
     "{n} {n:triangle faces inwards or against its|triangles face inwards or against their} neighbors.":
         "Dreiecke, die nach innen oder gegen ihre Nachbarn zeigen: {n}.",
+    "{type} is no mesh: give vertices and faces.": "{type} ist kein Mesh: nötig sind vertices und faces.",
     "{n} {n:number is|numbers are} masked. Leave out the vertices and faces that have them.":
         "Maskierte Zahlen: {n}. Lassen Sie die Punkte und Flächen weg, zu denen sie gehören.",
     "{n} pieces that touch form one body.": "{n} Stücke, die sich berühren, bilden einen Körper.",

@@ -687,6 +687,7 @@ TEXTS = {
     "{n} coincident border {n:vertex is|vertices are} treated as joined.": "{n} 个重合的开放边顶点视为相连。",
     "{n} {n:triangle faces inwards or against its|triangles face inwards or against their} neighbors.":
         "{n} 个三角形朝内或与相邻面方向相反。",
+    "{type} is no mesh: give vertices and faces.": "{type} 不是网格：需要 vertices 和 faces。",
     "{n} {n:number is|numbers are} masked. Leave out the vertices and faces that have them.":
         "{n} 个数值被遮罩。请去掉含有它们的顶点和面。",
     "{n} pieces that touch form one body.": "{n} 个相互接触的块构成一个整体。",
