@@ -20,9 +20,9 @@ LEAST = 0.85  # share of the area that must be matched for a plane to be one of 
 # Upper bounds of the points that stand for the surface, and that are mirrored: to choose among planes, and to find the
 # place of one.
 COARSE, FINE = (1_000, 100), (12_000, 500)
-# Of planes whose shares by few probes differ by less than CLOSE, those are equal whose shares by many differ by less than
-# EQUAL: the first of them is taken, in all poses the same.
-CLOSE, EQUAL = 0.1, 0.02
+# Planes whose shares by few probes differ by less than EQUAL are equal: the first of them is taken, in all poses the
+# same, unless by many probes one of those that differ by less than CLOSE is better by CLEAR.
+EQUAL, CLOSE, CLEAR = 0.05, 0.1, 0.02
 SOME = 300  # number of polygons by which it is seen whether a plane is exact; the first that is comes before all others
 LIKELY = 0.5  # share of the area that the best plane must match already when few points are looked at
 # A plane is improved until a step moves its normal and its offset by less: STILL where its place is to be found, ROUGH
@@ -55,11 +55,11 @@ def mirror_plane(faces: SmallFaces) -> MirrorPlane | None:
         return None
     many, probes = elements.some(FINE[0]), elements.some(FINE[1])
     likely = [k for k, plane in enumerate(tried) if plane.share >= LIKELY]
+    chosen = next(k for k in likely if tried[k].share >= share - EQUAL)
     close = [k for k in likely if tried[k].share >= share - CLOSE]
-    chosen = close[0]
     if len(close) > 1:
-        finer = [judged(tried[k], many, probes).share for k in close]
-        chosen = next(k for k, fine in zip(close, finer, strict=True) if fine >= max(finer) - EQUAL)
+        finer = {k: judged(tried[k], many, probes).share for k in close}
+        chosen = next(k for k in (chosen, *close) if finer[k] >= max(finer.values()) - CLEAR)
     if len(likely) > 1:
         chosen = next((k for k in likely if is_exact(faces.polygons, start[k])), chosen)
     best, = _improved([tried[chosen]], many, probes)
