@@ -13,6 +13,7 @@ from contextlib import contextmanager
 import bpy
 from bmesh.types import BMesh
 
+from . import matrix_layers
 from .temporary import removed
 
 _lent: list[bpy.types.Object] = []  # objects that are given one mesh after the other
@@ -74,3 +75,4 @@ def write(bm: BMesh, mesh: bpy.types.Mesh) -> None:
             vertex[basis] = vertex.co
     with beside(mesh, mesh.attributes.keys()):
         bm.to_mesh(mesh)
+    matrix_layers.join(mesh)

@@ -17,6 +17,7 @@ from mathutils.geometry import delaunay_2d_cdt
 
 from .. import mesh_arrays, mesh_groups
 from ..errors import SceneError
+from ..matrix_layers import as_bmesh
 from ..temporary import freed
 from . import caps
 
@@ -176,8 +177,7 @@ def _imprint(mesh: bpy.types.Mesh, shared: BVHTree, planes: list[tuple[np.ndarra
     wanted = np.unique(face[np.array(on, bool)])
     if not len(wanted):
         return
-    with freed(bmesh.new()) as bm:
-        bm.from_mesh(mesh, face_normals=False, vertex_normals=False)
+    with as_bmesh(mesh) as bm:
         bm.faces.ensure_lookup_table()
         own = bm.faces.layers.int.new(_SHARED)
         for index in wanted.tolist():
@@ -219,8 +219,7 @@ def _is_straight(loop: BMLoop) -> bool:
 def _halves(mesh: bpy.types.Mesh, normal: np.ndarray, level: float) -> tuple[bpy.types.Mesh, bpy.types.Mesh] | None:
     """What is below a plane and what is above, both closed; None where the plane makes no clean section."""
     near = 1e-6 * float(np.linalg.norm(np.ptp(mesh_arrays.basis_points(mesh), axis=0)))
-    with freed(bmesh.new()) as bm:
-        bm.from_mesh(mesh, face_normals=False, vertex_normals=False)
+    with as_bmesh(mesh) as bm:
         bmesh.ops.bisect_plane(bm, geom=[*bm.verts, *bm.edges, *bm.faces], dist=near, plane_co=normal * level,
                                plane_no=normal)
         _split_straight(bm)
@@ -305,8 +304,7 @@ def _bodies(mesh: bpy.types.Mesh) -> list[bpy.types.Mesh]:
     made = []
     for index in range(count):
         body = mesh.copy()
-        with freed(bmesh.new()) as bm:
-            bm.from_mesh(body, face_normals=False, vertex_normals=False)
+        with as_bmesh(body) as bm:
             bm.faces.ensure_lookup_table()
             gone = [bm.faces[i] for i in np.flatnonzero(label != index).tolist()]
             bmesh.ops.delete(bm, geom=gone, context="FACES")

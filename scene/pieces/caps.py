@@ -15,7 +15,7 @@ from mathutils.geometry import tessellate_polygon
 
 from ...core.uses.cap_surfaces import common_order
 from .. import mesh_arrays, mesh_groups
-from ..temporary import freed
+from ..matrix_layers import as_bmesh
 
 if TYPE_CHECKING:
     from .disc import Disc
@@ -72,8 +72,7 @@ def close_cuts(mesh: bpy.types.Mesh, opened: np.ndarray, joined: np.ndarray, way
     closed, left : int
         Holes that were filled; edges that were not, because there is no telling which faces go on there.
     """
-    with freed(bmesh.new()) as bm:
-        bm.from_mesh(mesh, face_normals=False, vertex_normals=False)
+    with as_bmesh(mesh) as bm:
         bm.edges.ensure_lookup_table()
         edges = [edge for i in np.flatnonzero(opened).tolist() if (edge := bm.edges[i]).is_boundary]
         bm.verts.ensure_lookup_table()

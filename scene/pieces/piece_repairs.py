@@ -10,7 +10,7 @@ from bmesh.types import BMesh
 
 from ...core.surface.orientation import against_neighbors
 from .. import made_objects, mesh_arrays, mesh_groups, transaction
-from ..temporary import freed
+from ..matrix_layers import as_bmesh
 from . import cap_looks, caps, piece_checks, piece_objects
 from .piece_checks import Check
 
@@ -73,8 +73,7 @@ def _replaced(mesh: bpy.types.Mesh, better: bpy.types.Mesh, old: bpy.types.Mesh)
 def _agreeing(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:
     """Turn faces that look otherwise than their neighbors."""
     flip = against_neighbors(mesh_arrays.corner_table(mesh))
-    with freed(bmesh.new()) as bm:
-        bm.from_mesh(mesh)
+    with as_bmesh(mesh, normals=True) as bm:
         bm.faces.ensure_lookup_table()
         bmesh.ops.reverse_faces(bm, faces=[bm.faces[i] for i in np.flatnonzero(flip).tolist()], flip_multires=True)
         mesh_groups.write(bm, mesh)
@@ -87,16 +86,14 @@ def _turned(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:
 
 def _closed(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:
     """Close all holes."""
-    with freed(bmesh.new()) as bm:
-        bm.from_mesh(mesh)
+    with as_bmesh(mesh, normals=True) as bm:
         _fill_holes(bm)
         mesh_groups.write(bm, mesh)
 
 
 def _without_crossing_caps(mesh: bpy.types.Mesh, faults: piece_checks.Faults) -> None:
     """Remove the caps with faces that cross others, and close the holes that they leave."""
-    with freed(bmesh.new()) as bm:
-        bm.from_mesh(mesh)
+    with as_bmesh(mesh, normals=True) as bm:
         layer = bm.faces.layers.int.get(caps.CAP)
         if layer is None:
             return

@@ -17,7 +17,7 @@ from bmesh.types import BMesh
 from ...core.steps import Steps
 from ...core.surface.orientation import looks_inwards
 from .. import element_layers, mesh_arrays, mesh_groups, targets
-from ..temporary import freed
+from ..matrix_layers import as_bmesh
 from . import smooth_faces
 from .cut_holes import Holes
 
@@ -79,7 +79,6 @@ def _delete(bm: BMesh, gone: np.ndarray) -> None:
 
 
 def _with_bmesh(mesh: bpy.types.Mesh, work: Callable[[BMesh], None]) -> None:
-    with freed(bmesh.new()) as bm:
-        bm.from_mesh(mesh, face_normals=False, vertex_normals=False)
+    with as_bmesh(mesh) as bm:
         work(bm)
         mesh_groups.write(bm, mesh)

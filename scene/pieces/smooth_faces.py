@@ -20,7 +20,8 @@ from ...core.steps import Steps, stretched
 from ...core.surface.corners import CornerTable
 from .. import element_layers, mesh_groups
 from ..elements import FACE, Elements, Layer, Selection
-from ..temporary import freed, removed
+from ..matrix_layers import as_bmesh
+from ..temporary import removed
 
 if TYPE_CHECKING:
     from ...core.uses.clean_cuts.method import CleanCuts
@@ -97,8 +98,7 @@ def _changed(whole: Elements, like: bpy.types.Mesh, face_numbers: np.ndarray, fa
     numbers = Layer("INT", FACE, face_numbers[here.faces].astype(np.int32))
     some = element_layers.made(whole.taken(here).with_layer(NUMBER, numbers), like)
     with removed(bpy.data.meshes, some):
-        with freed(bmesh.new()) as bm:
-            bm.from_mesh(some, face_normals=False, vertex_normals=False)
+        with as_bmesh(some) as bm:
             work(bm, here, np.searchsorted(here.faces, faces))
             _select_made(bm)
             mesh_groups.write(bm, some)

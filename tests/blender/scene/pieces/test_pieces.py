@@ -1658,3 +1658,24 @@ def test_to_end_it_at_any_step_leaves_everything_as_it_was(package, obj, style):
     assert last > len(numbers)
     assert shares == sorted(shares)
     assert 0 <= shares[0] < shares[-1] <= 1
+
+
+@pytest.mark.parametrize("domain", ["POINT", "EDGE", "FACE", "CORNER"])
+def test_pieces_carry_matrices(obj, domain):
+    """In Blender 4.2 and 4.5 this ended the program. Each is one of the object's, but for those of what is new."""
+    attribute = obj.data.attributes.new("pose", "FLOAT4X4", domain)
+    values = 1 + np.arange(len(attribute.data))[:, None] + np.linspace(0, 0.9375, 16, dtype=np.float32)
+    attribute.data.foreach_set("value", values.astype(np.float32).ravel())
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    bpy.ops.reeb_parts.separate(caps=True, **KEEP)
+    seen = np.zeros(len(values), bool)
+    for piece in pieces():
+        kept = piece.data.attributes["pose"]
+        assert (kept.data_type, kept.domain) == ("FLOAT4X4", domain)
+        found = read(kept.data, "value", width=16)
+        found = found[found.any(axis=1) & (found != np.eye(4).ravel()).any(axis=1)]
+        index = found[:, 0].round().astype(int) - 1
+        assert np.allclose(found, values[index])
+        seen[index] = True
+        assert not any(name.startswith("\1") for name in piece.data.attributes.keys())
+    assert seen.mean() > 0.9
