@@ -14,7 +14,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.steps import Steps
-from .. import bridge, element_layers, made_objects, mesh_arrays, rigid_bodies, targets, transaction, visibility
+from .. import bridge, element_layers, made_objects, mesh_arrays, rigid_bodies, store, targets, transaction, visibility
 from ..errors import SceneError
 from ..graph import graph_visibility
 from ..selection import in_layer
@@ -111,9 +111,15 @@ def active_piece(context: bpy.types.Context) -> bpy.types.Object:
     return piece
 
 
+def separated(obj: bpy.types.Object) -> bpy.types.Object:
+    """The object itself if it has parts and pieces of its own, else that from which it was separated, if any."""
+    own = store.has_parts(obj) and piece_objects(obj)
+    return obj if own else original(obj) or obj
+
+
 def whole(obj: bpy.types.Object) -> bpy.types.Object:
-    """The object that a piece was separated from, or the object itself if it has pieces; raises SceneError if not."""
-    found = original(obj) or obj
+    """The object that was separated, see ``separated``; raises SceneError if it has no pieces."""
+    found = separated(obj)
     if not piece_objects(found):
         raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(name=found.name))
     return found

@@ -164,3 +164,19 @@ def test_undo(obj):
     bpy.ops.ed.undo()
     assert bpy.context.scene.rigidbody_world is None
     assert bodies() == []
+
+
+def test_a_piece_with_pieces_of_its_own_gives_bodies_of_these(obj):
+    """Its original's pieces, of which it is one, became bodies."""
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    bpy.ops.reeb_parts.separate(hide=False)
+    piece = max((item for item in bpy.data.collections["Parts of Tree"].objects if "reeb_parts_number" in item),
+                key=lambda item: len(item.data.polygons))
+    activate(piece)
+    bpy.ops.reeb_parts.decompose(n_parts=3)
+    bpy.ops.reeb_parts.separate(hide=False)
+    activate(piece)
+    bpy.ops.reeb_parts.rigid_bodies()
+    bodies = {item for item in bpy.data.objects if item.rigid_body}
+    assert len(bodies) == 3
+    assert bodies <= set(bpy.data.collections[f"Parts of {piece.name}"].objects)
