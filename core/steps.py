@@ -26,7 +26,7 @@ def finished(steps: Steps[Result]) -> Result:
 
 
 def stretched(steps: Steps[Result], start: float, end: float) -> Steps[Result]:
-    """The same steps as a stretch of something longer."""
+    """Go through steps as a stretch, from one share to another, of something longer."""
     try:
         while True:
             share = next(steps)

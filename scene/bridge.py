@@ -76,7 +76,7 @@ def read_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Shape:
 
 
 def reading_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Steps[Shape]:
-    """The same in steps, of which none takes long."""
+    """Read the mesh of an object as ``read_shape`` does, in steps of which none takes long."""
     mesh = obj.data
     if obj.mode == "EDIT":
         # A copy as a mesh of its own can be read in bulk; the edit mesh itself cannot.

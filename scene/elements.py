@@ -186,7 +186,7 @@ class Elements:
         return replace(layer, values=_concatenated(first, take(second, np.arange(kept[layer.domain], number))))
 
     def turned(self, faces: np.ndarray) -> Elements:
-        """The same with some faces, (f,) bool, turned over; what their corners carry goes along."""
+        """Elements with some faces, (f,) bool, turned over; what their corners carry goes along."""
         count = self.count.astype(np.int64)
         first, n = np.repeat(np.cumsum(count) - count, count), np.repeat(count, count)
         corner = np.arange(len(n))
@@ -198,11 +198,11 @@ class Elements:
         return Elements(self.ends, self.count, self.corner_vertex[order], self.corner_edge[edge], layers)
 
     def with_layer(self, name: str, layer: Layer) -> Elements:
-        """The same with another layer."""
+        """Elements with one layer more, or another of that name."""
         return replace(self, layers={**self.layers, name: layer})
 
     def without_layer(self, name: str) -> Elements:
-        """The same without a layer."""
+        """Elements without the layer of a name, if there is one."""
         return replace(self, layers={other: layer for other, layer in self.layers.items() if other != name})
 
 

@@ -69,7 +69,7 @@ class Stored:
         return self.numbering.numbered(self.shown)
 
     def showing(self, numbered: NumberedParts) -> Stored:
-        """The same with other parts shown."""
+        """The result with other parts of the decomposition shown."""
         return replace(self, shown=numbered.candidate_numbers)
 
 

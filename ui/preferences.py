@@ -12,7 +12,7 @@ from . import shortcut
 
 
 def _without_update(prop: Any) -> Any:
-    """The same property, for a place where changing it draws nothing."""
+    """Copy a property without its update, for a place where changing it draws nothing."""
     return prop.function(**{key: value for key, value in prop.keywords.items() if key != "update"})
 
 

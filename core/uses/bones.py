@@ -158,7 +158,7 @@ class BoneSurface:
     images: PartImages | None = None
 
     def joined(self) -> BoneSurface:
-        """The same with one vertex at each place."""
+        """The surface on vertices of which no two, as files split them, are at one place."""
         return replace(self, table=self.table.joined()[0])
 
 

@@ -180,9 +180,14 @@ def carried_labels(
 
     Parameters
     ----------
-    source, target : Samples
-    source_labels, target_labels : (p,) and (q,) int64
-        Part of each face of the two surfaces, from 0, all in use.
+    source : Samples
+        Of a surface of p faces.
+    source_labels : (p,) int64
+        Part of each of its faces, from 0, all in use.
+    target : Samples
+        Of a surface of q faces.
+    target_labels : (q,) int64
+        Part of each of its faces, from 0, all in use.
 
     Returns
     -------

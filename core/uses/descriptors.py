@@ -122,9 +122,11 @@ def part_descriptors(
 
     Parameters
     ----------
-    vertices, faces, polygon
+    vertices, faces
         The mesh that was decomposed, as ``decompose`` takes it.
     parts : Parts
+    polygon
+        As ``decompose`` took it.
 
     Returns
     -------

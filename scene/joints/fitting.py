@@ -59,7 +59,7 @@ def fitting(work: Work, planned: list[Plan]) -> Steps[tuple[dict[int, bpy.types.
 
 
 def _smaller(plan: Plan) -> Plan:
-    """The same with smaller joints, as a solver may stumble over one place; without, after so many times."""
+    """A plan with smaller joints, as a solver may stumble over one place; without joints after _TRIES times."""
     if plan.tries >= _TRIES or plan.places is None:
         return replace(plan, why="RESULT")
     joints = tuple(replace(joint, radius=_AGAIN * joint.radius) for joint in plan.places.joints)

@@ -41,7 +41,7 @@ LARGE, EASE = 0.1, 0.1
 # Weight of what the first model says of a pair that comes near each other; what the second says of any pair has 1.
 NEARNESS = 20.0
 SURE = 1e-4, 1 - 1e-4  # bounds of a judgement, whose log-odds are to be finite
-CUT = 0.02, 0.98  # of a salience, the same
+CUT = 0.02, 0.98  # bounds of a salience, for the same reason
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,7 +217,7 @@ def _with_distant(
 def _evenly_linked(
     parts: FineParts, pairs: np.ndarray, odds: np.ndarray, weight: np.ndarray, near: np.ndarray
 ) -> Linkage:
-    """The same, as one for groups of pieces that repeat each other; see ``evenly_linked``."""
+    """Average linkage in which groups of pieces that repeat each other join others alike; see ``evenly_linked``."""
     return evenly_linked(lambda odds: _linked(parts, pairs, odds, weight, near), pairs, odds, parts.pairs.shapes.piece,
                          parts.kind)
 

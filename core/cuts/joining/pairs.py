@@ -109,6 +109,11 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: Salience, agd: np.nda
         Of the cut between two parts of one piece; not asked of others.
     agd : (n,) float64
         Normalized, 0..1.
+
+    Returns
+    -------
+    pairs : PartPairs
+        Each pair once, with its FEATURES.
     """
     points = SurfacePoints.of(mesh, label)
     size = diameter(points.position, points.area)

@@ -76,6 +76,10 @@ def evenly_linked(
         Piece of each part.
     kind : (p,) int64
         Of each piece, see ``piece_kinds``.
+
+    Returns
+    -------
+    linked : Linkage
     """
     linked = link(odds)
     if len(kind) == 0 or np.bincount(kind).max() < 2:

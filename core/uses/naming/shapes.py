@@ -74,6 +74,11 @@ class Shapes:
             The corners of all faces, and the face of each.
         turn : (3, 3) float64
             Takes directions of the decomposition to those of the world.
+
+        Returns
+        -------
+        shapes : Shapes
+            With ``others`` where no plane of symmetry tells how a creature stands.
         """
         plane = parts.decomposition.plane
         normal = np.zeros(3) if plane is None else turn @ plane.normal
