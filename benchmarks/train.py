@@ -5,7 +5,7 @@
                                 [--out core/cuts/perceptual] [--rounds 2]
 
 MESHES holds N.npz with ``vertices`` (n, 3), ``faces`` (m, 3) and ``human`` (people, m): the layout
-of the Princeton Segmentation Benchmark as converted for this project. Cuts are learned without
+in which princeton.py writes the Princeton Segmentation Benchmark. Cuts are learned without
 their category or any other knowledge of what the mesh shows. The model of sheets is learned from
 the same meshes, which are closed, and from figures made at random, see known_sheets.py.
 
