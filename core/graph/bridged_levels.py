@@ -18,7 +18,7 @@ from ..surface.arrays import expanded, last_of_each, ranges
 from ..surface.components import components
 from ..surface.pairs import distinct_pairs
 
-MAX_LINKS = 100_000  # pairs of pieces that are looked at at once, of which each takes some 300 bytes
+MAX_LINKS = 100_000  # pairs of slab pieces that are looked at at once, of which each takes some 300 bytes
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +38,7 @@ class FaceBridges:
     n_slabs: np.ndarray
 
     def pieces(self, element_piece: np.ndarray, chosen: np.ndarray) -> np.ndarray:
-        """Pieces that some of the bridges link, (r, 2) int64, once for every slab. chosen : (k,) int64."""
+        """Slab pieces that some of the bridges link, (r, 2) int64, once for every slab. chosen : (k,) int64."""
         row, step = expanded(np.zeros(len(chosen), np.int64), self.n_slabs[chosen])
         return element_piece[self.elements[chosen[row]] + step[:, None]]
 
@@ -46,13 +46,13 @@ class FaceBridges:
 def joined_by_faces(
     bridges: FaceBridges, element_piece: np.ndarray, contour_pieces: np.ndarray, loose_part: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Find which pieces and which contours of different loose parts are joined.
+    """Find which slab pieces and which contours of different loose parts are joined.
 
     Parameters
     ----------
     bridges : FaceBridges
     element_piece : (E,) int64
-        Piece of each element.
+        Slab piece of each element.
     contour_pieces, loose_part
         As in ``joined_runs``.
 
@@ -64,8 +64,8 @@ def joined_by_faces(
     Notes
     -----
     Where thousands of loose parts cross, nearly every two of them have bridges, in nearly every slab. At most
-    MAX_LINKS pieces are linked at once, beside those of two loose parts, and two loose parts that are joined by others
-    with more bridges are not looked at.
+    MAX_LINKS slab pieces are linked at once, beside those of two loose parts, and two loose parts that are joined by
+    others with more bridges are not looked at.
     """
     cells, cell = distinct_pairs(*loose_part[element_piece[bridges.elements]].T)
     n_links = np.bincount(cell, bridges.n_slabs, len(cells)).astype(np.int64)
@@ -88,24 +88,25 @@ def joined_by_faces(
 def joined_runs(
     bridges: np.ndarray, contour_pieces: np.ndarray, loose_part: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Find which pieces and which contours of different loose parts are joined.
+    """Find which slab pieces and which contours of different loose parts are joined.
 
     Parameters
     ----------
     bridges : (l, 2) int64
-        Pieces of one slab in two loose parts, that of the lower loose part first; a pair once for every bridge there.
+        Slab pieces of one slab, in two loose parts, that of the lower loose part first; a pair once for every bridge
+        there.
     contour_pieces : (C, 2) int64
-        Piece below and piece above each contour.
+        Slab piece below and above each contour.
     loose_part : (P,) int64
-        Loose part of each piece.
+        Loose part of each slab piece.
 
     Returns
     -------
     pieces : (j, 2) int64
-        Pieces that are one.
+        Slab pieces that are one.
     contours : (i, 2) int64
-        Contours that are one: between pieces that are one below and above. The graph of pieces and contours has then
-        no loop that the loose parts have not.
+        Contours that are one: between slab pieces that are one below and above. The graph of slab pieces and contours
+        has then no loop that the loose parts have not.
     """
     runs = _Runs.of(bridges, contour_pieces, loose_part)
     chosen = np.zeros(len(runs.pairs), bool)
@@ -117,7 +118,7 @@ def joined_runs(
 class _Runs:
     """Runs of slabs in which two loose parts touch.
 
-    pairs, run : (k, 2) and (k,), pieces of one slab with a bridge between them, and the run of each pair. contours,
+    pairs, run : (k, 2) and (k,), slab pieces with a bridge between them, and the run of each pair. contours,
     below : (i, 2) and (i,), contours between pairs of one run, and the pair below. cells : (c, 2), the two loose parts
     of some run, each two once. best, weight : (c,), their run with the most bridges, and how many it has.
     """
@@ -199,9 +200,9 @@ def _blocks(rows: np.ndarray, size: np.ndarray) -> Iterator[np.ndarray]:
 
 
 def _side_by_side(pairs: np.ndarray, contour_pieces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Contours of different loose parts between pairs of pieces below and pairs above.
+    """Contours of different loose parts between pairs of slab pieces below and pairs above.
 
-    pairs : (k, 2), pieces of one slab. Returns (i, 2) the contours, and (i, 2) the pair below and the pair above.
+    pairs : (k, 2), of one slab. Returns (i, 2) the contours, and (i, 2) the pair below and the pair above.
     """
     order = np.argsort(contour_pieces[:, 0], kind="stable")
     lower = contour_pieces[order, 0]

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Piecewise linear level sets: the surface cut into slabs, their pieces and contours.
+"""Piecewise linear level sets: the surface cut into slabs; their pieces, the slab pieces, and contours.
 
 An element is the part of one triangle in one slab. Elements stay connected also in a slab that is narrower than the
 edges of the mesh, where the vertices of a slab would not (docs/method.md, section 3). One pass of connected components
-labels the pieces of all slabs at once, another pass the contours of all levels.
+labels the slab pieces of all slabs at once, another pass the contours of all levels.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ class LevelSets:
     """A surface cut at K levels of a field into K + 1 slabs.
 
     Slab s lies between level s - 1 and level s. A vertex exactly on a level counts as above this level, so that no case
-    is degenerate. An element is the part of one face in one slab, a piece a connected component of a slab, a segment
-    the line along which a level crosses a face, a contour a connected component of a level set. With E elements, P
-    pieces, S segments and C contours:
+    is degenerate. An element is the part of one face in one slab, a slab piece a connected component of a slab, a
+    segment the line along which a level crosses a face, a contour a connected component of a level set. With E
+    elements, P slab pieces, S segments and C contours:
 
     Attributes
     ----------
@@ -39,15 +39,15 @@ class LevelSets:
     vertex_slab : (n,) int64
         Slab of each vertex, 0..K.
     element_face, element_slab, element_piece : (E,) int64
-        Face, slab and piece of each element; faces in order, the slabs of each face rising.
+        Face, slab and slab piece of each element; faces in order, the slabs of each face rising.
     piece_slab : (P,) int64
-        Slab of each piece.
+        Slab of each slab piece.
     segment_face, segment_level, segment_contour : (S,) int64
         Face, level and contour of each segment; faces in order, the levels of each face rising.
     contour_level : (C,) int64
         Level of each contour, 0..K-1.
     contour_pieces : (C, 2) int64
-        Piece below and piece above each contour.
+        Slab piece below and above each contour.
     """
 
     mesh: TriMesh
@@ -66,7 +66,7 @@ class LevelSets:
 
     @property
     def n_pieces(self) -> int:
-        """Number of pieces, P."""
+        """Number of slab pieces, P."""
         return len(self.piece_slab)
 
     @property
@@ -76,7 +76,7 @@ class LevelSets:
 
     @cached_property
     def n_loops(self) -> int:
-        """Number of independent loops of the graph whose nodes are the pieces and whose arcs are the contours."""
+        """Number of independent loops of the graph whose nodes are the slab pieces and whose arcs are the contours."""
         count, _ = components(self.n_pieces, *self.contour_pieces.T)
         return self.n_contours - self.n_pieces + count
 
@@ -92,7 +92,7 @@ class LevelSets:
 
     @cached_property
     def vertex_piece(self) -> np.ndarray:
-        """(n,) int64, piece in which each vertex lies."""
+        """(n,) int64, slab piece in which each vertex lies."""
         corner_slab = self.vertex_slab[self.mesh.faces]
         element = (self.face_first_element - self.face_first_slab)[:, None] + corner_slab
         piece = np.empty(self.mesh.n_vertices, np.int64)
@@ -120,7 +120,7 @@ class LevelSets:
 
     @cached_property
     def piece_area(self) -> np.ndarray:
-        """(P,) float64, area of each piece, in squared units of the vertices."""
+        """(P,) float64, area of each slab piece, in squared units of the vertices."""
         return np.bincount(self.element_piece, self.element_area, self.n_pieces)
 
     @cached_property
@@ -259,7 +259,7 @@ def cut_at_levels(
 def _connected(
     mesh: TriMesh, slab: np.ndarray, lowest: np.ndarray, highest: np.ndarray, first: np.ndarray
 ) -> tuple[int, np.ndarray, int, np.ndarray]:
-    """Number of pieces and piece of each element, (E,), number of contours and contour of each segment, (S,).
+    """Number of slab pieces, that of each element, (E,), number of contours and contour of each segment, (S,).
 
     slab : (n,), of each vertex. lowest, highest : (m,), slabs of each face. first : (m,), the element of each face in
     slab 0, if it had one there.
@@ -290,7 +290,7 @@ def _bridges_between(
 def _bridged(
     bridges: FaceBridges, element_piece: np.ndarray, loose_part: np.ndarray, contour_pieces: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """New number of each piece, (P,), and of each contour, (C,), where bridges join them.
+    """New number of each slab piece, (P,), and of each contour, (C,), where bridges join them.
 
     element_piece : (E,). loose_part : (P,). contour_pieces : (C, 2).
     """

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Reeb graph of a field: every contour contracted to a point.
 
-Chains of pieces with one contour below and one contour above become arcs of the graph. The other pieces, in which
+Chains of slab pieces with one contour below and one contour above become arcs of the graph. The others, in which
 contours appear, join, split or vanish, become nodes. The graph is exact up to its levels: a loop that lies within one
 slab is not found, and a level at every critical value would find all.
 """
@@ -116,16 +116,16 @@ class ReebGraph:
 
 @dataclass(frozen=True, eq=False)
 class ReebTopology:
-    """The nodes and arcs of a Reeb graph, and the pieces and contours of the surface that belong to them.
+    """The nodes and arcs of a Reeb graph, and the slab pieces and contours of the surface that belong to them.
 
-    With P pieces, C contours, k nodes and q arcs:
+    With P slab pieces, C contours, k nodes and q arcs:
 
     Attributes
     ----------
     piece_node : (P,) int64
-        Node to which each piece belongs; -1 for a piece of an arc.
+        Node to which each slab piece belongs; -1 for one of an arc.
     piece_arc : (P,) int64
-        Arc to which each piece belongs; -1 for a piece of a node.
+        Arc to which each slab piece belongs; -1 for one of a node.
     contour_arc : (C,) int64
         Arc to which each contour belongs; -1 for a contour of a cancelled leaf.
     arcs : (q, 2) int64
@@ -162,12 +162,12 @@ class ReebTopology:
 
 
 def reeb_topology(sets: LevelSets) -> ReebTopology:
-    """Make the Reeb graph: contract chains of pieces with one contour below and one above to arcs.
+    """Make the Reeb graph: contract chains of slab pieces with one contour below and one above to arcs.
 
     Parameters
     ----------
     sets : LevelSets
-        P pieces, C contours.
+        P slab pieces, C contours.
 
     Returns
     -------
@@ -273,7 +273,7 @@ def _saddle_values(sets: LevelSets, topology: ReebTopology, middle: np.ndarray) 
 
 
 def _node_means(sets: LevelSets, topology: ReebTopology) -> tuple[np.ndarray, np.ndarray]:
-    """Mean level, (k,), and mean position, (k, 3), of each node's pieces, weighted by area."""
+    """Mean level, (k,), and mean position, (k, 3), of each node's slab pieces, weighted by area."""
     node = topology.piece_node[sets.element_piece]
     inside = node >= 0
     weight = sets.element_weight[inside]

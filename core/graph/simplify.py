@@ -101,7 +101,7 @@ def simplify(
     Returns
     -------
     topology : ReebTopology
-        The pieces of a cancelled leaf belong to the node or arc to which it was attached, its contours to no arc.
+        The slab pieces of a cancelled leaf belong to the node or arc to which it was attached, its contours to no arc.
 
     Notes
     -----

@@ -115,13 +115,13 @@ def search_boundaries(
     Parameters
     ----------
     sets : LevelSets
-        n vertices, P pieces.
+        n vertices, P slab pieces.
     topology : ReebTopology
         Reeb graph of ``sets``, simplified; its arcs limit the moves of the cuts.
     k_min : (n,) float64
         Smaller principal curvature at each vertex, 1 / unit of the vertices.
     piece_region : (P,) int64
-        Region of each piece; the cuts are the contours between two regions.
+        Region of each slab piece; the cuts are the contours between two regions.
     concavity_weight : float
         Weight of concavity, 0..1; the weight of the distance from the present level is 1 - concavity_weight.
     sigma : float
@@ -130,7 +130,7 @@ def search_boundaries(
     Returns
     -------
     piece_region : (P,) int64
-        Region of each piece, after the cuts have moved.
+        Region of each slab piece, after the cuts have moved.
 
     Notes
     -----
@@ -160,7 +160,7 @@ def search_boundaries(
 
 
 def _links(sets: LevelSets, topology: ReebTopology) -> np.ndarray:
-    """Connected pieces between contours of the graph: the set of each piece, (P,) int64, from 0.
+    """Slab pieces that hang together between contours of the graph: the set of each, (P,) int64, from 0.
 
     Cancelled leaves have no contour in the graph and belong to the set to which they are attached.
     """

@@ -16,11 +16,11 @@ class FusionGraph:
     Parameters
     ----------
     sets : LevelSets
-        P pieces.
+        P slab pieces.
     count : int
         Number of regions.
     region : (P,) int64
-        Region of each piece, 0..count-1.
+        Region of each slab piece, 0..count-1.
     contours : (C,) bool, optional
         Contours across which regions are neighbors; all without.
 
@@ -127,11 +127,11 @@ def fuse_small(
     Parameters
     ----------
     sets : LevelSets
-        Level sets of one connected component, P pieces.
+        Level sets of one connected component, P slab pieces.
     count : int
         Number of regions.
     region : (P,) int64
-        Region of each piece, 0..count-1.
+        Region of each slab piece, 0..count-1.
     contours : (C,) bool, optional
         Contours across which regions may be fused; all without.
 

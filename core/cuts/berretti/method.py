@@ -35,8 +35,8 @@ def berretti_candidates(
     Returns
     -------
     candidates : Candidates
-        Pieces of the regions, which merge first, then small regions. Merges below the paper's threshold have a salience
-        below SALIENCE_OF_SMALL.
+        Slab pieces of the regions, which merge first, then small regions. Merges below the paper's threshold have a
+        salience below SALIENCE_OF_SMALL.
     """
     regions = berretti_regions(sets, topology, parameters.small_region)
     curvature = k_min(sets.mesh)
@@ -58,9 +58,9 @@ def berretti_candidates(
 
 
 def _follow(sets: LevelSets, piece_region: np.ndarray, piece_part: np.ndarray, moved: np.ndarray) -> np.ndarray:
-    """Region of each piece, (P,) int64, after pieces have moved from ``piece_part`` to the part ``moved``.
+    """Region of each slab piece, (P,) int64, after some have moved from ``piece_part`` to the part ``moved``.
 
-    A piece that changed part joins the region of a neighboring piece of its new part, so that every region stays within
+    A slab piece that changed part joins the region of a neighbor of its new part, so that every region stays within
     one part.
     """
     region = np.where(moved == piece_part, piece_region, -1)

@@ -18,12 +18,12 @@ from .fusion import fuse_small, fuse_weakest
 
 @dataclass(frozen=True, eq=False)
 class Regions:
-    """Pieces grouped to regions, and the order in which the regions merge.
+    """Slab pieces grouped to regions, and the order in which the regions merge.
 
     Attributes
     ----------
     piece_region : (P,) int64
-        Region of each piece.
+        Region of each slab piece.
     hierarchy : Hierarchy
         Merges of the regions, the weakest boundary first, until one is left.
     """
@@ -40,7 +40,7 @@ def berretti_regions(
     Parameters
     ----------
     sets : LevelSets
-        Level sets of one connected component, P pieces.
+        Level sets of one connected component, P slab pieces.
     topology : ReebTopology
         Reeb graph of the component without ripples.
     small_region : float
@@ -62,9 +62,9 @@ def rank_regions(sets: LevelSets, region: np.ndarray, small_region: float) -> Re
     Parameters
     ----------
     sets : LevelSets
-        P pieces.
+        P slab pieces.
     region : (P,) int64
-        Region of each piece, any whole numbers.
+        Region of each slab piece, any whole numbers.
     small_region : float
         Area of a region over that of the largest region at which a merge has salience 0.5.
 
@@ -82,14 +82,14 @@ def regions_between_events(sets: LevelSets, topology: ReebTopology) -> tuple[int
     """Find the regions between the values at which the number of connected components changes.
 
     The number is that of the connected component that is followed, not of the whole surface: a limb is not cut where
-    another limb begins or ends. A piece in which components join or split belongs to the side on which they are one.
-    What rises from a minimum is the middle of a body, no protrusion, and belongs to what it joins. Ripples (leaves that
-    ``simplify`` cancelled) are not counted, and belong to the region to which they are attached.
+    another limb begins or ends. A slab piece in which components join or split belongs to the side on which they are
+    one. What rises from a minimum is the middle of a body, no protrusion, and belongs to what it joins. Ripples (leaves
+    that ``simplify`` cancelled) are not counted, and belong to the region to which they are attached.
 
     Parameters
     ----------
     sets : LevelSets
-        Level sets of one connected component, P pieces.
+        Level sets of one connected component, P slab pieces.
     topology : ReebTopology
         Reeb graph of the component without ripples.
 
@@ -98,13 +98,13 @@ def regions_between_events(sets: LevelSets, topology: ReebTopology) -> tuple[int
     count : int
         Number of regions.
     region : (P,) int64
-        Region of each piece, 0..count-1; every region is connected.
+        Region of each slab piece, 0..count-1; every region is connected.
     """
     return components(sets.n_pieces, *sets.contour_pieces[~_events(sets, topology)].T)
 
 
 def _events(sets: LevelSets, topology: ReebTopology) -> np.ndarray:
-    """Which contours are next to a piece in which components join or split, on the side of several, (C,) bool."""
+    """Which contours are next to a slab piece in which components join or split, on the side of several, (C,) bool."""
     on_graph = topology.contour_arc >= 0
     lower, upper = sets.contour_pieces.T
     n_above = np.bincount(lower[on_graph], minlength=sets.n_pieces)
@@ -118,12 +118,12 @@ def _events(sets: LevelSets, topology: ReebTopology) -> np.ndarray:
 def with_finer(sets: LevelSets, topology: ReebTopology, regions: Regions, small_region: float) -> Regions:
     """Cut regions where components begin, end, join or split anywhere, so that there is something finer than regions.
 
-    The pieces of a region merge before any two regions do, the smallest first.
+    The slab pieces of a region merge before any two regions do, the smallest first.
 
     Parameters
     ----------
     sets : LevelSets
-        P pieces.
+        P slab pieces.
     topology : ReebTopology
         Reeb graph of the component without ripples.
     regions : Regions
@@ -144,7 +144,7 @@ def with_finer(sets: LevelSets, topology: ReebTopology, regions: Regions, small_
     count, fine = components(sets.n_pieces, *sets.contour_pieces[joined].T)
     merges, ratio = fuse_small(sets, count, fine, inside)
     least = regions.hierarchy.salience.min(initial=0.5)
-    one_of = np.empty(regions.hierarchy.n_candidates, np.int64)  # a piece of each region stands for it
+    one_of = np.empty(regions.hierarchy.n_candidates, np.int64)  # a slab piece of each stands for it
     one_of[regions.piece_region] = fine
     return Regions(fine, Hierarchy.of(
         count, np.concatenate([merges, one_of[regions.hierarchy.merges]]),
@@ -164,18 +164,18 @@ def fuse_equal_adjacency(
     Parameters
     ----------
     sets : LevelSets
-        P pieces.
+        P slab pieces.
     count : int
         Number of regions.
     region : (P,) int64
-        Region of each piece, 0..count-1.
+        Region of each slab piece, 0..count-1.
 
     Returns
     -------
     count : int
         Number of regions left.
     region : (P,) int64
-        Region of each piece, 0..count-1.
+        Region of each slab piece, 0..count-1.
     """
     region = np.asarray(region)
     while count > 2:

@@ -126,7 +126,7 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
 
 
 def _contour_length(sets: LevelSets) -> np.ndarray:
-    """Mean length of the contours at the pieces of each face, (m,), in units of the square root of the area."""
+    """Mean length of the contours at the slab pieces of each face, (m,), in units of the square root of the area."""
     pieces = sets.contour_pieces.T
     total = sum(np.bincount(p, sets.contour_length, sets.n_pieces) for p in pieces)
     count = sum(np.bincount(p, minlength=sets.n_pieces) for p in pieces)
