@@ -39,7 +39,7 @@ def test_rounding_does_not_decide_at_a_threshold(error):
 
 def test_answers_are_those_of_the_trainer():
     """Rows on and beside thresholds; tests/data/trees_by_trainer.py made the file."""
-    path = Path(__file__).resolve().parents[3] / "data" / "trees_by_trainer.npz"
+    path = Path(__file__).resolve().parents[2] / "data" / "trees_by_trainer.npz"
     with np.load(path, allow_pickle=False) as stored:
         rows, expected = stored["rows"], stored["expected"]
     model = BoostedTrees.read(path, tuple(f"Column_{i}" for i in range(rows.shape[1])))
