@@ -44,9 +44,12 @@ def others(obj: bpy.types.Object) -> list[str]:
 
 
 def made_for_all(obj: bpy.types.Object, closed: bool) -> list[str]:
-    """The names of modifiers that know the vertices of the object, or of solids; closed : whether pieces are some."""
+    """The names of modifiers that know the vertices of the object, move them along normals, or are of solids.
+
+    closed : whether pieces are solids.
+    """
     return [modifier.name for modifier in obj.modifiers
-            if modifier.show_viewport and (_knows_vertices(modifier)
+            if modifier.show_viewport and (_knows_vertices(modifier) or _follows_normals(modifier)
                                            or (not closed and modifier.type in {"BOOLEAN", "REMESH"}))]
 
 
@@ -57,6 +60,16 @@ def _knows_vertices(modifier: bpy.types.Modifier) -> bool:
     if modifier.type in {"LAPLACIANDEFORM", "CORRECTIVE_SMOOTH"}:
         return modifier.is_bind
     return modifier.type == "HOOK" and not modifier.vertex_group and len(modifier.vertex_indices) > 0
+
+
+def _follows_normals(modifier: bpy.types.Modifier) -> bool:
+    """Whether a modifier moves vertices along their normals, which are others where a piece was cut off."""
+    if modifier.type == "DISPLACE":
+        return modifier.direction in {"NORMAL", "CUSTOM_NORMAL"} and modifier.strength != 0.0
+    if modifier.type != "SHRINKWRAP" or modifier.target is None:
+        return False
+    axes = modifier.use_project_x, modifier.use_project_y, modifier.use_project_z
+    return modifier.offset != 0.0 or (modifier.wrap_method == "PROJECT" and not any(axes))
 
 
 def _casts_by_extent(modifier: bpy.types.Modifier) -> bool:

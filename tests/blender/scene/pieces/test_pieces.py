@@ -1018,6 +1018,24 @@ def test_modifiers_that_are_made_for_the_whole_are_told(obj, capfd, kind, style,
     assert ("effect of Holder is made for all of Tree" in capfd.readouterr().out) == said
 
 
+@pytest.mark.parametrize(("kind", "settings", "said"), [
+    ("DISPLACE", {}, True), ("DISPLACE", {"direction": "X"}, False), ("DISPLACE", {"strength": 0.0}, False),
+    ("SHRINKWRAP", {"offset": 0.3}, True), ("SHRINKWRAP", {}, False),
+    ("SHRINKWRAP", {"wrap_method": "PROJECT"}, True)])
+def test_modifiers_that_move_along_normals_are_told(obj, capfd, kind, settings, said):
+    """Where a piece was cut off normals are others, and cracks open."""
+    modifier = obj.modifiers.new("Holder", kind)
+    if kind == "SHRINKWRAP":
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=3)
+        modifier.target = bpy.context.object
+        activate(obj)
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert ("effect of Holder is made for all of Tree" in capfd.readouterr().out) == said
+
+
 def test_about_another_object_pieces_have_origins_of_their_own(obj):
     empty = bpy.data.objects.new("Plane", None)
     bpy.context.scene.collection.objects.link(empty)
