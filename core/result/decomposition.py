@@ -39,8 +39,8 @@ def default_name(number: int) -> str:
 class Parts:
     """Parts at one level of detail, as a grouping of the candidates; other tables are computed when first asked for.
 
-    With p faces, n vertices and c candidates of the caller's mesh, and a graph of k nodes, q arcs and r center
-    points:
+    Arrays are kept, and other tables are made of them: copy one before you change it. With p faces, n vertices and c
+    candidates of the caller's mesh, and a graph of k nodes, q arcs and r center points:
 
     Attributes
     ----------
