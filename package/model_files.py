@@ -20,6 +20,8 @@ from .core.file_names import readable
 from .core.memory import lacks_memory
 from .core.sentence import Sentence
 from .core.surface.arguments import corners, positions
+from .core.surface.ears import fans, without_folds
+from .core.surface.mesh import check_corners
 from .obj_files import parse_obj
 from .ply_files import ASCII, read_ply
 
@@ -142,7 +144,7 @@ def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices, triangles and their polygons of NumPy's own file."""
+    """Vertices, triangles and their polygons of NumPy's own file, whose faces may have any one number of corners."""
     # NumPy would leave a damaged file open that it has opened itself.
     with path.open("rb") as file:
         if file.read(2) != b"PK":  # or it would be taken for Python's own objects
@@ -153,10 +155,12 @@ def _read_arrays(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
                 vertices, faces = data["vertices"], data["faces"]
             except (KeyError, ValueError) as error:  # there are none, or they are Python's own objects
                 raise ReebError(_NO_ARRAYS) from error
-    flat, sizes = corners(faces)
-    if (sizes != 3).any():
-        raise ReebError(Sentence("Triangles must have shape (m, 3), not {shape}.", shape=np.shape(faces)))
-    return positions(vertices), flat.reshape(-1, 3), np.arange(len(sizes))
+    points, (corner, sizes) = positions(vertices), corners(faces)
+    if few := int((sizes < 3).sum()):
+        raise ReebError(Sentence("{n} {n:face has|faces have} fewer than three corners.", n=few))
+    triangles, polygon = fans(corner, sizes)
+    check_corners(triangles, len(points), polygon)
+    return points, without_folds(points, triangles, sizes), polygon
 
 
 def _read_obj(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -167,13 +167,22 @@ def test_arrays_are_read_as_they_are(tmp_path):
     assert (model.faces == shape.faces).all()
 
 
+def test_quads_of_arrays_are_one_face_each(tmp_path):
+    vertices, quads = shapes.box_quads()
+    np.savez(tmp_path / "box.npz", vertices=vertices, faces=quads)
+    model = reeb_parts.read_model(tmp_path / "box.npz")
+    assert np.array_equal(model.polygon, np.repeat(np.arange(6), 2))
+    assert reeb_parts.decompose(model).n_faces == 6
+
+
 @pytest.mark.parametrize(("arrays", "said"), [
     ({"faces": FACES + 0.4}, "Face indices must be whole numbers"),
     ({"vertices": VERTICES + 1j}, "Vertices must be rows of three numbers"),
     ({"vertices": None}, "it has no arrays of numbers vertices and faces"),
     ({"faces": None}, "it has no arrays of numbers vertices and faces"),
     ({"faces": np.array([[0, 1, 2], [1, 2]], object)}, "it has no arrays of numbers vertices and faces"),
-    ({"faces": FACES[:, [0, 1, 2, 2]]}, "Triangles must have shape"),
+    ({"faces": FACES[:, :2]}, "12 faces have fewer than three corners"),
+    ({"faces": FACES + 3}, "1. of 12 faces name a vertex that does not exist"),
 ])
 def test_arrays_that_are_no_mesh_are_refused(tmp_path, arrays, said):
     given = {"vertices": VERTICES, "faces": FACES} | arrays
