@@ -503,6 +503,12 @@ def mirrored_figure(step: float = 0.13) -> Shape:
     return _with_mirror_image(np.where(np.abs(vertices) < 1e-3 * step, 0.0, vertices), half)
 
 
+def bent(shape: Shape) -> Shape:
+    """A shape without any symmetry."""
+    x, y, z = shape.vertices.T
+    return Shape(np.stack([x + 0.3 * z**2 + 0.1 * y, 1.3 * y + 0.2 * x * z, z + 0.15 * x**2], axis=1), shape.faces)
+
+
 def posed(vertices: np.ndarray) -> np.ndarray:
     """The figure's vertices in a pose that no plane mirrors: one arm up, the other one forward, a leg to the back."""
     x, _, z = vertices.T

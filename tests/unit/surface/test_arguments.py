@@ -10,6 +10,7 @@ import pytest
 import shapes
 
 from core.errors import MeshError, ParameterError
+from core.parameters import Parameters
 from core.pipeline import decompose
 from core.surface.arguments import hints_of
 from core.surface.polygons import PolygonMesh
@@ -132,19 +133,26 @@ def test_numbers_that_no_triangle_has():
 
 
 def test_parameters_as_a_mapping():
-    wanted = decompose(VERTICES, FACES, {"detail": "0.25", "n_slabs": np.float32(50)}).parameters
+    wanted = Parameters.of({"detail": "0.25", "n_slabs": np.float32(50)})
     assert (wanted.detail, wanted.n_slabs) == (0.25, 50)
-    assert decompose(VERTICES, FACES, OrderedDict(method="berretti")).parameters.method == "berretti"
+    assert Parameters.of(OrderedDict(method="berretti")).method == "berretti"
     for wrong in (7, "berretti", {"nonsense": 1}, {1: 2}, ["detail"], {"detail": None}):
         with pytest.raises(ParameterError):
             decompose(VERTICES, FACES, wrong)
 
 
+@pytest.fixture(scope="module")
+def coarse():
+    """A box decomposed in few slabs, with parameters given as a mapping."""
+    result = decompose(VERTICES, FACES, {"n_slabs": 8, "base_spacing": 0.05})
+    assert result.parameters == Parameters(n_slabs=8, base_spacing=0.05)
+    return result
+
+
 @pytest.mark.parametrize("asked", [{"detail": "x"}, {"detail": [0.5]}, {"n_parts": []}, {"n_parts": "x"},
                                    {"n_parts": 1.5},
                                    {"n_parts": np.array([1])}, {"n_parts": -1}, {"n_parts": HUGE}, {"detail": 1j}])
-def test_parts_that_cannot_be_asked_for(asked):
-    result = decompose(VERTICES, FACES)
+def test_parts_that_cannot_be_asked_for(coarse, asked):
     with pytest.raises(ParameterError):
-        result.parts(**asked)
-    assert result.parts(detail=np.float32(0.5), n_parts="1").count == 1
+        coarse.parts(**asked)
+    assert coarse.parts(detail=np.float32(0.5), n_parts="1").count == 1

@@ -4,15 +4,13 @@
 import numpy as np
 import pytest
 import shapes
+from folding import LETTER_H, bumps, extruded
 
-from core import decompose
-from core.metrics import rand_index_error
 from core.surface.ears import fans, without_folds
 from core.surface.polygons import PolygonMesh
 from core.surface.vectors import cross, lengths
 
 ARROW = [(0, 0), (2, 3), (0, 1.2), (-2, 3)]
-LETTER_H = [(0, 0), (1, 0), (1, 2), (3, 2), (3, 0), (4, 0), (4, 5), (3, 5), (3, 3), (1, 3), (1, 5), (0, 5)]
 #: A square with a hole, tied to the outside along an edge that is there twice; two corners there are one point.
 KEYHOLE = [(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)]
 #: An L with corners in the middle of its sides.
@@ -29,16 +27,6 @@ def test_fans_begin_at_the_first_corner():
 
 def outline(corners, first=0):
     return np.roll(np.array(corners, float), -first, axis=0)
-
-
-def extruded(corners, first=0, height=1.0):
-    """A solid between two copies of an outline, as vertices and polygons; the caps begin with another corner."""
-    n = len(corners)
-    flat = np.array(corners, float)
-    vertices = np.vstack([np.c_[flat, np.zeros(n)], np.c_[flat, np.full(n, height)]])
-    cap = np.roll(np.arange(n), -first).tolist()
-    sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
-    return vertices, [cap[::-1], [n + i for i in cap], *sides]
 
 
 def signed_areas(points, triangles):
@@ -127,16 +115,6 @@ def test_convex_polygons_keep_their_fans_also_when_corners_are_off_by_rounding()
     assert cut(points).tolist() == [[0, i, i + 1] for i in range(1, 79)]
 
 
-def test_solids_of_concave_polygons_have_their_area_and_one_decomposition():
-    flat = np.array(LETTER_H, float)
-    x, y = flat.T
-    area = x @ np.roll(y, -1) - y @ np.roll(x, -1) + np.linalg.norm(np.roll(flat, -1, axis=0) - flat, axis=1).sum()
-    found = [decompose(*extruded(LETTER_H, first)).parts() for first in range(0, 12, 3)]
-    for parts in found:
-        assert parts.area.sum() == pytest.approx(area)
-        assert rand_index_error(parts.labels, found[0].labels) == 0
-
-
 def test_some_concave_polygons_among_others_leave_these_as_they_are():
     vertices, faces = extruded(LETTER_H, 2)
     mesh = PolygonMesh.of(vertices, faces)
@@ -145,15 +123,6 @@ def test_some_concave_polygons_among_others_leave_these_as_they_are():
         triangle for a, b, c, d in faces[2:] for triangle in ([a, b, c], [a, c, d])]
     normal = cross(*(np.diff(vertices[mesh.triangles.faces], axis=1)).transpose(1, 0, 2))
     assert lengths(normal)[~sides].sum() / 2 == pytest.approx(2 * 12)
-
-
-def bumps(n=22):
-    """A sheet of quads with bumps so steep that many are folded whichever way they are cut into a fan."""
-    x, y = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
-    height = np.abs(np.random.default_rng(5).normal(size=x.shape)) ** 6
-    corner = (n * np.arange(n - 1)[:, None] + np.arange(n - 1)).ravel()
-    return (np.stack([x, y, height], axis=-1).reshape(-1, 3),
-            np.stack([corner, corner + n, corner + n + 1, corner + 1], axis=1))
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -166,14 +135,6 @@ def test_the_numbers_of_vertices_decide_nothing(seed):
     np.testing.assert_array_equal(one.vertices[one.faces], two.vertices[two.faces])
     fan, _ = fans(quads.ravel(), np.full(len(quads), 4))
     assert (one.faces != fan).any(axis=1).sum() > 50
-
-
-def test_models_of_folded_quads_have_one_decomposition_however_vertices_are_numbered():
-    vertices, quads = bumps()
-    number = np.random.default_rng(1).permutation(len(vertices))
-    one, two = decompose(vertices, quads), decompose(vertices[number], np.argsort(number)[quads])
-    np.testing.assert_array_equal(one.candidates, two.candidates)
-    np.testing.assert_array_equal(one.hierarchy.salience, two.hierarchy.salience)
 
 
 def test_polygons_of_thousands_of_corners_keep_their_fans():
