@@ -128,6 +128,27 @@ def looks_inwards(table: CornerTable) -> bool:
     return bool(_sums(np.zeros(table.n_faces, np.int64), row_products(table.face_vectors(), away), 1)[0] < 0)
 
 
+def of_solids(table: CornerTable) -> np.ndarray:
+    """Find the faces of closed pieces that look outwards, whose faces agree.
+
+    Parameters
+    ----------
+    table : CornerTable
+        p faces.
+
+    Returns
+    -------
+    faces : (p,) bool
+    """
+    two = np.bincount(table.corner_edge, minlength=len(table.edges)) == 2
+    pairs, edge = table.face_pairs()
+    count, piece = components(table.n_faces, *pairs[two[edge]].T)
+    wrong = ~two | table.contrary_edges()
+    solid = np.bincount(piece[table.corner_face], wrong[table.corner_edge], count) == 0
+    away = table.face_means(table.vertices) - table.vertices.mean(axis=0)
+    return (solid & (_sums(piece, row_products(table.face_vectors(), away), count) > 0))[piece]
+
+
 def _to_other_side(table: CornerTable, flip: np.ndarray, piece: np.ndarray, closed: np.ndarray) -> np.ndarray:
     """Which of c pieces look to the wrong side once some faces are turned, (c,) bool; see ``against_neighbors``.
 

@@ -12,12 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ..surface.arrays import renumbered, stable_order, sums_by
+from ..surface.arrays import renumbered, rounded_order, stable_order, sums_by
 from ..surface.components import components
 from ..surface.corners import CornerTable
 from ..surface.ordering import principal_axes
 from ..surface.pairs import distinct_pairs
-from ..surface.ties import first_largest
 from ..surface.vectors import cross, inner_products, lengths, second_moments
 
 #: How many corners a hull has at most; game engines take 255, and are faster with fewer.
@@ -308,20 +307,27 @@ def _as_round(points: np.ndarray) -> np.ndarray:
 def _outermost(corners: np.ndarray, most: int) -> np.ndarray:
     """So many of the corners of a hull, (k, 3), whose own hull has nearly its volume: (most,) int64 or fewer.
 
-    Half of them are outermost in directions that are spread evenly, of which several may have the same corner. Then the
-    corner that is farthest from the hull of those found follows, again and again.
+    Half of them are outermost in directions that are spread evenly, of which several may have the same corner. Then,
+    again and again, those follow that are farthest outside the hull of those found, a quarter of what lacks at a time.
     """
     kept = np.unique((_directions(most // 2) @ corners.T).argmax(axis=1))
-    found = ConvexHull(corners[kept], incremental=True)
-    while len(kept) < most:
-        outside = (inner_products(corners, found.equations[:, :3]) + found.equations[:, 3]).max(axis=1)
-        outside[kept] = 0.0
-        farthest = first_largest(outside.clip(0.0))
-        if not outside[farthest] > 0:
-            break
-        kept = np.append(kept, farthest)
-        found.add_points(corners[[farthest]])
+    while len(kept) < most and len(beyond := _beyond(corners, kept)):
+        kept = np.append(kept, beyond[: -(-(most - len(kept)) // 4)])
     return kept
+
+
+def _beyond(corners: np.ndarray, kept: np.ndarray) -> np.ndarray:
+    """The corners, of (k, 3), that are farthest outside of the faces of the hull of some: (j,) int64, falling."""
+    try:
+        found = ConvexHull(corners[kept])
+    except QhullError:  # they lie in a plane, but for rounding
+        return np.empty(0, np.int64)
+    height = inner_products(corners, found.equations[:, :3]) + found.equations[:, 3]
+    height[kept] = 0.0
+    farthest, most = height.argmax(axis=0), height.max(axis=0)
+    order = rounded_order(-most)
+    order = order[most[order] > 1e-9 * np.abs(corners).max()]
+    return farthest[order[np.sort(np.unique(farthest[order], return_index=True)[1])]]
 
 
 def _solid(points: np.ndarray, size: float) -> np.ndarray:

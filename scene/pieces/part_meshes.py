@@ -17,7 +17,7 @@ import numpy as np
 from ...core.steps import Steps, finished, stretched
 from ...core.surface.arrays import stable_order
 from ...core.surface.corners import CornerTable, edge_labels
-from ...core.surface.orientation import against_neighbors, looks_inwards
+from ...core.surface.orientation import against_neighbors, looks_inwards, of_solids
 from ...core.surface.pairs import are_among, distinct_pairs
 from .. import element_layers, hidden, mesh_arrays, mesh_groups, outputs, property_updates
 from ..elements import CORNER, Elements
@@ -154,10 +154,16 @@ def _agreeing(whole: Elements) -> Elements:
     return _turned(whole, table, flip) if flip.any() else whole
 
 
-def _outwards(piece: Elements) -> Elements:
-    """The elements of a piece, all of its faces turned if it is closed and they look inwards."""
+def _outwards(piece: Elements, whole: Elements, faces: np.ndarray) -> Elements:
+    """The elements of a piece, all of its faces turned if it is closed and they look inwards.
+
+    Not if they look outwards in the whole, as the inside of a wall does that is a part of its own. faces : (k,) int64,
+    those of the whole that the piece has.
+    """
     table = piece.corner_table()
-    return _turned(piece, table, np.ones(table.n_faces, bool)) if looks_inwards(table) else piece
+    if not looks_inwards(table) or of_solids(whole.corner_table())[faces].any():
+        return piece
+    return _turned(piece, table, np.ones(table.n_faces, bool))
 
 
 def _turned(whole: Elements, table: CornerTable, flip: np.ndarray) -> Elements:
@@ -213,7 +219,7 @@ class PlainMesh:
         piece = self.whole.taken(chosen)
         if holes is not None:
             piece, left = holes.closed(piece, chosen, self._mesh)
-            piece = _outwards(piece)
+            piece = _outwards(piece, self.whole, faces)
         return element_layers.made(piece, self._mesh), left
 
     def free(self) -> None:

@@ -10,7 +10,7 @@ from open_bodies import OPEN, opened
 
 from core.surface.corners import CornerTable
 from core.surface.mesh import TriMesh
-from core.surface.orientation import against_neighbors, looks_inwards, turn_outwards
+from core.surface.orientation import against_neighbors, looks_inwards, of_solids, turn_outwards
 
 
 @pytest.mark.parametrize("name", OPEN)
@@ -98,3 +98,12 @@ def test_what_looks_inwards_is_closed_and_agrees():
     assert looks_inwards(CornerTable.of(turned.vertices + 1e6, turned.faces))
     for other in (ball, hollow, (turned.vertices, turned.faces[1:]), (turned.vertices, one_turned)):
         assert not looks_inwards(CornerTable.of(*other))
+
+
+def test_faces_of_solids_are_those_of_closed_pieces_that_look_outwards():
+    ball = shapes.icosphere(1)
+    turned, open_one = shapes.inside_out(ball), shapes.Shape(ball.vertices, ball.faces[1:])
+    contrary = shapes.Shape(ball.vertices, np.concatenate([ball.faces[:1, ::-1], ball.faces[1:]]))
+    pieces = [shapes.moved(piece, (3.0 * k, 0, 0)) for k, piece in enumerate((turned, ball, open_one, contrary))]
+    found = of_solids(CornerTable.of(*shapes.together(*pieces)))
+    assert np.array_equal(found, np.repeat([False, True, False, False], [len(piece.faces) for piece in pieces]))
