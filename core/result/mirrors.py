@@ -163,8 +163,13 @@ def find_mirrors(working: WorkingMesh, components: list[Component], n_polygons: 
         mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
         polygon = working.polygon[parent]
         large = [part for part in components if part.mesh.area >= LEAST_BODY * working.mesh.area]
-    whole, posed = Mirror.of(mesh, polygon, n_polygons), topology_mirror(working.mesh, working.polygon, n_polygons)
-    if whole is not None and all(_covers(whole, part) for part in large):
+    whole = Mirror.of(mesh, polygon, n_polygons)
+    if whole is not None and not all(_covers(whole, part) for part in large):
+        whole = None
+    if whole is not None and whole.exact:  # nothing can add to it
+        return [whole]
+    posed = topology_mirror(working.mesh, working.polygon, n_polygons)
+    if whole is not None:
         area = np.bincount(working.polygon, working.mesh.face_area, n_polygons)
         return [whole if posed is None else whole.with_topology(posed, area)]
     large.sort(key=lambda part: -part.mesh.area)
