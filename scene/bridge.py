@@ -63,8 +63,7 @@ class Shape:
     @property
     def face_area(self) -> np.ndarray:
         """Area of each face of the mesh, (p,) float64."""
-        a, b, c = self.vertices[self.triangles].transpose(1, 0, 2)
-        return np.bincount(self.polygon, 0.5 * lengths(cross(b - a, c - a)))
+        return _face_area(self.vertices, self.triangles, self.polygon)
 
 
 def read_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Shape:
@@ -131,9 +130,7 @@ def face_graph(obj: bpy.types.Object, shape: Shape | None = None) -> tuple[FaceG
     """
     shape, mesh = shape or read_shape(obj), obj.data
     table = mesh_arrays.joined_table(mesh, shape.vertices)
-    pairs, edge = table.face_pairs()
-    graph = FaceGraph(table.n_faces, pairs, table.edge_length(edge), shape.face_area)
-    return graph, replace(table, corner_vertex=mesh_arrays.face_corners(mesh)[0])
+    return _graph_of(table, shape.face_area), replace(table, corner_vertex=mesh_arrays.face_corners(mesh)[0])
 
 
 def stretched_graphs(obj: bpy.types.Object, *stretches: np.ndarray) -> list[FaceGraph]:
@@ -141,15 +138,22 @@ def stretched_graphs(obj: bpy.types.Object, *stretches: np.ndarray) -> list[Face
 
     Not in Edit Mode.
     """
-    points, (triangles, polygon) = shown_points(obj).astype(np.float64), mesh_arrays.triangles(obj.data)
-    found = []
-    for stretch in stretches:
-        table = mesh_arrays.joined_table(obj.data, points @ stretch.T)
-        pairs, edge = table.face_pairs()
-        a, b, c = (points @ stretch.T)[triangles].transpose(1, 0, 2)
-        area = np.bincount(polygon, 0.5 * lengths(cross(b - a, c - a)), table.n_faces)
-        found.append(FaceGraph(table.n_faces, pairs, table.edge_length(edge), area))
-    return found
+    points, divided = shown_points(obj).astype(np.float64), mesh_arrays.triangles(obj.data)
+    each = [points @ stretch.T for stretch in stretches]
+    return [_graph_of(mesh_arrays.joined_table(obj.data, stretched), _face_area(stretched, *divided))
+            for stretched in each]
+
+
+def _graph_of(table: CornerTable, area: np.ndarray) -> FaceGraph:
+    """Which faces of a table share an edge; area : (p,) float64."""
+    pairs, edge = table.face_pairs()
+    return FaceGraph(table.n_faces, pairs, table.edge_length(edge), area)
+
+
+def _face_area(points: np.ndarray, triangles: np.ndarray, polygon: np.ndarray) -> np.ndarray:
+    """Area of each face, (p,) float64, from its triangles, (m, 3) int64; polygon : (m,) int64, the face of each."""
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    return np.bincount(polygon, 0.5 * lengths(cross(b - a, c - a)))
 
 
 def face_centers(obj: bpy.types.Object) -> np.ndarray:

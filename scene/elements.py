@@ -15,6 +15,7 @@ import numpy as np
 
 from ..core.surface.arrays import ranges
 from ..core.surface.corners import CornerTable
+from ..core.surface.orientation import looks_inwards, of_solids
 
 POINT, EDGE, FACE, CORNER = "POINT", "EDGE", "FACE", "CORNER"
 
@@ -122,6 +123,18 @@ class Elements:
         """The faces corner by corner, for core."""
         return CornerTable(self.points.astype(np.float64), self.ends, self.corner_vertex, self.corner_edge,
                            self.corner_face, len(self.count))
+
+    @cached_property
+    def _of_solids(self) -> np.ndarray:
+        """(f,) bool, the faces of closed pieces that look outwards."""
+        return of_solids(self.corner_table())
+
+    def is_inside_out(self, piece: CornerTable, faces: np.ndarray) -> bool:
+        """Whether a piece that was made of some faces, (k,) int64, and closed looks inwards, and did not look outwards.
+
+        The inside of a wall that is a part of its own looks inwards, too, but so that the wall looks outwards.
+        """
+        return looks_inwards(piece) and not self._of_solids[faces].any()
 
     def around(self, vertices: np.ndarray) -> np.ndarray:
         """Faces with one of some vertices, (v,) bool: (k,) int64, rising."""

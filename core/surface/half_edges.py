@@ -70,6 +70,17 @@ class HalfEdges:
         return len(self.start)
 
     @cached_property
+    def corners(self) -> np.ndarray:
+        """(h,) int64, number of corners of the polygon in which each lies."""
+        return np.bincount(self.polygon)[self.polygon]
+
+    @cached_property
+    def valence(self) -> tuple[np.ndarray, np.ndarray]:
+        """(h,) int64 twice, number of half-edges that begin where each starts, and where it ends."""
+        valence = np.bincount(self.start)
+        return valence[self.start], valence[self.end]
+
+    @cached_property
     def piece(self) -> np.ndarray:
         """(h,) int64, connected piece of the mesh in which each lies, all numbers in use."""
         joined = np.flatnonzero(self.opposite >= 0)

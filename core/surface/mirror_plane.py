@@ -53,3 +53,10 @@ class MirrorPlane:
         length = max(float(np.linalg.norm(normal)), 1e-300)
         normal = normal / length
         return MirrorPlane(normal, self.offset / length + float(normal @ shift), self.share)
+
+
+def positive_sign(direction: np.ndarray) -> float:
+    """1.0 or -1.0, which makes the component of largest size of a direction, (3,), positive; of equals the first."""
+    size = np.abs(direction)
+    largest = int(np.argmax(size > (1 - 1e-6) * size.max()))
+    return -1.0 if direction[largest] < 0 else 1.0

@@ -105,9 +105,7 @@ def against_neighbors(table: CornerTable) -> np.ndarray:
     contrary = table.contrary_edges()
     if not contrary.any():
         return np.zeros(table.n_faces, bool)
-    two = np.bincount(table.corner_edge, minlength=len(table.edges)) == 2
-    pairs, edge = table.face_pairs()
-    pairs, edge = pairs[two[edge]], edge[two[edge]]
+    two, pairs, edge = _at_edges_of_two(table)
     same_way = contrary[edge]
     flip = _of_other_sheet(table.n_faces, pairs, same_way)
     count, piece = components(table.n_faces, *pairs.T)
@@ -124,8 +122,7 @@ def looks_inwards(table: CornerTable) -> bool:
     two = np.bincount(table.corner_edge, minlength=len(table.edges)) == 2
     if not two.all() or table.contrary_edges().any():
         return False
-    away = table.face_means(table.vertices) - table.vertices.mean(axis=0)
-    return bool(_sums(np.zeros(table.n_faces, np.int64), row_products(table.face_vectors(), away), 1)[0] < 0)
+    return bool(_volumes(table, table.face_vectors(), np.zeros(table.n_faces, np.int64), 1)[0] < 0)
 
 
 def of_solids(table: CornerTable) -> np.ndarray:
@@ -140,13 +137,24 @@ def of_solids(table: CornerTable) -> np.ndarray:
     -------
     faces : (p,) bool
     """
-    two = np.bincount(table.corner_edge, minlength=len(table.edges)) == 2
-    pairs, edge = table.face_pairs()
-    count, piece = components(table.n_faces, *pairs[two[edge]].T)
+    two, pairs, _ = _at_edges_of_two(table)
+    count, piece = components(table.n_faces, *pairs.T)
     wrong = ~two | table.contrary_edges()
     solid = np.bincount(piece[table.corner_face], wrong[table.corner_edge], count) == 0
+    return (solid & (_volumes(table, table.face_vectors(), piece, count) > 0))[piece]
+
+
+def _at_edges_of_two(table: CornerTable) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Which edges have two faces, (e,) bool, the faces that meet there, (r, 2) int64, and where, (r,) int64."""
+    two = np.bincount(table.corner_edge, minlength=len(table.edges)) == 2
+    pairs, edge = table.face_pairs()
+    return two, pairs[two[edge]], edge[two[edge]]
+
+
+def _volumes(table: CornerTable, vector: np.ndarray, piece: np.ndarray, count: int) -> np.ndarray:
+    """Three times what each piece encloses, (count,) float64. vector : (p, 3), vector areas. piece : (p,) int64."""
     away = table.face_means(table.vertices) - table.vertices.mean(axis=0)
-    return (solid & (_sums(piece, row_products(table.face_vectors(), away), count) > 0))[piece]
+    return _sums(piece, row_products(vector, away), count)
 
 
 def _to_other_side(table: CornerTable, flip: np.ndarray, piece: np.ndarray, closed: np.ndarray) -> np.ndarray:
@@ -155,8 +163,7 @@ def _to_other_side(table: CornerTable, flip: np.ndarray, piece: np.ndarray, clos
     flip : (p,) bool. piece : (p,) int64, of each face. closed : (c,) bool.
     """
     vector, sign = table.face_vectors(), np.where(flip, -1.0, 1.0)
-    away = table.face_means(table.vertices) - table.vertices.mean(axis=0)
-    volume = _sums(piece, sign * row_products(vector, away), len(closed))
+    volume = _volumes(table, sign[:, None] * vector, piece, len(closed))
     as_given = _sums(piece, sign * np.sqrt(row_products(vector, vector)), len(closed))
     return np.where(closed & (volume != 0), volume < 0, as_given < 0)
 

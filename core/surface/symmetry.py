@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .mirror_plane import MirrorPlane
+from .mirror_plane import MirrorPlane, positive_sign
 from .ordering import principal_axes
 from .small_faces import Elements, SmallFaces
 from .vectors import second_moments
@@ -128,7 +128,5 @@ def _halfway(before: np.ndarray, after: np.ndarray) -> MirrorPlane:
 
 def oriented(normal: np.ndarray, offset: float) -> MirrorPlane:
     """A plane whose normal's component of largest size is positive."""
-    size = np.abs(normal)
-    largest = int(np.argmax(size > (1 - 1e-6) * size.max()))
-    sign = -1.0 if normal[largest] < 0 else 1.0
+    sign = positive_sign(normal)
     return MirrorPlane(sign * normal, float(sign * offset))

@@ -19,7 +19,9 @@ from .arrays import sums_by
 from .components import components
 from .half_edges import HalfEdges
 from .mesh import TriMesh
+from .mirror_plane import positive_sign
 from .pairs import distinct_pairs
+from .vectors import weighted_sum
 
 MOST_POLYGONS = 50_000  # denser meshes are scans, or subdivided: each polygon is like its neighbors
 # Steps from half-edge to half-edge after which colors are compared: after few of them asymmetric details hide little,
@@ -94,9 +96,8 @@ def _only_images(half: HalfEdges) -> list[np.ndarray]:
 
     Empty if too few have any.
     """
-    valence, corners = np.bincount(half.start), np.bincount(half.polygon)[half.polygon]
-    start, end = valence[half.start], valence[half.end]
-    forward, backward = _mixed(corners, start, end), _mixed(corners, end, start)
+    start, end = half.valence
+    forward, backward = _mixed(half.corners, start, end), _mixed(half.corners, end, start)
     found = []
     for step in range(1, max(ROUNDS) + 1):
         forward, backward = (
@@ -157,7 +158,7 @@ def _consistent(half: HalfEdges, partner: np.ndarray, weight: np.ndarray) -> np.
 def _grown(half: HalfEdges, partner: np.ndarray) -> np.ndarray:
     """Images, (h,), found from those that are known, neighbor by neighbor, as far as both sides are alike."""
     partner = partner.copy()
-    valence, corners, length = np.bincount(half.start), np.bincount(half.polygon)[half.polygon], _log_length(half)
+    (start, end), length = half.valence, _log_length(half)
     taken = np.zeros(half.count, bool)
     front = np.flatnonzero(partner >= 0)
     taken[partner[front]] = True
@@ -167,7 +168,7 @@ def _grown(half: HalfEdges, partner: np.ndarray) -> np.ndarray:
         other = np.concatenate([half.before[image], half.opposite[image]])
         new = (one >= 0) & (other >= 0) & (partner[one] < 0) & ~taken[other]
         one, other = one[new], other[new]
-        like = (corners[one] == corners[other]) & (valence[half.start[one]] == valence[half.end[other]])
+        like = (half.corners[one] == half.corners[other]) & (start[one] == end[other])
         like &= np.abs(length[one] - length[other]) < STRETCHED
         front, image = _undisputed(one[like], other[like])
         partner[front], taken[image] = image, True
@@ -260,10 +261,8 @@ def _with_sides(regions: _Regions, twin: np.ndarray, area: np.ndarray, middle: n
     twin = np.where((side != 0) | (twin == np.arange(len(twin))), twin, -1)
     if area[twin >= 0].sum() < COVERED * area.sum():
         return None
-    way = ((area * side)[:, None] * middle).sum(axis=0)
-    size = np.abs(way)
-    largest = int(np.argmax(size >= (1 - 1e-6) * size.max()))
-    return TopologyMirror(twin, -side if way[largest] < 0 else side)
+    way = np.asarray(weighted_sum(area * side, middle))
+    return TopologyMirror(twin, int(positive_sign(way)) * side)
 
 
 def _by_nearest(side: np.ndarray, regions: _Regions, area: np.ndarray, middle: np.ndarray) -> np.ndarray:

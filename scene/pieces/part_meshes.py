@@ -17,7 +17,7 @@ import numpy as np
 from ...core.steps import Steps, finished, stretched
 from ...core.surface.arrays import stable_order
 from ...core.surface.corners import CornerTable, edge_labels
-from ...core.surface.orientation import against_neighbors, looks_inwards, of_solids
+from ...core.surface.orientation import against_neighbors
 from ...core.surface.pairs import are_among, distinct_pairs
 from .. import element_layers, hidden, mesh_arrays, mesh_groups, outputs, property_updates
 from ..elements import CORNER, Elements
@@ -155,15 +155,9 @@ def _agreeing(whole: Elements) -> Elements:
 
 
 def _outwards(piece: Elements, whole: Elements, faces: np.ndarray) -> Elements:
-    """The elements of a piece, all of its faces turned if it is closed and they look inwards.
-
-    Not if they look outwards in the whole, as the inside of a wall does that is a part of its own. faces : (k,) int64,
-    those of the whole that the piece has.
-    """
+    """The elements of a piece, all of its faces turned if it is inside out. faces : (k,) int64, where in the whole."""
     table = piece.corner_table()
-    if not looks_inwards(table) or of_solids(whole.corner_table())[faces].any():
-        return piece
-    return _turned(piece, table, np.ones(table.n_faces, bool))
+    return _turned(piece, table, np.ones(table.n_faces, bool)) if whole.is_inside_out(table, faces) else piece
 
 
 def _turned(whole: Elements, table: CornerTable, flip: np.ndarray) -> Elements:

@@ -15,7 +15,6 @@ import numpy as np
 from bmesh.types import BMesh
 
 from ...core.steps import Steps
-from ...core.surface.orientation import looks_inwards, of_solids
 from .. import element_layers, mesh_arrays, mesh_groups, targets
 from ..matrix_layers import as_bmesh
 from . import smooth_faces
@@ -61,7 +60,7 @@ class SculptedMesh:
         if holes is None:
             return piece, 0
         left = holes.close(piece, chosen.vertices, chosen.edges)
-        if looks_inwards(mesh_arrays.corner_table(piece)) and not of_solids(self.whole.corner_table())[faces].any():
+        if self.whole.is_inside_out(mesh_arrays.corner_table(piece), faces):
             piece.flip_normals()
         return piece, left
 
