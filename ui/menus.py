@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Menus: of the parts in the list, and "Reeb Parts" in the header, where search (F3) finds every operator."""
+"""Menus: of the parts in the list, and "Reeb Parts" in the header, where search (F3) finds every operator.
+
+A menu that a shortcut opens would execute: commands would ignore the panel, and no tool would start. So each menu says
+that its commands are invoked.
+"""
 
 from __future__ import annotations
 
 import bpy
+
+INVOKED = "INVOKE_REGION_WIN"
 
 
 class REEB_PARTS_MT_parts(bpy.types.Menu):
@@ -11,6 +17,7 @@ class REEB_PARTS_MT_parts(bpy.types.Menu):
     bl_label = "Parts"
 
     def draw(self, context: bpy.types.Context) -> None:
+        self.layout.operator_context = INVOKED
         draw_part_menu(self.layout)
 
 
@@ -57,14 +64,43 @@ def _draw_list_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
         draw_part_menu(self.layout)
 
 
+class REEB_PARTS_MT_pieces(bpy.types.Menu):
+    bl_idname = "REEB_PARTS_MT_pieces"
+    bl_label = "Pieces"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.operator_context = INVOKED
+        _draw_operators(layout, ("reeb_parts.show_original", "NONE"), ("reeb_parts.show_pieces", "NONE"))
+        layout.separator()
+        _draw_operators(
+            layout, ("reeb_parts.check_pieces", "NONE"), ("reeb_parts.select_faults", "NONE"),
+            ("reeb_parts.repair_piece", "NONE"))
+
+
+class REEB_PARTS_MT_use(bpy.types.Menu):
+    bl_idname = "REEB_PARTS_MT_use"
+    bl_label = "Use Parts"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.operator_context = INVOKED
+        _draw_operators(
+            layout, ("reeb_parts.seams", "NONE"), ("reeb_parts.face_sets", "NONE"), ("reeb_parts.materials", "NONE"),
+            ("reeb_parts.unwrap", "UV"))
+        layout.separator()
+        _draw_operators(
+            layout, ("reeb_parts.export", "EXPORT"), ("reeb_parts.armature", "ARMATURE_DATA"),
+            ("reeb_parts.hulls", "MESH_ICOSPHERE"), ("reeb_parts.rigid_bodies", "RIGID_BODY"))
+
+
 class REEB_PARTS_MT_main(bpy.types.Menu):
     bl_idname = "REEB_PARTS_MT_main"
     bl_label = "Reeb Parts"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
-        # A menu that a shortcut opens would execute: commands would ignore the panel, and no tool would start.
-        layout.operator_context = "INVOKE_REGION_WIN"
+        layout.operator_context = INVOKED
         _draw_operators(layout, ("reeb_parts.decompose", "MOD_EXPLODE"), ("reeb_parts.clear", "TRASH"))
         _draw_operators(layout, ("reeb_parts.show_colors", "SHADING_SOLID"), ("reeb_parts.show_graph", "NONE"))
         layout.operator("reeb_parts.step_detail", text="Fewer Parts").more = False
@@ -73,18 +109,12 @@ class REEB_PARTS_MT_main(bpy.types.Menu):
         _draw_operators(layout, ("reeb_parts.pick", "EYEDROPPER"), ("reeb_parts.select", "RESTRICT_SELECT_OFF"))
         layout.operator("reeb_parts.isolate", icon="HIDE_OFF").show_all = False
         layout.operator("reeb_parts.isolate", text="Show All Parts").show_all = True
-        draw_part_menu(layout)
-        layout.separator()
+        layout.menu("REEB_PARTS_MT_parts")
         _draw_operators(layout, ("reeb_parts.from_nodes", "NONE"), ("reeb_parts.split_at_node", "NONE"))
         layout.separator()
-        _draw_operators(
-            layout, ("reeb_parts.separate", "OUTLINER_OB_GROUP_INSTANCE"), ("reeb_parts.show_original", "NONE"),
-            ("reeb_parts.show_pieces", "NONE"),
-            ("reeb_parts.check_pieces", "NONE"), ("reeb_parts.select_faults", "NONE"),
-            ("reeb_parts.repair_piece", "NONE"), ("reeb_parts.seams", "NONE"), ("reeb_parts.face_sets", "NONE"),
-            ("reeb_parts.materials", "NONE"),
-            ("reeb_parts.unwrap", "UV"), ("reeb_parts.export", "EXPORT"), ("reeb_parts.armature", "ARMATURE_DATA"),
-            ("reeb_parts.hulls", "MESH_ICOSPHERE"), ("reeb_parts.rigid_bodies", "RIGID_BODY"))
+        _draw_operators(layout, ("reeb_parts.separate", "OUTLINER_OB_GROUP_INSTANCE"))
+        layout.menu("REEB_PARTS_MT_pieces")
+        layout.menu("REEB_PARTS_MT_use")
         layout.separator()
         _draw_operators(
             layout, ("reeb_parts.reset_parameters", "LOOP_BACK"), ("reeb_parts.use_preferences", "PREFERENCES"))
@@ -99,7 +129,7 @@ PLACES = (
     "VIEW3D_MT_paint_vertex",
 )
 
-CLASSES = (REEB_PARTS_MT_parts, REEB_PARTS_MT_main)
+CLASSES = (REEB_PARTS_MT_parts, REEB_PARTS_MT_pieces, REEB_PARTS_MT_use, REEB_PARTS_MT_main)
 
 
 def _draw(self: bpy.types.Menu, context: bpy.types.Context) -> None:

@@ -22,6 +22,11 @@ def test_the_menu_of_the_shortcut_does_what_the_panel_says(seen):
     assert seen["by menu undone"] is False
 
 
+def test_so_does_a_menu_within_it(seen):
+    assert seen["by submenu"] == ["REEB_PARTS_OT_cut"]
+    assert seen["by submenu, escaped"] == []
+
+
 def test_the_graph_is_hidden_with_its_model(seen):
     assert seen["graph after h"] is False
     assert seen["graph after alt+h"] is True

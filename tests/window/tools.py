@@ -18,6 +18,7 @@ from snapshot import snapshot
 from spot import SEEN, at_work, chosen, differences, keys_to, note, number, shares, spot, undo_to
 
 TOOLS = ("Pick Parts", "Cut Part", "Paint into", "Slide Boundary")
+PARTS_ENTRY = 10  # entries of the menu above that of the parts, whose letter the first has taken
 # The buttons that start them, and what is beside those in the sidebar.
 BUTTONS = {"Cut": None, "Slide": "reeb_parts.paint", "Paint": None}
 
@@ -29,6 +30,7 @@ def steps():
     yield from pointer.search("Decompose into Parts")
     yield from pointer.until(lambda: "reeb_part" in spot().data.attributes, pointer.PATIENCE)
     yield 0.5
+    yield from by_submenu()
     yield from hidden()
     for scene in (picked, cut, painted, escaped, by_graph, disturbed, elsewhere, next_door, deleted):
         yield from scene()
@@ -51,6 +53,22 @@ def by_menu():
     yield from pointer.tap("ctrl+z", "ctrl+z")
     yield 0.5
     note("by menu undone", "reeb_part" in spot().data.attributes)
+
+
+def by_submenu():
+    """Ctrl+Alt+P, then the letter of "Cut Part" in the menu of parts: a tool, which would not start if it executed."""
+    yield from pointer.rest(*pointer.in_view())
+    yield from pointer.tap("ctrl+alt+p")
+    yield 0.4
+    yield from pointer.tap(*["Down"] * PARTS_ENTRY, "Right")
+    yield 0.4
+    pointer.shot("0_menu.png")
+    yield from pointer.tap("c")
+    yield 0.5
+    note("by submenu", at_work())
+    yield from pointer.tap("Escape")
+    yield 0.3
+    note("by submenu, escaped", at_work())
 
 
 def hidden():
