@@ -98,7 +98,7 @@ def _only_images(half: HalfEdges) -> list[np.ndarray]:
     """
     start, end = half.valence
     forward, backward = _mixed(half.corners, start, end), _mixed(half.corners, end, start)
-    found = []
+    colors = []
     for step in range(1, max(ROUNDS) + 1):
         forward, backward = (
             _mixed(forward, forward[half.following], forward[half.before], _across(half, forward)),
@@ -106,8 +106,8 @@ def _only_images(half: HalfEdges) -> list[np.ndarray]:
         if step == LOOK and np.isin(forward, backward).mean() < ALIKE:
             return []
         if step in ROUNDS:
-            found.append(_paired(forward, backward))
-    return found
+            colors.append((forward, backward))
+    return [_paired(*of_round) for of_round in colors]
 
 
 def _across(half: HalfEdges, color: np.ndarray) -> np.ndarray:
@@ -126,12 +126,17 @@ def _mixed(*values: np.ndarray) -> np.ndarray:
 
 def _paired(forward: np.ndarray, backward: np.ndarray) -> np.ndarray:
     """The half-edge whose color backward is each one's forward, (h,) int64, where either occurs once; else -1."""
-    names, one, count = np.unique(forward, return_index=True, return_counts=True)
-    others, other, count_of_other = np.unique(backward, return_index=True, return_counts=True)
-    place = np.searchsorted(others, names).clip(max=len(others) - 1)
-    once = (others[place] == names) & (count == 1) & (count_of_other[place] == 1)
-    partner = np.full(len(forward), -1)
-    partner[one[once]] = other[place[once]]
+    count = len(forward)
+    bits = np.uint64((2 * count).bit_length())  # below them, a color's number says whose it is: one sort finds all
+    key = np.concatenate([forward, backward]) >> bits << bits | np.arange(2 * count, dtype=np.uint64)
+    key.sort()
+    owner = (key & ((np.uint64(1) << bits) - np.uint64(1))).astype(np.int64)
+    other_color = np.concatenate([[True], np.diff(key >> bits) != 0, [True, True]])
+    two = np.flatnonzero(other_color[:-3] & ~other_color[1:-2] & other_color[2:-1])
+    one, other = owner[two], owner[two + 1]
+    partner = np.full(count, -1)
+    each = (one < count) & (other >= count)
+    partner[one[each]] = other[each] - count
     return partner
 
 
