@@ -13,15 +13,16 @@ from core.cuts.patches import concave_patches
 from core.cuts.perceptual.measures import SurfaceMeasures, surface_measures
 from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
 from core.cuts.perceptual.method import inflate
-from core.field.agd import agd_field, coarse_agd
-from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.metrics import Overlap
 from core.parameters import Parameters
+from core.pipeline import level_sets_of
+from core.progress import Stopwatch
 from core.surface.arrays import sums_by
-from core.surface.coarsening import Pyramid
 from core.surface.mesh import TriMesh
+from core.surface.ordering import sorted_by_place
 from core.surface.polygons import PolygonMesh
-from core.surface.preparation import MAX_EDGE, repair, split_long_edges
+from core.surface.preparation import Component, WorkingMesh, repair
+from core.surface.ties import in_steps
 
 CATEGORIES = (
     ("Human", 1), ("Cup", 21), ("Glasses", 41), ("Airplane", 61), ("Ant", 81), ("Chair", 101),
@@ -96,16 +97,19 @@ def varied(vertices: np.ndarray, faces: np.ndarray, rng: np.random.Generator) ->
     return vertices
 
 
+def working_mesh(vertices: np.ndarray, faces: np.ndarray) -> tuple[WorkingMesh, np.ndarray]:
+    """The sorted and repaired copy of a mesh that ``decompose`` works on, and which of the m faces each of its is."""
+    given, ordering = sorted_by_place(PolygonMesh.of(vertices, faces))
+    return repair(given), ordering.polygon
+
+
 def prepare(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray,
             n_patches: int | None = None) -> Subject:
     """Everything that does not depend on the model."""
-    parameters = Parameters()
-    working = repair(PolygonMesh.of(vertices, faces))
-    mesh, parent = split_long_edges(working.mesh, MAX_EDGE * np.sqrt(working.mesh.area))
-    owner = working.polygon[parent]
-    radius = np.sqrt(parameters.base_spacing * mesh.area)
-    field = agd_field(mesh, coarse_agd(Pyramid(mesh), radius), True)
-    sets = cut_at_levels(mesh, field.values, uniform_levels(parameters.n_slabs))
+    working, owner = working_mesh(vertices, faces)
+    component = Component.of(working, np.arange(working.mesh.n_faces))
+    _, field, sets = level_sets_of(component, Parameters(), Stopwatch(None))
+    mesh, owner = component.mesh, owner[component.polygon]
     solid = inflate(sets, field)
     if solid is not None:
         mesh, sets, field, owner = solid.sets.mesh, solid.sets, solid.field, owner[solid.shape.face_source]
@@ -191,7 +195,7 @@ def merge_and_record(subject: Subject, model=None) -> Run:
     rows, share, weight = [], [], []
 
     def judge(graph, borders):
-        features = graph.features_(borders)
+        features = in_steps(graph.features_(borders))
         people = graph.people(borders)
         rows.append(features.astype(np.float32))
         share.append(people)

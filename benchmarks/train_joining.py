@@ -31,7 +31,7 @@ packages.need("numpy", "scipy", "lightgbm", "tqdm", "joblib")
 import joblib
 import lightgbm
 import numpy as np
-from people import category_of
+from people import category_of, working_mesh
 from tqdm import tqdm
 from train import mean_of, trees_of
 
@@ -48,8 +48,7 @@ from core.surface.arrays import renumbered
 from core.surface.components import components
 from core.surface.labels import majority
 from core.surface.mesh import TriMesh
-from core.surface.polygons import PolygonMesh
-from core.surface.preparation import bodies, repair
+from core.surface.preparation import bodies
 
 SETTINGS = {
     "objective": "cross_entropy", "learning_rate": 0.05, "num_leaves": 16, "min_data_in_leaf": 20,
@@ -130,15 +129,16 @@ def taken_apart(vertices: np.ndarray, faces: np.ndarray, human: np.ndarray, seed
 def prepare(name: str, vertices: np.ndarray, faces: np.ndarray, human: np.ndarray, kind: str) -> Subject:
     """Everything that does not depend on the models of joining."""
     parameters, found = Parameters(), []
-    for component in bodies(repair(PolygonMesh.of(vertices, faces)), True, parameters.loose_part):
+    working, owner = working_mesh(vertices, faces)
+    for component in bodies(working, True, parameters.loose_part):
         result = decompose_component(component, parameters, Stopwatch(None))
         parts = fine_parts(component.mesh, result.face_candidate, result.candidates.hierarchy, result.field.normalized)
-        shares = []
+        shares, polygon = [], owner[component.polygon]
         for person in human:
             table = np.zeros((len(parts.candidate), person.max() + 1))
-            np.add.at(table, (parts.part, person[component.polygon]), component.mesh.face_area + 1e-300)
+            np.add.at(table, (parts.part, person[polygon]), component.mesh.face_area + 1e-300)
             shares.append(table / table.sum(axis=1, keepdims=True))
-        found.append(Body(parts, result.face_candidate, component.polygon, component.mesh.face_area,
+        found.append(Body(parts, result.face_candidate, polygon, component.mesh.face_area,
                           component.mesh.face_components[0], shares))
     return Subject(name, found, human, kind)
 

@@ -13,8 +13,8 @@ from .cuts.boosted_trees import BoostedTrees
 from .cuts.hierarchy import Candidates
 from .cuts.joining.method import JoinModel, fine_parts, join_parts
 from .cuts.methods import find_candidates
-from .field.agd import protrusion_field
-from .graph.level_sets import cut_at_levels, uniform_levels
+from .field.agd import ScalarField, protrusion_field
+from .graph.level_sets import LevelSets, cut_at_levels, uniform_levels
 from .graph.reeb import reeb_graph, reeb_topology
 from .graph.simplify import without_ripples
 from .parameters import TOGETHER, Parameters
@@ -179,17 +179,30 @@ def decompose_component(
     DisconnectedMeshError
         The pieces of the component do not hang together by its bridges.
     """
-    pyramid = Pyramid(component.mesh, component.bridges.vertices)
-    with watch.stage("distances", begin + 0.4 * width) as progress:
-        field = protrusion_field(pyramid, parameters.base_spacing, parameters.equalize, progress)
+    pyramid, field, sets = level_sets_of(component, parameters, watch, begin, width)
     with watch.stage("reeb graph", begin + 0.5 * width):
-        levels = uniform_levels(parameters.n_slabs) if field.values.any() else np.empty(0)
-        sets = cut_at_levels(component.mesh, field.values, levels, component.bridges.faces)
         topology = without_ripples(sets, reeb_topology(sets), field)
         graph = reeb_graph(sets, topology)
     with watch.stage("cuts", begin + width) as progress:
         candidates = find_candidates(sets, field, topology, pyramid, parameters, model, progress)
     return ComponentResult(component, field, sets, topology, graph, candidates)
+
+
+def level_sets_of(
+    component: Component, parameters: Parameters, watch: Stopwatch, begin: float = 0.0, width: float = 1.0
+) -> tuple[Pyramid, ScalarField, LevelSets]:
+    """The stages on one body that all methods and the Reeb graph begin with; the arguments of ``decompose_component``.
+
+    Returns coarser copies of the body's mesh, its AGD, and the level sets of that.
+    Raises DisconnectedMeshError if the pieces of the component do not hang together by its bridges.
+    """
+    pyramid = Pyramid(component.mesh, component.bridges.vertices)
+    with watch.stage("distances", begin + 0.4 * width) as progress:
+        field = protrusion_field(pyramid, parameters.base_spacing, parameters.equalize, progress)
+    with watch.stage("reeb graph", begin + 0.45 * width):
+        levels = uniform_levels(parameters.n_slabs) if field.values.any() else np.empty(0)
+        sets = cut_at_levels(component.mesh, field.values, levels, component.bridges.faces)
+    return pyramid, field, sets
 
 
 def join_pieces(
