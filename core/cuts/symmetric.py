@@ -30,7 +30,7 @@ DETAILS, WORST = (0.3, 0.4, 0.5, 0.6, 0.7), 0.05
 # A part below CRUMB of the area of the part found in which it lies comes of the mirroring alone: where the cut between
 # two twins runs along the plane, small candidates lie across it, and what is its own image can only join both twins at
 # once. Crumbs are dissolved so often at most.
-CRUMB, MOST_ROUNDS = 0.2, 3
+CRUMB, MOST_ROUNDS = 0.2, 8
 MOST_WEDGES = 8  # upper bound of the number of wedges of which each is tried as the one that leads
 MOST_CANDIDATES = 2_000  # every pair of them is compared; of more, such as the blades of a lawn, all stay as they are
 

@@ -143,9 +143,10 @@ class SmallFaces:
 
     @cached_property
     def size(self) -> float:
-        """Diameter of the surface, or the root of its area."""
+        """Diameter of the surface; of several pieces, the root of its area if that is less."""
+        across = diameter(self.mesh.face_centroids, self.mesh.face_area)
         # Pieces far from each other must not make the tolerances large.
-        return min(diameter(self.mesh.face_centroids, self.mesh.face_area), np.sqrt(self.mesh.area))
+        return across if self.mesh.face_components[0] == 1 else min(across, np.sqrt(self.mesh.area))
 
     @cached_property
     def elements(self) -> Elements:
