@@ -104,11 +104,13 @@ def test_rays_of_a_star_are_cut_alike(count):
     vertices, faces, maps = rays(count)
     rng = np.random.default_rng(count)
     found = decompose(vertices @ shapes.rotation(rng).T + rng.normal(size=3), faces)
-    images = [moved_faces(vertices, faces, linear) for linear in maps]
+    images = np.array([moved_faces(vertices, faces, linear) for linear in maps])
+    # Where a cut runs along a plane of symmetry, a face across it, its own image, goes to one of two images.
+    beside = (images == np.arange(len(faces))).sum(axis=0) == 1
+    assert beside.mean() > 0.9
     several = 0
     for detail in np.linspace(0.1, 1.0, 10):
         labels = found.parts(float(detail)).labels
         several += labels.max() > 0
-        unlike = max(rand_index_error(labels, labels[image]) for image in images)
-        assert unlike < 0.001  # a few faces between two images go to one of them
+        assert all(rand_index_error(labels[beside], labels[image[beside]]) == 0 for image in images)
     assert several
