@@ -116,7 +116,8 @@ class REEB_PARTS_OT_suggest_names(ReportingOperator, bpy.types.Operator):
     def _named(self, obj: bpy.types.Object, stored: Stored) -> int:
         """How many parts of an object were named."""
         named = part_names.kept_names(obj.data)
-        names = {number: name for number, name in naming.suggested(obj, stored).items() if number not in named}
+        names = {number: name for number, name in naming.suggested(obj, stored).items()
+                 if number not in named or part_names.lacks_side(named[number], name)}
         return reactions.give_names(obj.data, names)
 
 

@@ -124,6 +124,11 @@ def without_number(name: str) -> str:
     return re.sub(r"\.\d{3,}$", "", name)
 
 
+def lacks_side(name: str, suggested: str) -> bool:
+    """Whether a name is a suggested one but for its side: it was given while the part was still its own image."""
+    return bpy.utils.flip_name(suggested) != suggested and without_number(name) == suggested[:-2]
+
+
 def twins(mesh: bpy.types.Mesh) -> dict[int, int]:
     """The number of the mirror image of each part of the list that has one there."""
     numbers = {part.own_name: part.number for part in mesh.reeb_parts.parts}

@@ -66,7 +66,7 @@ def _draw_list_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
 
 class REEB_PARTS_MT_pieces(bpy.types.Menu):
     bl_idname = "REEB_PARTS_MT_pieces"
-    bl_label = "Pieces"
+    bl_label = "Separated Pieces"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
