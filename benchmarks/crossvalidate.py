@@ -70,7 +70,7 @@ def models_by_fold(subjects: dict[int, Subject], variants: dict[int, Subject], b
 
 def fitted(runs: list[Run], bodies: list[Further]) -> BoostedTrees:
     """A model of what ships' making, from some meshes of the benchmark and some bodies."""
-    return fit_many(runs, N_MODELS, learn_further(runs, bodies, ROUNDS_FURTHER, SHARE_AT_HALF) if bodies else ())
+    return fit_many(runs, N_MODELS, learn_further(runs, bodies, ROUNDS_FURTHER, SHARE_AT_HALF))
 
 
 def main():

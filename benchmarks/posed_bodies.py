@@ -18,10 +18,11 @@ import re
 
 import packages
 
-packages.need("numpy")
+packages.need("numpy", "scipy")
 
 import numpy as np
 from meshes import source_and_target, write_labelled
+from scipy.spatial.transform import Rotation
 
 COUNT, FIRST = 16, 100  # bodies, and the seed of the first
 #: What bones, without Left and Right, are called, and their coarse, medium and fine parts; the first that fits counts.
@@ -52,13 +53,6 @@ def parts_of(bone: str) -> list[str]:
     raise AssertionError(bone)  # the last pattern fits everything
 
 
-def rotation(axis: np.ndarray, angle: float) -> np.ndarray:
-    """Matrix, (3, 3), that turns about an axis by an angle in radians: Rodrigues' formula."""
-    x, y, z = axis / np.linalg.norm(axis)
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * (cross @ cross)
-
-
 def shaped(body: Body, rng: np.random.Generator) -> np.ndarray:
     """Vertices of the body with some targets mixed at random."""
     vertices, start = body["vertices"].astype(float), body["target_start"]
@@ -79,7 +73,8 @@ def posed(body: Body, vertices: np.ndarray, rng: np.random.Generator) -> np.ndar
     for bone, (name, parent, head) in enumerate(zip(body["bone_names"], body["bone_parent"], heads, strict=True)):
         bend = np.radians(BEND.get(re.sub("Left|Right", "", name), 0.0))
         local = np.eye(4)
-        local[:3, :3] = rotation(rng.normal(size=3), rng.normal(0.0, bend) if bend else 0.0)
+        axis, angle = rng.normal(size=3), rng.normal(0.0, bend) if bend else 0.0
+        local[:3, :3] = Rotation.from_rotvec(angle * axis / np.linalg.norm(axis)).as_matrix()
         local[:3, 3] = head - local[:3, :3] @ head
         world[bone] = (world[parent] if parent >= 0 else np.eye(4)) @ local
     moves, at, weight = body["weight_bone"], body["weight_vertex"].astype(int), body["weight"].astype(float)

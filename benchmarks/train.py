@@ -258,6 +258,8 @@ def learn_further(people: list[Run], further: list[Further], rounds: int, decisi
     runs : list of Counted
         Of each surface by people's help, then one of each round.
     """
+    if not further:
+        return []
     runs = [[one.met()] for one in further]
     for number in range(rounds):
         models = [fit(people, seed=60 + number, more=[
@@ -337,7 +339,7 @@ def main():
     people = [r for of_mesh in runs.values() for r in of_mesh]
     further = [*(solids() if options.solids else []), *pieces(options.labelled, DETAIL), *pieces(options.bodies)]
     for name, beside, rounds, decision, seed in (
-            ("cut_model", further, ROUNDS_FURTHER if further else 0, SHARE_AT_HALF, SEED),
+            ("cut_model", further, ROUNDS_FURTHER, SHARE_AT_HALF, SEED),
             ("sheet_model", sheets(), options.rounds, SHEET_SHARE_AT_HALF, SHEET_SEED)):
         model = fit_many(people, N_MODELS, learn_further(people, beside, rounds, decision), seed)
         model.write(options.out / f"{name}.npz")

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Menus: of the parts in the list, and "Reeb Parts" in the header, where search (F3) finds every operator.
-
-A menu that a shortcut opens would execute: commands would ignore the panel, and no tool would start. So each menu says
-that its commands are invoked.
-"""
+"""Menus: of the parts in the list, and "Reeb Parts" in the header, where search (F3) finds every operator."""
 
 from __future__ import annotations
 
 import bpy
 
-INVOKED = "INVOKE_REGION_WIN"
+
+def _invoking(menu: bpy.types.Menu) -> bpy.types.UILayout:
+    """The layout of a menu whose commands are invoked.
+
+    One that a shortcut opens would execute them: they would ignore the panel, and no tool would start.
+    """
+    menu.layout.operator_context = "INVOKE_REGION_WIN"
+    return menu.layout
 
 
 class REEB_PARTS_MT_parts(bpy.types.Menu):
@@ -17,8 +20,7 @@ class REEB_PARTS_MT_parts(bpy.types.Menu):
     bl_label = "Parts"
 
     def draw(self, context: bpy.types.Context) -> None:
-        self.layout.operator_context = INVOKED
-        draw_part_menu(self.layout)
+        draw_part_menu(_invoking(self))
 
 
 def _draw_operators(layout: bpy.types.UILayout, *entries: tuple[str, str]) -> None:
@@ -69,8 +71,7 @@ class REEB_PARTS_MT_pieces(bpy.types.Menu):
     bl_label = "Separated Pieces"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = self.layout
-        layout.operator_context = INVOKED
+        layout = _invoking(self)
         _draw_operators(layout, ("reeb_parts.show_original", "NONE"), ("reeb_parts.show_pieces", "NONE"))
         layout.separator()
         _draw_operators(
@@ -83,8 +84,7 @@ class REEB_PARTS_MT_use(bpy.types.Menu):
     bl_label = "Use Parts"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = self.layout
-        layout.operator_context = INVOKED
+        layout = _invoking(self)
         _draw_operators(
             layout, ("reeb_parts.seams", "NONE"), ("reeb_parts.face_sets", "NONE"), ("reeb_parts.materials", "NONE"),
             ("reeb_parts.unwrap", "UV"))
@@ -99,8 +99,7 @@ class REEB_PARTS_MT_main(bpy.types.Menu):
     bl_label = "Reeb Parts"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = self.layout
-        layout.operator_context = INVOKED
+        layout = _invoking(self)
         _draw_operators(layout, ("reeb_parts.decompose", "MOD_EXPLODE"), ("reeb_parts.clear", "TRASH"))
         _draw_operators(layout, ("reeb_parts.show_colors", "SHADING_SOLID"), ("reeb_parts.show_graph", "NONE"))
         layout.operator("reeb_parts.step_detail", text="Fewer Parts").more = False
