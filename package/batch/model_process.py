@@ -27,6 +27,7 @@ from .records import CRASH, MEMORY, TIME, Settings, digest_of, failure
 LOOK = 0.5  # seconds between two looks at the memory of the process
 START = 120.0  # seconds that the process may take to import everything, on a busy machine
 STARTS = 2  # how often it is started for a model, if it ends before it is ready
+KILLED = "it was killed"  # why it did not start, when the system or somebody ended it
 ENDED: dict[str, Any] = {}  # in place of a message: there will be none any more
 
 
@@ -73,6 +74,8 @@ class ModelProcess:
     def _attempt(self, job: dict[str, Any], seconds: float) -> tuple[str, str]:
         """Wait for the answer; what went wrong otherwise and why, two empty words if nothing did."""
         if self._process is None and (why := self._start_surely()):
+            if why != KILLED and self.memory_limit and self._starts_without_limit():  # whatever its words were
+                return MEMORY, self._too_much()
             return self._crash("The process could not start: ", why)
         assert self._process is not None
         assert self._process.stdin is not None
@@ -107,9 +110,17 @@ class ModelProcess:
                 status = self._process.wait(LOOK)
             except subprocess.TimeoutExpired:  # it still runs, and has had all its time
                 return f"it was not ready after {START:g} s"
-            why = "it was killed" if status == -9 else self._last_words()
+            why = KILLED if status == -9 else self._last_words()
             self.close()
         return why
+
+    def _starts_without_limit(self) -> bool:
+        """Whether the process would be ready with all the memory there is."""
+        free = ModelProcess()
+        try:
+            return not free._start_surely()
+        finally:
+            free.close()
 
     def _start(self) -> bool:
         """Start the process; whether it is ready."""

@@ -38,6 +38,9 @@ def test_an_array_takes_the_place_of_one_that_was_freed():
     ("RuntimeError: can't start new thread", True), ("[Errno 12] Cannot allocate memory", True),
     ("OpenBLAS error: Memory allocation still failed after 10 retries, giving up.", True),
     ("numpy._core._exceptions._ArrayMemoryError: Unable to allocate 3 GiB", True),
+    ("ImportError: libgfortran.so.5: failed to map segment from shared object", True),
+    ("ImportError: _reordering.so: cannot map zero-fill pages", True),
+    ("SystemError: error return without exception set", True),
     ("lost sys.stderr", True), ("Fatal Python error: Segmentation fault", False), ("", False),
 ])  # fmt: skip
 def test_a_lack_of_memory_has_many_words(words, lacks):
