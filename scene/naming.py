@@ -16,8 +16,8 @@ from . import bridge, mesh_arrays, placing, skeleton, store
 from .store import Stored
 
 _WORDS = {word: word for word in (
-    n_("body"), n_("head"), n_("neck"), n_("arm"), n_("leg"), n_("tail"), n_("ear"), n_("handle"), n_("limb"),
-    n_("tip"), n_("piece"), n_("front"), n_("back"), n_("top"), n_("bottom"), n_("left"), n_("right"))}
+    n_("body"), n_("head"), n_("neck"), n_("arm"), n_("leg"), n_("tail"), n_("ear"), n_("horn"), n_("handle"),
+    n_("limb"), n_("tip"), n_("piece"), n_("front"), n_("back"), n_("top"), n_("bottom"), n_("left"), n_("right"))}
 _ENDINGS = {1: ".L", 0: "", -1: ".R"}
 
 

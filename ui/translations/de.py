@@ -153,8 +153,8 @@ TEXTS = {
     "{n} {n:part is|parts are} named": "{n} {n:Teil ist|Teile sind} benannt",
     "{place} {kind}": "{kind} {place}",
     "body": "Körper", "head": "Kopf", "neck": "Hals", "arm": "Arm", "leg": "Bein", "tail": "Schwanz", "ear": "Ohr",
-    "handle": "Henkel", "limb": "Glied", "tip": "Spitze", "piece": "Stück", "front": "vorn", "back": "hinten",
-    "top": "oben", "bottom": "unten", "left": "links", "right": "rechts",
+    "horn": "Horn", "handle": "Henkel", "limb": "Glied", "tip": "Spitze", "piece": "Stück", "front": "vorn",
+    "back": "hinten", "top": "oben", "bottom": "unten", "left": "links", "right": "rechts",
     "This viewport does not show the parts.": "Diese Ansicht zeigt die Teile nicht.",
     "and {n} more {n:model|models}": "und {n} {n:weiteres Modell|weitere Modelle}",
     "Show the parts' colors in this viewport: Solid, colored by attribute":

@@ -159,6 +159,7 @@ TEXTS = {
     "leg": "腿",
     "tail": "尾",
     "ear": "耳",
+    "horn": "角",
     "handle": "柄",
     "limb": "肢",
     "tip": "尖",

@@ -16,7 +16,7 @@ _PLACES = (("right", "left"), ("front", "back"), ("bottom", "top"))
 # Of these numbers, too, none is sharp, see ``shapes``.
 # Shares of the model's height, width or length.
 _ASIDE = 0.12  # the middle of a part that is so far from the body's middle is at this side of it
-_OFF = 0.06  # of a leg or an arm, which the middle of the model has none of, half of that tells its side
+_OFF = 0.06  # of a leg, an arm or an ear, which the middle of the model has none of, half of that tells its side
 _BEHIND = 0.3  # the middle of what is called a tail is farther behind the body's: a rump or a saddle is nearer
 _BROW = 0.2  # of the head's height: an ear may end so far below the top of it
 # Shares of the surface, of the model or of another part.
@@ -31,7 +31,7 @@ _BROAD = 1.2  # a part between them, of an upright creature, that is so many tim
 _BENT = 1.2  # a handle is at least so many times as long as wide, as it is bent
 
 # Words for what is beside the middle; a head, a neck, a tail and a body are there once.
-_TWICE = frozenset({"arm", "leg", "ear", "handle"})
+_TWICE = frozenset({"arm", "leg", "ear", "horn", "handle"})
 
 _FOUR = 4  # legs of a creature that has its head where a head is looked for
 
@@ -43,7 +43,7 @@ class Suggestion:
     Attributes
     ----------
     word : str
-        What it is: body, head, neck, arm, leg, tail, ear or handle; or its kind alone, limb, tip or piece.
+        What it is: body, head, neck, arm, leg, tail, ear, horn or handle; or its kind alone, limb, tip or piece.
     place : str
         Where it is, if that is clear and tells it from others: front, back, top, bottom, left, right, or "".
     side : int
@@ -105,7 +105,7 @@ def _suggestion(shapes: Shapes, part: int, word: str, has_head: bool) -> Suggest
     if part == shapes.body and not shapes.paired[part]:
         return Suggestion(word or "body")
     offset = shapes.offset[part].copy()
-    if word in {"leg", "arm", "ear"}:
+    if word in {"leg", "arm", "ear", "horn"}:
         return _limb(shapes, part, word, has_head)
     if word:
         return Suggestion(word)
@@ -162,8 +162,9 @@ def _creature(shapes: Shapes) -> list[tuple[str, list[int]]]:
     head = _head(shapes, midst)
     if head is None:
         return [("leg", legs)]
+    ears = _ears(shapes, others, head)
     found = [("leg", legs), ("head", [head]), body, ("neck", _neck(shapes, midst, head)),
-             ("ear", _ears(shapes, others, head))]
+             ("horn", _horns(shapes, ears)), ("ear", ears)]
     return [*found, ("arm", _arms(shapes, others, head)) if shapes.upright else ("tail", _tail(shapes, others, head))]
 
 
@@ -190,10 +191,21 @@ def _neck(shapes: Shapes, midst: list[int], head: int) -> list[int]:
 
 
 def _ears(shapes: Shapes, others: list[int], head: int) -> list[int]:
-    """Small parts that touch nothing but the head and reach as high."""
+    """Small parts beside the middle of the head that touch it, and otherwise each other alone, and reach as high."""
     brow = shapes.high[head, 2] - _BROW * (shapes.high - shapes.low)[head, 2]
-    return [part for part in others if shapes.neighbors[part] == {head} and shapes.high[part, 2] > brow
-            and shapes.parts.share[part] < _EAR * shapes.parts.share[head]]
+    small = {part for part in others if head in shapes.neighbors[part]
+             and shapes.parts.share[part] < _EAR * shapes.parts.share[head]}
+    return [part for part in others if part in small and shapes.neighbors[part] <= {head, *small}
+            and shapes.high[part, 2] > brow and (shapes.paired[part] or abs(shapes.aside[part]) > _OFF)]
+
+
+def _horns(shapes: Shapes, ears: list[int]) -> list[int]:
+    """Of two pairs of what may be ears the one that is nearer to the midst and reaches higher: eyes reach less high."""
+    pairs = [pair for pair in shapes.pairs if ears and set(pair) <= set(ears)]
+    if len(pairs) != 2:
+        return []
+    inner, outer = sorted(pairs, key=lambda pair: abs(shapes.aside[list(pair)]).mean())
+    return list(inner) if shapes.high[list(inner), 2].max() > shapes.high[list(outer), 2].max() else []
 
 
 def _arms(shapes: Shapes, others: list[int], head: int) -> list[int]:

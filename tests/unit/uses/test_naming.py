@@ -54,6 +54,12 @@ def test_a_creature(cow):
     assert legs == {(place, side) for place in ("front", "back") for side in (1, -1)}
 
 
+def test_of_two_pairs_on_a_head_the_inner_higher_one_are_horns(cow):
+    """Each ear touches a horn."""
+    ears = [(name.word, name.side) for name in named(*cow) if name.word in {"ear", "horn"}]
+    assert sorted(ears) == [("ear", -1), ("ear", 1), ("horn", -1), ("horn", 1)]
+
+
 @pytest.mark.parametrize("turn", [((-1, 0, 0), (0, -1, 0), (0, 0, 1)), ((0, 1, 0), (-1, 0, 0), (0, 0, 1))])
 def test_in_which_direction_it_walks_does_not_matter(cow, turn):
     names, turned = named(*cow, n_parts=10), named(*cow, turn=np.array(turn), n_parts=10)
@@ -208,6 +214,20 @@ def test_a_muzzle_is_no_head():
     names = of_boxes([*BULL, ((0, -1.4, 1.9), (0.2, 0.2, 0.2)), *ears])
     assert [name.word for name in names[2:4]] == ["head", "tail"]
     assert [(name.word, name.side) for name in names[8:]] == [("tip", 0), ("ear", 1), ("ear", -1)]
+
+
+@pytest.mark.parametrize(("inner", "outer", "found"), [
+    (2.3, 2.2, {"horn": 2, "ear": 2}), (2.2, 2.3, {"ear": 4}),  # as eyes are, lower
+])  # fmt: skip
+def test_what_is_lower_between_ears_are_no_horns(inner, outer, found):
+    pairs = [((side * x, -1.0, z), (0.08, 0.08, 0.16)) for x, z in ((0.08, inner), (0.2, outer)) for side in (1, -1)]
+    names = of_boxes([*BULL, *pairs])
+    assert {word: count for word, count in words(names).items() if word in {"horn", "ear"}} == found
+
+
+def test_a_bun_in_the_middle_of_a_head_is_no_ear():
+    names = of_boxes([*BULL, ((0, -1.0, 2.25), (0.08, 0.08, 0.2))])
+    assert [(name.word, name.place) for name in names[8:]] == [("limb", "top")]
 
 
 @pytest.mark.parametrize("seed", range(200))
