@@ -11,6 +11,9 @@ in one environment, and hold in all others.
 import hashlib
 import json
 import os
+import platform
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -58,3 +61,30 @@ def test_the_same_answer_everywhere(name, preset):
         lines = (f" {json.dumps(key)}: {json.dumps(value)}" for key, value in sorted(known.items()))
         ANSWERS.write_text("{\n" + ",\n".join(lines) + "\n}\n")
     assert known[f"{name}, {preset}"] == found
+
+
+# Prints what NumPy can do on this processor and need not.
+OPTIONAL = """
+try:
+    from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
+except ImportError:  # NumPy 1
+    from numpy.core._multiarray_umath import __cpu_dispatch__, __cpu_features__
+print(*(name for name in __cpu_dispatch__ if __cpu_features__[name]))
+"""
+
+
+@pytest.mark.skipif(platform.machine() not in {"x86_64", "AMD64"}, reason="OpenBLAS has a name for its oldest kernels")
+def test_the_same_answer_on_an_older_processor():
+    """Without AVX and all that came after it: sums and products of other instructions have other last digits."""
+    def run(*options, **variables):
+        return subprocess.run([sys.executable, *options], env={**os.environ, **variables}, check=False,
+                              capture_output=True, text=True)
+
+    there = run("-c", OPTIONAL).stdout.split()
+    if not there:
+        pytest.skip("this is one")
+    without = {"NPY_DISABLE_CPU_FEATURES": " ".join(there), "OPENBLAS_CORETYPE": "Nehalem"}
+    assert run("-c", OPTIONAL, **without).stdout.split() == []
+    again = run("-m", "pytest", "-q", "-p", "no:cacheprovider", __file__, "-k",
+                test_the_same_answer_everywhere.__name__, **without, REEB_PARTS_ANSWERS="")
+    assert again.returncode == 0, again.stdout
