@@ -8,10 +8,16 @@ import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
+from types import TracebackType
 
 from .core.atomic_files import FORMER, HIDDEN, hidden_place, put_in_place, restore_former
 from .core.errors import ReebError
 from .core.sentence import Sentence
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
 
 
 class OutputFileError(ReebError, OSError):
@@ -105,6 +111,51 @@ def remove_leftovers(folder: Path) -> None:
             if name.startswith(HIDDEN):
                 with suppress(OSError):
                     (Path(base) / name).unlink()
+
+
+class SharedFolder:
+    """A folder in which this run is while it lasts, as others may be: none removes what another one is writing.
+
+    That is known by a lock on the folder, which ends with the process however that ends. On Windows, and on file
+    systems without locks, a run takes itself to be alone.
+
+    Parameters
+    ----------
+    folder : Path
+        Which is there; raises OSError otherwise.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._handle = os.open(folder, os.O_RDONLY) if fcntl else -1
+
+    def __enter__(self) -> SharedFolder:
+        self._enter()
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
+                 place: TracebackType | None) -> None:
+        if fcntl:
+            os.close(self._handle)
+
+    def remove_leftovers(self) -> None:
+        """``remove_leftovers``, unless another run is there as well; this one must not be writing."""
+        if fcntl:
+            try:
+                fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                self._enter()  # a lock that does not become another one may be lost
+                return
+            except OSError:  # there are no locks here
+                pass
+        remove_leftovers(self.folder)
+        self._enter()
+
+    def _enter(self) -> None:
+        """Let others know that this run is there."""
+        if fcntl:
+            with suppress(OSError):
+                fcntl.flock(self._handle, fcntl.LOCK_SH)
 
 
 def _write(path: Path, data: bytes) -> None:

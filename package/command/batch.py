@@ -30,7 +30,7 @@ from ..core.file_names import readable
 from ..core.options import add_parameters, chosen_parameters, number
 from ..core.sentence import Sentence
 from ..model_files import BY_BLENDER, formats
-from ..output_files import as_output_error, remove_leftovers, write_folder
+from ..output_files import SharedFolder, as_output_error, write_folder
 from ..outputs import COLORED, LABELS, PARTS
 from .words import print_answer, say
 
@@ -85,15 +85,18 @@ def run(options: argparse.Namespace) -> int:
     batch = _Batch(options)
     with as_output_error(batch.out):
         batch.out.mkdir(parents=True, exist_ok=True)
-    remove_leftovers(batch.out)
+        shared = SharedFolder(batch.out)
     interrupted = False
-    try:
-        batch.run()
-    except KeyboardInterrupt:
-        interrupted = True
-        say("Interrupted; what is done is kept.")
-    with as_output_error(batch.out):
-        answer = batch.finish()
+    with shared:
+        shared.remove_leftovers()
+        try:
+            batch.run()
+        except KeyboardInterrupt:
+            interrupted = True
+            say("Interrupted; what is done is kept.")
+        shared.remove_leftovers()  # of processes that were ended while they wrote
+        with as_output_error(batch.out):
+            answer = batch.finish()
     answer["seconds"] = round(time.perf_counter() - start, 3)
     print_answer(json.dumps(answer, indent=2) + "\n")
     return INTERRUPTED if interrupted else int(any(status != DONE for status in answer["models"]))
@@ -172,7 +175,6 @@ class _Batch:
 
     def finish(self) -> dict[str, Any]:
         """Write the tables and the page; returns what the command answers."""
-        remove_leftovers(self.out)  # of processes that were ended while they wrote
         from ..batch.page import write_page
         from ..batch.tables import write_tables
 

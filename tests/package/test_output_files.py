@@ -2,11 +2,13 @@
 """Files of the package appear whole or not at all, wherever they are written."""
 
 import os
+import subprocess
+import sys
 
 import pytest
 from reeb_parts.batch.tables import write_tables
 from reeb_parts.core.atomic_files import FORMER, HIDDEN
-from reeb_parts.output_files import OutputFileError, remove_leftovers, write_files, write_folder
+from reeb_parts.output_files import OutputFileError, SharedFolder, remove_leftovers, write_files, write_folder
 
 
 def content(folder):
@@ -57,6 +59,34 @@ def test_results_that_a_killed_run_moved_away_are_brought_back(tmp_path):
     remove_leftovers(tmp_path)
     assert content(tmp_path) == {"models/cow/record.json": b"old"}
     assert [path.name for path in (tmp_path / "models").iterdir()] == ["cow"]
+
+
+ANOTHER_RUN = """
+import sys
+from pathlib import Path
+from reeb_parts.output_files import SharedFolder
+with SharedFolder(Path(sys.argv[1])) as folder:
+    folder.remove_leftovers()
+    print("there", flush=True)
+    sys.stdin.read()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a run takes itself to be alone there")
+def test_what_another_run_is_writing_is_left_until_it_has_ended(tmp_path):
+    """Of two runs on one folder either removed what the other one was about to move to its place."""
+    with subprocess.Popen([sys.executable, "-c", ANOTHER_RUN, str(tmp_path)], stdin=subprocess.PIPE,
+                          stdout=subprocess.PIPE) as other:
+        assert other.stdout.readline() == b"there\n"
+        written = tmp_path / "models" / f"{HIDDEN}4567"
+        write_folder(written, {"record.json": b"new"})
+        with SharedFolder(tmp_path) as folder:
+            folder.remove_leftovers()
+            assert written.exists()
+            other.kill()
+            other.wait()
+            folder.remove_leftovers()
+            assert not written.exists()
 
 
 def test_tables_are_both_new_or_both_old(tmp_path):
