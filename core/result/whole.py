@@ -87,7 +87,7 @@ def whole_of(parts: Parts, table: CornerTable, area: np.ndarray, plane: np.ndarr
 
 def _meeting(table: CornerTable, image: np.ndarray, labels: np.ndarray, count: int) -> np.ndarray:
     """Along how much each part meets its image in the plane, (count,)."""
-    border = np.bincount(table.corner_edge, minlength=len(table.edges)) == 1
+    border = table.n_edge_faces == 1
     border &= (image[table.edges] == table.edges).all(axis=1)
     there = np.flatnonzero(border[table.corner_edge])
     return np.bincount(labels[table.corner_face[there]], table.edge_length(table.corner_edge[there]), count)

@@ -75,7 +75,7 @@ class CornerTable:
         first : (n,) int64
             The vertex that each vertex is joined to, itself for most.
         """
-        single = np.bincount(self.corner_edge, minlength=len(self.edges)) == 1
+        single = self.n_edge_faces == 1
         if not single.any():
             return self, np.arange(len(self.vertices))
         first = joined_borders(self.vertices, np.unique(self.edges[single]), self.corner_vertex, self.corner_face)
@@ -124,8 +124,7 @@ class CornerTable:
         Returns (e,) bool.
         """
         forward = self.edges[self.corner_edge, 0] == self.corner_vertex
-        count = np.bincount(self.corner_edge, minlength=len(self.edges))
-        return (count == 2) & (np.bincount(self.corner_edge[forward], minlength=len(self.edges)) != 1)
+        return (self.n_edge_faces == 2) & (np.bincount(self.corner_edge[forward], minlength=len(self.edges)) != 1)
 
     def edge_length(self, edge: np.ndarray) -> np.ndarray:
         """Measure some edges.
@@ -150,6 +149,16 @@ class CornerTable:
         middle = np.flatnonzero(~new & ~np.append(new[1:], True)[: len(new)])
         corners = np.stack([start[middle], middle, middle + 1], axis=1)
         return self.corner_vertex[corners], self.corner_face[middle]
+
+    @property
+    def n_edge_faces(self) -> np.ndarray:
+        """Number of faces at each edge, (e,) int64."""
+        return np.bincount(self.corner_edge, minlength=len(self.edges))
+
+    @property
+    def diagonal(self) -> float:
+        """Diagonal of the bounding box of all faces, in the unit of the vertices: one of no face can be anywhere."""
+        return float(np.linalg.norm(np.ptp(self.vertices[self.corner_vertex], axis=0)))
 
     @property
     def next_corner(self) -> np.ndarray:

@@ -90,7 +90,7 @@ def completed_table(half: CornerTable, mirror: MirrorPlane) -> tuple[CornerTable
     image : (n,) int64
         Vertex of the whole that is the mirror image of each; on the plane, itself.
     """
-    border = half.edges[np.bincount(half.corner_edge, minlength=len(half.edges)) == 1]
+    border = half.edges[half.n_edge_faces == 1]
     vertices, image = _with_images(half.vertices, half.corner_vertex, border, mirror)
     first = np.searchsorted(half.corner_face, half.corner_face)
     last = np.searchsorted(half.corner_face, half.corner_face, side="right") - 1

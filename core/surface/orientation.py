@@ -119,7 +119,7 @@ def against_neighbors(table: CornerTable) -> np.ndarray:
 
 def looks_inwards(table: CornerTable) -> bool:
     """Whether a mesh is closed, its faces agree, and it encloses less than nothing: they look inwards."""
-    two = np.bincount(table.corner_edge, minlength=len(table.edges)) == 2
+    two = table.n_edge_faces == 2
     if not two.all() or table.contrary_edges().any():
         return False
     return bool(_volumes(table, table.face_vectors(), np.zeros(table.n_faces, np.int64), 1)[0] < 0)
@@ -146,7 +146,7 @@ def of_solids(table: CornerTable) -> np.ndarray:
 
 def _at_edges_of_two(table: CornerTable) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Which edges have two faces, (e,) bool, the faces that meet there, (r, 2) int64, and where, (r,) int64."""
-    two = np.bincount(table.corner_edge, minlength=len(table.edges)) == 2
+    two = table.n_edge_faces == 2
     pairs, edge = table.face_pairs()
     return two, pairs[two[edge]], edge[two[edge]]
 

@@ -20,7 +20,7 @@ from ..surface.mirror_plane import MirrorPlane
 from ..surface.pairs import distinct_pairs
 from .groups import touching_groups
 
-# Least length of a bone, as a share of the diagonal of the vertices' bounding box. A shorter bone is replaced by one of
+# Least length of a bone, as a share of the diagonal of the faces' bounding box. A shorter bone is replaced by one of
 # this length that points upwards.
 _SHORTEST = 0.01
 # A cut is a neck if the middles of both sides are so many of its radii away from its middle, and if this share of all
@@ -182,8 +182,7 @@ def part_bones(surface: BoneSurface) -> Bones:
     if images is not None:
         head = _even(images, head)
     tail = head.copy()
-    diagonal = float(np.linalg.norm(np.ptp(table.vertices[table.corner_vertex], axis=0)))
-    shortest = max(_SHORTEST * diagonal, np.finfo(float).tiny)
+    shortest = max(_SHORTEST * table.diagonal, np.finfo(float).tiny)
     shown = joints.by_cut(parent) | (beyond @ size >= _SHOWN * size[parent])
     for part in order:
         children = np.flatnonzero((parent == part) & shown)

@@ -41,8 +41,7 @@ def touching_groups(table: CornerTable, labels: np.ndarray,
         group.merge(a, b)
     if group.n_subsets == 1:
         return []
-    near, slack = (share * float(np.linalg.norm(np.ptp(table.vertices[table.corner_vertex], axis=0)))
-                   for share in (_NEAR, _SLACK))
+    near, slack = (share * table.diagonal for share in (_NEAR, _SLACK))
     points = [_points(table, labels == part, near) for part in range(count)]
     trees = [cKDTree(some) for some in points]
     found = []

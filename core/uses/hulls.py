@@ -76,7 +76,7 @@ def part_hulls(
     hulls : list of tuple of Hull
         One or several for each part. A part that lies in a plane, on a line or in a point has a thin one.
     """
-    size = float(np.linalg.norm(np.ptp(table.vertices[table.corner_vertex], axis=0))) or 1.0
+    size = table.diagonal or 1.0
     closed, part = _closed(table, labels)
     order = stable_order(part)
     groups = np.split(closed.triangles[order], np.flatnonzero(np.diff(part[order])) + 1)

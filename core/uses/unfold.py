@@ -147,7 +147,7 @@ def seam_cost(table: CornerTable) -> np.ndarray:
     pairs, edge = table.face_pairs()
     angle = np.zeros(len(table.edges))
     angle[edge] = np.arccos((normal[pairs[:, 0]] * normal[pairs[:, 1]]).sum(axis=1).clip(-1.0, 1.0))
-    faces_at = np.bincount(table.corner_edge, minlength=len(table.edges))
+    faces_at = table.n_edge_faces
     seen = -np.bincount(table.corner_edge, hidden[table.corner_face], len(table.edges)) / np.maximum(faces_at, 1)
     return table.edge_length(np.arange(len(table.edges))) * (
         (1 - _CREASED * np.minimum(angle / _SHARP, 1.0)) * (1 + _SEEN * seen))
@@ -178,7 +178,7 @@ class _Charts:
     def of(cls, table: CornerTable, cut: np.ndarray) -> _Charts:
         """cut : (e,) bool; edges that do not have exactly two faces count as cut."""
         n_faces = table.n_faces
-        faces_at = np.bincount(table.corner_edge, minlength=len(table.edges))
+        faces_at = table.n_edge_faces
         inner = np.flatnonzero((faces_at == 2) & ~cut)
         border = np.flatnonzero((faces_at > 0) & ((faces_at != 2) | cut))
         pairs, edge = table.face_pairs()

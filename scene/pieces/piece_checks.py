@@ -162,7 +162,7 @@ def _marked(count: int, indices: np.ndarray) -> np.ndarray:
 def _edge_faults(mesh: bpy.types.Mesh) -> Iterator[tuple[int, np.ndarray]]:
     """Edges of one face, of more than two, and contrary ones: how many, and which faces are there."""
     table = mesh_arrays.corner_table(mesh)
-    count = np.bincount(table.corner_edge, minlength=len(table.edges))
+    count = table.n_edge_faces
     for wrong in (count == 1, count > 2, table.contrary_edges()):
         yield int(wrong.sum()), _marked(table.n_faces, table.corner_face[wrong[table.corner_edge]])
 
