@@ -153,26 +153,18 @@ def split_at_node(context: bpy.types.Context, mesh: bpy.types.Mesh, node: int) -
     SceneError
         The part is locked, cannot be split, or the mesh was edited.
     """
-    from ..core.result.editing import node_split
+    from ..core.result.editing import node_split, smaller_side
 
     stored = store.load(mesh)
     number = int(stored.shown[stored.decomposition.node_candidate[node]])
     check_unlocked(mesh, [number])
     mask = stored.shown == number
-    side = smaller_side(node_split(stored.decomposition, mask, node), mask, stored.decomposition.candidate_area)
+    side = node_split(stored.decomposition, mask, node)
+    if side is not None:
+        side = smaller_side(side, mask, stored.decomposition.candidate_area)
     after, new = _split_off(mesh, stored, number, side)
     write(context, mesh, stored, after)
     return number, new
-
-
-def smaller_side(side: np.ndarray | None, inside: np.ndarray, area: np.ndarray) -> np.ndarray | None:
-    """The smaller of the two sides that a part is cut into, or None if it is not cut.
-
-    side, inside : (k,) bool, one side and the whole part. area : (k,) float64, of each face or candidate.
-    """
-    if side is not None and area[side].sum() > area[inside & ~side].sum():
-        return inside & ~side
-    return side
 
 
 def _split_off(mesh: bpy.types.Mesh, stored: Stored, number: int, side: np.ndarray | None) -> tuple[Stored, int]:

@@ -88,7 +88,7 @@ class Knife:
         face_graph : core.surface.labels.FaceGraph
         """
         from ..core.result.contour_cut import contour_sides
-        from ..core.result.editing import two_sides
+        from ..core.result.editing import smaller_side, two_sides
 
         found, chosen = self.contour(target)
         if chosen < 0:
@@ -100,7 +100,7 @@ class Knife:
         if side is None:
             return None
         side, other = two_sides(face_graph, self.model.stored.decomposition.contacts, inside, side)
-        return edits.smaller_side(side, side | other, face_graph.area)
+        return smaller_side(side, side | other, face_graph.area)
 
 
 def cut_at(context: bpy.types.Context, obj: bpy.types.Object, model: Model, target: Target) -> str:

@@ -65,7 +65,8 @@ def best_split(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray | N
     if mask.sum() < 2:
         return None
     pairs, tree = _merging_inside(decomposition, mask)
-    return _smaller_side(decomposition, mask, _side_without(pairs, tree.rows[:-1], tree.order[tree.joins[-1, 0]], mask))
+    side = _side_without(pairs, tree.rows[:-1], tree.order[tree.joins[-1, 0]], mask)
+    return smaller_side(side, mask, decomposition.candidate_area)
 
 
 def node_split(decomposition: Decomposition, mask: np.ndarray, node: int) -> np.ndarray | None:
@@ -130,10 +131,12 @@ def _side_without(pairs: np.ndarray, joins: np.ndarray, start: int, mask: np.nda
     return label == label[start]
 
 
-def _smaller_side(decomposition: Decomposition, mask: np.ndarray, side: np.ndarray) -> np.ndarray:
-    """Of a side of a part and the rest of the part, the one of less area, (c,) bool."""
-    other = mask & ~side
-    area = decomposition.candidate_area
+def smaller_side(side: np.ndarray, inside: np.ndarray, area: np.ndarray) -> np.ndarray:
+    """Of a side of a part and the rest of the part, the one of less area, (k,) bool; of equals the side.
+
+    side, inside : (k,) bool, the side and the whole part. area : (k,) float64, of each face or candidate.
+    """
+    other = inside & ~side
     return side if area[side].sum() <= area[other].sum() else other
 
 
