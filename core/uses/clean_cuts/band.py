@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ...surface.arrays import ranges, renumbered, sums_by
-from ...surface.corners import CornerTable, next_of_owner
-from ...surface.vectors import cross, lengths
+from ...surface.arrays import ranges, renumbered
+from ...surface.corners import CornerTable
+from ...surface.vectors import cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,9 +23,8 @@ class Band:
         Of the whole mesh.
     vertices, edges, faces : (v,), (e,), (f,) int64
         Those of the mesh that are in the band.
-    points : (v, 3) float64
-    ends : (e, 2) int64
-    corner_vertex, corner_edge, corner_face : (c,) int64
+    table : CornerTable
+        Of them, in numbers of their own.
     labels : (f,) int64
         0..n_labels-1.
     names : (n_labels,) int64
@@ -36,11 +35,7 @@ class Band:
     vertices: np.ndarray
     edges: np.ndarray
     faces: np.ndarray
-    points: np.ndarray
-    ends: np.ndarray
-    corner_vertex: np.ndarray
-    corner_edge: np.ndarray
-    corner_face: np.ndarray
+    table: CornerTable
     labels: np.ndarray
     names: np.ndarray
 
@@ -57,62 +52,32 @@ class Band:
         faces, corner_face = renumbered(table.corner_face[corner])
         names, own = renumbered(labels[faces])
         ends = np.searchsorted(vertices, table.edges[edges])
-        return cls(len(table.vertices), vertices, edges, faces, table.vertices[vertices], ends, corner_vertex,
-                   corner_edge, corner_face, own, names)
+        near = CornerTable(table.vertices[vertices], ends, corner_vertex, corner_edge, corner_face, len(faces))
+        return cls(len(table.vertices), vertices, edges, faces, near, own, names)
 
     @cached_property
     def n_corners(self) -> np.ndarray:
         """(f,) int64, of each face."""
-        return np.bincount(self.corner_face, minlength=len(self.faces))
-
-    @cached_property
-    def following(self) -> np.ndarray:
-        """(c,) int64, the next corner of the face of each corner."""
-        return next_of_owner(self.corner_face)
+        return np.bincount(self.table.corner_face, minlength=len(self.faces))
 
     @cached_property
     def edge_labels(self) -> tuple[np.ndarray, np.ndarray]:
         """Smallest and largest label at each edge, (e,) int64 each."""
-        low = np.full(len(self.edges), len(self.names))
-        high = np.full(len(self.edges), -1)
-        np.minimum.at(low, self.corner_edge, self.labels[self.corner_face])
-        np.maximum.at(high, self.corner_edge, self.labels[self.corner_face])
-        return low, high
-
-    @cached_property
-    def triangles(self) -> tuple[np.ndarray, np.ndarray]:
-        """A fan of triangles for each face: (t, 3) vertices, and the face of each, (t,)."""
-        count = self.n_corners
-        first = np.cumsum(count) - count
-        face = np.repeat(np.arange(len(count)), count - 2)
-        step = np.arange(len(face)) - np.repeat(np.cumsum(count - 2) - (count - 2), count - 2)
-        corners = np.stack([first[face], first[face] + step + 1, first[face] + step + 2], axis=1)
-        return self.corner_vertex[corners], face
-
-    @cached_property
-    def normals(self) -> np.ndarray:
-        """Normal of each face as long as its area, (f, 3)."""
-        triangles, face = self.triangles
-        a, b, c = self.points[triangles].transpose(1, 0, 2)
-        return sums_by(face, 0.5 * cross(b - a, c - a), len(self.faces))
+        return self.table.edge_labels(self.labels)
 
     @cached_property
     def convex(self) -> np.ndarray:
         """Whether each face has no corner that is turned in, (f,) bool."""
         if (self.n_corners == 3).all():
             return np.ones(len(self.faces), bool)
-        ahead = self.points[self.corner_vertex[self.following]] - self.points[self.corner_vertex]
+        following, points = self.table.next_corner, self.table.vertices[self.table.corner_vertex]
+        ahead = points[following] - points
         behind = np.empty_like(ahead)
-        behind[self.following] = ahead
-        turn = (cross(behind, ahead) * self.normals[self.corner_face]).sum(axis=1)
+        behind[following] = ahead
+        turn = (cross(behind, ahead) * self.table.face_vectors()[self.table.corner_face]).sum(axis=1)
         inward = np.zeros(len(self.faces), bool)
-        inward[self.corner_face[turn <= 0]] = True
+        inward[self.table.corner_face[turn <= 0]] = True
         return ~inward
-
-    @cached_property
-    def edge_length(self) -> np.ndarray:
-        """(e,) float64."""
-        return lengths(self.points[self.ends[:, 0]] - self.points[self.ends[:, 1]])
 
 
 def _around(table: CornerTable, vertices: np.ndarray, rings: int) -> np.ndarray:

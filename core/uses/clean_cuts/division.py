@@ -81,20 +81,21 @@ def divide(band: Band, sides: Sides) -> Division:
 
 def _portions(band: Band, sides: Sides) -> tuple[np.ndarray, ...]:
     """Face, first point, side and the one or two labels, the lower first, of each portion, (o,) int64 each."""
+    table = band.table
     n, crossed = len(band.vertices), ~np.isnan(sides.share)
-    corner, following = np.arange(len(band.corner_face)), band.following
-    here, there = band.corner_vertex, band.corner_vertex[following]
-    cut = crossed[band.corner_edge]
-    forward = band.ends[band.corner_edge, 0] == here
+    corner, following = np.arange(len(table.corner_face)), table.next_corner
+    here, there = table.corner_vertex, table.corner_vertex[following]
+    cut = crossed[table.corner_edge]
+    forward = table.edges[table.corner_edge, 0] == here
     low_here, high_here, low_there, high_there = sides.low[here], sides.high[here], sides.low[there], sides.high[there]
     first_common = (low_here == low_there) | (low_here == high_there)
     second_common = (high_here == low_there) | (high_here == high_there)
     low = np.where(cut | first_common, low_here, high_here)
     high = np.where(cut | second_common, high_here, low_here)
     order = stable_order(np.concatenate([2 * corner, 2 * corner[cut] + 1]))
-    edge = band.corner_edge
+    edge = table.corner_edge
     columns = (
-        (band.corner_face, band.corner_face[cut]),
+        (table.corner_face, table.corner_face[cut]),
         (here, n + edge[cut]),
         (2 * edge + (cut & ~forward), 2 * edge[cut] + forward[cut]),
         (low, low_there[cut]),

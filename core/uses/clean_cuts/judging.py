@@ -32,9 +32,10 @@ def judged(band: Band, sides: Sides, division: Division,
     broken : (groups,) bool
         Whether a part would be lost or torn, or the borders branch into several surfaces.
     """
+    table = band.table
     low, high = band.edge_labels
     faces = np.zeros(len(band.faces), bool)
-    faces[band.corner_face[(low < high)[band.corner_edge]]] = True
+    faces[table.corner_face[(low < high)[table.corner_edge]]] = True
     several = np.bincount(division.face[division.begins], minlength=len(faces)) > 1
     faces |= several
     faces[division.face[division.label != band.labels[division.face]]] = True
@@ -42,25 +43,26 @@ def judged(band: Band, sides: Sides, division: Division,
     before = _turning_by(group, band, low < high)
     after = _turning_after(group, band, sides, division)
     broken = np.zeros(len(before), bool)
-    branching = (low < high) & (np.bincount(band.corner_edge, minlength=len(low)) > 2)
-    broken[group[band.ends[branching]]] = True
-    here = (faces & _torn(band, division))[band.corner_face]
-    broken[group[band.corner_vertex[here]]] = True
+    branching = (low < high) & (table.n_edge_faces > 2)
+    broken[group[table.edges[branching]]] = True
+    here = (faces & _torn(band, division))[table.corner_face]
+    broken[group[table.corner_vertex[here]]] = True
     if not planar:
         return group, (after <= WORTH * before) & ~broken, broken
     crossed = ~np.isnan(sides.share)
     bent = np.zeros(len(before), bool)
-    bent[group[band.ends[crossed & (sides.plane[band.ends] < 0).any(axis=1)]]] = True
+    bent[group[table.edges[crossed & (sides.plane[table.edges] < 0).any(axis=1)]]] = True
     flat = np.zeros(len(before), bool)
-    flat[group[band.ends[crossed]]] = True
+    flat[group[table.edges[crossed]]] = True
     return group, flat & ~bent & ~broken, broken
 
 
 def _groups(band: Band, faces: np.ndarray) -> np.ndarray:
     """Connected groups of faces that share vertices: number of the group of each vertex, -1 for none, (v,) int64."""
-    corner = np.flatnonzero(faces[band.corner_face])
-    used, vertex = renumbered(band.corner_vertex[corner])
-    same = band.corner_face[corner[1:]] == band.corner_face[corner[:-1]]
+    table = band.table
+    corner = np.flatnonzero(faces[table.corner_face])
+    used, vertex = renumbered(table.corner_vertex[corner])
+    same = table.corner_face[corner[1:]] == table.corner_face[corner[:-1]]
     _, label = components(len(used), vertex[1:][same], vertex[:-1][same])
     group = np.full(len(band.vertices), -1)
     group[used] = label
@@ -69,22 +71,23 @@ def _groups(band: Band, faces: np.ndarray) -> np.ndarray:
 
 def _turning_by(group: np.ndarray, band: Band, cut: np.ndarray) -> np.ndarray:
     """How much the cut edges of each group turn, (groups,) float64."""
-    point, angle = turning(band.points, band.ends[cut])
+    point, angle = turning(band.table.vertices, band.table.edges[cut])
     return np.bincount(group[point], angle, int(group.max(initial=-1)) + 1)
 
 
 def _turning_after(group: np.ndarray, band: Band, sides: Sides, division: Division) -> np.ndarray:
     """How much the curves of each group turn, (groups,) float64."""
-    n, edges = len(band.vertices), len(band.ends)
-    a, b = band.ends.T
+    table = band.table
+    n, edges = len(band.vertices), len(table.edges)
+    a, b = table.edges.T
     at = np.nan_to_num(sides.share, nan=0.5)[:, None]
-    crossings = (1 - at) * band.points[a] + at * band.points[b]
-    points = np.concatenate([band.points, crossings, np.zeros((len(band.faces), 3))])
+    crossings = (1 - at) * table.vertices[a] + at * table.vertices[b]
+    points = np.concatenate([table.vertices, crossings, np.zeros((len(band.faces), 3))])
     segments, inner = _segments(band, division)
     middle = sums_by(inner[:, 0], points[inner[:, 1]], len(band.faces))
     points[n + edges :] = middle / np.maximum(np.bincount(inner[:, 0], minlength=len(middle)), 1)[:, None]
     first = np.zeros(len(band.faces), np.int64)
-    first[band.corner_face] = band.corner_vertex
+    first[table.corner_face] = table.corner_vertex
     vertex = np.concatenate([np.arange(n), a, first])
     point, angle = turning(points, segments)
     of = group[vertex[point]]
@@ -100,7 +103,7 @@ def _segments(band: Band, division: Division) -> tuple[np.ndarray, np.ndarray]:
     chords = start[two].reshape(-1, 2)
     three = count[face] == 3
     inner = np.stack([face[three], start[three]], axis=1)
-    spokes = np.stack([len(band.vertices) + len(band.ends) + face[three], start[three]], axis=1)
+    spokes = np.stack([len(band.vertices) + len(band.edges) + face[three], start[three]], axis=1)
     one, other = division.beside
     along = one[division.label[one] != division.label[other]]
     stretch = np.stack([division.point[along], division.point[next_of_owner(division.face)[along]]], axis=1)

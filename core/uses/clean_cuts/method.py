@@ -106,7 +106,7 @@ def finding_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | Non
     found: list[CleanCuts] = []
     pins = Pins.of(band)
     low, high = band.edge_labels
-    borders = np.unique(band.ends[low < high])
+    borders = np.unique(band.table.edges[low < high])
     tries = [(steps, pins, 0) for steps in STEPS]
     if planar:
         tries.insert(0, (max(STEPS), Pins.none(), REACH))
@@ -120,7 +120,7 @@ def finding_cuts(table: CornerTable, labels: np.ndarray, whole: np.ndarray | Non
         yield end
         group, good, broken = judged(band, sides, division, reach > 0)
         if whole is not None:
-            asked = group[band.ends[(low < high) & whole[band.edges]]]
+            asked = group[band.table.edges[(low < high) & whole[band.edges]]]
             broken[asked], good[asked] = True, False
         # What is chosen must not come near a curve that has been chosen before.
         good[np.unique(group[taken & (group >= 0)])] = False
@@ -140,10 +140,10 @@ def _chosen(band: Band, sides: Sides, division: Division, used: np.ndarray) -> C
     active[division.face[changed]] = True
     active |= several
     inside = np.ones(len(active), bool)
-    inside[band.corner_face[~used[band.corner_vertex]]] = False
+    inside[band.table.corner_face[~used[band.table.corner_vertex]]] = False
     active &= inside
     begins = division.begins & active[division.face]
-    edge = np.flatnonzero(~np.isnan(sides.share) & used[band.ends].all(axis=1))
+    edge = np.flatnonzero(~np.isnan(sides.share) & used[band.table.edges].all(axis=1))
     planes = np.unique(sides.plane[used & (sides.plane >= 0)])
     return CleanCuts(band.edges[edge], sides.share[edge], band.faces[division.face[begins]],
                      vertex[division.point[begins]], band.names[division.label[begins]],
@@ -153,8 +153,8 @@ def _chosen(band: Band, sides: Sides, division: Division, used: np.ndarray) -> C
 def _together(band: Band, found: list[CleanCuts], failed: np.ndarray) -> CleanCuts:
     """One answer of several, and how many groups of borders are at vertices that failed, (v,) bool."""
     low, high = band.edge_labels
-    left = (low < high) & failed[band.ends].all(axis=1)
-    _, vertex = renumbered(band.ends[left])
+    left = (low < high) & failed[band.table.edges].all(axis=1)
+    _, vertex = renumbered(band.table.edges[left])
     kept = components(int(vertex.max(initial=-1)) + 1, vertex[:, 0], vertex[:, 1])[0] if left.any() else 0
     columns = {name: np.concatenate([getattr(one, name) for one in found])
                for name in ("edge", "share", "face", "start", "label", "odd")}

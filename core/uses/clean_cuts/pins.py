@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import stable_order
 from ...surface.vectors import unit
 from .band import Band
 from .turning import turning
@@ -42,8 +41,8 @@ class Pins:
         low, high = band.edge_labels
         sharp = _sharp(band)
         both = np.flatnonzero(sharp & (low < high))
-        point, angle = turning(band.points, band.ends[both])
-        ends = band.ends[both].ravel()
+        point, angle = turning(band.table.vertices, band.table.edges[both])
+        ends = band.table.edges[both].ravel()
         pair = np.full((2, len(band.vertices)), -1)
         other = pair.copy()
         for pairs, order in ((pair, slice(None)), (other, slice(None, None, -1))):
@@ -53,7 +52,7 @@ class Pins:
         sure &= (pair == other).all(axis=0)
         pair[:, ~sure] = -1
         member = sure.copy()
-        a, b = np.concatenate([band.ends[sharp], band.ends[sharp][:, ::-1]]).T
+        a, b = np.concatenate([band.table.edges[sharp], band.table.edges[sharp][:, ::-1]]).T
         for _ in range(GAP):
             reached = member[a] & ~member[b]
             pair[:, b[reached]] = pair[:, a[reached]]
@@ -68,12 +67,13 @@ class Pins:
 
 def _sharp(band: Band) -> np.ndarray:
     """Whether the two faces at each edge turn by the angle of a crease, (e,) bool."""
-    normal = unit(band.normals)
-    order = stable_order(band.corner_edge)
-    edge, face = band.corner_edge[order], band.corner_face[order]
-    two = np.flatnonzero((edge[1:] == edge[:-1]) & (np.bincount(edge)[edge[1:]] == 2))
+    table = band.table
+    normal = unit(table.face_vectors())
+    pairs, edge = table.face_pairs()
+    two = table.n_edge_faces[edge] == 2
+    a, b = pairs[two].T
     sharp = np.zeros(len(band.edges), bool)
-    sharp[edge[two]] = (normal[face[two]] * normal[face[two + 1]]).sum(axis=1) < np.cos(CREASE)
+    sharp[edge[two]] = (normal[a] * normal[b]).sum(axis=1) < np.cos(CREASE)
     return sharp
 
 
@@ -81,7 +81,7 @@ def are_between(band: Band, pins: Pins, top: np.ndarray) -> np.ndarray:
     """Whether all neighbors of each pinned vertex are in one of its two parts, (k,) bool."""
     place = np.full(len(band.vertices), -1)
     place[pins.vertex] = np.arange(len(pins.vertex))
-    start, end = np.concatenate([band.ends, band.ends[:, ::-1]]).T
+    start, end = np.concatenate([band.table.edges, band.table.edges[:, ::-1]]).T
     start, end = start[place[start] >= 0], end[place[start] >= 0]
     strange = (pins.pair[place[start]] != top[end][:, None]).all(axis=1)
     fine = np.ones(len(pins.vertex), bool)

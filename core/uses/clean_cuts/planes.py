@@ -58,14 +58,14 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: 
         return Planes(none, np.zeros(n), none, none)
     curve = _curves(band, crossed)
     count = curve.max() + 1
-    a, b = band.ends[crossed].T
-    point = band.points[a] + share[crossed, None] * (band.points[b] - band.points[a])
+    a, b = band.table.edges[crossed].T
+    point = band.table.vertices[a] + share[crossed, None] * (band.table.vertices[b] - band.table.vertices[a])
     center = sums_by(curve, point, count) / np.bincount(curve, minlength=count)[:, None]
     offset = point - center[curve]
     moments = sums_by(curve, (offset[:, :, None] * offset[:, None]).reshape(-1, 9), count).reshape(-1, 3, 3)
     size, axes = np.linalg.eigh(moments / np.bincount(curve)[:, None, None])
     normal = axes[:, :, 0]
-    length = sums_by(curve, band.edge_length[crossed], count) / np.bincount(curve)
+    length = sums_by(curve, band.table.edge_length(crossed), count) / np.bincount(curve)
     away = np.zeros(count)
     np.maximum.at(away, curve, np.abs((offset * normal[curve]).sum(axis=1)))
     pair = np.sort(np.stack([top[a], top[b]], axis=1), axis=1)
@@ -76,7 +76,7 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: 
     fits &= away <= PLANE_EDGES * length + (BENT_RADIUS if bent else PLANE_RADIUS) * np.sqrt(size.sum(axis=1).clip(0))
     rings = np.where(fits, np.ceil(away / np.maximum(length, 1e-300)).clip(max=steps) + 2, 0).astype(np.int64)
     number, ring = _owners(band, crossed, curve, rings)
-    height = ((band.points - center[number]) * normal[number]).sum(axis=1)
+    height = ((band.table.vertices - center[number]) * normal[number]).sum(axis=1)
     planes = _with_sides(Planes(number, height, low[number, 0], low[number, 1]), top, count)
     beside_others = _in_conflict(band, planes, top, count) if bent else _near_each_other(band, planes, count)
     wrong = (~fits | beside_others | _contradicted(planes, top, ring == rings[number], count)
@@ -86,10 +86,11 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: 
 
 def _curves(band: Band, crossed: np.ndarray) -> np.ndarray:
     """Number of the curve that each of some crossed edges is on, 0..; curves go on across faces."""
+    table = band.table
     place = np.full(len(band.edges), -1)
     place[crossed] = np.arange(len(crossed))
-    corner = np.flatnonzero(place[band.corner_edge] >= 0)
-    point, face = place[band.corner_edge[corner]], band.corner_face[corner]
+    corner = np.flatnonzero(place[table.corner_edge] >= 0)
+    point, face = place[table.corner_edge[corner]], table.corner_face[corner]
     same = face[1:] == face[:-1]
     return components(len(crossed), point[1:][same], point[:-1][same])[1]
 
@@ -100,8 +101,8 @@ def _owners(band: Band, crossed: np.ndarray, curve: np.ndarray, rings: np.ndarra
     rings : (curves,) int64, how many edges each curve reaches; one of 0 has no vertices but those at its edges.
     """
     number, ring = np.full(len(band.vertices), -1), np.zeros(len(band.vertices), np.int64)
-    number[band.ends[crossed]] = curve[:, None]
-    start, end = np.concatenate([band.ends, band.ends[:, ::-1]]).T
+    number[band.table.edges[crossed]] = curve[:, None]
+    start, end = np.concatenate([band.table.edges, band.table.edges[:, ::-1]]).T
     for step in range(1, int(rings.max(initial=0)) + 1):
         here = (number[start] >= 0) & (number[end] < 0)
         here[here] = (ring[start[here]] == step - 1) & (rings[number[start[here]]] >= step)
@@ -137,7 +138,7 @@ def _contradicted(planes: Planes, top: np.ndarray, at_rim: np.ndarray, count: in
 
 def _near_each_other(band: Band, planes: Planes, count: int) -> np.ndarray:
     """Curves, (count,) bool, whose planes decide for vertices beside those of other planes."""
-    a, b = band.ends[_between_planes(band, planes)].T
+    a, b = band.table.edges[_between_planes(band, planes)].T
     near = np.zeros(count, bool)
     near[planes.number[a]] = near[planes.number[b]] = True
     return near
@@ -145,7 +146,7 @@ def _near_each_other(band: Band, planes: Planes, count: int) -> np.ndarray:
 
 def _in_conflict(band: Band, planes: Planes, top: np.ndarray, count: int) -> np.ndarray:
     """Curves, (count,) bool, whose planes say near those of others what the labels, (v,), are not without them."""
-    a, b = band.ends[_between_planes(band, planes)].T
+    a, b = band.table.edges[_between_planes(band, planes)].T
     wrong = planes.is_near & (top != planes.label)
     conflict = np.zeros(count, bool)
     for end, other_end in ((a, b), (b, a)):
@@ -155,7 +156,7 @@ def _in_conflict(band: Band, planes: Planes, top: np.ndarray, count: int) -> np.
 
 def _between_planes(band: Band, planes: Planes) -> np.ndarray:
     """Edges, (e,) bool, from a vertex near one plane to a vertex near another."""
-    a, b = band.ends.T
+    a, b = band.table.edges.T
     return planes.is_near[a] & planes.is_near[b] & (planes.number[a] != planes.number[b])
 
 
@@ -164,7 +165,7 @@ def _crossing(band: Band, crossed: np.ndarray, curve: np.ndarray, planes: Planes
 
     crossed, curve : (c,), edges that curves cross, and which curve does.
     """
-    number = planes.number[band.ends[crossed]]
+    number = planes.number[band.table.edges[crossed]]
     other = number != curve[:, None]
     both = np.zeros(count, bool)
     both[number[other]] = True

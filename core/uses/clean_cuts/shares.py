@@ -74,8 +74,8 @@ class Diffusion:
     @classmethod
     def of(cls, band: Band) -> Diffusion:
         """That of a band."""
-        triangles, face = band.triangles
-        a, b, c = band.points[triangles].transpose(1, 0, 2)
+        triangles, face = band.table.fans()
+        a, b, c = band.table.vertices[triangles].transpose(1, 0, 2)
         area = 0.5 * lengths(cross(b - a, c - a))
         area += 1e-6 * area.mean()
         shape = (len(band.vertices), len(band.names))
@@ -119,7 +119,7 @@ def _walk(band: Band, triangles: np.ndarray) -> csr_array:
     rows, columns, weights = [], [], []
     for i in range(3):
         apex, p, q = (triangles[:, (i + k) % 3] for k in range(3))
-        u, v = band.points[p] - band.points[apex], band.points[q] - band.points[apex]
+        u, v = band.table.vertices[p] - band.table.vertices[apex], band.table.vertices[q] - band.table.vertices[apex]
         across = lengths(cross(u, v))
         cotangent = np.divide((u * v).sum(axis=1), across, out=np.zeros(len(u)), where=across > 0).clip(-10, 10)
         rows += [p, q]
@@ -136,7 +136,7 @@ def _shifts(band: Band, shares: Shares) -> np.ndarray:
     """What to add to the shares of each part so that on average they are equal on the borders, (n_labels,)."""
     low, high = band.edge_labels
     cut = np.flatnonzero(low < high)
-    ends, length = band.ends[cut], band.edge_length[cut]
+    ends, length = band.table.edges[cut], band.table.edge_length(cut)
     pairs, pair = distinct_pairs(low[cut], high[cut])
     gap = sum(shares.of(end, low[cut]) - shares.of(end, high[cut]) for end in ends.T) / 2
     total = sums_by(pair, length, len(pairs))

@@ -46,10 +46,10 @@ def sides_of(band: Band, diffusion: Diffusion, pins: Pins, steps: int, reach: in
     shares = yield from stretched(diffusing(band, diffusion, pins, steps), 0.0, 0.7)
     yield 0.7
     top = shares.top
-    a, b = band.ends.T
+    a, b = band.table.edges.T
     share = np.full(len(a), np.nan)
     apart = np.flatnonzero(top[a] != top[b])
-    share[apart] = shares.crossing(band.ends[apart])
+    share[apart] = shares.crossing(band.table.edges[apart])
     yield 0.8
     planes = planes_of(band, top, share, reach or steps, reach > 0)
     top = np.where(planes.is_near, planes.label, top)
@@ -68,9 +68,9 @@ def _snapped(band: Band, pins: Pins, top: np.ndarray, share: np.ndarray, near: n
     near : (e,) float64, how closely.
     """
     n = len(band.vertices)
-    a, b = band.ends.T
+    a, b = band.table.edges.T
     apart = top[a] != top[b]
-    start, end = np.concatenate([band.ends[apart], band.ends[apart][:, ::-1]]).T
+    start, end = np.concatenate([band.table.edges[apart], band.table.edges[apart][:, ::-1]]).T
     least, most = np.full(n, len(band.names)), np.full(n, -1)
     np.minimum.at(least, start, top[end])
     np.maximum.at(most, start, top[end])
