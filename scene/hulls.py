@@ -24,7 +24,7 @@ class Made(NamedTuple):
 
 
 def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engine: str,
-         count: int = 1) -> Made:
+         per_part: int = 1) -> Made:
     """Make convex hulls of each part, in place of earlier ones that the user has not worked on; Object Mode.
 
     Parameters
@@ -35,7 +35,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     engine : str
         "UNREAL": UCX_ and the object, then a number. "GODOT": the part, with a number if it has several, then
         -convcolonly.
-    count : int
+    per_part : int
         How many hulls a part has at most.
 
     Returns
@@ -46,7 +46,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
 
     numbered = stored.shown_parts()
     table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))
-    hulls = part_hulls(table, numbered.parts.labels, count)
+    hulls = part_hulls(table, numbered.parts.labels, per_part)
     collection = piece_objects.make_collection(context, obj)
     coming = set(map(str, numbered.numbers.tolist()))
     earlier = made_objects.remove_untouched(collection.objects, "hull", _former_looks, _stands_for, coming)

@@ -55,7 +55,7 @@ class Hull:
 
 
 def part_hulls(
-    table: CornerTable, labels: np.ndarray, count: int = 1, most: int = MOST_CORNERS
+    table: CornerTable, labels: np.ndarray, per_part: int = 1, most_corners: int = MOST_CORNERS
 ) -> list[tuple[Hull, ...]]:
     """Make the convex hull of each part, or several that fit it better.
 
@@ -65,9 +65,9 @@ def part_hulls(
         p faces.
     labels : (p,) int64
         Part of each face, 0..count-1, all in use.
-    count : int
-        How many hulls a part has at most. All of the part lies in one of them, before ``most``.
-    most : int
+    per_part : int
+        How many hulls a part has at most. All of the part lies in one of them, before ``most_corners``.
+    most_corners : int
         A hull with more corners is replaced by that of the corners that lie farthest in so many directions, spread
         evenly; it lies inside.
 
@@ -80,11 +80,11 @@ def part_hulls(
     closed, part = _closed(table, labels)
     order = stable_order(part)
     groups = np.split(closed.triangles[order], np.flatnonzero(np.diff(part[order])) + 1)
-    volumes = _volumes(closed, part) if count > 1 else np.zeros(len(groups))  # which one hull alone does not ask for
+    volumes = _volumes(closed, part) if per_part > 1 else np.zeros(len(groups))  # which one hull alone does not ask for
     hulls = []
     for triangles, volume in zip(groups, volumes.tolist(), strict=True):
-        pieces = _divided(_Surface(closed.points, triangles).used(), count, volume)
-        hulls.append(tuple(_hull(_solid(piece.points, size), most) for piece in pieces))
+        pieces = _divided(_Surface(closed.points, triangles).used(), per_part, volume)
+        hulls.append(tuple(_hull(_solid(piece.points, size), most_corners) for piece in pieces))
     return hulls
 
 
@@ -153,12 +153,12 @@ def _volumes(closed: _Surface, part: np.ndarray) -> np.ndarray:
     return np.bincount(part, (a * cross(b, c)).sum(axis=1)) / 6
 
 
-def _divided(part: _Surface, count: int, volume: float) -> list[_Surface]:
+def _divided(part: _Surface, most: int, volume: float) -> list[_Surface]:
     """Divide a part, whose volume is given, for at most so many hulls."""
     pieces, splits = [part], [_UNKNOWN]
-    total = part.volume if count > 1 else 0.0
-    while len(pieces) < count and total > _CLOSE * abs(volume):
-        room = count - len(pieces)
+    total = part.volume if most > 1 else 0.0
+    while len(pieces) < most and total > _CLOSE * abs(volume):
+        room = most - len(pieces)
         splits = [_best_split(piece, room) if split is _UNKNOWN or split.more > room else split
                   for piece, split in zip(pieces, splits, strict=True)]
         best = int(np.argmax([split.gain_each for split in splits]))

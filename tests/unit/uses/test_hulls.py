@@ -47,7 +47,7 @@ def test_a_box_is_its_own_hull(size):
 def test_each_part_has_one_around_it():
     vertices, faces = shapes.two_spheres()
     labels = (vertices[faces].mean(axis=1)[:, 0] > vertices[:, 0].mean()).astype(int)
-    found = hulls((vertices, faces), labels, most=10_000)
+    found = hulls((vertices, faces), labels, most_corners=10_000)
     assert len(found) == 2
     for label, hull in enumerate(found):
         check(hull)
@@ -60,7 +60,7 @@ def test_a_fine_ball_gets_few_corners_and_keeps_its_size():
     (hull,) = hulls((vertices, faces))
     check(hull)
     assert len(hull.vertices) <= 64
-    assert hull.volume > 0.85 * hulls((vertices, faces), most=10_000)[0].volume
+    assert hull.volume > 0.85 * hulls((vertices, faces), most_corners=10_000)[0].volume
 
 
 @pytest.mark.parametrize("stretched", [(1, 1, 8), (1, 0.1, 8), (1e-3, 1e-3, 1)])
@@ -70,7 +70,7 @@ def test_what_is_long_has_as_many_corners_as_it_may(stretched):
     (hull,) = hulls((vertices * stretched, faces))
     check(hull)
     assert len(hull.vertices) == 64
-    assert hull.volume > 0.9 * hulls((vertices * stretched, faces), most=10_000)[0].volume
+    assert hull.volume > 0.9 * hulls((vertices * stretched, faces), most_corners=10_000)[0].volume
 
 
 @pytest.mark.parametrize("points", [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 0, 0], [2, 0, 0]],
@@ -121,22 +121,22 @@ def angle(size=1.0):
 def test_two_hulls_fit_an_angle_and_more_are_not_made(size):
     (one,), = several(angle(size))
     assert one.volume == pytest.approx(11.5 * size**3)
-    (two,) = several(angle(size), count=2)
+    (two,) = several(angle(size), per_part=2)
     for hull in two:
         check(hull)
     assert len(two) == 2
     assert sum(hull.volume for hull in two) < 9 * size**3
-    (many,) = several(angle(size), count=8)
+    (many,) = several(angle(size), per_part=8)
     assert sum(hull.volume for hull in many) == pytest.approx(7 * size**3, rel=0.1)
     vertices, faces = shapes.icosphere(3)
-    (ball,) = several((size * vertices, faces), count=8)
+    (ball,) = several((size * vertices, faces), per_part=8)
     assert len(ball) == 1
 
 
 @pytest.mark.parametrize("count", [2, 4, 8])
 def test_every_point_of_a_part_lies_in_one_of_its_hulls(count):
     vertices, faces = shapes.torus()
-    (found,) = several((vertices, faces), count=count, most=10_000)
+    (found,) = several((vertices, faces), per_part=count, most_corners=10_000)
     assert 1 < len(found) <= count
     samples = np.concatenate([vertices, vertices[faces].mean(axis=1)])
     inside = np.zeros(len(samples), bool)
@@ -145,7 +145,7 @@ def test_every_point_of_a_part_lies_in_one_of_its_hulls(count):
         normal = np.cross(b - a, c - a)
         inside |= ((samples @ normal.T - (a * normal).sum(axis=1)) < 1e-9).all(axis=1)
     assert inside.all()
-    fewer = several((vertices, faces), count=count // 2, most=10_000)[0]
+    fewer = several((vertices, faces), per_part=count // 2, most_corners=10_000)[0]
     assert sum(hull.volume for hull in found) < sum(hull.volume for hull in fewer)
 
 
@@ -154,7 +154,7 @@ def test_a_bowl_is_divided_crosswise():
     angle = np.linspace(0.0, 0.5 * np.pi, 12)
     radius = np.append(np.sin(angle), 0.9 * np.sin(angle[::-1]))
     shell = shapes.lathe(radius, np.append(-np.cos(angle), -0.9 * np.cos(angle[::-1])))
-    whole = [sum(hull.volume for hull in several(shell, count=count)[0]) for count in (1, 2, 4)]
+    whole = [sum(hull.volume for hull in several(shell, per_part=count)[0]) for count in (1, 2, 4)]
     assert whole[1] > 0.9 * whole[0]
     assert whole[2] < 0.8 * whole[0]
 
