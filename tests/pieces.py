@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import bmesh
 import bpy
 import numpy as np
+from bulk import read
 
 KEYS = ("Fat", "Long")
 _INDEX = {"POINT": "vertices", "EDGE": "edges", "FACE": "polygons", "CORNER": "loops"}
@@ -45,7 +46,7 @@ class Pieces:
 def furnish(obj):
     """Give a mesh of its own all kinds of things to carry, and every element a number to be known by."""
     mesh, rng = obj.data, np.random.default_rng(0)
-    points = _read(mesh.vertices, "co", 3)
+    points = read(mesh.vertices, "co", width=3)
     for domain, name in _INDEX.items():
         attribute = mesh.attributes.new(f"index {domain}", "INT", domain)
         attribute.data.foreach_set("value", np.arange(len(getattr(mesh, name)), dtype=np.int32))
@@ -72,7 +73,7 @@ def furnish(obj):
         key.data.foreach_set("co", (points * np.float32(scale)).ravel())
         key.value = 0.0
     size = np.ptp(points, axis=0).max()
-    directions = _read(mesh.vertices, "normal", 3) + 0.3 * np.sin(20 * points / size)
+    directions = read(mesh.vertices, "normal", width=3) + 0.3 * np.sin(20 * points / size)
     mesh.normals_split_custom_set_from_vertices(directions.tolist())
 
 
@@ -86,7 +87,7 @@ def compare(obj, pieces) -> Pieces:
         cap = _caps(piece.data)
         kept = _kept(piece.data, cap)
         faces += np.bincount(kept["FACE"][1], minlength=len(faces))
-        area += _read(piece.data.polygons, "area")[kept["FACE"][0]].sum(dtype=np.float64)
+        area += read(piece.data.polygons, "area")[kept["FACE"][0]].sum(dtype=np.float64)
         now, before = _edge_faces(piece.data), np.zeros(len(piece.data.edges), np.int64)
         before[kept["EDGE"][0]] = edge_faces[kept["EDGE"][1]]
         sums.add(new_borders=((now == 1) & (before != 1)).sum(), new_branches=((now > 2) & (now != before)).sum(),
@@ -94,7 +95,7 @@ def compare(obj, pieces) -> Pieces:
         for name, (domain, values) in _carried(piece).items():
             here, there = kept[domain]
             sums.largest(name, _difference(values[here], carried[name][1][there]))
-    whole = _read(mesh.polygons, "area").sum(dtype=np.float64)
+    whole = read(mesh.polygons, "area").sum(dtype=np.float64)
     volume = _volume(mesh, np.ones(len(mesh.polygons), bool)) if closed else np.nan
     together = sum(_volume(piece.data, np.ones(len(piece.data.polygons), bool)) for piece in pieces)
     return Pieces(len(faces), int((faces != 1).sum()), sums.total["caps"], sums.total["new_borders"],
@@ -110,10 +111,10 @@ def rims(meshes, size) -> tuple[float, float]:
     angles, total, length = [], 0.0, 0.0
     for mesh in meshes:
         corner_edge = _corners(mesh, "edge_index")
-        cap = np.repeat(_caps(mesh), _read(mesh.polygons, "loop_total", kind=np.int32))
+        cap = np.repeat(_caps(mesh), read(mesh.polygons, "loop_total", np.int32))
         faces, caps = (np.bincount(corner_edge[mask], minlength=len(mesh.edges)) for mask in (~cap, cap))
-        ends = _read(mesh.edges, "vertices", 2, np.int32)[(faces == 1) & (caps == 1)]
-        points = _read(mesh.vertices, "co", 3).astype(np.float64)
+        ends = read(mesh.edges, "vertices", np.int32, width=2)[(faces == 1) & (caps == 1)]
+        points = read(mesh.vertices, "co", width=3).astype(np.float64)
         length += np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1).sum()
         order = np.argsort(ends.ravel(), kind="stable")
         count = np.bincount(ends.ravel(), minlength=len(points))
@@ -126,6 +127,12 @@ def rims(meshes, size) -> tuple[float, float]:
         total += angle.sum()
     every = np.concatenate(angles) if angles else np.empty(0)
     return (float(np.degrees(every.mean())) if len(every) else 0.0), total * size / max(length, 1e-30)
+
+
+def pieces_of(name="Tree"):
+    """The objects that the parts of an object have become, by their numbers."""
+    found = [obj for obj in bpy.data.collections[f"Parts of {name}"].objects if "reeb_parts_number" in obj]
+    return sorted(found, key=lambda piece: piece["reeb_parts_number"])
 
 
 def volume(mesh) -> float:
@@ -170,21 +177,21 @@ def _carried(obj) -> dict:
     mesh = obj.data
     group = obj.vertex_groups["Arm"].index
     weights = [next((g.weight for g in v.groups if g.group == group), -1.0) for v in mesh.vertices]
-    slots = _read(mesh.polygons, "material_index", kind=np.int32)
+    slots = read(mesh.polygons, "material_index", np.int32)
     names = np.array([material.name for material in mesh.materials])
     return {
-        "positions": ("POINT", _read(mesh.vertices, "co", 3)),
-        "UV map": ("CORNER", _read(mesh.uv_layers["Map"].data, "uv", 2)),
-        "byte colours": ("CORNER", _read(mesh.attributes["Paint"].data, "color_srgb", 4)),
-        "float colours": ("POINT", _read(mesh.attributes["Dust"].data, "color", 4)),
-        "face numbers": ("FACE", _read(mesh.attributes["layer"].data, "value", kind=np.int32)),
-        "creases": ("EDGE", _read(mesh.attributes["crease_edge"].data, "value")),
-        "seams": ("EDGE", _read(mesh.edges, "use_seam", kind=bool)),
-        "sharp edges": ("EDGE", _read(mesh.edges, "use_edge_sharp", kind=bool)),
+        "positions": ("POINT", read(mesh.vertices, "co", width=3)),
+        "UV map": ("CORNER", read(mesh.uv_layers["Map"].data, "uv", width=2)),
+        "byte colours": ("CORNER", read(mesh.attributes["Paint"].data, "color_srgb", width=4)),
+        "float colours": ("POINT", read(mesh.attributes["Dust"].data, "color", width=4)),
+        "face numbers": ("FACE", read(mesh.attributes["layer"].data, "value", np.int32)),
+        "creases": ("EDGE", read(mesh.attributes["crease_edge"].data, "value")),
+        "seams": ("EDGE", read(mesh.edges, "use_seam", bool)),
+        "sharp edges": ("EDGE", read(mesh.edges, "use_edge_sharp", bool)),
         "weights": ("POINT", np.array(weights)),
         "materials": ("FACE", names[slots]),
-        "normals": ("CORNER", _read(mesh.corner_normals, "vector", 3)),
-        **{f"key {key}": ("POINT", _read(mesh.shape_keys.key_blocks[key].data, "co", 3)) for key in KEYS},
+        "normals": ("CORNER", read(mesh.corner_normals, "vector", width=3)),
+        **{f"key {key}": ("POINT", read(mesh.shape_keys.key_blocks[key].data, "co", width=3)) for key in KEYS},
     }
 
 
@@ -198,11 +205,11 @@ def _difference(values, others) -> float:
 
 def _kept(mesh, cap) -> dict:
     """For each domain, the elements of faces that are no caps, and what their numbers were."""
-    corner = np.flatnonzero(~np.repeat(cap, _read(mesh.polygons, "loop_total", kind=np.int32)))
+    corner = np.flatnonzero(~np.repeat(cap, read(mesh.polygons, "loop_total", np.int32)))
     here = {"FACE": np.flatnonzero(~cap), "CORNER": corner,
             "POINT": np.unique(_corners(mesh, "vertex_index")[corner]),
             "EDGE": np.unique(_corners(mesh, "edge_index")[corner])}
-    return {domain: (found, _read(mesh.attributes[f"index {domain}"].data, "value", kind=np.int32)[found])
+    return {domain: (found, read(mesh.attributes[f"index {domain}"].data, "value", np.int32)[found])
             for domain, found in here.items()}
 
 
@@ -210,7 +217,7 @@ def _caps(mesh):
     """Which faces are caps, (p,) bool."""
     if "reeb_cap" not in mesh.attributes:
         return np.zeros(len(mesh.polygons), bool)
-    return _read(mesh.attributes["reeb_cap"].data, "value", kind=np.int32) == 1
+    return read(mesh.attributes["reeb_cap"].data, "value", np.int32) == 1
 
 
 def _edge_faces(mesh):
@@ -219,19 +226,19 @@ def _edge_faces(mesh):
 
 
 def _corners(mesh, key):
-    return _read(mesh.loops, key, kind=np.int32)
+    return read(mesh.loops, key, np.int32)
 
 
 def _triangles(mesh, chosen):
     """Corners of the triangles of some faces, (t, 3)."""
     mesh.calc_loop_triangles()
-    triangles = _read(mesh.loop_triangles, "vertices", 3, np.int32)
-    return triangles[chosen[_read(mesh.loop_triangles, "polygon_index", kind=np.int32)]]
+    triangles = read(mesh.loop_triangles, "vertices", np.int32, width=3)
+    return triangles[chosen[read(mesh.loop_triangles, "polygon_index", np.int32)]]
 
 
 def _volume(mesh, chosen) -> float:
     """What faces enclose; for a closed surface, wherever the origin is."""
-    points = _read(mesh.vertices, "co", 3).astype(np.float64)
+    points = read(mesh.vertices, "co", width=3).astype(np.float64)
     return _enclosed((points - points.mean(axis=0))[_triangles(mesh, chosen)])
 
 
@@ -243,7 +250,7 @@ def _enclosed(triangles) -> float:
 def _voids(pieces) -> float:
     """The volume between caps: all the caps around a hole through the object are one closed surface."""
     triangles = np.concatenate([
-        _read(piece.data.vertices, "co", 3).astype(np.float64)[_triangles(piece.data, _caps(piece.data))]
+        read(piece.data.vertices, "co", width=3).astype(np.float64)[_triangles(piece.data, _caps(piece.data))]
         for piece in pieces
     ])
     _, place = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
@@ -258,9 +265,3 @@ def _voids(pieces) -> float:
         label = spread
     own = label[corners[:, 0]]
     return sum(abs(_enclosed(triangles[own == one] - triangles[own == one][0, 0])) for one in np.unique(own))
-
-
-def _read(items, key, width=1, kind=np.float32):
-    values = np.empty(len(items) * width, kind)
-    items.foreach_get(key, values)
-    return values.reshape(-1, width) if width > 1 else values

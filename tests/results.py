@@ -2,13 +2,12 @@
 """Reading and comparing the parts of faces."""
 
 import numpy as np
+from bulk import read
 
 
 def numbers(mesh):
     """Number of the part of each polygon, (p,) int32, as a mesh in Blender stores it."""
-    found = np.empty(len(mesh.polygons), np.int32)
-    mesh.attributes["reeb_part"].data.foreach_get("value", found)
-    return found
+    return read(mesh.attributes["reeb_part"].data, "value", np.int32)
 
 
 def same_partition(one, two):

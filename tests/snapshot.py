@@ -9,6 +9,7 @@ import hashlib
 
 import bpy
 import numpy as np
+from bulk import read
 
 _VALUES = {  # of an attribute: the name of its values, their type, how many
     "FLOAT": ("value", np.float32, 1), "INT": ("value", np.int32, 1), "BOOLEAN": ("value", bool, 1),
@@ -112,14 +113,14 @@ def _mesh(mesh) -> dict:
 
 def _geometry(mesh, user) -> dict:
     return {
-        "positions": _hash(_read(mesh.vertices, "co", np.float32, 3)),
-        "edges": _hash(_read(mesh.edges, "vertices", np.int32, 2)),
-        "corners": _hash(_read(mesh.loops, "vertex_index", np.int32, 1)),
-        "faces": _hash(_read(mesh.polygons, "loop_start", np.int32, 1)),
-        "slots": _hash(_read(mesh.polygons, "material_index", np.int32, 1)),
-        "flags": {f"{name} {flag}": _hash(_read(getattr(mesh, name), flag, bool, 1))
+        "positions": _hash(read(mesh.vertices, "co", np.float32, 3)),
+        "edges": _hash(read(mesh.edges, "vertices", np.int32, 2)),
+        "corners": _hash(read(mesh.loops, "vertex_index", np.int32, 1)),
+        "faces": _hash(read(mesh.polygons, "loop_start", np.int32, 1)),
+        "slots": _hash(read(mesh.polygons, "material_index", np.int32, 1)),
+        "flags": {f"{name} {flag}": _hash(read(getattr(mesh, name), flag, bool, 1))
                   for name in ("vertices", "edges", "polygons") for flag in ("select", "hide")},
-        "seams": _hash(_read(mesh.edges, "use_seam", bool, 1)),
+        "seams": _hash(read(mesh.edges, "use_seam", bool, 1)),
         "attributes": {a.name: _attribute(a) for a in mesh.attributes},
         "order": [a.name for a in mesh.attributes],
         "active attribute": mesh.attributes.active.name if mesh.attributes.active else None,
@@ -152,7 +153,7 @@ def _socket(socket):
 
 def _curve(curve) -> dict:
     return {"thickness": curve.bevel_depth, "splines": [
-        [_hash(_read(spline.points, name, np.float32, width)) for name, width in (("co", 4), ("radius", 1))]
+        [_hash(read(spline.points, name, np.float32, width)) for name, width in (("co", 4), ("radius", 1))]
         for spline in curve.splines]}
 
 
@@ -173,7 +174,7 @@ def _key_name(mesh):
 def _attribute(attribute):
     """Kind and values; no values where all are zero."""
     name, dtype, width = _VALUES.get(attribute.data_type, (None, None, None))
-    values = np.zeros(0) if name is None else _read(attribute.data, name, dtype, width)
+    values = np.zeros(0) if name is None else read(attribute.data, name, dtype, width)
     return attribute.data_type, attribute.domain, _hash(values) if values.any() else None
 
 
@@ -190,7 +191,7 @@ def _weights(mesh, user) -> dict:
 
 def _keys(keys):
     return [(k.name, k.value, k.mute, k.vertex_group, k.relative_key.name,
-             _hash(_read(k.data, "co", np.float32, 3))) for k in keys.key_blocks]
+             _hash(read(k.data, "co", np.float32, 3))) for k in keys.key_blocks]
 
 
 def _collection(collection) -> dict:
@@ -233,12 +234,6 @@ def _value(data, kind):
     if kind.type == "STRING" and isinstance(value, bytes):
         return _hash(value)
     return tuple(value) if getattr(kind, "is_array", False) else value
-
-
-def _read(items, name, dtype, width):
-    values = np.zeros(len(items) * width, dtype)
-    items.foreach_get(name, values)
-    return values
 
 
 def _hash(data) -> str:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapes
 from mathutils import Euler
+from results import numbers as numbers_of
 from snapshot import activate, check_undo, snapshot
 
 DEFORM = "DEF-"
@@ -24,12 +25,6 @@ def world(obj):
     evaluated.data.vertices.foreach_get("co", points)
     matrix = np.array(obj.matrix_world)
     return points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]
-
-
-def numbers_of(obj):
-    values = np.zeros(len(obj.data.polygons), np.int32)
-    obj.data.attributes["reeb_part"].data.foreach_get("value", values)
-    return values
 
 
 def test_a_bone_for_each_part_in_one_tree(obj):
@@ -64,7 +59,7 @@ def test_a_bone_starts_at_the_cut_and_ends_in_the_tip(make):
     obj.scale, obj.location, obj.rotation_euler = (1, 2, -1), (3, 4, 5), (0.3, 0.5, 0.7)
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature()
-    rig, points, numbers = rig_of(obj), world(obj), numbers_of(obj)
+    rig, points, numbers = rig_of(obj), world(obj), numbers_of(obj.data)
     assert tuple(rig.scale) == pytest.approx((1, 1, 1))
     for part in obj.data.reeb_parts.parts:
         bone = rig.data.bones[DEFORM + part.name]
@@ -94,7 +89,7 @@ def test_at_rest_nothing_moves_and_a_turned_bone_moves_its_part(obj):
     leaf.rotation_euler = Euler((0.5, 0, 0))
     moved = np.linalg.norm(world(obj) - before, axis=1) > 1e-4
     number = next(part.number for part in obj.data.reeb_parts.parts if part.group == leaf.name)
-    mine = {v for p in obj.data.polygons if numbers_of(obj)[p.index] == number for v in p.vertices}
+    mine = {v for p in obj.data.polygons if numbers_of(obj.data)[p.index] == number for v in p.vertices}
     assert set(np.flatnonzero(moved).tolist()) <= mine
     assert moved.sum() > 0.8 * len(mine)
 
@@ -235,7 +230,7 @@ def test_pieces_that_only_touch_have_a_bone_that_moves_each(make):
         ((0.5, 0.5, 3), (0, 0, -3)), ((0.5, 0.5, 3), (1.5, 0, -3))))))
     bpy.ops.reeb_parts.decompose(n_parts=6)
     bpy.ops.reeb_parts.armature()
-    numbers = numbers_of(obj)
+    numbers = numbers_of(obj.data)
     for part in obj.data.reeb_parts.parts:
         group = obj.vertex_groups[DEFORM + part.name]
         mine = {v for p in obj.data.polygons if numbers[p.index] == part.number for v in p.vertices}

@@ -5,13 +5,8 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from bulk import read
 from snapshot import activate, changes, snapshot
-
-
-def read(items, key, dtype=np.float32, width=1):
-    values = np.zeros(len(items) * width, dtype)
-    items.foreach_get(key, values)
-    return values.reshape(len(items), width) if width > 1 else values
 
 
 def shown(obj):

@@ -9,16 +9,11 @@ import numpy as np
 import pytest
 import shapes
 from mathutils.bvhtree import BVHTree
-from pieces import is_sound, volume
+from pieces import is_sound, pieces_of, volume
 from snapshot import activate, changes, check_undo, snapshot
 
 KEEP = {"hide": False, "center": False}
 MILLIMETER = 1e-3  # of Blender's default scene
-
-
-def pieces(name="Tree"):
-    found = [o for o in bpy.data.collections[f"Parts of {name}"].objects if "reeb_parts_number" in o]
-    return sorted(found, key=lambda piece: piece["reeb_parts_number"])
 
 
 def dowels(name="Tree"):
@@ -47,12 +42,12 @@ def test_pegs_and_holes_fill_each_other(make, kind):
     obj = make(shapes.dumbbell(), "Tree")
     bpy.ops.reeb_parts.decompose(n_parts=3)
     assert bpy.ops.reeb_parts.separate(joints=kind, joint_clearance=0.0, joint_count=2, **KEEP) == {"FINISHED"}
-    assert all(is_sound(piece) for piece in pieces())
-    whole, volumes = volume(obj.data), [volume(piece.data) for piece in pieces()]
+    assert all(is_sound(piece) for piece in pieces_of())
+    whole, volumes = volume(obj.data), [volume(piece.data) for piece in pieces_of()]
     assert sum(volumes) == pytest.approx(whole, rel=1e-4)
     activate(obj)
     bpy.ops.reeb_parts.separate(caps=True, **KEEP)
-    plain = [volume(piece.data) for piece in pieces()]
+    plain = [volume(piece.data) for piece in pieces_of()]
     # The smaller pieces have gained what the larger one has lost.
     assert all(abs(a - b) > 1e-3 * b for a, b in zip(volumes, plain, strict=True))
 
@@ -63,8 +58,8 @@ def test_a_peg_stands_in_its_hole_with_the_clearance(make, clearance):
     make(shapes.dumbbell(), "Tree")
     bpy.ops.reeb_parts.decompose(n_parts=2)
     bpy.ops.reeb_parts.separate(joints="ROUND", joint_clearance=clearance, **KEEP)
-    assert all(is_sound(piece) for piece in pieces())
-    peg, hole = sorted(pieces(), key=lambda piece: volume(piece.data))
+    assert all(is_sound(piece) for piece in pieces_of())
+    peg, hole = sorted(pieces_of(), key=lambda piece: volume(piece.data))
     caps = [piece.data.attributes["reeb_cap"].data for piece in (peg, hole)]
     # What sticks out of one and what is hollow in the other: the faces of joints that lie beyond the cap.
     hole_tree = tree_of(hole, lambda p: caps[1][p.index].value == 1)
@@ -83,18 +78,18 @@ def test_holes_for_magnets_and_dowels_in_both_pieces(make):
     obj = make(shapes.dumbbell(), "Tree")
     bpy.ops.reeb_parts.decompose(n_parts=2)
     bpy.ops.reeb_parts.separate(caps=True, **KEEP)
-    plain = [volume(piece.data) for piece in pieces()]
+    plain = [volume(piece.data) for piece in pieces_of()]
     for kind, count in (("MAGNET", 0), ("DOWEL", 1)):
         activate(obj)
         bpy.ops.reeb_parts.separate(joints=kind, joint_size=100.0, joint_depth=80.0, joint_clearance=1.0, **KEEP)
-        assert all(is_sound(piece) for piece in pieces())
-        lost = [before - volume(piece.data) for before, piece in zip(plain, pieces(), strict=True)]
+        assert all(is_sound(piece) for piece in pieces_of())
+        lost = [before - volume(piece.data) for before, piece in zip(plain, pieces_of(), strict=True)]
         area = 48 * np.tan(np.pi / 48) * 51**2 * MILLIMETER**2
         assert lost == pytest.approx([81 * MILLIMETER * area] * 2, rel=0.1)
         assert len(dowels()) == count
     (dowel,) = dowels()
     assert sorted(dowel.dimensions) == pytest.approx([0.1, 0.1, 0.16], rel=0.02)
-    holes = [tree_of(piece, lambda p: False) for piece in pieces()]
+    holes = [tree_of(piece, lambda p: False) for piece in pieces_of()]
     assert len(holes) == 2
 
 
@@ -198,7 +193,7 @@ def test_shape_keys_and_all_else_is_carried_on(obj):
     obj.data.uv_layers.new(name="Map")
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(joints="ROUND", **KEEP)
-    for piece in pieces():
+    for piece in pieces_of():
         mesh = piece.data
         basis, fat = (np.array([p.co for p in mesh.shape_keys.key_blocks[name].data]) for name in ("Basis", "Fat"))
         assert mesh.shape_keys.key_blocks["Fat"].value == pytest.approx(0.7)
@@ -227,7 +222,7 @@ def test_scaled_and_turned_objects(make):
     points -= points.mean(axis=0)
     width = np.linalg.svd(points)[2] @ points.T
     assert sorted(np.ptp(width, axis=1))[:2] == pytest.approx([0.06, 0.06], rel=0.01)
-    assert all(is_sound(piece) for piece in pieces())
+    assert all(is_sound(piece) for piece in pieces_of())
 
 
 def test_parts_that_are_not_closed_stay_without_and_it_is_said(make, capfd):

@@ -5,17 +5,12 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from bulk import read
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from snapshot import changes, check_undo, snapshot
 
 MAP = "Reeb Parts UV"
-
-
-def read(items, key, dtype=np.float32, width=1):
-    values = np.zeros(len(items) * width, dtype)
-    items.foreach_get(key, values)
-    return values.reshape(len(items), width) if width > 1 else values
 
 
 def torn_edges(mesh):

@@ -9,16 +9,11 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from bulk import read
 from mathutils import Matrix
 from results import numbers
 from scipy.spatial import cKDTree
 from snapshot import activate
-
-
-def read(items, key, kind, width):
-    values = np.empty(width * len(items), kind)
-    items.foreach_get(key, values)
-    return values.reshape(-1, width)
 
 
 def rims(pieces, names):
@@ -29,10 +24,10 @@ def rims(pieces, names):
     found = {}
     for name in names:
         mesh = pieces[name]
-        edge = read(mesh.loops, "edge_index", np.int32, 1)[:, 0]
+        edge = read(mesh.loops, "edge_index", np.int32)
         alone = np.bincount(edge, minlength=len(mesh.edges)) == 1
         if "rim" in mesh.attributes:
-            alone &= read(mesh.attributes["rim"].data, "value", np.float32, 1)[:, 0] == 0
+            alone &= read(mesh.attributes["rim"].data, "value", np.float32) == 0
         found[name] = read(mesh.vertices, "co", np.float32, 3)[read(mesh.edges, "vertices", np.int32, 2)[alone]]
     return found
 
@@ -96,7 +91,7 @@ def test_the_curves_are_the_rims_of_the_pieces(make, modules, name, planar):
     obj = MESHES[name](make)
     obj.scale = (1.0, 1.3, 0.7)
     bpy.context.view_layer.update()
-    edge = read(obj.data.loops, "edge_index", np.int32, 1)[:, 0]
+    edge = read(obj.data.loops, "edge_index", np.int32)
     open_edge = np.bincount(edge, minlength=len(obj.data.edges)) == 1
     obj.data.attributes.new("rim", "FLOAT", "EDGE").data.foreach_set("value", open_edge.astype(np.float32))
     parts = slices(obj, 3)

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from bulk import read
 
 
 @pytest.fixture
@@ -22,12 +23,6 @@ def pipe(make):
     mesh.materials.append(bpy.data.materials.new("Skin"))
     bpy.ops.reeb_parts.decompose(n_parts=2)
     return obj
-
-
-def read(items, key, dtype=np.float32, width=1):
-    values = np.empty(len(items) * width, dtype)
-    items.foreach_get(key, values)
-    return values.reshape(-1, width) if width > 1 else values
 
 
 def pieces():

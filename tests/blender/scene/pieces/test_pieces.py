@@ -11,10 +11,12 @@ import numpy as np
 import pieces as carried
 import pytest
 import shapes
+from bulk import read
 from diagonal import some
 from mathutils import Matrix
 from mathutils.bvhtree import BVHTree
-from pieces import volume
+from pieces import pieces_of, volume
+from results import numbers as numbers_of
 from scipy.spatial import cKDTree
 from snapshot import activate, changes, check_undo, snapshot
 
@@ -29,22 +31,6 @@ SHAPES = {
     "open tube": lambda: shapes.cylinder(24, 16),
     "loose parts": lambda: shapes.together(shapes.tube_tree(), shapes.moved(shapes.dumbbell(40, 12), (9, 0, 0))),
 }
-
-
-def read(items, key, dtype=np.float32, width=1):
-    values = np.zeros(len(items) * width, dtype)
-    items.foreach_get(key, values)
-    return values.reshape(len(items), width) if width > 1 else values
-
-
-def pieces(name="Tree"):
-    found = [o for o in bpy.data.collections[f"Parts of {name}"].objects if "reeb_parts_number" in o]
-    return sorted(found, key=lambda piece: piece["reeb_parts_number"])
-
-
-def numbers_of(obj):
-    """Number of each face's part."""
-    return read(obj.data.attributes["reeb_part"].data, "value", np.int32)
 
 
 def elements(mesh, mask):
@@ -139,9 +125,9 @@ def shape(request, make):
 def test_faces_and_area_are_conserved(shape):
     bpy.ops.reeb_parts.decompose()
     assert bpy.ops.reeb_parts.separate(**KEEP, **WHOLE) == {"FINISHED"}
-    numbers = numbers_of(shape)
-    assert [len(p.data.polygons) for p in pieces()] == np.bincount(numbers)[1:].tolist()
-    area = sum(polygon.area for piece in pieces() for polygon in piece.data.polygons)
+    numbers = numbers_of(shape.data)
+    assert [len(p.data.polygons) for p in pieces_of()] == np.bincount(numbers)[1:].tolist()
+    area = sum(polygon.area for piece in pieces_of() for polygon in piece.data.polygons)
     assert area == pytest.approx(sum(polygon.area for polygon in shape.data.polygons), rel=1e-5)
 
 
@@ -151,10 +137,10 @@ def test_all_that_the_faces_carry_is_carried_on(rich, caps):
     weights = [round(v.groups[0].weight, 6) for v in rich.data.vertices]
     normals = read(rich.data.corner_normals, "vector", np.float32, 3)
     bpy.ops.reeb_parts.decompose(face_sets=True, seams=True, field=True)
-    numbers = numbers_of(rich)
+    numbers = numbers_of(rich.data)
     bpy.ops.reeb_parts.separate(caps=caps, **KEEP, **WHOLE)
     fat = read(rich.data.shape_keys.key_blocks["Fat"].data, "co", np.float32, 3)
-    for piece in pieces():
+    for piece in pieces_of():
         mesh = piece.data
         here = elements(rich.data, numbers == piece["reeb_parts_number"])
         found = attributes_of(mesh)
@@ -196,9 +182,9 @@ def test_a_vertex_group_may_have_the_name_of_an_attribute(obj, kind, style):
         group.name = name
         activate(obj)
         assert bpy.ops.reeb_parts.separate(**KEEP, **style) == {"FINISHED"}
-        assert all(piece.vertex_groups.keys() == [name] for piece in pieces())
+        assert all(piece.vertex_groups.keys() == [name] for piece in pieces_of())
         found.append([(attributes_of(piece.data), [[(entry.group, entry.weight) for entry in vertex.groups]
-                                                   for vertex in piece.data.vertices]) for piece in pieces()])
+                                                   for vertex in piece.data.vertices]) for piece in pieces_of()])
     for (with_other, weights), (with_mask, same_weights) in zip(*found, strict=True):
         assert weights == same_weights
         assert with_mask.keys() == with_other.keys()
@@ -210,7 +196,7 @@ def test_a_vertex_group_may_have_the_name_of_an_attribute(obj, kind, style):
 def test_without_custom_normals_none_are_made(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate()
-    assert not any(piece.data.has_custom_normals for piece in pieces())
+    assert not any(piece.data.has_custom_normals for piece in pieces_of())
 
 
 @pytest.mark.parametrize("cut", ["SMOOTH", "FACES"])
@@ -218,8 +204,8 @@ def test_a_vertex_group_may_be_empty(obj, cut):
     obj.vertex_groups.new(name="Nobody")
     bpy.ops.reeb_parts.decompose()
     assert bpy.ops.reeb_parts.separate(cut=cut, caps=True) == {"FINISHED"}
-    assert all([group.name for group in piece.vertex_groups] == ["Nobody"] for piece in pieces())
-    assert not any(vertex.groups for piece in pieces() for vertex in piece.data.vertices)
+    assert all([group.name for group in piece.vertex_groups] == ["Nobody"] for piece in pieces_of())
+    assert not any(vertex.groups for piece in pieces_of() for vertex in piece.data.vertices)
 
 
 @pytest.fixture
@@ -289,7 +275,7 @@ def test_pieces_that_meet_in_rings_fit_together(make):
     obj = make(shapes.dumbbell())
     bpy.ops.reeb_parts.decompose(n_parts=3)
     bpy.ops.reeb_parts.separate(caps=True, **KEEP)
-    volumes = [volume(piece.data) for piece in pieces()]
+    volumes = [volume(piece.data) for piece in pieces_of()]
     assert min(volumes) > 0
     assert sum(volumes) == pytest.approx(volume(obj.data), rel=1e-5)
 
@@ -313,9 +299,9 @@ def test_slices_that_meet_in_two_places_fit_together(make, separate, count, bent
 def test_caps_are_marked_and_have_the_part_material(rich):
     slots = read(rich.data.polygons, "material_index", np.int32)
     bpy.ops.reeb_parts.decompose()
-    numbers = numbers_of(rich)
+    numbers = numbers_of(rich.data)
     bpy.ops.reeb_parts.separate(caps=True, **KEEP, **WHOLE)
-    for piece in pieces():
+    for piece in pieces_of():
         mine = numbers == piece["reeb_parts_number"]
         cap = caps_of(piece.data)
         assert cap[: mine.sum()].tolist() == [0] * mine.sum()
@@ -344,8 +330,8 @@ def test_the_original_is_hidden_and_comes_back(obj):
     bpy.ops.reeb_parts.separate()
     assert obj.hide_get()
     assert obj.hide_render
-    assert bpy.context.view_layer.objects.active == pieces()[0]
-    assert set(bpy.context.selected_objects) == set(pieces())
+    assert bpy.context.view_layer.objects.active == pieces_of()[0]
+    assert set(bpy.context.selected_objects) == set(pieces_of())
     bpy.ops.reeb_parts.show_original()
     assert not obj.hide_get()
     assert not obj.hide_render
@@ -374,28 +360,28 @@ def test_the_original_or_its_pieces_are_seen(obj):
     dowels = [item for item in bpy.data.collections["Parts of Tree"].objects if "reeb_parts_dowel" in item]
     assert dowels
     bpy.ops.reeb_parts.show_original()
-    assert all(piece.hide_get() for piece in (*pieces(), *dowels))
+    assert all(piece.hide_get() for piece in (*pieces_of(), *dowels))
     bpy.ops.reeb_parts.show_pieces()
-    assert not any(piece.hide_get() for piece in (*pieces(), *dowels))
+    assert not any(piece.hide_get() for piece in (*pieces_of(), *dowels))
     assert obj.hide_get()
-    assert bpy.context.view_layer.objects.active == pieces()[0]
-    assert set(bpy.context.selected_objects) == set(pieces())
-    pieces()[1].location.x += 1.0
-    kept = pieces()[1]
+    assert bpy.context.view_layer.objects.active == pieces_of()[0]
+    assert set(bpy.context.selected_objects) == set(pieces_of())
+    pieces_of()[1].location.x += 1.0
+    kept = pieces_of()[1]
     bpy.ops.reeb_parts.show_original()
-    count = len(pieces())
+    count = len(pieces_of())
     bpy.ops.reeb_parts.separate()
-    assert len(pieces()) == count
-    assert not any(piece.hide_get() for piece in (*pieces(), kept))
-    assert kept not in pieces()
+    assert len(pieces_of()) == count
+    assert not any(piece.hide_get() for piece in (*pieces_of(), kept))
+    assert kept not in pieces_of()
 
 
 def shown_pieces():
     """How many pieces are seen after Show Separated Parts, with their original hidden."""
     bpy.ops.reeb_parts.show_pieces()
     assert bpy.context.view_layer.objects["Tree"].hide_get()
-    assert bpy.context.view_layer.objects.active == pieces()[0]
-    return sum(piece.visible_get() for piece in pieces())
+    assert bpy.context.view_layer.objects.active == pieces_of()[0]
+    return sum(piece.visible_get() for piece in pieces_of())
 
 
 @pytest.mark.parametrize("hidden_by", ["exclude", "hide_viewport"])
@@ -406,7 +392,7 @@ def test_pieces_are_shown_though_their_collection_was_not_seen(obj, hidden_by):
     bpy.ops.reeb_parts.show_original()
     setattr(bpy.context.view_layer.layer_collection.children["Parts of Tree"], hidden_by, True)
     activate(obj)
-    assert shown_pieces() == len(pieces()) > 2
+    assert shown_pieces() == len(pieces_of()) > 2
 
 
 def test_pieces_are_shown_in_another_scene(obj):
@@ -416,7 +402,7 @@ def test_pieces_are_shown_in_another_scene(obj):
     other.collection.objects.link(obj)
     bpy.context.window.scene = other
     activate(obj)
-    assert shown_pieces() == len(pieces()) > 2
+    assert shown_pieces() == len(pieces_of()) > 2
 
 
 def test_pieces_are_shown_in_a_file_that_got_their_original_alone(obj, tmp_path):
@@ -429,7 +415,7 @@ def test_pieces_are_shown_in_a_file_that_got_their_original_alone(obj, tmp_path)
     bpy.context.scene.collection.objects.link(bpy.data.objects["Tree"])
     bpy.data.objects["Tree"].hide_set(False)
     activate(bpy.data.objects["Tree"])
-    assert shown_pieces() == len(pieces()) > 2
+    assert shown_pieces() == len(pieces_of()) > 2
 
 
 def test_pieces_are_shown_from_within_an_excluded_collection(obj):
@@ -442,7 +428,7 @@ def test_pieces_are_shown_from_within_an_excluded_collection(obj):
     scene.children.unlink(ours)
     bpy.context.view_layer.layer_collection.children["Around"].exclude = True
     activate(obj)
-    assert shown_pieces() == len(pieces()) > 2
+    assert shown_pieces() == len(pieces_of()) > 2
     assert bpy.context.view_layer.layer_collection.children["Around"].exclude
 
 
@@ -451,7 +437,7 @@ def test_the_original_or_its_pieces_are_rendered(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(joints="DOWEL")
     items = [item for item in bpy.data.collections["Parts of Tree"].objects if "Empty" not in item.name]
-    out = pieces()[1]
+    out = pieces_of()[1]
     out.hide_render = True
     activate(out)
     for _ in range(2):
@@ -462,11 +448,11 @@ def test_the_original_or_its_pieces_are_rendered(obj):
         assert obj.hide_render
         assert [item for item in items if item.hide_render] == [out]
     bpy.ops.reeb_parts.show_original()
-    count = len(pieces())
+    count = len(pieces_of())
     bpy.ops.reeb_parts.separate()
-    assert len(pieces()) == count
-    assert out not in pieces()
-    assert not any(piece.hide_render for piece in pieces())
+    assert len(pieces_of()) == count
+    assert out not in pieces_of()
+    assert not any(piece.hide_render for piece in pieces_of())
 
 
 def test_an_original_out_of_renders_has_pieces_out_of_renders(obj):
@@ -475,12 +461,12 @@ def test_an_original_out_of_renders_has_pieces_out_of_renders(obj):
     for _ in range(2):
         bpy.ops.reeb_parts.separate()
         assert obj.hide_render
-        assert all(piece.hide_render for piece in pieces())
+        assert all(piece.hide_render for piece in pieces_of())
         bpy.ops.reeb_parts.show_original()
         assert obj.hide_render
     obj.hide_render = False
     bpy.ops.reeb_parts.separate()
-    assert not any(piece.hide_render for piece in pieces())
+    assert not any(piece.hide_render for piece in pieces_of())
     bpy.ops.reeb_parts.show_original()
     assert not obj.hide_render
 
@@ -493,7 +479,7 @@ def test_an_original_that_an_earlier_version_hid_is_rendered_again(obj):
     activate(obj)
     obj.hide_set(True)
     bpy.ops.reeb_parts.separate(which="ALL")
-    assert not any(piece.hide_render for piece in pieces())
+    assert not any(piece.hide_render for piece in pieces_of())
     obj.reeb_parts_made.property_unset("rendered")
     bpy.ops.reeb_parts.show_original()
     assert not obj.hide_render
@@ -506,7 +492,7 @@ def test_each_view_layer_shows_the_original_or_its_pieces(obj):
     assert obj.hide_get(view_layer=other)
     bpy.ops.reeb_parts.show_original()
     assert not obj.hide_get(view_layer=other)
-    assert all(piece.hide_get(view_layer=other) for piece in pieces())
+    assert all(piece.hide_get(view_layer=other) for piece in pieces_of())
 
 
 def test_instances_that_lack_the_original_in_renders_are_named(obj, capfd):
@@ -542,13 +528,13 @@ def test_pieces_know_an_original_that_was_renamed(obj):
     bpy.ops.reeb_parts.decompose(n_parts=3)
     bpy.ops.reeb_parts.separate()
     obj.name = "Renamed"
-    bpy.context.view_layer.objects.active = pieces()[0]
+    bpy.context.view_layer.objects.active = pieces_of()[0]
     bpy.ops.reeb_parts.show_original()
     assert bpy.context.view_layer.objects.active == obj
     counts = len(bpy.data.objects), len(bpy.data.collections)
     bpy.ops.reeb_parts.separate()
     assert (len(bpy.data.objects), len(bpy.data.collections)) == counts
-    assert [piece.name for piece in pieces()] == [f"Renamed Part {number:02}" for number in (1, 2, 3)]
+    assert [piece.name for piece in pieces_of()] == [f"Renamed Part {number:02}" for number in (1, 2, 3)]
 
 
 def test_pieces_of_a_file_that_knew_the_name_alone(obj):
@@ -564,9 +550,9 @@ def test_names_colours_and_materials_of_the_parts(obj):
     obj.data.reeb_parts.parts[1].name = "Head"
     bpy.ops.reeb_parts.separate(**KEEP)
     listed = obj.data.reeb_parts.parts
-    assert [piece.name for piece in pieces()] == [f"Tree {part.name}" for part in listed]
-    assert [piece.data.name for piece in pieces()] == [f"Tree {part.name}" for part in listed]
-    for piece, part in zip(pieces(), listed, strict=True):
+    assert [piece.name for piece in pieces_of()] == [f"Tree {part.name}" for part in listed]
+    assert [piece.data.name for piece in pieces_of()] == [f"Tree {part.name}" for part in listed]
+    for piece, part in zip(pieces_of(), listed, strict=True):
         srgb = np.array(part.color)  # Blender draws what objects are coloured with as linear
         linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
         assert tuple(piece.color)[:3] == pytest.approx(linear, abs=1e-5)
@@ -583,30 +569,30 @@ def test_pieces_lie_where_their_faces_lay(obj, center, parent):
     obj.scale, obj.rotation_euler, obj.location = (-1.5, 0.5, 2.0), (0.1, 0.7, -0.4), (1, 2, 3)
     obj.delta_location = (0.5, 0, 0)
     bpy.ops.reeb_parts.decompose()
-    numbers, points = numbers_of(obj), world_points(obj)
+    numbers, points = numbers_of(obj.data), world_points(obj)
     bpy.ops.reeb_parts.separate(center=center, parent=parent, **WHOLE)
-    for piece in pieces():
+    for piece in pieces_of():
         here = elements(obj.data, numbers == piece["reeb_parts_number"])["POINT"]
         assert world_points(piece) == pytest.approx(points[here], abs=1e-4)
         assert piece.parent == (obj if parent else frame)
-    origins = {tuple(round(x, 4) for x in piece.matrix_world.translation) for piece in pieces()}
-    assert len(origins) == (len(pieces()) if center else 1)
+    origins = {tuple(round(x, 4) for x in piece.matrix_world.translation) for piece in pieces_of()}
+    assert len(origins) == (len(pieces_of()) if center else 1)
 
 
 def test_an_animated_object_keeps_its_origin(obj):
     obj.keyframe_insert("location", frame=1)
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(center=True)
-    assert all(piece.location == obj.location for piece in pieces())
+    assert all(piece.location == obj.location for piece in pieces_of())
 
 
 def test_modifiers_are_copied_or_not(obj):
     obj.modifiers.new("Smooth", "SUBSURF")
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP)
-    assert all(piece.modifiers.keys() == ["Smooth"] for piece in pieces())
+    assert all(piece.modifiers.keys() == ["Smooth"] for piece in pieces_of())
     bpy.ops.reeb_parts.separate(modifiers=False, **KEEP)
-    assert not any(piece.modifiers for piece in pieces())
+    assert not any(piece.modifiers for piece in pieces_of())
 
 
 def test_what_a_bmesh_says_of_its_shapes_is_written(package, rich):
@@ -642,7 +628,7 @@ def test_other_parts_replace_the_earlier_pieces(obj):
     activate(obj)
     obj.data.reeb_parts.n_parts = 2
     bpy.ops.reeb_parts.separate(**KEEP)
-    assert len(bpy.data.collections["Parts of Tree"].objects) == len(pieces()) == 2
+    assert len(bpy.data.collections["Parts of Tree"].objects) == len(pieces_of()) == 2
     assert len(bpy.data.meshes) < meshes
 
 
@@ -651,10 +637,10 @@ def test_with_a_piece_active_commands_name_the_original(obj, name, tmp_path):
     """In a script, right after Separate."""
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate()
-    assert bpy.context.object in pieces()
+    assert bpy.context.object in pieces_of()
     with pytest.raises(RuntimeError, match="Select the original, Tree, first"):
         getattr(bpy.ops.reeb_parts, name)(**({"directory": str(tmp_path)} if name == "export" else {}))
-    activate(pieces()[0])
+    activate(pieces_of()[0])
     bpy.ops.reeb_parts.decompose()
     assert bpy.ops.reeb_parts.hulls() == {"FINISHED"}
 
@@ -725,20 +711,20 @@ def test_pieces_that_somebody_worked_on_are_kept(obj, work):
     with_input(obj)
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP)
-    count = len(pieces())
-    mine = pieces()[0]
+    count = len(pieces_of())
+    mine = pieces_of()[0]
     WORK[work](mine)
     activate(obj)
     bpy.ops.reeb_parts.separate(**KEEP)
     assert mine in bpy.data.objects[:]
-    assert mine not in pieces()
-    assert len(pieces()) == count
+    assert mine not in pieces_of()
+    assert len(pieces_of()) == count
 
 
 def test_pieces_that_somebody_only_looked_at_are_replaced(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP)
-    looked, count = pieces()[0], len(pieces())
+    looked, count = pieces_of()[0], len(pieces_of())
     activate(looked)
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
@@ -747,7 +733,7 @@ def test_pieces_that_somebody_only_looked_at_are_replaced(obj):
     bpy.ops.object.mode_set(mode="OBJECT")
     activate(obj)
     bpy.ops.reeb_parts.separate(**KEEP)
-    assert len(bpy.data.collections["Parts of Tree"].objects) == len(pieces()) == count
+    assert len(bpy.data.collections["Parts of Tree"].objects) == len(pieces_of()) == count
 
 
 def test_what_our_tools_make_of_pieces_is_no_work(obj):
@@ -757,7 +743,7 @@ def test_what_our_tools_make_of_pieces_is_no_work(obj):
     obj.keyframe_insert("location", frame=9)
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP)
-    count = len(pieces())
+    count = len(pieces_of())
     bpy.ops.reeb_parts.rigid_bodies()
     activate(obj)
     bpy.ops.reeb_parts.hulls()
@@ -765,32 +751,32 @@ def test_what_our_tools_make_of_pieces_is_no_work(obj):
     activate(obj)
     bpy.ops.reeb_parts.separate(**KEEP)
     others = [item for item in bpy.data.collections["Parts of Tree"].objects if item.get("reeb_parts_role") != "hull"]
-    assert len(others) == len(pieces()) == count
-    mine = pieces()[0]
+    assert len(others) == len(pieces_of()) == count
+    mine = pieces_of()[0]
     bpy.ops.reeb_parts.rigid_bodies()
     mine.rigid_body.mass = 7
     activate(obj)
     bpy.ops.reeb_parts.separate(**KEEP)
     assert mine in bpy.data.objects[:]
-    assert mine not in pieces()
+    assert mine not in pieces_of()
 
 
 def test_pieces_that_earlier_versions_made_are_known(obj, package, tmp_path):
     """They kept a long text, where there is a short one now."""
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP)
-    assert all(len(piece["reeb_parts_looks"]) < 60 for piece in pieces())
-    for piece in pieces():
+    assert all(len(piece["reeb_parts_looks"]) < 60 for piece in pieces_of())
+    for piece in pieces_of():
         piece["reeb_parts_looks"] = importlib.import_module(f"{package}.scene.pieces.piece_objects").former_looks(piece)
-    mine, count = pieces()[0], len(pieces())
+    mine, count = pieces_of()[0], len(pieces_of())
     mine.location.x += 1
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "pieces.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "pieces.blend"))
-    obj, mine = bpy.data.objects["Tree"], pieces()[0]
+    obj, mine = bpy.data.objects["Tree"], pieces_of()[0]
     activate(obj)
     bpy.ops.reeb_parts.separate(**KEEP)
     assert mine in bpy.data.objects[:]
-    assert mine not in pieces()
+    assert mine not in pieces_of()
     assert len(bpy.data.collections["Parts of Tree"].objects) == count + 1
 
 
@@ -799,27 +785,27 @@ def test_a_saved_file_knows_its_pieces(obj, tmp_path):
     with_input(obj)
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP)
-    count = len(pieces())
+    count = len(pieces_of())
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "pieces.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "pieces.blend"))
     activate(bpy.data.objects["Tree"])
     bpy.ops.reeb_parts.separate(**KEEP)
-    assert len(bpy.data.collections["Parts of Tree"].objects) == len(pieces()) == count
+    assert len(bpy.data.collections["Parts of Tree"].objects) == len(pieces_of()) == count
 
 
 def test_a_piece_that_was_decomposed_is_separated_together_with_its_original(obj):
     """Both chosen: what the original is separated into again does not take the place of the piece."""
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP)
-    mine = max(pieces(), key=lambda piece: len(piece.data.polygons))
+    mine = max(pieces_of(), key=lambda piece: len(piece.data.polygons))
     name = mine.name
     activate(mine)
     bpy.ops.reeb_parts.decompose(detail=0.9, graph=False)
     obj.select_set(True)
     bpy.ops.reeb_parts.separate(**KEEP)
     assert mine.name == name
-    assert len(pieces()) == len(obj.data.reeb_parts.parts)
-    assert len(pieces(name)) == len(mine.data.reeb_parts.parts) > 1
+    assert len(pieces_of()) == len(obj.data.reeb_parts.parts)
+    assert len(pieces_of(name)) == len(mine.data.reeb_parts.parts) > 1
 
 
 def test_only_the_chosen_parts(obj):
@@ -828,12 +814,12 @@ def test_only_the_chosen_parts(obj):
     for index in (1, 2):
         listed[index].selected = True
     bpy.ops.reeb_parts.separate(which="CHOSEN", **KEEP)
-    assert [p["reeb_parts_number"] for p in pieces()] == [2, 3]
+    assert [p["reeb_parts_number"] for p in pieces_of()] == [2, 3]
     activate(obj)
     listed[1].selected = False
     listed[3].selected = True
     bpy.ops.reeb_parts.separate(which="CHOSEN", **KEEP)
-    assert [p["reeb_parts_number"] for p in pieces()] == [2, 3, 4]
+    assert [p["reeb_parts_number"] for p in pieces_of()] == [2, 3, 4]
 
 
 @pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "WEIGHT_PAINT", "VERTEX_PAINT", "TEXTURE_PAINT"])
@@ -842,7 +828,7 @@ def test_from_every_mode(obj, mode, hide):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.object.mode_set(mode=mode)
     bpy.ops.reeb_parts.separate(hide=hide)
-    assert len(pieces()) == len(obj.data.reeb_parts.parts)
+    assert len(pieces_of()) == len(obj.data.reeb_parts.parts)
     assert obj.mode == ("OBJECT" if hide else mode)
 
 
@@ -854,8 +840,8 @@ def test_linked_duplicates_get_pieces_of_their_own(obj):
     bpy.ops.reeb_parts.separate(**KEEP)
     activate(twin)
     bpy.ops.reeb_parts.separate(**KEEP)
-    assert [p.location.x for p in pieces(twin.name)] == [20] * len(pieces())
-    assert [p.location.x for p in pieces()] == [0] * len(pieces())
+    assert [p.location.x for p in pieces_of(twin.name)] == [20] * len(pieces_of())
+    assert [p.location.x for p in pieces_of()] == [0] * len(pieces_of())
 
 
 def test_several_objects_at_once(make):
@@ -865,7 +851,7 @@ def test_several_objects_at_once(make):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP)
     for obj in objects:
-        assert len(pieces(obj.name)) == len(obj.data.reeb_parts.parts)
+        assert len(pieces_of(obj.name)) == len(obj.data.reeb_parts.parts)
 
 
 def test_undo_and_redo(obj):
@@ -894,7 +880,7 @@ def test_an_edited_mesh_beside_the_active_one_is_left_out(make, capfd, tmp_path)
     assert all(path.name.startswith("Active") for path in tmp_path.iterdir())
     bpy.ops.reeb_parts.separate(**KEEP)
     assert "Warning: Edited was edited since" in capfd.readouterr().out
-    assert len(pieces("Active")) == len(active.data.reeb_parts.parts)
+    assert len(pieces_of("Active")) == len(active.data.reeb_parts.parts)
     assert "Parts of Edited" not in bpy.data.collections
 
 
@@ -912,7 +898,7 @@ def test_models_in_closed_pieces_lose_nothing(model, parts, make):
     carried.furnish(obj)
     bpy.ops.reeb_parts.decompose(**parts)
     bpy.ops.reeb_parts.separate(caps=True, **KEEP, **WHOLE)
-    found = carried.compare(obj, pieces(obj.name))
+    found = carried.compare(obj, pieces_of(obj.name))
     assert found.caps > (100 if parts else 50)  # the eyes of Suzanne and their sockets are parts together
     assert (found.lost, found.new_borders, found.new_branches) == (0, 0, 0)
     assert abs(found.area) < 1e-5
@@ -955,8 +941,8 @@ def test_with_a_mirror_modifier_pieces_stay_where_they_were(obj, style):
     bpy.ops.reeb_parts.decompose()
     before = seen_faces(obj)
     bpy.ops.reeb_parts.separate(**style, **WHOLE)
-    assert same_places(seen_faces(*pieces()), before)
-    assert all(bool(piece.modifiers) != style.get("seen", False) for piece in pieces())
+    assert same_places(seen_faces(*pieces_of()), before)
+    assert all(bool(piece.modifiers) != style.get("seen", False) for piece in pieces_of())
 
 
 def test_copies_of_an_array_stay_together(obj):
@@ -969,7 +955,7 @@ def test_copies_of_an_array_stay_together(obj):
     seen = seen_faces(obj)
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**KEEP, **WHOLE)
-    assert same_places(seen_faces(*pieces()), seen)
+    assert same_places(seen_faces(*pieces_of()), seen)
     assert obj.modifiers["Row"].use_relative_offset
 
 
@@ -1044,8 +1030,8 @@ def test_about_another_object_pieces_have_origins_of_their_own(obj):
     bpy.ops.reeb_parts.decompose()
     before = seen_faces(obj)
     bpy.ops.reeb_parts.separate(**WHOLE)
-    assert same_places(seen_faces(*pieces()), before)
-    assert len({tuple(piece.location) for piece in pieces()}) == len(pieces())
+    assert same_places(seen_faces(*pieces_of()), before)
+    assert len({tuple(piece.location) for piece in pieces_of()}) == len(pieces_of())
 
 
 @pytest.mark.parametrize("materials", [False, True])
@@ -1057,14 +1043,14 @@ def test_what_is_seen_is_cut_with_all_that_modifiers_make(obj, materials):
     bpy.ops.reeb_parts.separate(seen=True, caps=True, hide=False, **WHOLE)
     assert snapshot()["meshes"]["Tree"] == stored
     corners = read(obj.data.polygons, "loop_total", np.int32)
-    expected = np.bincount(numbers_of(obj), corners)[1:].astype(int).tolist()
-    assert [int((caps_of(piece.data) == 0).sum()) for piece in pieces()] == expected
-    assert [len(piece.data.materials) for piece in pieces()] == [int(materials)] * len(pieces())
+    expected = np.bincount(numbers_of(obj.data), corners)[1:].astype(int).tolist()
+    assert [int((caps_of(piece.data) == 0).sum()) for piece in pieces_of()] == expected
+    assert [len(piece.data.materials) for piece in pieces_of()] == [int(materials)] * len(pieces_of())
     assert not any(a.name.startswith(("reeb", "Reeb")) and a.name != "reeb_cap"
-                   for piece in pieces() for a in piece.data.attributes)
-    assert not any(piece.vertex_groups for piece in pieces())
+                   for piece in pieces_of() for a in piece.data.attributes)
+    assert not any(piece.vertex_groups for piece in pieces_of())
     bpy.ops.reeb_parts.separate(seen=True, hide=False, **WHOLE)
-    assert same_places(seen_faces(*pieces()), before)
+    assert same_places(seen_faces(*pieces_of()), before)
 
 
 def test_linked_duplicates_have_pieces_of_their_own(obj, tmp_path):
@@ -1089,7 +1075,7 @@ def test_walls_that_a_modifier_makes_are_closed_between_their_rims(obj):
     obj.modifiers.new("Solidify", "SOLIDIFY").thickness = 0.05
     bpy.ops.reeb_parts.decompose()
     assert bpy.ops.reeb_parts.separate(seen=True, caps=True, hide=False, **WHOLE) == {"FINISHED"}
-    assert [borders(piece.data) for piece in pieces()] == [(set(), 0)] * len(pieces())
+    assert [borders(piece.data) for piece in pieces_of()] == [(set(), 0)] * len(pieces_of())
 
 
 def test_faces_of_no_part_are_refused_and_nothing_written(obj):
@@ -1107,7 +1093,7 @@ def test_groups_of_a_cage_survive_subdivision(obj):
     names = {part.number: part.name for part in obj.data.reeb_parts.parts}
     obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
     bpy.ops.object.modifier_apply(modifier="Subdivision")
-    numbers = numbers_of(obj)
+    numbers = numbers_of(obj.data)
     for number, name in names.items():
         index = obj.vertex_groups[name].index
         full = np.array([any(g.group == index and g.weight > 0.999 for g in v.groups) for v in obj.data.vertices])
@@ -1147,7 +1133,7 @@ def test_smooth_cuts_interpolate_all_that_is_carried(linear, caps):
     bpy.ops.reeb_parts.separate(caps=caps, **KEEP)
     assert snapshot()["meshes"]["Tree"] == before
     faces = 0
-    for piece in pieces():
+    for piece in pieces_of():
         mesh = piece.data
         cap = caps_of(mesh) == 1
         own = ~np.repeat(cap, read(mesh.polygons, "loop_total", np.int32))
@@ -1163,7 +1149,7 @@ def test_smooth_cuts_interpolate_all_that_is_carried(linear, caps):
         fat = read(mesh.shape_keys.key_blocks["Fat"].data, "co", np.float32, 3)
         assert fat[used] == pytest.approx(1.5 * points[used], abs=1e-4)
         faces += int((~cap).sum())
-    area = sum(f.area for p in pieces() for f, c in zip(p.data.polygons, caps_of(p.data), strict=True) if not c)
+    area = sum(f.area for p in pieces_of() for f, c in zip(p.data.polygons, caps_of(p.data), strict=True) if not c)
     assert area == pytest.approx(sum(polygon.area for polygon in linear.data.polygons), rel=1e-5)
     assert faces >= len(linear.data.polygons)
 
@@ -1175,13 +1161,13 @@ def test_smooth_cuts_divide_what_faces_leave_ragged(obj):
     for cut in ("FACES", "SMOOTH"):
         activate(obj)
         bpy.ops.reeb_parts.separate(cut=cut, caps=False, **KEEP)
-        turned[cut] = sum(map(turning, pieces()))
-    round_ = 2 * np.pi * 2 * (len(pieces()) - 1)
+        turned[cut] = sum(map(turning, pieces_of()))
+    round_ = 2 * np.pi * 2 * (len(pieces_of()) - 1)
     assert turned["SMOOTH"] - round_ < 0.25 * (turned["FACES"] - round_)
     activate(obj)
     bpy.ops.reeb_parts.separate(caps=True, **KEEP)
-    assert [borders(piece.data) for piece in pieces()] == [(set(), 0)] * len(pieces())
-    assert sum(volume(piece.data) for piece in pieces()) == pytest.approx(volume(obj.data), rel=1e-5)
+    assert [borders(piece.data) for piece in pieces_of()] == [(set(), 0)] * len(pieces_of())
+    assert sum(volume(piece.data) for piece in pieces_of()) == pytest.approx(volume(obj.data), rel=1e-5)
 
 
 def turning(piece):
@@ -1374,7 +1360,7 @@ def test_a_check_tells_what_is_wrong_with_a_mesh(make, checks):
 def test_pieces_are_checked_and_what_is_wrong_can_be_selected_and_repaired(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(caps=False)
-    piece = pieces()[0]
+    piece = pieces_of()[0]
     activate(piece)
     assert "reeb_parts_check" not in piece
     bpy.ops.reeb_parts.check_pieces()
@@ -1386,7 +1372,7 @@ def test_pieces_are_checked_and_what_is_wrong_can_be_selected_and_repaired(obj):
     with pytest.raises(RuntimeError, match="nothing of the kind"):
         bpy.ops.reeb_parts.select_faults(kind="CROSSING")
     check_undo(bpy.ops.reeb_parts.repair_piece)
-    piece = pieces()[0]
+    piece = pieces_of()[0]
     assert borders(piece.data) == (set(), 0)
     with pytest.raises(RuntimeError, match="can be repaired"):
         bpy.ops.reeb_parts.repair_piece()
@@ -1410,7 +1396,7 @@ def turn(mesh, mask):
 def test_faces_that_look_both_ways_are_found_and_repaired(obj, checks, capfd, share, closed):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(caps=True)
-    piece = pieces()[0]
+    piece = pieces_of()[0]
     activate(piece)
     size = volume(piece.data)
     if not closed:
@@ -1432,7 +1418,7 @@ def test_faces_that_look_both_ways_are_found_and_repaired(obj, checks, capfd, sh
     bpy.ops.object.mode_set(mode="OBJECT")
     assert found.contrary_edges <= read(piece.data.polygons, "select", bool).sum() <= 2 * found.contrary_edges
     check_undo(bpy.ops.reeb_parts.repair_piece)
-    piece = pieces()[0]
+    piece = pieces_of()[0]
     assert checks.kept(piece).sound
     assert borders(piece.data) == (set(), 0)
     assert volume(piece.data) == pytest.approx(size, rel=1e-3)
@@ -1441,14 +1427,14 @@ def test_faces_that_look_both_ways_are_found_and_repaired(obj, checks, capfd, sh
 def test_all_selected_pieces_are_repaired(obj, checks):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(caps=True)
-    for piece in pieces():
+    for piece in pieces_of():
         piece.data.flip_normals()
         piece.select_set(True)
-    bpy.context.view_layer.objects.active = pieces()[0]
+    bpy.context.view_layer.objects.active = pieces_of()[0]
     bpy.ops.reeb_parts.check_pieces()
-    assert not any(checks.kept(piece).sound for piece in pieces())
+    assert not any(checks.kept(piece).sound for piece in pieces_of())
     assert bpy.ops.reeb_parts.repair_piece() == {"FINISHED"}
-    assert all(checks.kept(piece).sound for piece in pieces())
+    assert all(checks.kept(piece).sound for piece in pieces_of())
 
 
 @pytest.mark.parametrize("share", [0.3, 1.0])
@@ -1457,7 +1443,7 @@ def test_pieces_of_a_model_with_turned_faces_are_those_of_the_model_without(rich
     """Faces of pieces with closed holes look outwards, also if none of the model does; corners keep what they carry."""
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(caps=True, **KEEP, **style)
-    want = [(volume(piece.data), corners_of(piece.data)) for piece in pieces()]
+    want = [(volume(piece.data), corners_of(piece.data)) for piece in pieces_of()]
     activate(rich)
     bpy.ops.reeb_parts.clear()
     turn(rich.data, np.random.default_rng(0).random(len(rich.data.polygons)) < share)
@@ -1465,7 +1451,7 @@ def test_pieces_of_a_model_with_turned_faces_are_those_of_the_model_without(rich
     capfd.readouterr()
     bpy.ops.reeb_parts.separate(caps=True, **KEEP, **style)
     assert "look inwards" not in capfd.readouterr().out
-    found = pieces()
+    found = pieces_of()
     assert len(found) == len(want)
     for piece, (size, corners) in zip(found, want, strict=True):
         assert checks.kept(piece).sound
@@ -1497,7 +1483,7 @@ def test_what_crosses_itself_in_the_model_is_told_apart(make, checks, capfd):
     bpy.ops.reeb_parts.decompose(n_parts=3)
     capfd.readouterr()
     bpy.ops.reeb_parts.separate(caps=True)
-    found = {piece.name: checks.kept(piece) for piece in pieces()}
+    found = {piece.name: checks.kept(piece) for piece in pieces_of()}
     crossing = [one for one in found.values() if one.crossing_faces]
     said = capfd.readouterr().out
     assert all(one.as_model for one in crossing)
@@ -1529,7 +1515,7 @@ def test_bent_cuts_are_planar_if_asked_for(make, separate, cut):
 def test_with_holes_closed_the_report_tells_the_truth(obj, capfd, style):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate(**style)
-    count = len(pieces())
+    count = len(pieces_of())
     assert f"{count} parts are closed and do not cross themselves" in capfd.readouterr().out
 
 
@@ -1589,9 +1575,9 @@ def test_what_is_rare_is_carried_too(obj, style):
         key.driver_add("value").driver.expression = "0.5"
     weights = [{entry.group: entry.weight for entry in vertex.groups} for vertex in mesh.vertices]
     bpy.ops.reeb_parts.decompose()
-    numbers = numbers_of(obj)
+    numbers = numbers_of(obj.data)
     bpy.ops.reeb_parts.separate(caps=False, **{**KEEP, **style})
-    for piece in pieces():
+    for piece in pieces_of():
         made = piece.data
         assert [(group.name, group.lock_weight) for group in piece.vertex_groups] == [("Empty", True), ("Bone", False)]
         assert (made.uv_layers.active.name, [layer.active_render for layer in made.uv_layers]) == ("Map", [False, True])
@@ -1638,7 +1624,7 @@ def test_what_is_sculpted_with_multires_stays(obj, style):
     assert np.median(np.linalg.norm(whole - flat, axis=1)) > 0.01
     bpy.ops.reeb_parts.decompose(n_parts=4)  # large ones, most of whose points are far from cuts
     bpy.ops.reeb_parts.separate(caps=False, modifiers=True, **{**KEEP, **style})
-    for piece in pieces():
+    for piece in pieces_of():
         bpy.context.view_layer.update()
         points = seen_points(piece)
         assert len(points) > 2 * len(piece.data.vertices)
@@ -1687,7 +1673,7 @@ def test_pieces_carry_matrices(obj, domain):
     bpy.ops.reeb_parts.decompose(n_parts=3)
     bpy.ops.reeb_parts.separate(caps=True, **KEEP)
     seen = np.zeros(len(values), bool)
-    for piece in pieces():
+    for piece in pieces_of():
         kept = piece.data.attributes["pose"]
         assert (kept.data_type, kept.domain) == ("FLOAT4X4", domain)
         found = read(kept.data, "value", width=16)

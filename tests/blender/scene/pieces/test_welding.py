@@ -7,28 +7,18 @@ import bpy
 import numpy as np
 import pytest
 import shapes
-from pieces import closed_volume, is_sound
+from bulk import read
+from pieces import closed_volume, is_sound, pieces_of
 from results import numbers
 from snapshot import activate
-
-
-def read(items, key, kind, width=1):
-    values = np.empty(width * len(items), kind)
-    items.foreach_get(key, values)
-    return values.reshape(-1, width)
-
-
-def pieces_of(obj):
-    found = bpy.data.collections[f"Parts of {obj.name}"].objects
-    return sorted((piece for piece in found if "reeb_parts_number" in piece), key=lambda p: p["reeb_parts_number"])
 
 
 def dressed(obj):
     """Smooth faces, a map, colors, weights and a shape key, all as the places of the corners say."""
     mesh = obj.data
     points = read(mesh.vertices, "co", np.float32, 3)
-    corner = read(mesh.loops, "vertex_index", np.int32)[:, 0]
-    face = np.repeat(np.arange(len(mesh.polygons)), read(mesh.polygons, "loop_total", np.int32)[:, 0])
+    corner = read(mesh.loops, "vertex_index", np.int32)
+    face = np.repeat(np.arange(len(mesh.polygons)), read(mesh.polygons, "loop_total", np.int32))
     mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
     mesh.uv_layers.new(name="Map").data.foreach_set("uv", (points[corner, :2] + face[:, None]).ravel())
     mesh.attributes.new("Paint", "FLOAT_COLOR", "POINT").data.foreach_set("color", np.tile(points[:, :1], 4).ravel())
@@ -44,7 +34,7 @@ def at_corners(obj, mesh, faces):
     """What the corners of some faces of a mesh carry, (c, k)."""
     corner = np.concatenate([np.arange(f.loop_start, f.loop_start + f.loop_total)
                              for f in (mesh.polygons[i] for i in faces)])
-    vertex = read(mesh.loops, "vertex_index", np.int32)[corner, 0]
+    vertex = read(mesh.loops, "vertex_index", np.int32)[corner]
     weight = np.array([sum(entry.weight for entry in v.groups if obj.vertex_groups[entry.group].name == "Arm")
                        for v in mesh.vertices], np.float32)
     return np.concatenate([
@@ -58,7 +48,7 @@ def separate(obj, **how):
     activate(obj)
     bpy.ops.reeb_parts.decompose()
     assert bpy.ops.reeb_parts.separate(center=False, **how) == {"FINISHED"}
-    return pieces_of(obj)
+    return pieces_of(obj.name)
 
 
 @pytest.mark.parametrize("cut", ["SMOOTH", "FACES"])
@@ -144,7 +134,7 @@ def test_marks_of_either_edge_stay(make, tree, package):
         """The largest value of the edges at each place."""
         middle = read(mesh.vertices, "co", np.float32, 3)[read(mesh.edges, "vertices", np.int32, 2)].mean(axis=1)
         values = (read(mesh.attributes[key].data, "value", np.float32) if key == "crease_edge"
-                  else read(mesh.edges, key, bool))[:, 0]
+                  else read(mesh.edges, key, bool))
         found = {}
         for place, value in zip(map(tuple, middle.round(5).tolist()), values.tolist(), strict=True):
             found[place] = max(found.get(place, 0), value)
@@ -174,4 +164,4 @@ def test_a_flat_model_with_multires_is_separated(make, cut):
     bpy.ops.object.multires_subdivide(modifier=modifier.name, mode="SIMPLE")
     bpy.ops.reeb_parts.decompose(n_parts=3)
     assert bpy.ops.reeb_parts.separate(cut=cut, caps=False, hide=False) == {"FINISHED"}
-    assert sum(len(piece.data.polygons) for piece in pieces_of(obj)) >= len(shape.faces)
+    assert sum(len(piece.data.polygons) for piece in pieces_of(obj.name)) >= len(shape.faces)
