@@ -1,5 +1,95 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's data, read and written: meshes as arrays, results stored with their meshes, and what is made of them."""
+"""Blender's data, read and written: meshes as arrays, results stored with their meshes, and what is made of them.
+
+Reading:
+
+- ``bridge``: the shape of an object as arrays for core
+- ``mesh_arrays``: the arrays of a mesh, and what tells that it was edited
+- ``elements``: the elements of a mesh with all that they carry, some of them taken or others put on
+- ``element_layers``: reads these from a mesh, and makes meshes of them
+- ``mesh_groups``: the vertex groups of a mesh
+- ``matrix_layers``: a BMesh with matrices, too
+- ``half_models``: objects whose first modifier is a Mirror
+- ``face_hints``: materials and such, for cuts to follow
+- ``modified``: the mesh as it is seen, with its modifiers applied
+- ``seen_points``: where the vertices of a mesh are seen
+- ``placing``: where objects are in the world
+- ``part_places``: where parts are
+- ``units``: lengths of the scene in millimeters
+
+Computing:
+
+- ``compute``: from shapes to decompositions
+- ``jobs``: a computation in a process of its own, watched from Blender's
+- ``processes``: that process
+
+The result:
+
+- ``results``: written to an object, and removed from it
+- ``store``: kept with its mesh
+- ``schema``: what is stored in the file
+- ``succession``: a new result for a mesh that had one
+- ``outputs``: what of the parts is written to a mesh
+- ``orphan_outputs``: what of ours a mesh has without a result
+- ``part_list``: which parts are chosen in the list
+- ``part_names``: names and colors of parts, by their numbers
+- ``naming``: names that are suggested
+- ``notes``: notes on a mesh
+- ``object_report``: what the JSON says of an object
+- ``graph``: the graph as objects
+
+Changes:
+
+- ``edits``: parts changed by hand
+- ``reactions``: what a slider or a new name does
+- ``settled``: sliders that go back when what they ask for cannot be shown
+- ``property_updates``: whether it is the user who writes a property
+- ``watch``: notices that a mesh was edited or deleted
+- ``alike``: parts that are alike, and names carried to other models
+
+What is made of parts:
+
+- ``pieces``: parts as objects
+- ``joints``: pegs and such, which join these
+- ``cut_list``: their cuts as a list on the object
+- ``cut_curves``: curves that Separate would cut along
+- ``by_extent``: modifiers that work by the extent of the whole mesh, and would shape a piece otherwise
+- ``armature``: bones, and the weights with which they move the mesh
+- ``skeleton``: where these bones are
+- ``hulls``: convex hulls to collide with
+- ``rigid_bodies``: pieces held together by joints of Blender's simulation
+- ``uv_map``: a UV map with an island for each part
+- ``explode``: parts that drift apart in the view
+- ``hidden``: parts that vanish from it
+- ``made_objects``: what we made, replaced by the next run unless the user has worked on it
+- ``object_digest``: tells whether somebody has worked on an object
+- ``export``: parts as files
+- ``run_files``: files put in place all or none
+- ``file_checks``: whether a file is all there
+
+Settings:
+
+- ``settings``: what the next run, and what is made of its parts, will be like
+- ``defaults``: what the preferences say
+- ``panel_settings``: those of the panel, given to an operator that is started from it
+
+What every operator needs:
+
+- ``reporting``: operators that tell what is wrong
+- ``stepped``: operators whose work can be long
+- ``targets``: which objects can be worked on
+- ``errors``: what users are told, and the way into core
+- ``transaction``: all or nothing
+- ``snapshots``: what a transaction keeps
+- ``sculpt_undo``: undo in Sculpt Mode
+- ``modes``: leaves a mode, and returns to it
+- ``selection``: what is selected or hidden
+- ``visibility``: objects that are hidden for a while
+- ``modifiers``: modifiers of ours
+- ``temporary``: data that is there for a while only
+- ``handlers``: functions that Blender calls
+- ``redraw``: lets windows draw again
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn over the model and pointed at in the 3D viewport."""
+"""What is drawn over the model and pointed at in the 3D viewport.
+
+- ``highlight``: the outline of the chosen parts, and all cuts
+- ``graph_overlay``: the graph in the colors of its parts
+- ``graph_lines``: its arcs as lines to draw and to point at
+- ``hover``: the part under the pointer, filled and named
+- ``lines``: lines and surfaces that are drawn
+- ``shading``: shows the parts' colors in a viewport
+- ``framing``: looks at something from near
+- ``follow_active``: has the list follow the active object
+- ``idle``: what takes too long to be found at each move
+- ``pointing``: what lies under the pointer
+
+Tools, which are used with the pointer until they are confirmed:
+
+- ``view_tool``: what all of them have in common
+- ``colored_tool``: those that show in colors what a part would be
+- ``ring_tool``: those that move boundaries ring by ring
+- ``knife``: where a part is cut
+- ``boundary``: the boundary of a part, to be moved
+- ``brush``: paints faces into a part
+- ``box``: which parts are seen in a box
+"""
 
 from __future__ import annotations
 
