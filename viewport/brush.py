@@ -7,6 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from numpy.typing import ArrayLike
 
 from ..core.sentence import Count
+from ..core.surface.arrays import expanded
 from ..core.surface.components import components
 from ..core.surface.pairs import both_ways
 from ..scene import edits, mesh_arrays, part_names, store
@@ -56,10 +57,8 @@ class Brush:
         if first not in near:  # faces larger than the brush are painted one by one
             near = np.append(near, first)
         self.place[near] = np.arange(len(near))
-        degree = self.start[near + 1] - self.start[near]
-        owner = np.repeat(np.arange(len(near)), degree)
-        row = np.arange(degree.sum()) - np.repeat(np.cumsum(degree) - degree, degree)
-        beside = self.place[self.neighbors[np.repeat(self.start[near], degree) + row]]
+        owner, row = expanded(self.start[near], self.start[near + 1] - self.start[near])
+        beside = self.place[self.neighbors[row]]
         _, piece = components(len(near), owner[beside >= 0], beside[beside >= 0])
         hit = near[piece == piece[self.place[first]]]
         self.place[near] = -1

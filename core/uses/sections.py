@@ -8,6 +8,7 @@ import numpy as np
 from ..surface.components import components
 from ..surface.mesh import EdgeTable
 from ..surface.pairs import are_among, distinct_pairs
+from ..surface.vectors import cross_in_plane
 
 # A piece is a little smaller than the box.
 _ROOM = 1 - 1e-4
@@ -91,7 +92,7 @@ def inside_section(flat: np.ndarray, edges: np.ndarray, triangles: np.ndarray) -
             break
     chosen = triangles[inside[label] == 1]
     a, b, c = flat[chosen].transpose(1, 0, 2)
-    turn = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    turn = cross_in_plane(b - a, c - a)
     chosen = np.where(turn[:, None] > 0, chosen, chosen[:, ::-1])
     table = EdgeTable.of(chosen, len(flat))
     same = np.array_equal(table.vertices[table.n_faces == 1], distinct_pairs(*edges.T)[0])

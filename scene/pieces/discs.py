@@ -14,7 +14,7 @@ from scipy.sparse import coo_array
 from ...core.surface.arrays import ranges
 from ...core.surface.components import components
 from ...core.surface.mesh import EdgeTable
-from ...core.surface.vectors import cross
+from ...core.surface.vectors import cross, cross_in_plane
 from ...core.uses.cap_surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
 from ...core.uses.rims import is_inside
 from ...core.uses.sleeves import Sleeve, sleeve
@@ -357,7 +357,7 @@ def _triangulated(rims: _Rims, inner: np.ndarray) -> tuple[np.ndarray, np.ndarra
     if not used[:k].all() or len(triangles) != 2 * used[k:].sum() + k - 2 + 2 * n_holes:
         return None
     a, b, c = coords[triangles].transpose(1, 0, 2)
-    turn = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    turn = cross_in_plane(b - a, c - a)
     place = np.cumsum(used) - 1
     return place[triangles if turn.sum() > 0 else triangles[:, ::-1]], used[k:]
 
