@@ -17,7 +17,6 @@ import numpy as np
 from bmesh.types import BMesh, BMFace, BMVert
 
 from ...core.steps import Steps, stretched
-from ...core.surface.corners import CornerTable
 from .. import element_layers, mesh_groups
 from ..elements import FACE, Elements, Layer, Selection
 from ..matrix_layers import as_bmesh
@@ -77,8 +76,8 @@ def finding_cuts(whole: Elements, face_numbers: np.ndarray, stretch: np.ndarray,
     """Find where smooth cuts run, in steps; arguments as of ``divide_faces``."""
     from ...core.uses.clean_cuts import method  # imports SciPy
 
-    table = CornerTable(whole.points.astype(np.float64) @ stretch.T, whole.ends, whole.corner_vertex,
-                        whole.corner_edge, whole.corner_face, len(whole.count))
+    table = whole.corner_table()
+    table = replace(table, vertices=table.vertices @ stretch.T)
     kept = None
     if len(along):
         sides = np.stack(table.edge_labels(face_numbers), axis=1)
@@ -148,7 +147,7 @@ def divide(bm: BMesh, cuts: CleanCuts) -> None:
         items.ensure_lookup_table()
     n = len(bm.verts)
     points = {}
-    first = np.flatnonzero(np.append(True, cuts.face[1:] != cuts.face[:-1])) if len(cuts.face) else np.empty(0, int)
+    first = np.flatnonzero(np.append(True, cuts.face[1:] != cuts.face[:-1]))
     # All are looked up first: to split edges may change the tables.
     faces = [bm.faces[i] for i in cuts.face[first].tolist()]
     edges = [bm.edges[i] for i in cuts.edge.tolist()]
