@@ -66,7 +66,7 @@ def _ensure(obj: bpy.types.Object) -> None:
 def _face_attribute(obj: bpy.types.Object) -> str:
     """Name of the attribute with the part numbers; made unless it is there."""
     result = obj.data.reeb_parts
-    if result.face_attribute not in obj.data.attributes:
+    if face_attribute.find(obj.data) is None:
         try:
             numbered = store.load(obj.data).shown_parts()
         except SceneError:  # the mesh was edited: the panel says so

@@ -14,6 +14,7 @@ from ..core.surface.labels import majority
 from . import bridge, mesh_arrays, part_names, store
 from .bridge import Shape
 from .errors import SceneError
+from .outputs import face_attribute
 from .store import Stored
 
 
@@ -81,10 +82,9 @@ def _former(mesh: bpy.types.Mesh) -> _Former | None:
         kept = np.isin(old.shown, [entry.number for entry in result.names])
         candidates = old.decomposition.candidates
         return _Former(np.where(kept, old.shown, old.previous_number)[candidates], old.pinned[candidates])
-    attribute = mesh.attributes.get(result.face_attribute)
+    attribute = face_attribute.find(mesh)
     faces = np.zeros(len(mesh.polygons), np.int64)
-    usable = attribute is not None and (attribute.domain, attribute.data_type) == ("FACE", "INT")
-    if usable and len(attribute.data) == len(faces):
+    if attribute is not None and len(attribute.data) == len(faces):
         faces = mesh_arrays.read(attribute.data, "value", np.int32).astype(np.int64)
         faces[(faces < 0) | (faces > part_names.MAX_NUMBER)] = 0
     pinned = [part.number for part in result.parts if part.pinned]

@@ -21,11 +21,17 @@ FEW = 0.01
 MANY = 200_000
 
 
+def find(mesh: bpy.types.Mesh) -> bpy.types.Attribute | None:
+    """The color attribute; None if it is gone, or was converted since into something else than colors of corners."""
+    attribute = mesh.color_attributes.get(mesh.reeb_parts.color_attribute)
+    return attribute if attribute is not None and attribute.domain == "CORNER" else None
+
+
 def add(obj: bpy.types.Object) -> None:
     """Make the color attribute active, for the viewport and for rendering; remember what was."""
     mesh = obj.data
     result = mesh.reeb_parts
-    if result.color_attribute in mesh.color_attributes:
+    if find(mesh):
         return
     result.former_color = mesh.attributes.active_color_name or ""
     result.former_render_color = mesh.attributes.default_color_name or ""
@@ -62,7 +68,7 @@ def write(mesh: bpy.types.Mesh, numbers: np.ndarray, colors: np.ndarray, changed
     changed : (k,) int, optional
         The only faces that are colored otherwise than before.
     """
-    attribute = mesh.attributes.get(mesh.reeb_parts.color_attribute)
+    attribute = find(mesh)
     if attribute is None:
         return
     _, face = mesh_arrays.face_corners(mesh)

@@ -8,9 +8,14 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from .. import transaction
-from .kept_aside import add_attribute, remove_attribute
+from .kept_aside import add_attribute, find_attribute, remove_attribute
 
 NAME = "reeb_part"
+
+
+def find(mesh: bpy.types.Mesh) -> bpy.types.Attribute | None:
+    """The attribute, if it is there."""
+    return find_attribute(mesh, mesh.reeb_parts.face_attribute, "INT", "FACE")
 
 
 def add(obj: bpy.types.Object) -> None:
@@ -28,5 +33,5 @@ def remove(obj: bpy.types.Object) -> None:
 
 def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the numbers up to date, if the attribute is there."""
-    if attribute := mesh.attributes.get(mesh.reeb_parts.face_attribute):
+    if attribute := find(mesh):
         attribute.data.foreach_set("value", numbered.face_numbers.astype(np.int32))

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from .. import mesh_arrays, transaction
-from .kept_aside import PREFIX, add_attribute, bring_back, keep_aside, remove_attribute
+from .kept_aside import PREFIX, add_attribute, bring_back, find_attribute, keep_aside, remove_attribute
 
 NAME = ".sculpt_face_set"
 _KEPT = f"{PREFIX}_face_set"
@@ -62,5 +62,6 @@ def take_back(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
 
 def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the face sets up to date, if they are ours."""
-    if mesh.reeb_parts.has_face_sets:
-        mesh.attributes[NAME].data.foreach_set("value", numbered.face_numbers.astype(np.int32))
+    attribute = find_attribute(mesh, NAME, "INT", "FACE")
+    if mesh.reeb_parts.has_face_sets and attribute:
+        attribute.data.foreach_set("value", numbered.face_numbers.astype(np.int32))

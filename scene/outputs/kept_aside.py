@@ -17,10 +17,15 @@ from .. import mesh_arrays
 PREFIX = ".reeb_former"
 
 
+def find_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str) -> bpy.types.Attribute | None:
+    """An attribute of ours; None if it is gone, or was converted since into one of the user's."""
+    attribute = mesh.attributes.get(name) if name else None
+    return attribute if attribute is not None and (attribute.data_type, attribute.domain) == (kind, domain) else None
+
+
 def add_attribute(mesh: bpy.types.Mesh, known: str, name: str, kind: str, domain: str) -> str:
     """The name of an attribute of ours: the known one if it is still there, or a new one beside any of the user's."""
-    attribute = mesh.attributes.get(known) if known else None
-    if attribute is not None and attribute.data_type == kind and attribute.domain == domain:
+    if find_attribute(mesh, known, kind, domain) is not None:
         return known
     index = mesh.attributes.active_index
     name = mesh.attributes.new(name, kind, domain).name

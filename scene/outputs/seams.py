@@ -25,7 +25,7 @@ def add(obj: bpy.types.Object) -> None:
     transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
-    if not result.has_seams:
+    if not is_kept(mesh, _KEPT, "has_seams"):
         result.had_seams = _seam_name(mesh) is not None
         keep_aside(mesh, mesh.edges, "use_seam", _KEPT, "BOOLEAN", "EDGE")
         result.has_seams = True
@@ -62,7 +62,7 @@ def _seam_name(mesh: bpy.types.Mesh) -> str | None:
 
 def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     """Bring the seams up to date, if we have added some."""
-    if not mesh.reeb_parts.has_seams:
+    if not is_kept(mesh, _KEPT, "has_seams"):
         return
     seams = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", bool)
     mesh.edges.foreach_set("use_seam", seams | mesh_arrays.cut_edges(mesh, numbered.face_numbers))

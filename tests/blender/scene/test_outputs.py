@@ -93,6 +93,41 @@ def test_undo(owned, name):
     check_undo(lambda: run(name))
 
 
+@pytest.mark.parametrize("name", ["reeb_part", "Reeb Parts", "reeb_agd"])
+@pytest.mark.parametrize(("kind", "domain"), [("FLOAT", "FACE"), ("FLOAT_COLOR", "POINT"), ("INT", "CORNER")])
+def test_what_was_converted_is_not_written_any_more(obj, name, kind, domain):
+    """After Blender's Convert Attribute every change of the parts ended with a traceback."""
+    bpy.ops.reeb_parts.decompose(field=True)
+    attributes = obj.data.attributes
+    attributes.active = attributes[name]
+    bpy.ops.geometry.attribute_convert(data_type=kind, domain=domain)
+    converted = snapshot()["meshes"]["Tree"]["attributes"][name]
+    obj.data.reeb_parts.n_parts = 3
+    bpy.ops.reeb_parts.merge_neighbour()
+    assert len(obj.data.reeb_parts.parts) == 2
+    obj.reeb_parts_made.explode = 0.5
+    bpy.ops.reeb_parts.decompose(field=True)  # makes new ones beside it
+    result = obj.data.reeb_parts
+    found = [attributes[written] for written in (result.face_attribute, result.color_attribute, result.field_attribute)]
+    assert [(a.data_type, a.domain) for a in found] == [
+        ("INT", "FACE"), ("BYTE_COLOR", "CORNER"), ("FLOAT", "POINT")]
+    assert snapshot()["meshes"]["Tree"]["attributes"][name] == converted
+
+
+def test_a_script_may_remove_all_attributes_that_can_be_removed(owned):
+    """Where face sets or seams had been written, every change of the parts ended with a traceback."""
+    bpy.ops.reeb_parts.decompose(face_sets=True, seams=True, materials=True)
+    for name in [attribute.name for attribute in owned.data.attributes if not attribute.is_required]:
+        owned.data.attributes.remove(owned.data.attributes[name])
+    owned.data.reeb_parts.n_parts = 3
+    bpy.ops.reeb_parts.merge_neighbour()
+    assert len(owned.data.reeb_parts.parts) == 2
+    bpy.ops.reeb_parts.seams()
+    assert any(edge.use_seam for edge in owned.data.edges)
+    bpy.ops.reeb_parts.clear()
+    assert not any(edge.use_seam for edge in owned.data.edges)
+
+
 def members(obj, group):
     """Vertices of a vertex group with their weights."""
     index = obj.vertex_groups[group].index
