@@ -150,26 +150,19 @@ class OutputProperties:
 OUTPUTS = tuple(OutputProperties.__annotations__)
 
 
-@reaction
-def _redraw_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    graph_objects.restyle(context.object, self)
-
-
 class OverlayProperties:
     """How the graph is drawn."""
 
     node_size: FloatProperty(
-        name="Node Size", default=0.005, min=0.001, max=0.5, precision=3, step=0.1, update=_redraw_graph,
-        options=set(),
+        name="Node Size", default=0.005, min=0.001, max=0.5, precision=3, step=0.1, options=set(),
         description="Size of the empties, as a share of the object's",
     )
     line_thickness: FloatProperty(
-        name="Line Thickness", default=0.0, min=0.0, max=1.0, precision=3, step=1, update=_redraw_graph,
-        options=set(),
+        name="Line Thickness", default=0.0, min=0.0, max=1.0, precision=3, step=1, options=set(),
         description="Thickness of the curve under the lines, as a share of the radius of the body around it",
     )
     in_front: BoolProperty(
-        name="In Front", default=True, update=_redraw_graph, options=set(),
+        name="In Front", default=True, options=set(),
         description="Draw the graph over the model instead of hidden inside it",
     )
 
@@ -340,6 +333,11 @@ class FormerArguments:
                        for name, present in RENAMED.items()}
 
 
+@reaction
+def _redraw_graph(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    graph_objects.restyle(context.object, self)
+
+
 class ReebPartsSettings(
     bpy.types.PropertyGroup, FormerParameters, ParameterProperties, HintProperties, OutputProperties, OverlayProperties,
     Settled
@@ -349,6 +347,9 @@ class ReebPartsSettings(
     # Here, and only here, they are seen at once.
     graph: BoolProperty(**OutputProperties.__annotations__["graph"].keywords, update=_show_graph, options=set())
     palette: EnumProperty(**OutputProperties.__annotations__["palette"].keywords, update=_repaint, options=set())
+    node_size: FloatProperty(**OverlayProperties.__annotations__["node_size"].keywords, update=_redraw_graph)
+    line_thickness: FloatProperty(**OverlayProperties.__annotations__["line_thickness"].keywords, update=_redraw_graph)
+    in_front: BoolProperty(**OverlayProperties.__annotations__["in_front"].keywords, update=_redraw_graph)
 
     def differs_from_preset(self) -> bool:
         """Whether a parameter was changed since the preset was chosen; how many parts there are does not count."""

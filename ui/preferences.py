@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What every new scene starts with, in Blender's preferences."""
 
-from typing import Any
-
 import bpy
 from bpy.props import EnumProperty
 
@@ -11,18 +9,7 @@ from ..scene.settings import OUTPUTS, OVERLAY, PRESET_ITEMS, OutputProperties, O
 from . import shortcut
 
 
-def _without_update(prop: Any) -> Any:
-    """Copy a property without its update, for a place where changing it draws nothing."""
-    return prop.function(**{key: value for key, value in prop.keywords.items() if key != "update"})
-
-
-class OverlayDefaults:
-    """The properties of OverlayProperties."""
-
-    __annotations__ = {name: _without_update(prop) for name, prop in OverlayProperties.__annotations__.items()}
-
-
-class ReebPartsPreferences(bpy.types.AddonPreferences, OutputProperties, OverlayDefaults):
+class ReebPartsPreferences(bpy.types.AddonPreferences, OutputProperties, OverlayProperties):
     """Settings of new scenes, and of scripts that do not give their own."""
 
     bl_idname = base_package

@@ -6,6 +6,7 @@ import re
 import bpy
 import numpy as np
 import pytest
+import shapes
 from snapshot import snapshot
 
 
@@ -42,12 +43,29 @@ def test_coordinates_that_are_no_numbers(obj):
     refused("7")
 
 
-def test_infinite_coordinates(obj):
-    positions = np.zeros(3 * len(obj.data.vertices), np.float32)
-    obj.data.vertices.foreach_get("co", positions)
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("shape", [shapes.tube_tree(), shapes.box_quads()])
+def test_infinite_coordinates(make, shape):
+    mesh = make(shape).data
+    positions = np.zeros(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", positions)
     positions[3 * 7] = np.inf
-    obj.data.vertices.foreach_set("co", positions)
+    mesh.vertices.foreach_set("co", positions)
     refused("7")
+
+
+@pytest.mark.filterwarnings("error")
+def test_coordinates_whose_squares_are_infinite(make):
+    """In single precision, in which Blender keeps areas, too."""
+    make(shapes.Shape(1e30 * shapes.box_quads()[0], shapes.box_quads()[1]))
+    assert bpy.ops.reeb_parts.decompose() == {"FINISHED"}
+
+
+def test_the_graph_of_an_earlier_run_stays_as_it_was_drawn(obj):
+    """The sizes that a call gives, or leaves to the preferences, were shown on it before the call was refused."""
+    bpy.ops.reeb_parts.decompose(node_size=0.1)
+    obj.data.vertices[7].co.x = float("nan")
+    refused("7", line_thickness=0.3)
 
 
 def test_no_area(make):
