@@ -199,8 +199,8 @@ def face_sizes(mesh: bpy.types.Mesh) -> np.ndarray:
 def face_middles(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Mean of the corners of each face, (p, 3) float64, and its area, (p,) float64; Object Mode."""
     if len(mesh.loops) != 3 * len(mesh.polygons):
-        return (read(mesh.polygons, "center", np.float32, 3).astype(np.float64),
-                read(mesh.polygons, "area", np.float32).astype(np.float64))
+        area = np.minimum(read(mesh.polygons, "area", np.float32), np.finfo(np.float32).max)  # it may be infinite
+        return read(mesh.polygons, "center", np.float32, 3).astype(np.float64), area.astype(np.float64)
     # Of triangles in no order, which are a dense mesh, Blender works both out in six times the time.
     points, corners = basis_points(mesh), corner_vertices(mesh).reshape(-1, 3).T
     a, b, c = (np.take(points, corner, axis=0).astype(np.float64) for corner in corners)
@@ -266,8 +266,9 @@ def _halves(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     By the diagonal from the first to the third corner, unless both others lie on the same side of it.
     """
     a, b, c, d = (np.take(points, quads[:, i], axis=0) for i in range(4))  # faster than points[...]
-    diagonal = c - a
-    flip = np.einsum("ij,ij->i", cross(b - a, diagonal), cross(d - a, diagonal)) > 0
+    with np.errstate(over="ignore", invalid="ignore"):  # infinite ones are refused later, with large ones all is well
+        diagonal = c - a
+        flip = np.einsum("ij,ij->i", cross(b - a, diagonal), cross(d - a, diagonal)) > 0
     i, j, k, m = quads.T
     return np.stack([i, j, np.where(flip, m, k), np.where(flip, j, i), k, m], axis=1).reshape(-1, 3)
 
