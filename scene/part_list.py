@@ -28,6 +28,8 @@ def check_parts(obj: bpy.types.Object | None) -> None:
             raise SceneError(rpt_("Select the original, {name}, first.").format(name=original.name))
         raise SceneError(rpt_("Decompose the mesh first"))
     targets.check_object(obj)
+    assert obj is not None
+    store.check_list(obj.data)
 
 
 def active_number(mesh: bpy.types.Mesh) -> int:

@@ -126,9 +126,18 @@ def last(mesh: bpy.types.Mesh) -> Stored:
     previous, pinned, shown = rows
     listed = np.array([part.number for part in result.parts], np.int64)
     every = np.concatenate([rows.ravel(), listed])
-    if (every < 0).any() or (every > part_names.MAX_NUMBER).any() or (shown == 0).any() or (listed == 0).any():
+    if (every < 0).any() or (every > part_names.MAX_NUMBER).any() or (shown == 0).any():
+        raise UnreadableError(translated(_damaged()))
+    if not np.array_equal(np.sort(listed), np.unique(shown)):  # a script has changed the list
         raise UnreadableError(translated(_damaged()))
     return Stored(decomposition, previous, pinned, shown)
+
+
+def check_list(mesh: bpy.types.Mesh) -> None:
+    """Raise UnreadableError if a script has changed the list of parts so that none is the active one: a quick check."""
+    result = mesh.reeb_parts
+    if not 0 <= result.active < len(result.parts):
+        raise UnreadableError(translated(_damaged()))
 
 
 def _damaged() -> Exception:

@@ -108,7 +108,7 @@ def _list_parts(mesh: bpy.types.Mesh, numbered: NumberedParts) -> list:
     Returns the vertex group and the material of each part that was in the list and is gone.
     """
     result = mesh.reeb_parts
-    active = result.parts[result.active].number if result.active < len(result.parts) else 0
+    active = result.parts[result.active].number if 0 <= result.active < len(result.parts) else 0
     keys = ("group", "material", "locked", "only_locked", "selected")
     known = {part.number: [getattr(part, key) for key in keys] for part in result.parts}
     wanted = numbered.numbers.tolist()

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 BUTTONS = ("merge", "split", "grow", "shrink", "merge_neighbour", "release", "assign", "from_face_sets", "separate",
-           "select", "seams", "face_sets", "materials", "unwrap", "armature")
+           "select", "seams", "face_sets", "materials", "unwrap", "armature", "mark", "frame", "hide", "isolate",
+           "find_similar", "slide")
 
 
 def with_head(data, **changes):
@@ -37,6 +38,9 @@ DAMAGE = {
     "no stretch": lambda r: setattr(r, "stretch", [float("nan")] * 9),
     "notes": lambda r: (setattr(r, "note_words", "[[7], {"), setattr(r, "notes", "x")),
     "list": lambda r: [setattr(part, "number", number) for part, number in zip(r.parts, (2**31 - 1, -3), strict=False)],
+    "shorter list": lambda r: r.parts.remove(0),
+    "active part removed": lambda r: (setattr(r, "active", len(r.parts) - 1), r.parts.remove(0)),
+    "no list": lambda r: r.parts.clear(),
 }
 
 
