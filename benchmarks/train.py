@@ -62,7 +62,7 @@ DETAIL = 0.03  # share of the area of a piece below which labels of models say n
 ROUNDS_FURTHER = 1  # of its own merging on solids and pieces
 N_MODELS = 3  # in what ships; their mean is steadier than each
 # First of their seeds, of closed surfaces and of sheets. With others more of the plain shapes that tests know get a
-# part too many or too few, see docs/quality.md.
+# part too many or too few, see docs/experiments.md.
 SEED, SHEET_SEED = 100, 200
 
 
