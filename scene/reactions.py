@@ -78,8 +78,9 @@ def rename(part: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 def _take_name(part: bpy.types.PropertyGroup) -> None:
     """Let the vertex group, the material and the number of a part take its name."""
     mesh = part.id_data
-    for obj in targets.users(mesh)[:1]:
-        vertex_groups.rename(obj, part)
+    users = targets.users(mesh)
+    for obj in users[:1]:
+        vertex_groups.rename(obj, part, vertex_groups.bones_that_move(users))
     materials.rename(part)
     part_names.keep_name(mesh, part.number, part.name)
 
@@ -92,13 +93,14 @@ def give_names(mesh: bpy.types.Mesh, names: dict[int, str]) -> int:
     listed = {part.number: part for part in mesh.reeb_parts.parts}
     known = {number: name for number, name in names.items() if number in listed}
     naming, users = part_names.Naming(mesh), targets.users(mesh)
+    bones = vertex_groups.bones_that_move(users)
     with property_updates.quiet():
         for together in part_names.in_pairs(mesh, known):
             for number, name in naming.free(together).items():
                 part = listed[number]
                 part.name = name
                 for obj in users[:1]:
-                    vertex_groups.rename(obj, part)
+                    vertex_groups.rename(obj, part, bones)
                 materials.rename(part)
                 naming.keep(number, part.name)
     naming.end()

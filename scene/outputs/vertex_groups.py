@@ -6,13 +6,14 @@ Blender has no way to write weights in bulk but a list of vertices per group, so
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
-from .. import mesh_arrays, transaction
+from .. import made_objects, mesh_arrays, part_names, targets, transaction
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +117,8 @@ def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | N
     if not obj.data.reeb_parts.has_groups:
         return
     parts = {part.number: part for part in obj.data.reeb_parts.parts}
-    _take_names(obj)
+    bones = bones_that_move(targets.users(obj.data))
+    _take_names(obj, bones)
     fresh = [number for number, part in parts.items() if part.group not in obj.vertex_groups]
     after = numbered.candidate_numbers
     made = grains(obj.data, numbered.candidates)
@@ -129,7 +131,7 @@ def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | N
     for number in sorted(parts):
         part = parts[number]
         if part.group not in obj.vertex_groups:
-            part.group = obj.vertex_groups.new(name=part.name).name
+            part.group = obj.vertex_groups.new(name=part_names.distinct(part.name, bones)).name
         group = obj.vertex_groups[part.group]
         if number in gone:
             group.remove(gone[number].tolist())
@@ -164,21 +166,38 @@ def remove(obj: bpy.types.Object) -> None:
     result.has_groups = False
 
 
-def _take_names(obj: bpy.types.Object) -> None:
+def bones_that_move(objects: list[bpy.types.Object]) -> set[str]:
+    """Names of bones of the user's armatures that move some objects: a bone moves what is in a group of its name."""
+    rigs = {modifier.object for obj in objects for modifier in obj.modifiers if modifier.type == "ARMATURE"}
+    rigs |= {obj.parent for obj in objects if obj.parent_type == "ARMATURE"}
+    return {bone.name for rig in rigs if rig is not None and rig.type == "ARMATURE" and made_objects.ROLE not in rig
+            for bone in rig.data.bones if bone.use_deform}
+
+
+def _take_names(obj: bpy.types.Object, bones: Container[str]) -> None:
     """Give the groups that are there the names of their parts, which may have been those of each other."""
     wrong = [part for part in obj.data.reeb_parts.parts if part.group != part.name and part.group in obj.vertex_groups]
     for part in wrong:
-        group = obj.vertex_groups[part.group]
-        group.name = "\1Reeb Parts"  # no name is in the way of another one
-        part.group = group.name
+        _lay_aside(obj, part)
     for part in wrong:
-        rename(obj, part)
+        rename(obj, part, bones)
 
 
-def rename(obj: bpy.types.Object, part: bpy.types.PropertyGroup) -> None:
-    """Give the part's vertex group the part's name, or the nearest that is free."""
+def rename(obj: bpy.types.Object, part: bpy.types.PropertyGroup, bones: Container[str]) -> None:
+    """Give the part's vertex group the part's name, or the nearest that is free.
+
+    bones : names that bones_that_move() the objects of the mesh have, which none of our groups gets.
+    """
     transaction.keep_mesh(obj.data)
-    if part.group in obj.vertex_groups:
+    if part.group in obj.vertex_groups and part.group != part.name:
+        _lay_aside(obj, part)
         group = obj.vertex_groups[part.group]
-        group.name = part.name
+        group.name = part_names.distinct(part.name, bones)
         part.group = group.name
+
+
+def _lay_aside(obj: bpy.types.Object, part: bpy.types.PropertyGroup) -> None:
+    """Let the part's vertex group have a name that is in the way of none."""
+    group = obj.vertex_groups[part.group]
+    group.name = "\1Reeb Parts"
+    part.group = group.name

@@ -160,3 +160,40 @@ def test_a_part_has_its_own_material_not_a_linked_one_of_its_name(obj, tmp_path)
     used = {obj.data.materials[polygon.material_index] for polygon in obj.data.polygons}
     assert linked not in used
     assert len(used) == len(obj.data.reeb_parts.parts)
+
+
+def test_no_group_of_ours_has_the_name_of_a_bone_that_moves_the_model(obj):
+    """The user's armature would have moved the faces of the part "head", which had no group of this name before."""
+    rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+    bpy.context.scene.collection.objects.link(rig)
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    for name in ("Part 01", "head", "held", "control"):
+        bone = rig.data.edit_bones.new(name)
+        bone.tail = (0.0, 0.0, 1.0)
+        bone.use_deform = name != "control"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for bone in rig.pose.bones:
+        bone.location.x = 3.0
+    bpy.context.view_layer.objects.active = obj
+    obj.modifiers.new("Rig", "ARMATURE").object = rig
+    obj.vertex_groups.new(name="held")
+    before = seen_vertices(obj)
+    bpy.ops.reeb_parts.decompose()
+    parts = obj.data.reeb_parts.parts
+    assert (parts[0].name, parts[0].group) == ("Part 01", "Part 01.001")
+    for index, name in enumerate(("head", "held", "control")):
+        parts[index].name = name
+    assert [part.group for part in parts][:3] == ["head.001", "held.001", "control"]
+    assert seen_vertices(obj) == before
+    obj.data.reeb_parts.detail = 0.9
+    assert [part.group for part in parts if part.name in ("head", "held")] == ["head.001", "held.001"]
+    assert seen_vertices(obj) == before
+    bpy.ops.reeb_parts.clear()
+    assert obj.vertex_groups.keys() == ["held"]
+
+
+def seen_vertices(obj):
+    """Where the vertices are with all modifiers."""
+    bpy.context.view_layer.update()
+    return [tuple(vertex.co) for vertex in obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.vertices]
