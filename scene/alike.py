@@ -119,15 +119,18 @@ def _carry(names: dict[int, str], source: bpy.types.Object, target: bpy.types.Ob
     mesh = target.data
     # Their former names are free for others.
     reactions.give_names(mesh, {number: part_names.own_name(mesh, number) for number in origin})
-    return reactions.give_names(mesh, _distinct_names(names, source.data, mesh, origin))
+    twin = numbered.parts.twin
+    middle = {number for label, number in enumerate(numbers) if twin[label] == label}
+    return reactions.give_names(mesh, _distinct_names(names, source.data, mesh, origin, middle))
 
 
 def _distinct_names(names: dict[int, str], source: bpy.types.Mesh, target: bpy.types.Mesh,
-                    origin: dict[int, int]) -> dict[int, str]:
+                    origin: dict[int, int], middle: set[int]) -> dict[int, str]:
     """A name that no other part has for each part of a target; those of mirror images are mirror images.
 
     names : of the parts of the source, by number. origin : the source's part for each of the target's, by numbers, the
-    surest first: of two images the surer one decides.
+    surest first: of two images the surer one decides. middle : the target's parts that are their own mirror images;
+    these get no side from a part that has an image.
     """
     result = target.reeb_parts
     images, source_images = part_names.twins(target), part_names.twins(source)
@@ -144,7 +147,8 @@ def _distinct_names(names: dict[int, str], source: bpy.types.Mesh, target: bpy.t
             fresh = _free_pair(names[other], sides[number], taken, carried)
             given |= dict(zip((number, image), fresh, strict=True))
         else:
-            fresh = (_free(names[other], taken, carried),)
+            sided = number not in middle or other not in source_images
+            fresh = (_free(names[other] if sided else part_names.without_side(names[other]), taken, carried),)
             given[number] = fresh[0]
         taken.update(fresh)
     return given

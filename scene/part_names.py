@@ -165,6 +165,11 @@ def of_side(name: str, side: int, is_image: bool) -> str:
     return name + (".L" if side > 0 else ".R")
 
 
+def without_side(name: str) -> str:
+    """The name without the side, .L or .R, that it ends in, or that its number follows."""
+    return re.sub(r"\.[LR](?=(\.\d{3,})?$)", "", name)
+
+
 def piece_name(obj: bpy.types.Object, number: int) -> str:
     """The name of a part as an object or a file of its own: with the object's name before it."""
     return with_object(obj, part_name(obj.data, number))

@@ -107,6 +107,23 @@ def test_images_that_come_from_one_part_get_names_that_are_images(figures, name)
     check_images(second.data)
 
 
+def test_a_part_in_the_middle_has_no_side(make):
+    """It was called as the left or the right one of the parts that it comes from, and so was its bone."""
+    z, y, x = np.array(shapes.dumbbell(24, 10).vertices).T
+    y = y + 0.1 * x * x  # bent and slanted, so that there is one plane
+    shape = shapes.Shape(np.stack([x, y, z + 0.5 * y], axis=1), shapes.dumbbell(24, 10).faces)
+    for name, count in (("First", 3), ("Second", 1)):
+        make(shape, name)
+        bpy.ops.reeb_parts.decompose(n_parts=count)
+    first, second = (bpy.data.objects[name] for name in ("First", "Second"))
+    left = next(part for part in first.data.reeb_parts.parts if part.own_name.endswith(".L"))
+    left.name = "Ball.L"
+    activate(first)
+    second.select_set(True)
+    bpy.ops.reeb_parts.names_from_active()
+    assert [part.name for part in second.data.reeb_parts.parts] == ["Ball"]
+
+
 def test_images_get_one_number_where_those_of_the_source_have_two(figures):
     first, second = figures
     bpy.context.scene.reeb_parts.symmetry = False
