@@ -13,8 +13,10 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
+from ..errors import MeshError
 from ..graph.critical import MAXIMUM
 from ..result.decomposition import Parts
+from ..sentence import Sentence
 from ..surface.arrays import sums_by
 from ..surface.mesh import TriMesh
 from ..surface.ordering import sorted_by_place
@@ -73,9 +75,12 @@ class _Surface:
     def of(cls, vertices: np.ndarray, faces: np.ndarray, polygon: np.ndarray | None, parts: Parts) -> _Surface:
         """The surface of a mesh as ``decompose`` takes it, in an order that does not depend on the caller's."""
         given, ordering = sorted_by_place(PolygonMesh.of(vertices, faces, polygon))
+        result = parts.decomposition
+        if (len(ordering.polygon), len(ordering.vertex)) != (result.n_faces, result.n_vertices):
+            raise MeshError(Sentence("The parts are of another mesh: give the one that was decomposed."))
         working = repair(given)
         unit = np.sqrt(working.mesh.area)
-        field = parts.decomposition.field[ordering.vertex][working.vertex_source]
+        field = result.field[ordering.vertex][working.vertex_source]
         return cls(TriMesh(working.mesh.vertices / unit, working.mesh.faces),
                    parts.labels[ordering.polygon][working.polygon], np.nan_to_num(field), parts.count)
 
@@ -132,6 +137,11 @@ def part_descriptors(
     -------
     descriptors : (count, len(NAMES)) float64
         In the order of NAMES.
+
+    Raises
+    ------
+    MeshError
+        As ``decompose`` raises it, or the mesh has other numbers of faces or vertices than the one that was decomposed.
 
     Notes
     -----

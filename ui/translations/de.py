@@ -823,6 +823,8 @@ TEXTS = {
         "Kennzahlen müssen eine Reihe ganzer Zahlen sein, mindestens eine, nicht {type} der Form {shape}.",
     "There are {n} values for {total} elements: each needs one.":
         "Es gibt {n} Werte für {total} Elemente: Jedes braucht einen.",
+    "The parts are of another mesh: give the one that was decomposed.":
+        "Die Teile gehören zu einem anderen Mesh: Nötig ist das, das zerlegt wurde.",
     "Weights must be 0 or more, finite, and not all of them 0.":
         "Gewichte müssen 0 oder mehr und endlich sein, und nicht alle 0.",
     "Faces must have shape (m, corners), not {shape}.": "Flächen müssen die Form (m, Ecken) haben, nicht {shape}.",

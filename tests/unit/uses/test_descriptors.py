@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core import Parameters, decompose
+from core import MeshError, Parameters, decompose
 from core.surface.mesh import TriMesh
 from core.uses.descriptors import NAMES, SCALE, _Surface, distances, part_descriptors
 
@@ -52,6 +52,21 @@ def test_what_can_be_counted_is_right(tree):
     assert column(found, "hops")[0] == 0
     cuts = column(found, "cut_length") * np.sqrt(parts.area)
     assert cuts.sum() == pytest.approx(2 * parts.cut_length.sum())
+
+
+def test_parts_of_another_mesh_are_refused(tree):
+    """They were described as if its faces were those of the parts, wherever it had fewer."""
+    shape, parts = tree
+    with pytest.raises(MeshError, match="of another mesh"):
+        part_descriptors(shape.vertices, shape.faces[:-1], parts)
+    with pytest.raises(MeshError, match="of another mesh"):
+        part_descriptors(np.concatenate([shape.vertices, shape.vertices[:1]]), shape.faces, parts)
+    grid = shapes.icosphere(2)
+    pairs = np.arange(len(grid.faces)) // 2
+    of_polygons = decompose(*grid, polygon=pairs).parts()
+    assert len(part_descriptors(*grid, of_polygons, pairs)) == of_polygons.count
+    with pytest.raises(MeshError, match="of another mesh"):
+        part_descriptors(*grid, of_polygons)
 
 
 def test_a_ball_alone_is_what_it_is():
