@@ -26,6 +26,7 @@ from .result.half import of_half
 from .result.mirrors import Mirror, find_mirrors
 from .surface.arguments import hints_of
 from .surface.coarsening import Pyramid
+from .surface.copies import find_copies
 from .surface.halves import completed, plane_of
 from .surface.ordering import sorted_by_place
 from .surface.polygons import PolygonMesh
@@ -105,19 +106,34 @@ def decompose(
     time of all other steps grows with the number of faces plus that of crossings of faces and levels.
     """
     parameters = Parameters.of(parameters)
-    if mirror is not None:
-        half, plane = PolygonMesh.of(vertices, faces, polygon), plane_of(mirror)
-        whole = completed(half, plane * np.array([1.0, 1.0, 1.0, 2.0**-half.exponent]))
-        both = None if hints is None else np.tile(hints_of(hints, half.n_polygons), 2)
-        return of_half(decompose(np.ldexp(whole.vertices, half.exponent), whole.triangles, parameters, whole.polygon,
-                                 progress, model, join_model, hints=both), half)
+    plane = None if mirror is None else plane_of(mirror)
     watch = Stopwatch(progress)
-    with watch.stage("mesh", MESH_SHARE) as done_of_mesh:
+    with watch.stage("mesh", 0.0):
         given = PolygonMesh.of(vertices, faces, polygon)
+        hint = np.zeros(0, np.int64) if hints is None else hints_of(hints, given.n_polygons)
+        if copies := find_copies(given):
+            area = np.ldexp(np.bincount(given.polygon, given.triangles.face_area), 2 * given.exponent)
+            given, hint = copies.without(given), hint[copies.polygon] if len(hint) else hint
+    if plane is None:
+        result = _decomposed(given, hint, parameters, watch, model, join_model)
+    else:
+        whole = completed(given, plane * np.array([1.0, 1.0, 1.0, 2.0**-given.exponent]))
+        result = of_half(decompose(
+            np.ldexp(whole.vertices, given.exponent), whole.triangles, parameters, whole.polygon, progress, model,
+            join_model, hints=np.tile(hint, 2) if len(hint) else None), given)
+    return result.with_copies(copies, area) if copies else result
+
+
+def _decomposed(
+    given: PolygonMesh, hint: np.ndarray, parameters: Parameters, watch: Stopwatch, model: BoostedTrees | None,
+    join_model: JoinModel | None,
+) -> Decomposition:
+    """The result for a mesh without copies; hint : (p,) int64 or (0,). All else is as in ``decompose``."""
+    with watch.stage("mesh", MESH_SHARE) as done_of_mesh:
         done_of_mesh(0.1)
         # From here on the unsorted mesh and its tables are free.
         given, ordering = sorted_by_place(given, parameters.pieces == TOGETHER)
-        hint = np.zeros(0, np.int64) if hints is None else hints_of(hints, given.n_polygons)[ordering.polygon]
+        hint = hint[ordering.polygon] if len(hint) else hint
         done_of_mesh(0.4)
         working = repair(given)
         done_of_mesh(0.9)

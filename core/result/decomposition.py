@@ -17,6 +17,7 @@ from ..parameters import Parameters
 from ..sentence import Sentence
 from ..surface.arguments import whole_numbers
 from ..surface.arrays import inverse, renumbered, sums_by
+from ..surface.copies import Copies
 from ..surface.labels import FaceGraph, majority
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
@@ -433,6 +434,33 @@ class Decomposition:
         return replace(self, candidates=self.candidates[face], vertex_candidates=self.vertex_candidates[vertex],
                        field=self.field[vertex], contacts=ordering.polygon[self.contacts],
                        links=ordering.polygon[self.links], face_twin=twin, face_side=side)
+
+    def with_copies(self, copies: Copies, area: np.ndarray) -> Decomposition:
+        """Copy the result of a mesh without its copies of faces as that of the whole mesh.
+
+        Parameters
+        ----------
+        copies : Copies
+        area : (p,) float64
+            Area of each face, those of copies included, in squared units of the vertices.
+
+        Returns
+        -------
+        decomposition : Decomposition
+            Of the same parts; each copy is in contact with the face on which it lies, and in its candidate.
+        """
+        face, kept = copies.original, copies.polygon
+        label = self.candidates[face]
+        lies = np.flatnonzero(kept[face] != np.arange(len(face)))
+        has_twins = len(self.face_twin) > 0
+        note = Sentence("{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.",
+                        n=copies.n_copies)
+        return replace(
+            self, candidates=label, candidate_area=np.bincount(label, area, self.n_candidates),
+            vertex_candidates=self.vertex_candidates[copies.home], field=self.field[copies.home],
+            contacts=np.concatenate([kept[self.contacts], np.stack([kept[face[lies]], lies], axis=1)]),
+            links=kept[self.links], face_twin=copies.images(self.face_twin) if has_twins else self.face_twin,
+            face_side=self.face_side[face] if has_twins else self.face_side, notes=(*self.notes, note))
 
     def to_arrays(self) -> dict[str, np.ndarray]:
         """All arrays by name, those of hierarchy and graph as "hierarchy.merges" and so on; not copied."""

@@ -7,6 +7,7 @@ Where data enters:
 - ``mesh``: the triangle mesh that every stage works on, and its checks
 - ``polygons``: the caller's mesh with its polygons cut into triangles
 - ``ears``: how polygons are cut into triangles
+- ``copies``: faces that lie on others with the same corners
 - ``corners``: the caller's polygons, corner by corner
 - ``half_edges``: the sides of polygons, and which lies across which edge
 

@@ -12,6 +12,8 @@ from .ties import TIE, ranks
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, DTypeLike
 
+_MIX = 0x9E3779B97F4A7C1, 0x2545F4914F6CDD1D, 0x5851F42D4C957F2D  # odd factors that mix the bits of three coordinates
+
 
 def frozen(array: ArrayLike, dtype: DTypeLike) -> np.ndarray:
     """Copy an array and make the copy read-only.
@@ -187,6 +189,22 @@ def first_at_place(points: np.ndarray, chosen: np.ndarray) -> np.ndarray:
     _, place, inverse = np.unique(points[chosen] + 0.0, axis=0, return_index=True, return_inverse=True)
     first[chosen] = chosen[place[inverse.reshape(-1)]]
     return first
+
+
+def hashed_rows(points: np.ndarray) -> np.ndarray:
+    """Numbers, (n,) uint64, that are equal for equal points, (n, 3) float64, and hardly ever for others."""
+    x, y, z = (_mixed(column, factor) for column, factor in zip(points.T, _MIX, strict=True))
+    return x ^ y ^ z
+
+
+def _mixed(values: np.ndarray, factor: int) -> np.ndarray:
+    """Numbers, (n,) uint64, that differ in all bits where values, (n,) float64, differ.
+
+    A whole number has nothing but zeros in most of its digits, and a product alone would leave them there.
+    """
+    bits = (values + 0.0).view(np.uint64)  # -0.0 is 0.0
+    bits = (bits ^ bits >> np.uint64(32)) * np.uint64(factor)
+    return bits ^ bits >> np.uint64(29)
 
 
 def renumbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

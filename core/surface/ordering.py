@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import frozen, inverse, renumbered, stable_order, sums_by
+from .arrays import frozen, hashed_rows, inverse, renumbered, stable_order, sums_by
 from .components import components
 from .mesh import TriMesh
 from .polygons import PolygonMesh
@@ -30,7 +30,6 @@ FINE = 2**40  # steps of the largest coordinate by which points are compared tha
 _SPREAD = ((32, 0x1F00000000FFFF), (16, 0x1F0000FF0000FF), (8, 0x100F00F00F00F00F), (4, 0x10C30C30C30C30C3),
            (2, 0x1249249249249249))
 EQUAL = 4 * TIE  # relative difference below which two moments are equal
-_MIX = 0x9E3779B97F4A7C1, 0x2545F4914F6CDD1D, 0x5851F42D4C957F2D  # odd factors that mix the bits of three coordinates
 LEAST_PIECE = 0.05  # share of the faces from which a piece is sorted in a frame of its own
 NEAR = 0.02  # share of the diagonal; pieces farther from each other are hardly one body
 
@@ -140,8 +139,7 @@ def _places(mesh: TriMesh) -> np.ndarray:
         x, y, z = (ranks(column, size).astype(np.uint64) for column in points.T)
         number = x << np.uint64(40) | y << np.uint64(20) | z
     else:
-        x, y, z = (_mixed(column, factor) for column, factor in zip(points.T, _MIX, strict=True))
-        number = x ^ y ^ z
+        number = hashed_rows(points)
     in_order = np.sort(number)
     if not (in_order[1:] == in_order[:-1]).any():
         return np.arange(len(points))
@@ -184,16 +182,6 @@ def _by_place(mesh: TriMesh, of_triangle: np.ndarray, n_polygons: int, together:
         rank = (in_whole if by_whole else in_given)[index]
         ordering = ordering.with_piece(Ordering.of(part, polygon, len(names), rank), index, names)
     return ordering
-
-
-def _mixed(values: np.ndarray, factor: int) -> np.ndarray:
-    """Numbers, (n,) uint64, that differ in all bits where values, (n,) float64, differ.
-
-    A whole number has nothing but zeros in most of its digits, and a product alone would leave them there.
-    """
-    bits = (values + 0.0).view(np.uint64)  # -0.0 is 0.0
-    bits = (bits ^ bits >> np.uint64(32)) * np.uint64(factor)
-    return bits ^ bits >> np.uint64(29)
 
 
 def _beside_another(points: np.ndarray, piece: np.ndarray, count: int, chosen: np.ndarray) -> np.ndarray:

@@ -736,6 +736,8 @@ TEXTS = {
     # Was über ein Mesh zu sagen ist
     "{n} {n:edge joins|edges join} more than two faces (non-manifold).":
         "Kanten mit mehr als zwei Flächen (nicht mannigfaltig): {n}.",
+    "{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.":
+        "Flächen, die auf einer anderen mit denselben Ecken liegen und deren Teil haben: {n}.",
     "{n} border {n:edge|edges}: the surface is open there.": "Randkanten: {n}; dort ist die Oberfläche offen.",
     "{n} {n:vertex belongs to no face; it gets|vertices belong to no face; they get} no part.":
         "Punkte ohne Fläche: {n}; sie kommen in kein Teil.",

@@ -679,6 +679,8 @@ TEXTS = {
     "There would be more than {n} pieces. Is the bed in millimeters?": "将超过 {n} 块。打印床是以毫米为单位吗？",
     # 关于网格的说明
     "{n} {n:edge joins|edges join} more than two faces (non-manifold).": "{n} 条边连接两个以上的面（非流形）。",
+    "{n} {n:face lies|faces lie} on another one with the same corners, and {n:has|have} its part.":
+        "{n} 个面与另一个顶点相同的面重合，属于同一部件。",
     "{n} border {n:edge|edges}: the surface is open there.": "{n} 条开放边：表面在此处开放。",
     "{n} {n:vertex belongs to no face; it gets|vertices belong to no face; they get} no part.":
         "{n} 个顶点不属于任何面；它们不归入部件。",
