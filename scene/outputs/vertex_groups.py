@@ -178,7 +178,9 @@ def _take_names(obj: bpy.types.Object, bones: Container[str]) -> None:
     """Give the groups that are there the names of their parts, which may have been those of each other."""
     wrong = [part for part in obj.data.reeb_parts.parts if part.group != part.name and part.group in obj.vertex_groups]
     for part in wrong:
-        _lay_aside(obj, part)
+        group = obj.vertex_groups[part.group]
+        group.name = "\1Reeb Parts"  # no name is in the way of another one
+        part.group = group.name
     for part in wrong:
         rename(obj, part, bones)
 
@@ -190,14 +192,6 @@ def rename(obj: bpy.types.Object, part: bpy.types.PropertyGroup, bones: Containe
     """
     transaction.keep_mesh(obj.data)
     if part.group in obj.vertex_groups and part.group != part.name:
-        _lay_aside(obj, part)
         group = obj.vertex_groups[part.group]
         group.name = part_names.distinct(part.name, bones)
         part.group = group.name
-
-
-def _lay_aside(obj: bpy.types.Object, part: bpy.types.PropertyGroup) -> None:
-    """Let the part's vertex group have a name that is in the way of none."""
-    group = obj.vertex_groups[part.group]
-    group.name = "\1Reeb Parts"
-    part.group = group.name
