@@ -201,7 +201,7 @@ def _ears(shapes: Shapes, others: list[int], head: int) -> list[int]:
 
 def _horns(shapes: Shapes, ears: list[int]) -> list[int]:
     """Of two pairs of what may be ears the one that is nearer to the midst and reaches higher: eyes reach less high."""
-    pairs = [pair for pair in shapes.pairs if ears and set(pair) <= set(ears)]
+    pairs = [pair for pair in shapes.pairs if set(pair) <= set(ears)]
     if len(pairs) != 2:
         return []
     inner, outer = sorted(pairs, key=lambda pair: abs(shapes.aside[list(pair)]).mean())
