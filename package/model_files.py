@@ -22,6 +22,7 @@ from .core.sentence import Sentence
 from .core.surface.arguments import corners, positions
 from .core.surface.ears import fans, without_folds
 from .core.surface.mesh import check_corners
+from .gltf_checks import load_header, unread
 from .obj_files import parse_obj
 from .ply_files import ASCII, read_ply
 
@@ -127,10 +128,10 @@ def check_ends(path: Path) -> None:
 
 def _read_itself(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of a file that needs no Blender; raises ModelFileError."""
-    reader = {ARRAYS: _read_arrays, ".obj": _read_obj, ".ply": _read_ply}.get(path.suffix.lower(), _read_by_trimesh)
+    reader = _READERS.get(path.suffix.lower(), _read_by_trimesh)
     try:
         return reader(path)
-    except MemoryError:
+    except (MemoryError, NoReaderError):
         raise
     except ReebError as error:  # of the arrays in it
         raise _unreadable(path, str(error)) from error
@@ -176,6 +177,19 @@ def _read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         return read_ply(path)
     except PlyHeaderParseError:  # trimesh knows more types of numbers
         return _read_by_trimesh(path)
+
+
+def _read_gltf(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and their polygons of a .glb or .gltf; raises NoReaderError where some would be missing."""
+    if name := unread(load_header(path.read_bytes())):
+        raise NoReaderError(Sentence("{path} has {name}, which nothing here reads. Save it without, or as a .blend or "
+                                     ".fbx, which Blender reads with --blender.", path=path, name=name))
+    return _read_by_trimesh(path)
+
+
+#: What reads files of a kind; trimesh all others.
+_READERS: dict[str, Callable[[Path], tuple[np.ndarray, np.ndarray, np.ndarray]]] = {
+    ARRAYS: _read_arrays, ".glb": _read_gltf, ".gltf": _read_gltf, ".obj": _read_obj, ".ply": _read_ply}
 
 
 def _plain(path: Path) -> bytes:

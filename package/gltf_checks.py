@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What glTF files, .glb and .gltf, may have that trimesh leaves out or takes for zeros without a word."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import struct
+from collections.abc import Iterator
+from typing import Any
+
+_DRACO, _MESHOPT = "KHR_draco_mesh_compression", ("EXT_meshopt_compression", "KHR_meshopt_compression")
+_INSTANCING = "EXT_mesh_gpu_instancing"
+_FAN = 6  # a primitive's mode
+
+
+def load_header(data: bytes) -> dict[str, Any]:
+    """The description in a file, which of a .glb is its first chunk.
+
+    data : bytes, the file. Raises ValueError if there is none.
+    """
+    if data[:4] == b"glTF":
+        if len(data) < 20:
+            raise ValueError("it ends in its head")
+        data = data[20 : 20 + struct.unpack_from("<I", data, 12)[0]]
+    header = json.loads(data.decode("utf-8-sig", errors="replace"))
+    if not isinstance(header, dict):
+        raise ValueError("it has no description of a scene")
+    return header
+
+
+def unread(header: dict[str, Any]) -> str:
+    """Name what the meshes of a file have that trimesh does not read; empty if there is nothing.
+
+    header : dict, of ``load_header``. Raises LookupError, TypeError or AttributeError if it is damaged.
+    """
+    used = {*header.get("extensionsUsed", ()), *header.get("extensionsRequired", ())}
+    for extension in (*_MESHOPT, _INSTANCING):
+        if extension in used:
+            return extension
+    for primitive in _primitives(header):
+        if primitive.get("mode") == _FAN:
+            return "triangle fans"
+        places = header["accessors"][primitive["attributes"]["POSITION"]]
+        if "sparse" in places:
+            return "sparse positions"
+        packed = _DRACO in primitive.get("extensions", {})
+        if packed and "bufferView" not in places and importlib.util.find_spec("DracoPy") is None:
+            return f"{_DRACO} without the package DracoPy"
+    return ""
+
+
+def _primitives(header: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """The primitives of all meshes that have positions."""
+    for mesh in header.get("meshes", ()):
+        yield from (primitive for primitive in mesh["primitives"] if "POSITION" in primitive["attributes"])

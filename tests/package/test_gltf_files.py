@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What glTF files may have that is not read: a sentence names it, where trimesh gives zeros or nothing."""
+
+import json
+import sys
+
+import numpy as np
+import pytest
+import reeb_parts
+import trimesh
+from reeb_parts.batch.records import files_of
+from reeb_parts.model_files import NoReaderError
+
+
+@pytest.fixture
+def header(tmp_path):
+    """The description of a file of one tetrahedron, whose numbers are in another file beside it."""
+    places = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
+    mesh = trimesh.Trimesh(places, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], process=False)
+    for name, data in trimesh.exchange.gltf.export_gltf(trimesh.Scene(mesh)).items():
+        (tmp_path / name).write_bytes(data)
+    return json.loads((tmp_path / "model.gltf").read_text(encoding="utf-8"))
+
+
+def primitive(header):
+    return header["meshes"][0]["primitives"][0]
+
+
+def positions(header):
+    return header["accessors"][primitive(header)["attributes"]["POSITION"]]
+
+
+def sparse(header):
+    positions(header)["sparse"] = {"count": 0}
+    return "sparse positions"
+
+
+def fan(header):
+    primitive(header)["mode"] = 6
+    return "triangle fans"
+
+
+def draco(header):
+    primitive(header)["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}
+    del positions(header)["bufferView"]
+    return "DracoPy"
+
+
+def instances(header):
+    header["extensionsUsed"] = ["EXT_mesh_gpu_instancing"]
+    return "EXT_mesh_gpu_instancing"
+
+
+def meshopt(header):
+    header["extensionsRequired"] = ["EXT_meshopt_compression"]
+    return "EXT_meshopt_compression"
+
+
+@pytest.mark.parametrize("change", [sparse, fan, draco, instances, meshopt])
+def test_what_is_not_read_is_named(change, header, tmp_path, monkeypatch):
+    """Sparse and compressed positions were zeros, refused for ever as a mesh without an area; fans were missing."""
+    monkeypatch.setitem(sys.modules, "DracoPy", None)  # as where it is not installed
+    words = change(header)
+    (tmp_path / "model.gltf").write_text(json.dumps(header), encoding="utf-8")
+    with pytest.raises(NoReaderError, match=words):
+        reeb_parts.read_model(tmp_path / "model.gltf")
+
+
+def test_a_byte_order_mark_hides_no_other_file(header, tmp_path):
+    """Some editors write it; the digest of such a model did not know its numbers."""
+    path = tmp_path / "model.gltf"
+    path.write_text(json.dumps(header), encoding="utf-8-sig")
+    assert sorted(files_of(path)) == sorted(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("damage", [
+    {"meshes": 3}, {"accessors": []}, {"meshes": [{}]}, {"meshes": [{"primitives": [3]}]}])
+def test_a_damaged_file_is_one_sentence(damage, header, tmp_path):
+    (tmp_path / "model.gltf").write_text(json.dumps(header | damage), encoding="utf-8")
+    with pytest.raises(reeb_parts.ModelFileError, match=r"model\.gltf could not be read: "):
+        reeb_parts.read_model(tmp_path / "model.gltf")
