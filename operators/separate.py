@@ -187,7 +187,7 @@ class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
         obj = piece_objects.original(piece_objects.active_piece(context))
         targets.check_object(obj)
         assert obj is not None
-        if not in_layer(context, obj):
+        if not in_layer(context.view_layer, obj):
             raise SceneError(rpt_("{name} is not in this view layer. Include its collection first.").format(
                 name=obj.name))
 
