@@ -71,7 +71,6 @@ Settings:
 
 - ``settings``: what the next run, and what is made of its parts, will be like
 - ``defaults``: what the preferences say
-- ``panel_settings``: those of the panel, given to an operator that is started from it
 
 What every operator needs:
 
