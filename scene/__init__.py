@@ -13,9 +13,8 @@ Reading:
 - ``face_hints``: materials and such, for cuts to follow
 - ``modified``: the mesh as it is seen, with its modifiers applied
 - ``seen_points``: where the vertices of a mesh are seen
-- ``placing``: where objects are in the world
+- ``placing``: where objects are in the world, and how long its unit is
 - ``part_places``: where parts are
-- ``units``: lengths of the scene in millimeters
 
 Computing:
 
