@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..core.options import add_parameters, dashed, limits_of, named_file, number
-from ..scene.settings import HintProperties, JointProperties, OutputProperties, OverlayProperties, SeparateProperties
+from ..scene.settings import SEPARATE, HintProperties, JointProperties, OutputProperties, OverlayProperties
 
 #: Lengths of units in meters, with what Blender calls them.
 UNITS = {"m": (1.0, "METERS"), "cm": (0.01, "CENTIMETERS"), "mm": (0.001, "MILLIMETERS")}
@@ -64,7 +64,7 @@ def _add_files(files: argparse._ArgumentGroup) -> None:
 
 
 def _add_uses(uses: argparse._ArgumentGroup) -> None:
-    cut = SeparateProperties.__annotations__["cut"].keywords
+    cut = SEPARATE["cut"].keywords
     uses.add_argument("--separate", action="store_true", help="an object for each part, in the scene to save")
     uses.add_argument("--cuts", choices=[item[0].lower() for item in cut["items"]],
                       help=f"{cut['description']}; so in files, too (default: {cut['default'].lower()}; parts in files "
@@ -131,8 +131,7 @@ def _choice(items: list[tuple[str, str, str]]) -> dict[str, Any]:
 
 def separate_style(options: argparse.Namespace) -> Any:
     """How parts become objects: the values of settings.SeparateProperties, by the options or their defaults."""
-    names = [name for cls in SeparateProperties.__mro__ for name in getattr(cls, "__annotations__", {})]
-    style = argparse.Namespace(**{name: _default(name) for name in names})
+    style = argparse.Namespace(**{name: prop.keywords["default"] for name, prop in SEPARATE.items()})
     for name in JointProperties.__annotations__:
         setattr(style, name, getattr(options, name, getattr(style, name)))
     style.joint_count = round(style.joint_count)
@@ -141,13 +140,6 @@ def separate_style(options: argparse.Namespace) -> Any:
     style.caps, style.cap_material = options.caps or options.cap_material, options.cap_material
     style.fit_bed, style.bed = bool(options.bed), options.bed or style.bed
     return style
-
-
-def _default(name: str) -> object:
-    """What one of settings.SeparateProperties is unless it is set."""
-    prop = next(cls.__annotations__[name] for cls in SeparateProperties.__mro__
-                if name in getattr(cls, "__annotations__", {}))
-    return prop.keywords["default"]
 
 
 def _size(text: str) -> tuple[int, int]:

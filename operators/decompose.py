@@ -25,6 +25,7 @@ from ..scene.settings import (
     OutputProperties,
     OverlayProperties,
     ParameterProperties,
+    fill_in,
     take_over_former_names,
 )
 from ..scene.stepped import LARGE, SteppedOperator
@@ -61,10 +62,7 @@ class REEB_PARTS_OT_decompose(
         """From the panel: with the panel's settings, in a process of its own, so that the window stays alive."""
         self._complete_detail(context)
         defaults.adopt(context.scene)
-        values = {name: getattr(context.scene.reeb_parts, name) for name in (*PARAMETERS, *HINTS, *OUTPUTS, *OVERLAY)}
-        for name, value in values.items():
-            if not self.properties.is_property_set(name):
-                setattr(self, name, value)
+        fill_in(self, context.scene.reeb_parts, (*PARAMETERS, *HINTS, *OUTPUTS, *OVERLAY))
         return self.attempt(self._start, context)
 
     def run(self, context: bpy.types.Context) -> None:

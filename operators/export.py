@@ -11,11 +11,10 @@ from ..scene import store, targets
 from ..scene.errors import SceneError
 from ..scene.export import export_parts
 from ..scene.modes import object_mode
-from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import wanted_numbers
 from ..scene.reporting import ReportingOperator
 from ..scene.run_files import together
-from ..scene.settings import SeparateProperties, WhichProperties
+from ..scene.settings import SEPARATE, WhichProperties, fill_in
 
 # Since Blender 4.5 a path may only begin with "//" where that is said.
 _FROM_FILE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5) else set()
@@ -51,17 +50,14 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
     )
 
     # As the panel says; scripts get whole faces unless they ask for smooth cuts.
-    cut: bpy.props.EnumProperty(**(SeparateProperties.__annotations__["cut"].keywords | {"default": "FACES"}))
+    cut: bpy.props.EnumProperty(**(SEPARATE["cut"].keywords | {"default": "FACES"}))
     separated: bpy.props.BoolProperty(
         name="Separated Pieces", default=False,
         description="Write the pieces that were separated, with their joints and dowels, as they are now",
     )
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        use_panel_settings(self, WhichProperties, context)
-        for name in ("caps", "cut"):
-            if not self.properties.is_property_set(name):
-                setattr(self, name, getattr(context.scene.reeb_parts_use, name))
+        fill_in(self, context.scene.reeb_parts_use, ("which", "caps", "cut"))
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 

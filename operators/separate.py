@@ -10,12 +10,11 @@ from ..core.steps import Steps, stretched
 from ..scene import store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
-from ..scene.panel_settings import use_panel_settings
 from ..scene.part_list import check_parts, wanted_numbers
 from ..scene.pieces import piece_objects, separation
 from ..scene.reporting import ReportingOperator
 from ..scene.selection import in_layer, select_objects
-from ..scene.settings import SeparateProperties, closes_holes
+from ..scene.settings import SEPARATE, SeparateProperties, closes_holes, fill_in
 from ..scene.stepped import SteppedOperator, is_long
 from ..viewport import shading
 from .checks import report_kept, report_unsound
@@ -37,7 +36,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
             super().check_context(context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        use_panel_settings(self, SeparateProperties, context)
+        fill_in(self, context.scene.reeb_parts_use, SEPARATE)
         objects = targets.chosen_objects(context, one_per_mesh=False)
         return self.start(context) if is_long(objects) else self.execute(context)
 
@@ -187,7 +186,7 @@ class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
         obj = piece_objects.original(piece_objects.active_piece(context))
         targets.check_object(obj)
         assert obj is not None
-        if not in_layer(context, obj):
+        if not in_layer(context.view_layer, obj):
             raise SceneError(rpt_("{name} is not in this view layer. Include its collection first.").format(
                 name=obj.name))
 

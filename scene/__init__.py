@@ -13,9 +13,8 @@ Reading:
 - ``face_hints``: materials and such, for cuts to follow
 - ``modified``: the mesh as it is seen, with its modifiers applied
 - ``seen_points``: where the vertices of a mesh are seen
-- ``placing``: where objects are in the world
+- ``placing``: where objects are in the world, and how long its unit is
 - ``part_places``: where parts are
-- ``units``: lengths of the scene in millimeters
 
 Computing:
 
@@ -71,7 +70,6 @@ Settings:
 
 - ``settings``: what the next run, and what is made of its parts, will be like
 - ``defaults``: what the preferences say
-- ``panel_settings``: those of the panel, given to an operator that is started from it
 
 What every operator needs:
 

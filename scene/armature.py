@@ -15,6 +15,7 @@ from ..core.result.numbering import NumberedParts
 from . import (
     made_objects,
     mesh_arrays,
+    mesh_groups,
     modifiers,
     outputs,
     part_names,
@@ -222,16 +223,11 @@ def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types
     return Weights(np.where(known, found.bone, smooth.bone), np.where(known, found.weight, smooth.weight))
 
 
-def _write_weights(obj: bpy.types.Object, groups: list[str], weights: Weights) -> None:
-    """Write weights into their groups, all vertices of one weight at once."""
-    for index, name in enumerate(groups):
-        vertex, place = np.nonzero(weights.bone == index)
-        weight = weights.weight[vertex, place]
-        order = np.argsort(weight, kind="stable")
-        vertex, weight = vertex[order], weight[order]
-        starts = np.flatnonzero(np.diff(weight, prepend=-1.0))
-        for value, some in zip(weight[starts].tolist(), np.split(vertex, starts)[1:], strict=True):
-            obj.vertex_groups[name].add(some.tolist(), value, "REPLACE")
+def _write_weights(obj: bpy.types.Object, names: list[str], weights: Weights) -> None:
+    """Write weights into the groups of their bones, by name."""
+    vertex, place = np.nonzero(weights.bone >= 0)
+    groups = [obj.vertex_groups[name] for name in names]
+    mesh_groups.give_weights(groups, vertex, weights.bone[vertex, place], weights.weight[vertex, place])
 
 
 def _write_groups(obj: bpy.types.Object, numbered: NumberedParts) -> None:

@@ -15,7 +15,7 @@ from bpy.app.handlers import persistent
 from .. import __package__ as base_package
 from ..core.parameters import PRESETS, RENAMED
 from . import handlers, property_updates
-from .settings import OUTPUTS, OVERLAY, PARAMETERS, take_over_former_names
+from .settings import OUTPUTS, OVERLAY, PARAMETERS, fill_in, take_over_former_names
 from .transaction import keep_group, transaction
 
 
@@ -67,10 +67,8 @@ def complete(operator: bpy.types.Operator) -> None:
     chosen = preferences()
     if chosen is None:
         return
-    for source, names in ((PRESETS[chosen.preset], PARAMETERS), (chosen, (*OUTPUTS, *OVERLAY))):
-        for name in names:
-            if not operator.properties.is_property_set(name):
-                setattr(operator, name, getattr(source, name))
+    fill_in(operator, PRESETS[chosen.preset], PARAMETERS)
+    fill_in(operator, chosen, (*OUTPUTS, *OVERLAY))
 
 
 @persistent

@@ -18,8 +18,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.result.decomposition import Decomposition
-from ..core.result.numbering import NumberedParts
+from ..core.result.decomposition import Decomposition, Parts
 from ..core.sentence import Count
 from ..core.surface.components import components
 from ..core.surface.corners import CornerTable
@@ -81,7 +80,10 @@ def merged_into_neighbors(mesh: bpy.types.Mesh, stored: Stored, numbers: list[in
     from ..core.result.mirrored_edits import twin_numbers
 
     numbered = stored.shown_parts()
-    into = {number: _neighbor(mesh, numbered, number) for number in numbers}
+    cuts = numbered.numbers[numbered.parts.cuts]
+    into = {number: _neighbor(numbered.parts, cuts, number) for number in numbers}
+    if alone := [number for number, other in into.items() if not other]:
+        raise SceneError(rpt_("{name} touches no other part.").format(name=part_names.part_name(mesh, alone[0])))
     if bpy.context.scene.reeb_parts.symmetry:
         twin = twin_numbers(numbered)
         into |= {twin[part]: twin[other] for part, other in into.items() if part in twin and other in twin}
@@ -96,14 +98,15 @@ def merged_into_neighbors(mesh: bpy.types.Mesh, stored: Stored, numbers: list[in
     return stored
 
 
-def _neighbor(mesh: bpy.types.Mesh, numbered: NumberedParts, number: int) -> int:
-    """The number of a part's neighbor beyond its least salient cut; of equals, beyond the longest."""
-    cuts = numbered.numbers[numbered.parts.cuts]
-    own = (cuts == number).any(axis=1)
-    if not own.any():
-        raise SceneError(rpt_("{name} touches no other part.").format(name=part_names.part_name(mesh, number)))
-    order = np.lexsort((-numbered.parts.cut_length[own], numbered.parts.cut_salience[own]))
-    first, second = cuts[own][order[0]].tolist()
+def _neighbor(parts: Parts, cuts: np.ndarray, number: int, locked: Iterable[int] = ()) -> int:
+    """The number of a part's neighbor beyond its least salient cut; of equals, beyond the longest; 0 without one.
+
+    cuts : (e, 2) int64, ``parts.cuts`` by the numbers of the parts. locked : numbers of parts that are none.
+    """
+    own = np.flatnonzero((cuts == number).any(axis=1) & ~np.isin(cuts, locked).any(axis=1))
+    if not len(own):
+        return 0
+    first, second = cuts[own[np.lexsort((-parts.cut_length[own], parts.cut_salience[own]))[0]]].tolist()
     return first if second == number else second
 
 
@@ -112,23 +115,13 @@ def small_merged(mesh: bpy.types.Mesh, stored: Stored, small: Iterable[int]) -> 
 
     Parts that touch nothing, that are locked, or that touch only locked parts stay. small : numbers, smallest first.
     """
-    decomposition, numbers = stored.decomposition, stored.shown.copy()
-    pairs, length, salience = (decomposition.candidate_pairs, decomposition.candidate_pair_length,
-                               decomposition.pair_salience)
-    locked = locked_others(mesh, 0)
-    changed: set[int] = set()
+    numbers, locked, changed = stored.shown.copy(), locked_others(mesh, 0), set[int]()
     for number in [number for number in small if number not in locked]:
-        ends = numbers[pairs]
-        beside = ((ends == number).sum(axis=1) == 1) & ~np.isin(ends, locked).any(axis=1)
-        if not beside.any():
-            continue
-        other = np.where(ends[beside, 0] == number, ends[beside, 1], ends[beside, 0])
-        neighbors, place = np.unique(other, return_inverse=True)
-        strongest, total = np.zeros(len(neighbors)), np.bincount(place, length[beside])
-        np.maximum.at(strongest, place, salience[beside])
-        into = int(neighbors[np.lexsort((-total, strongest))[0]])
-        numbers[numbers == number] = into
-        changed = changed - {number} | {into}
+        parts = Parts(stored.decomposition, numbers)  # whose labels are the numbers
+        into = _neighbor(parts, parts.cuts, number, locked)
+        if into:
+            numbers = np.where(numbers == number, into, numbers)
+            changed = changed - {number} | {into}
     return _pinned(mesh, stored, numbers, changed), len(np.unique(stored.shown)) - len(np.unique(numbers))
 
 
@@ -302,22 +295,21 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
     from ..core.result.editing import split_around
     from ..core.result.mirrored_edits import MirroredChange, cleaned
 
-    before, asked = stored.face_numbers, face_numbers
-    face_numbers, also = _mirrored(obj.data, stored, before, asked, stored.decomposition.face_twin)
+    found, before, asked = stored.decomposition, stored.face_numbers, face_numbers
+    if np.array_equal(asked, before):
+        return asked
+    mesh_tables = mesh_tables or bridge.face_graph(obj)
+    face_numbers, also = _mirrored(obj.data, stored, before, asked, found.face_twin)
     if also:
-        mesh_tables = mesh_tables or bridge.face_graph(obj)
-        found = stored.decomposition
         face_numbers = cleaned(
             MirroredChange(mesh_tables[0], found.contacts, found.face_twin, before, asked, face_numbers))
     if beside_taken:  # last, as a part and its image may cut off together what neither does alone
-        mesh_tables = mesh_tables or bridge.face_graph(obj)
         face_numbers = _with_small_pieces(stored, mesh_tables[0], face_numbers, beside_taken)
     moved = face_numbers != before
     if not moved.any():
         return face_numbers
     concerned = set(np.unique(np.concatenate([face_numbers[moved], before[moved]])).tolist())
-    mesh_tables = mesh_tables or bridge.face_graph(obj)
-    stored = _finer(stored, split_around(stored.decomposition, np.where(moved, face_numbers, 0), *mesh_tables))
+    stored = _finer(stored, split_around(found, np.where(moved, face_numbers, 0), *mesh_tables))
     with property_updates.quiet():
         store.save(obj.data, stored)
     numbers = stored.shown.copy()
@@ -419,12 +411,10 @@ def _part_pieces_(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, num
 
 def release(context: bpy.types.Context, mesh: bpy.types.Mesh, stored: Stored, numbers: Iterable[int]) -> None:
     """Let the detail, or the number of parts that was typed, decide about parts again; locked parts stay pinned."""
-    result = mesh.reeb_parts
-    locked = {part.number for part in result.parts if part.locked}
-    pinned = np.where(np.isin(stored.pinned, list(set(numbers) - locked)), 0, stored.pinned)
+    released = list(set(numbers) - set(locked_others(mesh, 0)))
     with property_updates.quiet():
-        store.save_numbers(mesh, replace(stored, pinned=pinned))
-    reactions.show(result, context)
+        store.save_numbers(mesh, replace(stored, pinned=np.where(np.isin(stored.pinned, released), 0, stored.pinned)))
+    reactions.show(mesh.reeb_parts, context)
 
 
 def _pinned(mesh: bpy.types.Mesh, stored: Stored, candidate_numbers: np.ndarray, changed: Iterable[int]) -> Stored:
@@ -480,9 +470,7 @@ def _mirrored(
     both = on_both_sides(before, after, twin, twin_numbers(stored.shown_parts()), new)
     extra = both != after
     concerned = np.unique(np.concatenate([before[extra], both[extra]])).tolist()
-    if any(part.locked and part.number in concerned for part in mesh.reeb_parts.parts):
-        return after, []
-    return both, concerned
+    return (after, []) if set(concerned) & set(locked_others(mesh, 0)) else (both, concerned)
 
 
 def write(context: bpy.types.Context, mesh: bpy.types.Mesh, before: Stored, after: Stored) -> None:

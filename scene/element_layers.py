@@ -140,19 +140,11 @@ def _weights(mesh: bpy.types.Mesh, n_groups: int | None) -> Ragged | None:
 
 
 def _set_weights(mesh: bpy.types.Mesh, weights: Ragged) -> None:
-    """Give vertices their weights: in bulk where these are equal."""
+    """Give vertices their weights."""
     vertex = np.repeat(np.arange(len(weights)), weights.count)
-    group, weight = weights.items["group"], weights.items["weight"]
-    order = np.lexsort((vertex, weight, group))
-    group, weight, vertices = group[order], weight[order], vertex[order].tolist()
-    new = np.append(True, (group[1:] != group[:-1]) | (weight[1:] != weight[:-1]))[: len(group)]
-    first = np.flatnonzero(new)
-    end = np.append(first, len(vertices))[1:]  # none where no vertex has a weight
     with mesh_groups.twin(mesh) as twin:
         groups = list(twin.vertex_groups)
-        runs = zip(group[first].tolist(), weight[first].tolist(), first.tolist(), end.tolist(), strict=True)
-        for index, value, here, there in runs:
-            groups[index].add(vertices[here:there], value, "REPLACE")
-        if not len(first):  # where no vertex has ever had a weight, a shape key works as if it had no group
+        mesh_groups.give_weights(groups, vertex, weights.items["group"], weights.items["weight"])
+        if not len(vertex):  # where no vertex has ever had a weight, a shape key works as if it had no group
             groups[0].add([0], 0.0, "REPLACE")
             groups[0].remove([0])

@@ -21,7 +21,6 @@ from .pieces import piece_objects
 from .pieces.part_meshes import piece_meshes
 from .run_files import RunFiles
 from .temporary import removed
-from .units import millimeters
 
 EXPORTERS = {
     "obj": lambda path: bpy.ops.wm.obj_export(filepath=path, export_selected_objects=True),
@@ -167,7 +166,7 @@ def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object]) -> tuple
     for name, piece in pieces.items():
         points = mesh_arrays.shown_points(piece).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
         triangles = mesh_arrays.triangles(piece.data)[0].astype(np.int64)[:, :: -1 if mirrored else 1]
-        bodies.append(ColoredMesh(name, colors.get(name, _PLAIN), points * millimeters(), triangles))
+        bodies.append(ColoredMesh(name, colors.get(name, _PLAIN), points * placing.millimeters(), triangles))
     return tuple(bodies)
 
 

@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 from numpy.typing import DTypeLike
 
+from ..core.surface.arrays import renumbered
 from ..core.surface.corners import CornerTable
 from ..core.surface.vectors import cross, lengths
 
@@ -277,17 +278,14 @@ def _of_larger_faces(points: np.ndarray, count: np.ndarray, corner_vertex: np.nd
     """The triangles of the faces of five corners or more, in their order; arguments as of ``triangulated``."""
     three = count <= 4
     corner = np.repeat(three, count)
-    on = np.zeros(len(points), bool)
-    on[corner_vertex[~corner]] = True
-    used = np.flatnonzero(on).astype(np.int32)
-    place = (np.cumsum(on, dtype=np.int32) - 1)[corner_vertex[~corner]]
+    used, place = renumbered(corner_vertex[~corner])
     mesh = bpy.data.meshes.new("Reeb Parts")
     try:
         mesh.vertices.add(len(used))
         mesh.loops.add(len(place))
         mesh.polygons.add(int((~three).sum()))
         mesh.attributes["position"].data.foreach_set("vector", points[used].ravel())
-        mesh.attributes[".corner_vert"].data.foreach_set("value", place)
+        mesh.attributes[".corner_vert"].data.foreach_set("value", place.astype(np.int32))
         mesh.polygons.foreach_set("loop_start", np.cumsum(count[~three], dtype=np.int32) - count[~three])
         mesh.calc_loop_triangles()
         return used[read(mesh.loop_triangles, "vertices", np.int32, 3)]  # which Blender lists face by face

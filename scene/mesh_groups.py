@@ -7,10 +7,11 @@ group of its name gets another name, or is lost (seen in 4.2 and 5.2).
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterator, Sequence
 from contextlib import contextmanager
 
 import bpy
+import numpy as np
 from bmesh.types import BMesh
 
 from . import matrix_layers
@@ -62,6 +63,19 @@ def beside(mesh: bpy.types.Mesh, names: Container[str]) -> Iterator[None]:
         finally:
             for index, name in former.items():
                 obj.vertex_groups[index].name = name
+
+
+def give_weights(groups: Sequence[bpy.types.VertexGroup], vertex: np.ndarray, group: np.ndarray,
+                 weight: np.ndarray) -> None:
+    """Give vertices weights, (k,) each: all that have one weight in a group at once, as Blender takes them.
+
+    group : (k,) int, places in ``groups``.
+    """
+    order = np.lexsort((vertex, weight, group))
+    vertex, group, weight = vertex[order], group[order], weight[order]
+    first = np.flatnonzero(np.append(True, (group[1:] != group[:-1]) | (weight[1:] != weight[:-1]))[: len(group)])
+    for start, some in zip(first.tolist(), np.split(vertex, first)[1:], strict=True):
+        groups[group[start]].add(some.tolist(), float(weight[start]), "REPLACE")
 
 
 def write(bm: BMesh, mesh: bpy.types.Mesh) -> None:

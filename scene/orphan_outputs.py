@@ -14,15 +14,15 @@ import numpy as np
 
 from . import hidden, mesh_arrays, part_names, store, targets, transaction
 from .outputs import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
-from .outputs.kept_aside import remove_attribute
+from .outputs.kept_aside import find_attribute, remove_attribute
 
 _OWN_NAME = re.compile(r"Part \d\d+(\.[LR])?")  # see core/result/numbering.py
 
 
 def may_be(mesh: bpy.types.Mesh) -> bool:
     """Whether a mesh has no result and attributes as ours: a quick look."""
-    return not store.has_result(mesh) and _has(mesh, face_attribute.NAME, "INT", "FACE") and _has(
-        mesh, colors.NAME, "BYTE_COLOR", "CORNER")
+    kinds = ((face_attribute.NAME, "INT", "FACE"), (colors.NAME, "BYTE_COLOR", "CORNER"))
+    return not store.has_result(mesh) and all(find_attribute(mesh, *kind) for kind in kinds)
 
 
 def remove(obj: bpy.types.Object) -> bool:
@@ -41,17 +41,13 @@ def remove(obj: bpy.types.Object) -> bool:
     seams.take_back(mesh, ours)
     face_sets.take_back(mesh, numbers)
     materials.take_back(mesh, ours)
-    kinds = {field.NAME: ("FLOAT", "POINT"), hidden.ATTRIBUTE: ("BOOLEAN", "FACE")}
-    more = [name for name, kind in kinds.items() if _has(mesh, name, *kind)]
-    for name in (*more, colors.NAME, face_attribute.NAME):
+    for kind in ((field.NAME, "FLOAT", "POINT"), (hidden.ATTRIBUTE, "BOOLEAN", "FACE")):
+        if find_attribute(mesh, *kind):
+            remove_attribute(mesh, kind[0])
+    for name in (colors.NAME, face_attribute.NAME):
         remove_attribute(mesh, name)
     mesh.update()
     return True
-
-
-def _has(mesh: bpy.types.Mesh, name: str, kind: str, domain: str) -> bool:
-    attribute = mesh.attributes.get(name)
-    return attribute is not None and (attribute.data_type, attribute.domain) == (kind, domain)
 
 
 def _one_color_each(mesh: bpy.types.Mesh, numbers: np.ndarray) -> bool:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where objects are in the world, evaluated or not, and how they get there."""
+"""Where objects are in the world, evaluated or not, how they get there, and how long its unit is."""
 
 from __future__ import annotations
 
@@ -32,6 +32,12 @@ def put(item: bpy.types.Object, matrix: Matrix) -> None:
     item.data.transform(matrix, shape_keys=True)
     if matrix.determinant() < 0:
         item.data.flip_normals()
+
+
+def millimeters() -> float:
+    """Length of a unit of the scene in millimeters; 1 in scenes without units."""
+    units = bpy.context.scene.unit_settings
+    return 1.0 if units.system == "NONE" else 1000.0 * units.scale_length
 
 
 def _is_evaluated(obj: bpy.types.Object) -> bool:

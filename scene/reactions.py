@@ -117,9 +117,7 @@ def show_graph(obj: bpy.types.Object | None, shown: bool, context: bpy.types.Con
         return
 
     def draw(stored: Stored) -> None:
-        stretch, numbered = store.stretch_of(obj.data), stored.shown_parts()
-        graph_objects.draw_graph(context, obj, numbered, stretch, context.scene.reeb_parts)
-        graph_objects.update_parts(obj, numbered)
+        graph_objects.draw_graph(context, obj, stored.shown_parts(), context.scene.reeb_parts)
 
     _with_result(obj.data, context, draw)
 

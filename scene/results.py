@@ -117,8 +117,7 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
 
     settings : has the values of OverlayProperties. Returns how many nodes of an earlier graph were left alone.
     """
-    kept = graph_objects.draw_graph(context, obj, numbered, store.stretch_of(obj.data), settings)
-    graph_objects.update_parts(obj, numbered)
+    kept = graph_objects.draw_graph(context, obj, numbered, settings)
     graph_objects.set_hidden(context, obj, shows_clutter(numbered))
     return kept
 

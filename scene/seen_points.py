@@ -32,7 +32,7 @@ def evaluated(obj: bpy.types.Object) -> None:
 
 def version(obj: bpy.types.Object) -> int:
     """A number that changes when an object with modifiers is evaluated anew; 0 without modifiers that are seen."""
-    return 1 + _counts.get(obj.session_uid, 0) if _is_modified(obj) else 0
+    return 1 + _counts.get(obj.session_uid, 0) if _shown(obj) else 0
 
 
 def seen_points(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray:
@@ -42,7 +42,7 @@ def seen_points(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray
     is without them.
     """
     points, own = mesh_arrays.shown_points(obj), obj.data
-    if not _is_modified(obj):
+    if not _shown(obj):
         return points
     mesh = obj.evaluated_get(context.evaluated_depsgraph_get()).data
     seen = mesh_arrays.basis_points(mesh)
@@ -54,10 +54,6 @@ def seen_points(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray
     elif {modifier.type for modifier in _shown(obj)} <= _MOVE | _DIVIDE and len(seen) > len(points):
         return seen[: len(points)]
     return points
-
-
-def _is_modified(obj: bpy.types.Object) -> bool:
-    return bool(_shown(obj))
 
 
 def _shown(obj: bpy.types.Object) -> list[bpy.types.Modifier]:

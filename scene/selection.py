@@ -73,19 +73,14 @@ def select_objects(context: bpy.types.Context, objects: list[bpy.types.Object],
     for other in list(context.view_layer.objects.selected):
         other.select_set(False)
     for obj in objects:
-        if in_layer(context, obj):
+        if in_layer(context.view_layer, obj):
             obj.select_set(True)
-    if active is not None and in_layer(context, active):
+    if active is not None and in_layer(context.view_layer, active):
         context.view_layer.objects.active = active
 
 
-def in_layer(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
-    """Whether the view layer has an object; of an excluded collection it has none."""
-    return in_view_layer(context.view_layer, obj)
-
-
-def in_view_layer(layer: bpy.types.ViewLayer, obj: bpy.types.Object) -> bool:
-    """As ``in_layer``, for any view layer."""
+def in_layer(layer: bpy.types.ViewLayer, obj: bpy.types.Object) -> bool:
+    """Whether a view layer has an object; of an excluded collection it has none."""
     objects = layer.objects
     # A linked object may have the same name: then each is looked at.
     return objects.get(obj.name) == obj or any(other == obj for other in objects)

@@ -5,6 +5,7 @@ The properties of the method are made from the fields of ``Parameters``: names, 
 are written down once. Classes that end in Properties are for operators and property groups to inherit.
 """
 
+from collections.abc import Iterable
 from dataclasses import Field, asdict, fields
 from typing import Any
 
@@ -56,6 +57,13 @@ class ParameterProperties:
 
 
 PARAMETERS = tuple(ParameterProperties.__annotations__)
+
+
+def fill_in(operator: bpy.types.Operator, source: Any, names: Iterable[str]) -> None:
+    """Give an operator what a source, such as the panel, has for those properties that its caller left out."""
+    for name in names:
+        if not operator.properties.is_property_set(name):
+            setattr(operator, name, getattr(source, name))
 
 
 def _former_property(present: str, **more: Any) -> Any:
@@ -292,6 +300,10 @@ class SeparateProperties(WhichProperties, JointProperties):
         description="Hide the object, which stays as it is, in the viewport and in renders",
     )
 
+
+#: All properties of SeparateProperties, by name.
+SEPARATE: dict[str, Any] = {name: prop for cls in reversed(SeparateProperties.__mro__)
+                            for name, prop in getattr(cls, "__annotations__", {}).items()}
 
 PRESET_ITEMS = [(name, name, "") for name in PRESETS]
 

@@ -117,19 +117,19 @@ def last(mesh: bpy.types.Mesh) -> Stored:
     # While the mesh is edited, it may have other counts; what is read for it stays in proportion to it.
     most = _GROWTH * (len(mesh.vertices) + len(mesh.polygons)) + _SMALL
     if not (result.n_vertices <= most and result.n_faces <= most):
-        raise UnreadableError(translated(_damaged()))
+        raise _damaged()
     decomposition = _decomposition(result.data, (result.n_vertices, result.n_faces))
     numbers = result.numbers
     if len(numbers) != 3 * 4 * decomposition.n_candidates:
-        raise UnreadableError(translated(_damaged()))
+        raise _damaged()
     rows = np.frombuffer(numbers, np.int32).astype(np.int64).reshape(3, -1)
     previous, pinned, shown = rows
     listed = np.array([part.number for part in result.parts], np.int64)
     every = np.concatenate([rows.ravel(), listed])
     if (every < 0).any() or (every > part_names.MAX_NUMBER).any() or (shown == 0).any():
-        raise UnreadableError(translated(_damaged()))
+        raise _damaged()
     if not np.array_equal(np.sort(listed), np.unique(shown)):  # a script has changed the list
-        raise UnreadableError(translated(_damaged()))
+        raise _damaged()
     return Stored(decomposition, previous, pinned, shown)
 
 
@@ -137,15 +137,15 @@ def check_list(mesh: bpy.types.Mesh) -> None:
     """Raise UnreadableError if a script has changed the list of parts so that none is the active one: a quick check."""
     result = mesh.reeb_parts
     if not 0 <= result.active < len(result.parts):
-        raise UnreadableError(translated(_damaged()))
+        raise _damaged()
 
 
-def _damaged() -> Exception:
-    """The error whose sentence says that a stored result is damaged."""
+def _damaged() -> UnreadableError:
+    """The error that says that a stored result is damaged."""
     load_core()
     from ..core.result.stored import DamagedError
 
-    return DamagedError()
+    return UnreadableError(translated(DamagedError()))
 
 
 def save(mesh: bpy.types.Mesh, stored: Stored) -> None:
@@ -191,7 +191,7 @@ def _decomposition(data: bytes, counts: tuple[int, int]) -> Decomposition:
             raise UnreadableError(translated(error)) from error
     found = _read[data]
     if (found.n_vertices, found.n_faces) != counts:
-        raise UnreadableError(translated(_damaged()))
+        raise _damaged()
     return found
 
 

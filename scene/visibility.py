@@ -8,7 +8,7 @@ from functools import partial
 import bpy
 
 from . import transaction
-from .selection import in_view_layer
+from .selection import in_layer
 
 _UNKNOWN = -1  # see schema.ReebPartsMade.rendered
 
@@ -53,6 +53,6 @@ def _set_rendered(obj: bpy.types.Object, rendered: bool, before: int) -> None:
 def _set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> None:
     """Hide an object in all view layers of the scene that have it: in each it lies where others of ours do."""
     for layer in context.scene.view_layers:
-        if in_view_layer(layer, obj) and obj.hide_get(view_layer=layer) != hidden:
+        if in_layer(layer, obj) and obj.hide_get(view_layer=layer) != hidden:
             transaction.on_failure(partial(obj.hide_set, not hidden, view_layer=layer))
             obj.hide_set(hidden, view_layer=layer)

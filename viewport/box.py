@@ -25,7 +25,7 @@ def parts_in_box(context: bpy.types.Context, obj: bpy.types.Object, model: Model
     low, high : corners of the box, in pixels of the region.
     """
     context.view_layer.update()
-    places = on_screen(model.face_center, obj.matrix_world, region, region.data)
+    places = on_screen(model.face_center, obj.matrix_world, region)
     with np.errstate(invalid="ignore"):  # nan: behind the viewer
         inside = ((places >= low) & (places <= high)).all(axis=1)
     shading = context.space_data.shading

@@ -114,28 +114,25 @@ class Model:
         """What is at a (2,) place of a region, in its pixels: of the graph first; None beside the model."""
         # Where the mesh was written within the event before, what Blender has evaluated is still of the mesh before.
         context.view_layer.update()
-        view = region.data  # each region of a quad view has its own
-        target = self._graph_under(context, obj, region, view, mouse) if graph else None
-        return target or (self._face_under(context, obj, region, view, mouse) if surface else None)
+        target = self._graph_under(context, obj, region, mouse) if graph else None
+        if target is not None or not surface:
+            return target
+        start = view3d_utils.region_2d_to_origin_3d(region, region.data, mouse)
+        return self.along(context, obj, start, view3d_utils.region_2d_to_vector_3d(region, region.data, mouse))
 
     def _graph_under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
-                     view: bpy.types.RegionView3D, mouse: tuple[float, float]) -> Target | None:
+                     mouse: tuple[float, float]) -> Target | None:
         arcs = graph_objects.arcs(obj)
         if arcs is None or not arcs.visible_get():
             return None
         _, places = graph_follow.places(obj)
         if places is None or len(places) != len(self.shown_lines.position):
             places = self.shown_lines.position
-        points = on_screen(places, obj.matrix_world, region, view)
+        points = on_screen(places, obj.matrix_world, region)
         segment, share, distance = nearest(points, self.shown_lines.segments, np.array(mouse))
         if segment < 0 or distance > REACH * context.preferences.system.ui_scale:
             return None
         return _on_line(self.shown_lines, segment, share)
-
-    def _face_under(self, context: bpy.types.Context, obj: bpy.types.Object, region: bpy.types.Region,
-                    view: bpy.types.RegionView3D, mouse: tuple[float, float]) -> Target | None:
-        start = view3d_utils.region_2d_to_origin_3d(region, view, mouse)
-        return self.along(context, obj, start, view3d_utils.region_2d_to_vector_3d(region, view, mouse))
 
     def along(self, context: bpy.types.Context, obj: bpy.types.Object, start: Vector,
               direction: Vector) -> Target | None:
@@ -228,10 +225,10 @@ def _on_line(lines: GraphLines, segment: int, share: float) -> Target:
                   float(blend @ lines.value[[low, high]]), -1)
 
 
-def on_screen(positions: np.ndarray, matrix: Matrix, region: bpy.types.Region,
-              view: bpy.types.RegionView3D) -> np.ndarray:
+def on_screen(positions: np.ndarray, matrix: Matrix, region: bpy.types.Region) -> np.ndarray:
     """Where points are seen, (m, 2) float64 in pixels of the region; nan behind the viewer."""
-    whole = np.array(view.perspective_matrix, np.float64) @ np.array(matrix, np.float64)
+    # Each region of a quad view has a view of its own.
+    whole = np.array(region.data.perspective_matrix, np.float64) @ np.array(matrix, np.float64)
     seen = np.concatenate([positions, np.ones((len(positions), 1))], axis=1) @ whole.T
     depth = np.where(seen[:, 3:] > 1e-9, seen[:, 3:], np.nan)
     return (seen[:, :2] / depth + 1.0) * 0.5 * (region.width, region.height)

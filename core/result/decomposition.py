@@ -331,11 +331,13 @@ class Decomposition:
         return self.group(self.hierarchy.parts(count))
 
     def asked(self, parameters: Parameters) -> Decomposition:
-        """Copy the result as that of a run which asked for other detail or another number of parts.
+        """Give the result as that of a run which asked for other detail or another number of parts.
 
         parameters : Parameters. Returns a Decomposition of the same candidates, with the note of such a run where more
-        parts are asked for than there can be.
+        parts are asked for than there can be; this one, with all that is known of it, if nothing else is asked for.
         """
+        if parameters == self.parameters:
+            return self
         before = too_many(self.parameters.n_parts, self.n_candidates)
         notes = tuple(note for note in self.notes if note not in before)
         return replace(self, parameters=parameters, notes=notes + too_many(parameters.n_parts, self.n_candidates))

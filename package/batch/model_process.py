@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from ..core.memory import lacks_memory
-from .records import CRASH, MEMORY, TIME, Settings, digest_of, failure
+from .records import CRASH, MEMORY, TIME, Settings, digest_of, failure, write_record
 
 LOOK = 0.5  # seconds between two looks at the memory of the process
 START = 120.0  # seconds that the process may take to import everything, on a busy machine
@@ -68,7 +68,8 @@ class ModelProcess:
             return self._answer
         self.close()
         with suppress(OSError):  # such as a full disk: it is open then, and will be tried again
-            _write_failure(job, status, reason)
+            settings = Settings.from_dict(job["settings"]).digest
+            write_record(job, failure(job["name"], status, reason, settings, digest_of(Path(job["path"]))))
         return {"status": status, "reason": reason, "seconds": round(time.monotonic() - start, 4)}
 
     def _attempt(self, job: dict[str, Any], seconds: float) -> tuple[str, str]:
@@ -193,16 +194,6 @@ class ModelProcess:
         if self._errors is not None:
             self._errors.close()
         self._process = None
-
-
-def _write_failure(job: dict[str, Any], status: str, reason: str) -> None:
-    """Write the record of a model that the process ended at; raises OSError."""
-    from ..output_files import write_folder
-    from .records import RECORD
-
-    record = failure(job["name"], status, reason, Settings.from_dict(job["settings"]).digest,
-                     digest_of(Path(job["path"])))
-    write_folder(Path(job["folder"]), {RECORD: json.dumps(record).encode()})
 
 
 def _listen(pipe: IO[bytes], messages: queue.SimpleQueue[dict[str, Any]]) -> None:

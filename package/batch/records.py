@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ from ..core.parameters import Parameters
 from ..core.version import VERSION
 from ..gltf_checks import load_header
 from ..model_files import check_ends
+from ..output_files import write_folder
 
 FORMAT = 1  # version of what a record holds
 RECORD = "record.json"
@@ -126,7 +126,14 @@ def failure(name: str, status: str, reason: str, settings: str, digest: str = ""
             "digest": digest, "files": {}, "model": {}, "parts": []}
 
 
-def records(folders: list[tuple[str, Path]]) -> Iterator[dict[str, Any]]:
-    """The record of each model, given its name and folder; one that says so for a model that is still open."""
-    for name, folder in folders:
-        yield read_record(folder) or failure(name, OPEN, "It was not reached.", "")
+def write_record(job: dict[str, Any], record: dict[str, Any], files: dict[str, bytes] | None = None) -> None:
+    """Write the folder of the model of a job: its record, and files by name; raises OSError."""
+    write_folder(Path(job["folder"]), {**(files or {}), RECORD: json.dumps(record, allow_nan=False).encode()})
+
+
+def record_of(name: str, folder: Path, settings: str) -> dict[str, Any]:
+    """The record of a model, given its folder and the digest of the settings; one that says so if it is still open."""
+    record = read_record(folder)
+    if record is None or record["settings"] != settings:  # of a run before, with others
+        return failure(name, OPEN, "It was not reached.", settings)
+    return record

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 import traceback
 from contextlib import suppress
@@ -17,10 +16,21 @@ from ..core.sentence import Sentence
 from ..core.uses.descriptors import part_descriptors
 from ..meshes import decompose
 from ..model_files import Model, ModelFileError, NoReaderError, read_model
-from ..output_files import OutputFileError, as_output_error, write_folder
+from ..output_files import OutputFileError, as_output_error
 from ..outputs import colored_bytes, json_bytes, labels_bytes, model_document, part_files, picture_bytes
 from ..rounding import Rounding
-from .records import DONE, ERROR, FORMAT, READER, RECORD, REFUSED, UNREADABLE, Settings, digest_of, failure
+from .records import (
+    DONE,
+    ERROR,
+    FORMAT,
+    READER,
+    REFUSED,
+    UNREADABLE,
+    Settings,
+    digest_of,
+    failure,
+    write_record,
+)
 
 
 def do_model(job: dict[str, Any]) -> dict[str, Any]:
@@ -68,11 +78,11 @@ def do_model(job: dict[str, Any]) -> dict[str, Any]:
     record["model"]["seconds"] = seconds
     try:
         with as_output_error(Path(job["folder"])):
-            _write(job, record, files)
+            write_record(job, record, files)
     except OutputFileError as error:  # such as a full disk, which may have room for the record alone
         record = failure(name, ERROR, str(error), settings.digest, digest)
         with suppress(OSError):
-            _write(job, record, {})
+            write_record(job, record)
     return {"status": record["status"], "reason": record["reason"], "seconds": seconds}
 
 
@@ -85,11 +95,6 @@ def _digest(path: Path) -> str:
     except OSError as error:
         raise ModelFileError(Sentence("{path} could not be read: {reason}", path=path,
                                       reason=error.strerror or error)) from error
-
-
-def _write(job: dict[str, Any], record: dict[str, Any], files: dict[str, bytes]) -> None:
-    """Write the folder of a model; raises OSError."""
-    write_folder(Path(job["folder"]), {**files, RECORD: json.dumps(record, allow_nan=False).encode()})
 
 
 def _results(job: dict[str, Any], settings: Settings) -> tuple[dict[str, Any], dict[str, bytes]]:

@@ -23,14 +23,14 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from ..batch.records import CRASH, DONE, OPEN, RECORD, Settings, failure, is_done, records
+from ..batch.records import CRASH, DONE, Settings, failure, is_done, record_of, write_record
 from ..batch.sources import Source, find_sources, folder_of, read_list
 from ..core.errors import ReebError
 from ..core.file_names import readable
 from ..core.options import add_parameters, chosen_parameters, number
 from ..core.sentence import Sentence
 from ..model_files import BY_BLENDER, formats
-from ..output_files import SharedFolder, as_output_error, write_folder
+from ..output_files import SharedFolder, as_output_error
 from ..outputs import COLORED, LABELS, PARTS
 from .words import print_answer, say
 
@@ -168,9 +168,8 @@ class _Batch:
     def _lost(self, job: dict[str, Any], error: BaseException) -> dict[str, Any]:
         """Record a model whose workers ended one after the other."""
         reason = f"The workers that had it ended: {error}"
-        record = failure(job["name"], CRASH, reason, self.settings.digest)
         with suppress(OSError):  # such as a full disk: it is open then, and will be tried again
-            write_folder(Path(job["folder"]), {RECORD: json.dumps(record).encode()})
+            write_record(job, failure(job["name"], CRASH, reason, self.settings.digest))
         return {"status": CRASH, "reason": reason}
 
     def finish(self) -> dict[str, Any]:
@@ -178,12 +177,9 @@ class _Batch:
         from ..batch.page import write_page
         from ..batch.tables import write_tables
 
-        folders = [(source.name, self.folder(source)) for source in self.sources]
-
         def rows() -> Iterator[tuple[dict[str, Any], Path, Path]]:
-            for record, source in zip(records(folders), self.sources, strict=True):
-                if record["settings"] != self.settings.digest:  # of a run before, with other settings
-                    record = failure(source.name, OPEN, "It was not reached.", self.settings.digest)
+            for source in self.sources:
+                record = record_of(source.name, self.folder(source), self.settings.digest)
                 statuses[record["status"]] += 1
                 yield record, source.path, self.folder(source)
 

@@ -108,8 +108,6 @@ def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray | Non
     own = obj.data
     if (len(mesh.polygons), len(mesh.loops)) != (len(own.polygons), len(own.loops)):
         return None
-    points = mesh_arrays.basis_points(mesh).astype(np.float64)
-    vertex = mesh_arrays.read(mesh.attributes[".corner_vert"].data, "value", np.int32)
+    points = mesh_arrays.basis_points(mesh).astype(np.float64)[mesh_arrays.corner_vertices(mesh)]
     _, face = mesh_arrays.face_corners(own)
-    corners = np.bincount(face, minlength=len(own.polygons))
-    return sums_by(face, points[vertex], len(own.polygons)) / corners[:, None]
+    return sums_by(face, points, len(own.polygons)) / mesh_arrays.face_sizes(own)[:, None]

@@ -20,6 +20,7 @@ from ...core.uses.colors import linear
 from ...core.uses.graph_folding import unfolded
 from .. import bridge, made_objects, mesh_arrays, part_names, store, transaction
 from ..made_objects import ROLE
+from ..selection import in_layer
 from ..temporary import remove_object
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
@@ -76,7 +77,7 @@ def exists(obj: bpy.types.Object) -> bool:
 
 def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> bool:
     """Hide the graph of an object in the view layer, or show it again; whether it has a collection."""
-    for item in _in_layer(context, _elsewhere(obj)):
+    for item in _elsewhere_in_layer(context, obj):
         transaction.on_failure(item.hide_set, item.hide_get())
         item.hide_set(hidden)
     collection = find(obj)
@@ -91,13 +92,12 @@ def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) 
 def is_shown(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     """Whether an object has a graph that is not hidden in the view layer."""
     return (any(not layer.hide_viewport for layer in _layers(context, find(obj)))
-            or any(item.visible_get() for item in _in_layer(context, _elsewhere(obj))))
+            or any(item.visible_get() for item in _elsewhere_in_layer(context, obj)))
 
 
-def _in_layer(context: bpy.types.Context, items: Iterable[bpy.types.Object]) -> list[bpy.types.Object]:
-    """Those of some objects that are in the view layer."""
-    layer = context.view_layer.objects
-    return [item for item in items if layer.get(item.name) == item]
+def _elsewhere_in_layer(context: bpy.types.Context, obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """Those objects of ``_elsewhere`` that the view layer has."""
+    return [item for item in _elsewhere(obj) if in_layer(context.view_layer, item)]
 
 
 def _layers(context: bpy.types.Context, collection: bpy.types.Collection | None
@@ -111,9 +111,8 @@ def _layers(context: bpy.types.Context, collection: bpy.types.Collection | None
         waiting.extend(layer.children)
 
 
-def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: NumberedParts, stretch: np.ndarray,
-               style: Any) -> int:
-    """Draw a graph in place of an earlier one.
+def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: NumberedParts, style: Any) -> int:
+    """Draw the graph of parts that are stored with an object's mesh, in place of an earlier one.
 
     Parameters
     ----------
@@ -121,8 +120,6 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
     obj : bpy.types.Object
     numbered : NumberedParts
         The graph is that of their decomposition.
-    stretch : (3, 3) float64
-        What took the mesh's coordinates to the graph's; undone here.
     style
         Has the values of settings.OverlayProperties.
 
@@ -136,7 +133,7 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
     kinds = [KINDS[kind] for kind in graph.node_kind.tolist()]
     coming = [*map(_name_of_node, numbers, kinds), _ARCS]
     earlier = _remove(obj, coming)
-    back = bridge.unstretch(stretch).T
+    back = bridge.unstretch(store.stretch_of(obj.data)).T
     collection = bpy.data.collections.new(f"Reeb Graph {obj.name}")
     collection[SOURCE] = obj
     collection.hide_render = True
@@ -154,6 +151,7 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
     _place(bpy.data.objects.new("Reeb arcs", curve), _ARCS, obj, collection)
     restyle(obj, style)
     made_objects.hand_on(earlier.gone, [(_stands_for(item), item) for item in collection.objects])
+    update_parts(obj, numbered)
     return earlier.kept
 
 

@@ -14,7 +14,7 @@ import bpy
 
 from .. import transaction
 from ..made_objects import ROLE
-from ..selection import in_view_layer
+from ..selection import in_layer
 from . import graph_objects
 from .graph_objects import SHOWN_BEFORE
 
@@ -73,11 +73,11 @@ def _in_local_views(context: bpy.types.Context
     found = {}
     for layer, space in _local_views(context):
         for _, source in _graphs():
-            if not (in_view_layer(layer, source) and source.local_view_get(space)
+            if not (in_layer(layer, source) and source.local_view_get(space)
                     and graph_objects.is_shown(context, source)):
                 continue
             for item in source.children:
-                if item.get(ROLE) in ("node", "arcs") and in_view_layer(layer, item):
+                if item.get(ROLE) in ("node", "arcs") and in_layer(layer, item):
                     found[space.as_pointer(), item.session_uid] = space, item
     return found
 

@@ -13,8 +13,8 @@ import numpy as np
 from ...core.steps import Steps, stretched
 from .. import bridge, mesh_arrays
 from ..pieces import piece_checks
+from ..placing import millimeters
 from ..temporary import removed
-from ..units import millimeters
 from .cuts import shared_cuts
 from .fitting import Work, fitting
 from .piece_surfaces import PieceSurface

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ...core.surface.arrays import sums_by
+from ...core.surface.arrays import renumbered, sums_by
 from ...core.surface.vectors import cross, unit
 
 
@@ -18,6 +18,18 @@ def search_tree(points: np.ndarray, triangles: np.ndarray) -> BVHTree:
     # Tuples made of columns take two thirds of the time of lists made of rows.
     rows = (list(zip(*array.T.tolist(), strict=True)) for array in (points, triangles))
     return BVHTree.FromPolygons(*rows, all_triangles=True)
+
+
+def crossing(tree: BVHTree, other: BVHTree, triangles: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Pairs of triangles of two trees that cross and have no corner in common, (k, 2) int64; of one tree, each once.
+
+    triangles, others : (t, 3) and (s, 3) int, in which a corner of one that is a corner of the other is one number.
+    """
+    pairs = np.array(tree.overlap(other), np.int64).reshape(-1, 2)
+    if tree is other:
+        pairs = pairs[pairs[:, 0] < pairs[:, 1]]
+    first, second = triangles[pairs[:, 0]], others[pairs[:, 1]]
+    return pairs[(first[:, :, None] != second[:, None]).all(axis=(1, 2))]
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,12 +59,8 @@ class BodySurface:
     @classmethod
     def of(cls, points: np.ndarray, triangles: np.ndarray, labels: np.ndarray, curve: np.ndarray) -> BodySurface:
         """Triangles of a mesh with points (n, 3), as they are around a curve, (k, 3)."""
-        on = np.zeros(len(points), bool)
-        on[triangles] = True
-        used = np.flatnonzero(on)
-        number = np.empty(len(on), np.int64)
-        number[used] = np.arange(len(used))
-        points, triangles = points[used], number[triangles]
+        used, triangles = renumbered(triangles)
+        points = points[used]
         maybe = np.flatnonzero(np.isin(points[:, 0], curve[:, 0]))
         place = {bytes(points[index]): index for index in maybe.tolist()}
         tree = search_tree(points, triangles)
@@ -73,9 +81,7 @@ class BodySurface:
     @cached_property
     def crosses_itself(self) -> bool:
         """Whether triangles cross that have no vertex in common."""
-        pairs = np.array(self.tree.overlap(self.tree), np.int64).reshape(-1, 2)
-        first, second = self.triangles[pairs[:, 0]], self.triangles[pairs[:, 1]]
-        return bool((first[:, :, None] != second[:, None]).all(axis=(1, 2)).any())
+        return len(crossing(self.tree, self.tree, self.triangles, self.triangles)) > 0
 
     @property
     def _areas(self) -> np.ndarray:
@@ -121,10 +127,5 @@ class BodySurface:
             Triangles of the surface.
         """
         tree = search_tree(places, triangles)
-        pairs = np.array(tree.overlap(self.tree), np.int64).reshape(-1, 2)
-        own = np.concatenate([self.own, np.full(len(places) - len(self.own), -2)])[triangles[pairs[:, 0]]]
-        touch = (own[:, :, None] == self.triangles[pairs[:, 1]][:, None]).any(axis=(1, 2))
-        within = np.array(tree.overlap(tree), np.int64).reshape(-1, 2)
-        within = within[within[:, 0] < within[:, 1]]
-        share = (triangles[within[:, 0]][:, :, None] == triangles[within[:, 1]][:, None]).any(axis=(1, 2))
-        return pairs[~touch], within[~share]
+        own = np.concatenate([self.own, np.full(len(places) - len(self.own), -2)])[triangles]
+        return crossing(tree, self.tree, own, self.triangles), crossing(tree, tree, triangles, triangles)

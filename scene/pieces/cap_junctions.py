@@ -16,7 +16,7 @@ from ...core.surface.ties import rounded
 from ...core.surface.vectors import lengths
 from ...core.uses.cap_surfaces import common_order
 from ...core.uses.networks import nested_sides, own_places
-from .body_surface import search_tree
+from .body_surface import crossing, search_tree
 from .discs import LED_IN, PLAIN
 
 if TYPE_CHECKING:
@@ -267,10 +267,8 @@ def _crossings(sheets: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
     triangles = number.ravel()[own]
     sheet = np.repeat(np.arange(len(sheets)), [len(one) for _, one in sheets])
     tree = search_tree(places, triangles)
-    pairs = np.array(tree.overlap(tree), np.int64).reshape(-1, 2)
-    pairs = pairs[sheet[pairs[:, 0]] < sheet[pairs[:, 1]]]
-    apart = (triangles[pairs[:, 0]][:, :, None] != triangles[pairs[:, 1]][:, None]).all(axis=(1, 2))
-    return sheet[pairs[apart]]
+    pairs = sheet[crossing(tree, tree, triangles, triangles)]
+    return pairs[pairs[:, 0] != pairs[:, 1]]
 
 
 def _middles(starts: np.ndarray, mean: np.ndarray, body: BodySurface, side: float) -> list[np.ndarray]:

@@ -16,7 +16,7 @@ from ...core.surface.reach import within_reach
 from ...core.surface.vectors import cross
 from .. import mesh_arrays, transaction
 from . import caps
-from .body_surface import search_tree
+from .body_surface import crossing, search_tree
 
 CHECK = "reeb_parts_check"  # on a piece: what was found, as JSON
 
@@ -125,16 +125,16 @@ def check(mesh: bpy.types.Mesh, stretch: np.ndarray) -> tuple[Check, Faults]:
         near = np.flatnonzero(within_reach(points, triangles, tried, places.start, -places.out))
     tree = _tree(points, triangles[near])
     pairs = _crossing(tree, points, triangles, tried, near)
-    crossing = _marked(n_faces, face[pairs])
+    crossed = _marked(n_faces, face[pairs])
     by_cap = _marked(n_faces, face[pairs[caps.is_cap(mesh)[face[pairs]].any(axis=1)]])
     thinnest, where = _thinnest(tree, places)
     volume = None
     if not (open_[0] or branching[0] or contrary[0]):
         volume = float(((a - points.mean(axis=0)) * vector).sum() / 6)
-    found = Check(open_[0], branching[0], contrary[0], int(crossing.sum()), int((crossing & ~by_cap).sum()),
+    found = Check(open_[0], branching[0], contrary[0], int(crossed.sum()), int((crossed & ~by_cap).sum()),
                   bool(tried.all()), volume is not None and volume < 0, volume, thinnest)
     thin = _marked(n_faces, face[[where]] if thinnest is not None else np.empty(0, np.int64))
-    return found, Faults(open_[1], branching[1], contrary[1], crossing, thin)
+    return found, Faults(open_[1], branching[1], contrary[1], crossed, thin)
 
 
 def keep(piece: bpy.types.Object, found: Check) -> None:
@@ -190,10 +190,8 @@ def _crossing(tree: BVHTree, points: np.ndarray, triangles: np.ndarray, tried: n
     if not len(index):
         return np.empty((0, 2), np.int64)
     some = tree if tried.all() else _tree(points, triangles[index])
-    pairs = np.array(some.overlap(tree), np.int64).reshape(-1, 2)
-    pairs = np.stack([index[pairs[:, 0]], near[pairs[:, 1]]], axis=1)
-    apart = (triangles[pairs[:, 0]][:, :, None] != triangles[pairs[:, 1]][:, None]).all(axis=(1, 2))
-    return pairs[apart]
+    pairs = crossing(some, tree, triangles[index], triangles[near])
+    return np.stack([index[pairs[:, 0]], near[pairs[:, 1]]], axis=1)
 
 
 @dataclass(frozen=True, eq=False)

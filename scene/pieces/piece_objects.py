@@ -252,7 +252,7 @@ def hide_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
 
 def is_rendered(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     """Whether an object is rendered, or would be if its pieces were not shown in its place."""
-    if visibility.is_known(obj) or not in_layer(context, obj):
+    if visibility.is_known(obj) or not in_layer(context.view_layer, obj):
         return visibility.is_rendered(obj)
     # Earlier versions hid it without a note of what it was before.
     return not obj.hide_render or (obj.hide_get() and collection_of(obj) is not None)

@@ -29,10 +29,10 @@ from .. import (
     modifiers,
     part_names,
 )
+from ..placing import millimeters
 from ..settings import SeparateProperties, closes_holes
 from ..store import Stored
 from ..temporary import removed
-from ..units import millimeters
 from . import box_fitting, cap_looks
 from .part_meshes import making_pieces
 from .piece_objects import (

@@ -17,6 +17,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
+from bulk import read
 from diagonal import diagonal
 from mathutils import Vector
 from snapshot import activate, changes, snapshot
@@ -283,8 +284,8 @@ def furnish(obj):
     obj.vertex_groups.new(name="Arm").add(range(0, len(mesh.vertices), 3), 0.25, "REPLACE")
     mesh["mine"], obj["mine"] = 1.5, "text"
     points = np.array([vertex.co[:] for vertex in mesh.vertices])
-    flag(mesh, "select", np.linalg.norm(points - points[0], axis=1) < 0.3, all)
-    flag(mesh, "hide", np.linalg.norm(points - points[-1], axis=1) < 0.2, any)
+    flag(mesh, "select", np.linalg.norm(points - points[0], axis=1) < 0.3, np.all)
+    flag(mesh, "hide", np.linalg.norm(points - points[-1], axis=1) < 0.2, np.any)
     collection = bpy.data.collections.new("Mine")
     bpy.context.scene.collection.children.link(collection)
     collection.objects.link(bpy.data.objects.new("Bystander", bpy.data.meshes.new("Bystander")))
@@ -293,8 +294,8 @@ def furnish(obj):
 def flag(mesh, name, vertices, rule):
     """Select or hide vertices, and the edges and faces that then are so too in Edit Mode."""
     mesh.vertices.foreach_set(name, vertices)
-    for items in (mesh.edges, mesh.polygons):
-        items.foreach_set(name, [rule(vertices[i] for i in item.vertices) for item in items])
+    for items, width in ((mesh.edges, 2), (mesh.polygons, 3)):
+        items.foreach_set(name, rule(vertices[read(items, "vertices", np.int32, width)], axis=1))
 
 
 OURS = re.compile(r"\.?reeb_|Reeb |([\w.]+ |DEF-)?Parts? \d|Parts of |UCX_|"

@@ -27,7 +27,7 @@ WIDTH = {"FLOAT_VECTOR": ("vector", 3), "FLOAT2": ("vector", 2), "FLOAT_COLOR": 
          "BYTE_COLOR": ("color", 4), "INT32_2D": ("value", 2), "INT16_2D": ("value", 2)}  # fmt: skip
 SHAPES = {
     "tree": shapes.tube_tree,
-    "genus two": lambda: shapes.genus_two(0.09),
+    "genus two": lambda: shapes.genus_two(0.12),
     "open tube": lambda: shapes.cylinder(24, 16),
     "loose parts": lambda: shapes.together(shapes.tube_tree(), shapes.moved(shapes.dumbbell(40, 12), (9, 0, 0))),
 }
@@ -981,6 +981,8 @@ def bound(obj, kind):
         bpy.ops.mesh.primitive_cube_add(size=30)
         cage = bpy.context.object
         setattr(modifier, "target" if kind == "SURFACE_DEFORM" else "object", cage)
+        if kind == "MESH_DEFORM":
+            modifier.precision = 2  # of eight, each twice as fine as the one before: to bind takes seconds
         activate(obj)
         getattr(bpy.ops.object, "surfacedeform_bind" if kind == "SURFACE_DEFORM" else "meshdeform_bind")(
             modifier="Holder")
