@@ -6,6 +6,7 @@ import sys
 import bpy
 import numpy as np
 import pytest
+from mathutils import Matrix
 
 
 @pytest.fixture
@@ -69,6 +70,16 @@ def test_arcs_have_the_colours_of_the_parts_that_they_pass(obj, arcs):
     assert points.dtype == colors.dtype == np.float32
     assert len(points) == len(colors) > 100
     assert {tuple(color[:3]) for color in colors} == {tuple(part.color) for part in obj.data.reeb_parts.parts}
+
+
+def test_arcs_are_colored_anew_once_the_mesh_is_edited(package, markers, obj, arcs):
+    """Those of before were drawn on, far from the model, after its scale was applied."""
+    before = markers.state(obj, list(obj.children))
+    obj.data.transform(Matrix.Scale(2.0, 4))
+    sys.modules[f"{package}.scene.watch"].check(obj.data)  # as a timer does
+    assert markers.state(obj, list(obj.children)) != before
+    with refused(package):
+        arcs()
 
 
 def test_arcs_keep_their_colours_in_edit_mode(obj, arcs):
