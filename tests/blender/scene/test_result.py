@@ -7,7 +7,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from mathutils import Vector
+from mathutils import Matrix, Vector
 from results import numbers
 from snapshot import snapshot
 
@@ -259,6 +259,62 @@ def test_an_edited_mesh_is_noticed_and_not_mislabelled(obj, result):
     bpy.ops.reeb_parts.decompose()
     assert not obj.data.reeb_parts.edited
     check_outputs(obj)
+
+
+def rested(package, obj):
+    """Whether a mesh that has been left alone for a moment counts as edited."""
+    watch = importlib.import_module(f"{package}.scene.watch")
+    watch._waiting.add(obj.data.session_uid)
+    watch._last = 0.0
+    watch._look()
+    bpy.context.view_layer.update()
+    return obj.data.reeb_parts.edited
+
+
+def graph_places(obj):
+    """Where the nodes and the points of the arcs are in the world, and how thick these are."""
+    nodes = [item.matrix_world.translation[:] for item in obj.children if item.get("reeb_parts_role") == "node"]
+    (arcs,) = [item for item in obj.children if item.get("reeb_parts_role") == "arcs"]
+    points = [point for spline in arcs.data.splines for point in spline.points]
+    return np.array(nodes + [(arcs.matrix_world @ point.co.to_3d())[:] for point in points])
+
+
+def apply_transform():
+    bpy.ops.object.transform_apply()
+
+
+def set_origin():
+    bpy.ops.object.origin_set(type="ORIGIN_CENTER_OF_VOLUME")
+
+
+def apply_to_the_mesh():
+    """As a script does, which leaves the children to themselves."""
+    obj = bpy.context.object
+    obj.data.transform(obj.matrix_world)
+    obj.matrix_world.identity()
+
+
+@pytest.mark.parametrize("move", [apply_transform, set_origin, apply_to_the_mesh])
+def test_a_mesh_that_is_moved_as_a_whole_keeps_its_parts(package, obj, move):
+    """The parts were out of date, and the graph lay about, once the scale was applied."""
+    obj.location, obj.rotation_euler, obj.scale = (1.0, 2.0, 3.0), (0.3, 0.2, 0.1), (0.02, 0.03, 0.02)
+    bpy.ops.reeb_parts.decompose()
+    result, names = obj.data.reeb_parts, [part.name for part in obj.data.reeb_parts.parts]
+    before, size = graph_places(obj), max(obj.dimensions)
+    move()
+    assert not rested(package, obj)
+    assert np.abs(graph_places(obj) - before).max() < 1e-5 * size
+    assert [part.name for part in result.parts] == names
+    result.detail = 0.9
+    check_outputs(obj)
+    assert not result.edited
+    assert bpy.ops.reeb_parts.separate() == {"FINISHED"}
+
+
+def test_a_mesh_that_is_mirrored_or_flattened_does_not(package, obj, result):
+    for matrix in (Matrix.Scale(-1.0, 4, (1, 0, 0)), Matrix.Scale(0.0, 4, (1, 0, 0))):
+        obj.data.transform(matrix)
+        assert rested(package, obj)
 
 
 def test_a_mesh_with_other_faces_is_decomposed_anew(obj, result):
