@@ -34,13 +34,16 @@ class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
         description="Number of the part; 0 for those chosen in the list",
     )
 
-    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         numbers = [self.number] if self.number else chosen_numbers(obj.data)
         mask = np.isin(stored.face_numbers, numbers)
         if not mask.any():
             raise SceneError(rpt_("There is no part with the number {number}.").format(number=self.number))
         if context.mode == "OBJECT":
             selection.select_faces(obj.data, mask, self.action)
+        # In Object Mode nothing is seen of it.
+        count = int(selection.selected_faces(obj.data).sum())
+        return rpt_("{n} {n:face|faces} selected").format(n=Count(count))
 
 
 class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):

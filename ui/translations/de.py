@@ -894,6 +894,8 @@ TEXTS = {
         "Die gespeicherten Teile stammen von einer anderen Version. Bitte erneut zerlegen.",
     # Was die Werkzeuge melden
     "There is no part with the number {number}.": "Es gibt kein Teil mit der Nummer {number}.",
+    "No other part is like {name}; a larger difference finds more":
+        "Kein anderes Teil ist wie {name}; eine größere Differenz findet mehr",
     "Similar parts: {n}, marked on {objects} {objects:object|objects}":
         "Ähnliche Teile: {n}, angekreuzt an {objects} {objects:Objekt|Objekten}",
     "Parts named: {n}, on {objects} {objects:object|objects}":

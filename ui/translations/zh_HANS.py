@@ -802,6 +802,7 @@ TEXTS = {
     "The stored parts were written by another version. Decompose again.": "存储的部件由另一个版本写入。请重新分解。",
     # 工具的报告
     "There is no part with the number {number}.": "没有编号为 {number} 的部件。",
+    "No other part is like {name}; a larger difference finds more": "没有其他部件与 {name} 相似；增大差值可找到更多",
     "Similar parts: {n}, marked on {objects} {objects:object|objects}": "相似部件：{n} 个，已在 {objects} 个物体上勾选",
     "Parts named: {n}, on {objects} {objects:object|objects}": "已命名部件：{n} 个，在 {objects} 个物体上",
     "No part of {name} has a name of its own. Double-click parts in the list to name them.":

@@ -343,10 +343,11 @@ def test_clear_works_on_an_edited_mesh(obj, result):
     assert len(bpy.data.objects) == 1
 
 
-def test_select_and_isolate(obj, result):
+def test_select_and_isolate(obj, result, capfd):
     result.active = 1
     wanted = numbers(obj.data) == result.parts[1].number
     bpy.ops.reeb_parts.select()
+    assert f"{wanted.sum()} faces selected" in capfd.readouterr().out  # nothing is seen of it in Object Mode
     assert [p.select for p in obj.data.polygons] == wanted.tolist()
     bpy.ops.reeb_parts.select(number=result.parts[0].number, action="ADD")
     assert sum(p.select for p in obj.data.polygons) > wanted.sum()
