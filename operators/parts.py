@@ -6,7 +6,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import hidden, naming, part_list, part_names, part_places, reactions, selection, store, targets
+from ..scene import hidden, moved, naming, part_list, part_names, part_places, reactions, selection, store, targets
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.modes import object_mode
@@ -108,7 +108,7 @@ class REEB_PARTS_OT_suggest_names(ReportingOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> None:
         objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
         with object_mode(context):
-            found = list(targets.usable(objects, lambda obj: store.load(obj.data), self.report))
+            found = list(targets.usable(objects, lambda obj: moved.load(obj.data), self.report))
             count = sum(self._named(obj, stored) for obj, stored in found)
         total = sum(len(obj.data.reeb_parts.parts) for obj, _ in found)
         if count or not total:

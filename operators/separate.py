@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..scene import store, targets
+from ..scene import moved, store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.panel_settings import use_panel_settings
@@ -54,7 +54,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         objects = [obj for obj in chosen if store.has_result(obj.data)]
         made = []
         with object_mode(context):
-            found = list(targets.usable(objects, lambda obj: store.load(obj.data), self.report))
+            found = list(targets.usable(objects, lambda obj: moved.load(obj.data), self.report))
             for index, (obj, stored) in enumerate(found):
                 steps = separation.separating(context, obj, stored, wanted_numbers(obj.data, self.which), self)
                 separated = yield from stretched(steps, index / len(found), (index + 1) / len(found))
