@@ -23,6 +23,10 @@ class REEB_PARTS_OT_find_similar(PartOperator, bpy.types.Operator):
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         n_parts, n_objects = alike.find_similar(context, obj, self.limit)
+        if not n_parts:
+            result = obj.data.reeb_parts
+            return rpt_("No other part is like {name}; a larger difference finds more").format(
+                name=result.parts[result.active].name)
         return rpt_("Similar parts: {n}, marked on {objects} {objects:object|objects}").format(
             n=n_parts, objects=Count(n_objects))
 

@@ -61,7 +61,7 @@ class REEB_PARTS_OT_select_faults(PieceOperator, bpy.types.Operator):
         piece_checks.keep(piece, found)
         mask = getattr(faults, self.kind.lower())
         if not mask.any():
-            raise SceneError(rpt_("{name} has nothing of the kind").format(name=piece.name))
+            raise SceneError(rpt_("{name} has nothing of the kind.").format(name=piece.name))
         select_faces(piece.data, mask)
         transaction.keep(context.tool_settings, "mesh_select_mode")
         context.tool_settings.mesh_select_mode = (False, False, True)

@@ -7,7 +7,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import store, targets
+from ..scene import moved, store, targets
 from ..scene.errors import SceneError
 from ..scene.export import export_parts
 from ..scene.modes import object_mode
@@ -69,7 +69,7 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
         objects = [obj for obj in chosen if store.has_result(obj.data)]
         with object_mode(context), together() as files:
             if not self.separated:
-                objects = [obj for obj, _ in targets.usable(objects, lambda obj: store.load(obj.data), self.report)]
+                objects = [obj for obj, _ in targets.usable(objects, lambda obj: moved.load(obj.data), self.report)]
             # Pieces may be of other parts than those in the list, which are of the detail that is shown now.
             every = self.separated and self.which == "ALL"
             wanted = [(obj, None if every else wanted_numbers(obj.data, self.which)) for obj in objects]

@@ -5,29 +5,39 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits, part_names, property_updates, reactions, targets, transaction
+from ..scene import edits, part_names, property_updates, reactions, store, targets, transaction
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.graph.graph_objects import part_of, source_of_arcs
+from ..scene.modes import object_mode
 from ..scene.part_list import check_parts, choose, chosen_numbers
-from ..scene.reporting import PartOperator, ReportingOperator
+from ..scene.reporting import ReportingOperator
 from ..scene.selection import select_objects
-from ..scene.store import Stored
 from ..viewport import pointing
 
 
-class REEB_PARTS_OT_show_graph(PartOperator, bpy.types.Operator):
-    """Show the Reeb graph over the model, or hide it"""
+class REEB_PARTS_OT_show_graph(ReportingOperator, bpy.types.Operator):
+    """Show the Reeb graphs over the selected models, or hide them"""
 
     bl_idname = "reeb_parts.show_graph"
     bl_label = "Show or Hide Graph"
 
-    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
-        shown = not graph_objects.is_shown(context, obj)
+    def run(self, context: bpy.types.Context) -> None:
+        shown = not graph_objects.is_shown(context, targets.active_object(context))
+
+        def look(obj: bpy.types.Object) -> None:
+            # What is drawn already can be hidden and shown also after an edit, when it may be in the way.
+            if shown and graph_objects.find(obj) is None:
+                with object_mode(context):
+                    store.load(obj.data)
+
+        chosen = targets.chosen_objects(context, self.report, one_per_mesh=False)
+        objects = [obj for obj in chosen if store.has_result(obj.data)]
+        for obj, _ in targets.usable(objects, look, self.report):
+            reactions.show_graph(obj, shown, context)
         transaction.keep_group(context.scene, "reeb_parts")
         with property_updates.quiet():  # what other models are shown with from now on
             context.scene.reeb_parts.graph = shown
-        reactions.show_graph(obj, shown, context)
 
 
 class REEB_PARTS_OT_from_nodes(ReportingOperator, bpy.types.Operator):

@@ -6,7 +6,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import hidden, naming, part_list, part_names, part_places, reactions, selection, store, targets
+from ..scene import hidden, moved, naming, part_list, part_names, part_places, reactions, selection, store, targets
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.modes import object_mode
@@ -34,13 +34,16 @@ class REEB_PARTS_OT_select(PartOperator, bpy.types.Operator):
         description="Number of the part; 0 for those chosen in the list",
     )
 
-    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:
+    def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         numbers = [self.number] if self.number else chosen_numbers(obj.data)
         mask = np.isin(stored.face_numbers, numbers)
         if not mask.any():
             raise SceneError(rpt_("There is no part with the number {number}.").format(number=self.number))
         if context.mode == "OBJECT":
             selection.select_faces(obj.data, mask, self.action)
+        # In Object Mode nothing is seen of it.
+        count = int(selection.selected_faces(obj.data).sum())
+        return rpt_("{n} {n:face|faces} selected").format(n=Count(count))
 
 
 class REEB_PARTS_OT_isolate(PartOperator, bpy.types.Operator):
@@ -105,7 +108,7 @@ class REEB_PARTS_OT_suggest_names(ReportingOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> None:
         objects = [obj for obj in targets.chosen_objects(context, self.report) if store.has_result(obj.data)]
         with object_mode(context):
-            found = list(targets.usable(objects, lambda obj: store.load(obj.data), self.report))
+            found = list(targets.usable(objects, lambda obj: moved.load(obj.data), self.report))
             count = sum(self._named(obj, stored) for obj, stored in found)
         total = sum(len(obj.data.reeb_parts.parts) for obj, _ in found)
         if count or not total:

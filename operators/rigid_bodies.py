@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import store, targets
+from ..scene import moved, store, targets
 from ..scene.modes import object_mode
 from ..scene.part_list import check_parts
 from ..scene.pieces import piece_objects
@@ -49,6 +49,6 @@ class REEB_PARTS_OT_rigid_bodies(ReportingOperator, bpy.types.Operator):
 def _current(obj: bpy.types.Object) -> Stored:
     """The parts of an object; raises SceneError if they are out of date, or its pieces are of other parts."""
     check_parts(obj)
-    stored = store.load(obj.data)
+    stored = moved.load(obj.data)
     piece_objects.check_current(obj, stored)
     return stored

@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..scene import store, targets
+from ..scene import moved, store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.part_list import check_parts, wanted_numbers
@@ -53,7 +53,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
         objects = [obj for obj in chosen if store.has_result(obj.data)]
         made = []
         with object_mode(context):
-            found = list(targets.usable(objects, lambda obj: store.load(obj.data), self.report))
+            found = list(targets.usable(objects, lambda obj: moved.load(obj.data), self.report))
             for index, (obj, stored) in enumerate(found):
                 steps = separation.separating(context, obj, stored, wanted_numbers(obj.data, self.which), self)
                 separated = yield from stretched(steps, index / len(found), (index + 1) / len(found))
@@ -147,7 +147,7 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
 
 
 class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):
-    """Show and select the pieces that were separated from this object, and hide the object"""
+    """Show and select the pieces that were separated from the selected objects, and hide these"""
 
     bl_idname = "reeb_parts.show_pieces"
     bl_label = "Show Separated Parts"
@@ -164,38 +164,45 @@ class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):
             raise SceneError(rpt_("Go to Object Mode first"))
 
     def run(self, context: bpy.types.Context) -> None:
-        obj = targets.active_object(context)
-        # Appended alone to another file, an object comes with its pieces, but these are in no scene.
-        piece_objects.make_collection(context, obj)
-        pieces = piece_objects.piece_objects(obj)
-        piece_objects.hide_original(context, obj)
-        piece_objects.show_pieces(context, obj, True)
+        chosen = [targets.active_object(context), *targets.selected_objects(context)]
+        objects = [obj for obj in dict.fromkeys(chosen) if piece_objects.piece_objects(obj)]
+        pieces = []
+        for obj, _ in targets.usable(objects, targets.check_object, self.report):
+            # Appended alone to another file, an object comes with its pieces, but these are in no scene.
+            piece_objects.make_collection(context, obj)
+            pieces += piece_objects.piece_objects(obj)
+            piece_objects.hide_original(context, obj)
+            piece_objects.show_pieces(context, obj, True)
         shading.show_pieces(context)
         _show_in_local_view(context, pieces)
         select_objects(context, pieces, active=pieces[0])
 
 
 class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
-    """Show and select the object that this piece was separated from, and hide the pieces"""
+    """Show and select the objects that the selected pieces were separated from, and hide the pieces"""
 
     bl_idname = "reeb_parts.show_original"
     bl_label = "Show Original of Part"
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        obj = piece_objects.original(piece_objects.active_piece(context))
-        targets.check_object(obj)
-        assert obj is not None
-        if not in_layer(context.view_layer, obj):
-            raise SceneError(rpt_("{name} is not in this view layer. Include its collection first.").format(
-                name=obj.name))
+        _check_shown(context, piece_objects.original(piece_objects.active_piece(context)))
 
     def run(self, context: bpy.types.Context) -> None:
-        obj = piece_objects.original(targets.active_object(context))
-        piece_objects.show_original(context, obj)
+        found = piece_objects.originals([targets.active_object(context), *targets.selected_objects(context)])
+        objects = [obj for obj, _ in targets.usable(found, lambda obj: _check_shown(context, obj), self.report)]
+        for obj in objects:
+            piece_objects.show_original(context, obj)
         shading.show_colors(context)
-        _show_in_local_view(context, [obj])
-        select_objects(context, [obj], active=obj)
+        _show_in_local_view(context, objects)
+        select_objects(context, objects, active=objects[0])
+
+
+def _check_shown(context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    """Raise SceneError unless an object can be shown in the view layer."""
+    targets.check_object(obj)
+    if not in_layer(context.view_layer, obj):
+        raise SceneError(rpt_("{name} is not in this view layer. Include its collection first.").format(name=obj.name))
 
 
 def _show_in_local_view(context: bpy.types.Context, objects: list[bpy.types.Object]) -> None:

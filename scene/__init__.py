@@ -44,6 +44,7 @@ Changes:
 - ``settled``: sliders that go back when what they ask for cannot be shown
 - ``property_updates``: whether it is the user who writes a property
 - ``watch``: notices that a mesh was edited or deleted
+- ``moved``: the result of a mesh that was moved as a whole goes along
 - ``alike``: parts that are alike, and names carried to other models
 
 What is made of parts:

@@ -30,6 +30,11 @@ _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
 _joined_faces: dict[tuple, CornerTable | None] = {}  # None where nothing has to be joined
 _digested: list[tuple[tuple[np.ndarray, ...], str]] = []
 
+# By fingerprint, of meshes as they were decomposed: positions, and a digest of the faces.
+_shapes: dict[str, tuple[np.ndarray, str]] = {}
+_MOST_KEPT = 4_000_000  # vertices of these together, but for the last one
+_ROUNDING = 1e-6  # of single precision, as a share of the largest coordinate
+
 
 def read(items: Any, key: str, kind: DTypeLike, width: int = 1) -> np.ndarray:
     """A property of all items of a collection of Blender's, (k,) or, of several values each, (k, width)."""
@@ -79,6 +84,7 @@ def forget() -> None:
     _face_corners.clear()
     _joined_faces.clear()
     _digested.clear()
+    _shapes.clear()
 
 
 def fingerprint(mesh: bpy.types.Mesh) -> str:
@@ -93,6 +99,41 @@ def fingerprint(mesh: bpy.types.Mesh) -> str:
     fresh = digest(*arrays)
     _digested[:] = [(arrays, fresh)]
     return fresh
+
+
+def keep_shape(fingerprint: str) -> None:
+    """Remember the mesh whose fingerprint was made last, or found to be the same, for ``motion_since``."""
+    if fingerprint in _shapes:
+        _shapes[fingerprint] = _shapes.pop(fingerprint)
+    for arrays, made in _digested if fingerprint not in _shapes else ():
+        if made == fingerprint:
+            _shapes[fingerprint] = arrays[0], digest(*arrays[1:])
+    while len(_shapes) > 1 and sum(len(points) for points, _ in _shapes.values()) > _MOST_KEPT:
+        del _shapes[next(iter(_shapes))]
+
+
+def motion_since(mesh: bpy.types.Mesh, known: str) -> tuple[np.ndarray, np.ndarray] | None:
+    """How a mesh was moved as a whole since it had a fingerprint: a matrix (3, 3) and then an offset (3,); float64.
+
+    None if it was edited in any other way, if it is flat, or if nothing is known of it as it was. Not in Edit Mode.
+    """
+    fingerprint(mesh)
+    (after, *faces), _ = _digested[0]
+    before, faces_before = _shapes.get(known, (None, ""))
+    if before is None or before.shape != after.shape or digest(*faces) != faces_before:
+        return None
+    old, new = before.astype(np.float64), after.astype(np.float64)
+    middle, now = old.mean(axis=0), new.mean(axis=0)
+    if not (np.isfinite(middle).all() and np.isfinite(now).all()):
+        return None
+    transposed, _, rank, _ = np.linalg.lstsq(old - middle, new - now, rcond=1e-6)
+    if rank < 3 or np.linalg.det(transposed) <= 0:
+        return None
+    offset = now - middle @ transposed
+    largest = max(np.abs(new).max(), np.abs(old).max() * np.linalg.norm(transposed, 2))
+    if not np.abs(old @ transposed + offset - new).max() <= _ROUNDING * largest:
+        return None
+    return transposed.T, offset
 
 
 def digest(*arrays: np.ndarray) -> str:

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ..core.result.numbering import NumberedParts
-from . import outputs, part_names, property_updates, store, targets, transaction
+from . import moved, outputs, part_names, property_updates, store, targets, transaction
 from .errors import SceneError
 from .graph import graph_objects
 from .modes import object_mode
@@ -208,7 +208,7 @@ def _with_result(mesh: bpy.types.Mesh, context: bpy.types.Context, work: Callabl
     """Do something with the stored result of a mesh, in Object Mode."""
     with object_mode(context):
         try:
-            stored = store.load(mesh)
+            stored = moved.load(mesh)
         except SceneError as error:
             # The panel says that the mesh was edited; a property that is changed cannot say anything. A result that
             # cannot be read says itself what is wrong with it, once something is done with it.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.errors import ReebError
-from . import store, targets
+from . import moved, store, targets
 from .errors import SceneError, translated
 from .modes import object_mode
 from .part_list import check_parts
@@ -78,7 +78,7 @@ class PartOperator(ReportingOperator):
         obj = targets.active_object(context)
         assert obj is not None  # check_context has looked
         with object_mode(context):
-            message = self.work(context, obj, store.load(obj.data))
+            message = self.work(context, obj, moved.load(obj.data))
         if message:
             self.report({"INFO"}, message)
 
@@ -95,7 +95,7 @@ class SelectedPartsOperator(PartOperator):
 
     def look(self, obj: bpy.types.Object) -> Stored:
         """The parts of an object whose turn has come; raises SceneError where it has to be left out."""
-        return store.load(obj.data)
+        return moved.load(obj.data)
 
     def run(self, context: bpy.types.Context) -> None:
         chosen = targets.chosen_objects(context, self.report, self.one_per_mesh)

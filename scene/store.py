@@ -108,6 +108,7 @@ def load(mesh: bpy.types.Mesh) -> Stored:
             or (result.n_vertices, result.n_faces) != (len(mesh.vertices), len(mesh.polygons))):
         raise SceneError(
             rpt_("{name} was edited since it was decomposed. Decompose it again.").format(name=targets.name_of(mesh)))
+    mesh_arrays.keep_shape(result.fingerprint)
     return last(mesh)
 
 
@@ -157,6 +158,7 @@ def save(mesh: bpy.types.Mesh, stored: Stored) -> None:
     result.data = data
     save_numbers(mesh, stored)
     result.fingerprint = mesh_arrays.fingerprint(mesh)
+    mesh_arrays.keep_shape(result.fingerprint)
     result.n_vertices, result.n_faces = len(mesh.vertices), len(mesh.polygons)
     result.edited = False
     graph = stored.decomposition.graph

@@ -90,13 +90,18 @@ class Room:
         return layout.operator(name, text=words, translate=False, icon=shown, **options)
 
     def field(self, layout: bpy.types.UILayout, data: bpy.types.bpy_struct, name: str, words: str, value: str,
-              icons: int = 0, **options: Any) -> bpy.types.UILayout:
-        """A field, whose name stands above it where it does not fit beside its value; the row, for some icons."""
+              icons: int = 0, enabled: bool = True, **options: Any) -> bpy.types.UILayout:
+        """A field, whose name stands above it where it does not fit beside its value; the row, for some icons.
+
+        enabled : whether the field is; what is added to the row is in any case.
+        """
         beside = self.has(words, value, icons=icons, fields=1)
         if not beside:
             layout.label(text=words, translate=False)
         row = layout.row(align=True)
-        row.prop(data, name, text=words if beside else "", translate=False, **options)
+        cell = row.row(align=True)
+        cell.enabled = enabled
+        cell.prop(data, name, text=words if beside else "", translate=False, **options)
         return row
 
     def wrapped(self, column: bpy.types.UILayout, words: str, icon: str = "NONE") -> None:

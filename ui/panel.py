@@ -224,11 +224,12 @@ def _draw_models(layout: bpy.types.UILayout, context: bpy.types.Context, room: R
 def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,
                  result: bpy.types.PropertyGroup) -> None:
     """How many parts there are, by a slider, by a number, and by steps from one clear choice to the next."""
-    column = layout.column(align=True)
-    column.enabled = not store.is_edited(result.id_data)
-    row = room.field(column, result, "detail", iface_("Detail"), "0.00", icons=1, slider=True)
+    column, known = layout.column(align=True), not store.is_edited(result.id_data)
+    row = room.field(column, result, "detail", iface_("Detail"), "0.00", icons=1, enabled=known, slider=True)
     shown = graph_objects.is_shown(context, context.object)
     row.operator("reeb_parts.show_graph", text="", icon="HIDE_OFF" if shown else "HIDE_ON", depress=shown)
+    column = column.column(align=True)
+    column.enabled = known
     fewer, more, count = iface_("Fewer", "Reeb Parts"), iface_("More", "Reeb Parts"), str(len(result.parts))
     row = column.row(align=True)
     whole = room.has(fewer, iface_("Parts"), count, more, fields=1)

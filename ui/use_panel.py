@@ -91,7 +91,8 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
         assert obj is not None  # poll
         room = Room(context)
         room.wrapped(self.layout.column(align=True), iface_("A part of {name}").format(name=obj.name), "MESH_DATA")
-        show = iface_("Show {name}").format(name=obj.name)
+        several = len(piece_objects.originals([context.object, *context.selected_objects])) > 1
+        show = iface_("Show Originals") if several else iface_("Show {name}").format(name=obj.name)
         room.operator(self.layout, "reeb_parts.show_original", text=show, icon="HIDE_OFF")
         self._draw_check(room, context.object)
         room.operator(self.layout, "reeb_parts.rigid_bodies", text="Make Rigid Bodies", icon="RIGID_BODY")

@@ -120,16 +120,20 @@ def _draw_graph(context: bpy.types.Context, source: bpy.types.Object, items: lis
 
 
 def _draw_arcs(source: bpy.types.Object, items: list[bpy.types.Object]) -> None:
-    result = source.data.reeb_parts
-    moved, places = graph_follow.places(source)
-    folded = [graph_objects.is_folded(item) for item in items]  # other ones, when parts are hidden
-    key = (source.data.is_editmode, result.fingerprint, result.numbers, [part.color[:] for part in result.parts],
-           moved, folded)
+    key, places = state(source, items), graph_follow.places(source)[1]
     if _lines.get(source.session_uid, (None,))[0] != key:
         _lines[source.session_uid] = key, Lines.of(colored_arcs, source.data, places)
     lines = _lines[source.session_uid][1]
     if lines is not None:
         lines.draw(source.matrix_world, WIDTH * bpy.context.preferences.system.ui_scale)
+
+
+def state(source: bpy.types.Object, items: list[bpy.types.Object]) -> tuple[object, ...]:
+    """What changes when the arcs of a model have to be colored anew. items : the objects of its graph that are seen."""
+    result = source.data.reeb_parts
+    folded = [graph_objects.is_folded(item) for item in items]  # other ones, when parts are hidden
+    return (source.data.is_editmode, result.edited, result.fingerprint, result.numbers,
+            [part.color[:] for part in result.parts], graph_follow.places(source)[0], folded)
 
 
 def colored_arcs(mesh: bpy.types.Mesh, places: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:

@@ -388,6 +388,17 @@ class Decomposition:
                        candidate_pair_length=np.ldexp(self.candidate_pair_length, exponent),
                        junction_length=np.ldexp(self.junction_length, exponent))
 
+    def shifted(self, offset: np.ndarray) -> Decomposition:
+        """Copy the result of a mesh as that of the mesh moved, with other positions and another plane of symmetry.
+
+        offset : (3,) float64.
+        """
+        graph = replace(self.graph, node_position=self.graph.node_position + offset,
+                        point_position=self.graph.point_position + offset)
+        mirror = self.mirror.copy()
+        mirror[3:] += mirror[:3] @ offset if len(mirror) else 0.0
+        return replace(self, graph=graph, mirror=mirror)
+
     def remeasured(self, before: FaceGraph, now: FaceGraph) -> Decomposition:
         """Copy the result of a mesh as that of the mesh stretched, with other areas, lengths and radii.
 

@@ -271,6 +271,36 @@ def shift(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, seen: np.nd
     return bool(moved)
 
 
+def put_back(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, scale: float) -> None:
+    """Put the graph of an object where it is in the mesh, which was moved: Blender keeps children where they are.
+
+    back : as of ``places``. scale : how much larger the mesh has become.
+    """
+    nodes, item, points = list(_items(obj, "node")), arcs(obj), places(graph, back)
+    if not all(0 <= node.get("node", -1) < graph.n_nodes for node in nodes):
+        return
+    for node in nodes:
+        _unmove(node)
+        transaction.keep(node, "empty_display_size")
+        node.location = points[node["node"]]
+        if is_folded(node):
+            transaction.keep_keys(node, _SIZE)
+            node[_SIZE] *= scale
+        else:
+            node.empty_display_size *= scale
+    if item is not None:
+        _unmove(item)
+        _draw_curve(item, graph, back, _drawn(item, graph))
+
+
+def _unmove(item: bpy.types.Object) -> None:
+    """Let an object be where its parent is."""
+    transaction.keep(item, "location", "rotation_euler", "scale")
+    transaction.on_failure(setattr, item, "matrix_parent_inverse", item.matrix_parent_inverse.copy())
+    item.location, item.rotation_euler, item.scale = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+    item.matrix_parent_inverse.identity()
+
+
 def hidden_parts(mesh: bpy.types.Mesh, face_numbers: np.ndarray) -> list[int]:
     """Numbers of the parts of which every face is hidden. face_numbers : (p,) int64, the part of each face."""
     hidden = mesh_arrays.read(mesh.polygons, "hide", bool)
@@ -336,12 +366,18 @@ def _show_arcs(obj: bpy.types.Object, graph: ReebGraph, stretches: np.ndarray) -
     if item is None or np.array_equal(_drawn(item, graph), stretches):
         return
     transaction.keep_keys(item, _STRETCHES)
+    item[_STRETCHES] = stretches.ravel().tolist()
+    _draw_curve(item, graph, bridge.unstretch(store.stretch_of(obj.data)).T, stretches)
+
+
+def _draw_curve(item: bpy.types.Object, graph: ReebGraph, back: np.ndarray, stretches: np.ndarray) -> None:
+    """Draw the curve of a graph anew. back, stretches : as of ``_curve``."""
     transaction.keep(item, "data")
     before = item.data
     name, thickness = before.name, before.bevel_depth
-    curve = _curve(graph, bridge.unstretch(store.stretch_of(obj.data)).T, stretches)
+    curve = _curve(graph, back, stretches)
     curve.bevel_depth = thickness
-    item[_STRETCHES], item.data = stretches.ravel().tolist(), curve
+    item.data = curve
     if before.users == 0:
         transaction.discard(before)
         curve.name = name

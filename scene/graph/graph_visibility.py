@@ -3,7 +3,7 @@
 
 What was done is kept with the graph, not in memory: undo leads to the moment when the model was hidden or shown already
 and its graph had yet to follow. In a viewport that shows its model alone, a graph that is shown comes along
-once; whoever takes it out of there does not see it again until it is hidden and shown.
+once, and leaves with the model; whoever takes it out of there does not see it again until it is hidden and shown.
 """
 
 from __future__ import annotations
@@ -45,8 +45,20 @@ def follow(context: bpy.types.Context) -> None:
     for key in wanted.keys() - _along:
         space, item = wanted[key]
         item.local_view_set(space, True)
+    _leave(context, _along - wanted.keys())
     _along.clear()
     _along.update(wanted)
+
+
+def _leave(context: bpy.types.Context, gone: set[tuple[int, int]]) -> None:
+    """Take objects of graphs that came along out of local views that their models have left; by keys of ``_along``."""
+    for layer, space in _local_views(context) if gone else ():
+        for _, source in _graphs():
+            if in_view_layer(layer, source) and source.local_view_get(space):
+                continue
+            for item in source.children:
+                if (space.as_pointer(), item.session_uid) in gone and in_view_layer(layer, item):
+                    item.local_view_set(space, False)
 
 
 def hide(context: bpy.types.Context, source: bpy.types.Object) -> None:

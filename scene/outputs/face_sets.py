@@ -52,7 +52,8 @@ def take_back(mesh: bpy.types.Mesh, numbers: np.ndarray) -> None:
         before = np.ones_like(now)
         if _KEPT in mesh.attributes:
             before = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32)
-        if (now == numbers)[numbers > 0].all():
+        # Blender's Join adds a number to all of an object, so that no two objects share a face set.
+        if not np.ptp((now - numbers)[numbers > 0]):
             now = np.where(numbers > 0, before, now)
             mesh.attributes[NAME].data.foreach_set("value", now)
         if (now <= 1).all():  # one set is none

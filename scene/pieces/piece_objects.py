@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 import bpy
 import numpy as np
@@ -67,6 +67,11 @@ def original(piece: bpy.types.Object) -> bpy.types.Object | None:
         if obj is not None and obj.users_scene and collection_of(obj) == collection and NUMBER in piece:
             return obj
     return None
+
+
+def originals(objects: Iterable[bpy.types.Object]) -> list[bpy.types.Object]:
+    """The objects that the pieces among some objects were separated from, each once."""
+    return list(dict.fromkeys(found for found in map(original, objects) if found is not None))
 
 
 def left_behind() -> Iterator[bpy.types.Collection]:

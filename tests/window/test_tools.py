@@ -109,6 +109,11 @@ def test_the_graph_is_seen_with_its_model_in_local_view(seen):
     assert seen["graph in local view"] == [True, False, True]
 
 
+def test_the_graph_leaves_the_local_view_with_its_model(seen):
+    """Alt and numpad / took the model out, and the graph was seen alone."""
+    assert seen["graph in local view without its model"] == []
+
+
 def test_picking_in_local_view_maximised_and_in_each_of_four_views(seen):
     assert seen["picked in local view"] == ["Part 02", []]
     assert seen["picked while maximised"] == ["Part 06", []]

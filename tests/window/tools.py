@@ -250,6 +250,12 @@ def graph_in_local_view():
     return [bool(items) and space.local_view is not None and all(item.visible_get(viewport=space) for item in items)]
 
 
+def in_this_view():
+    """What of the model's graph is seen in the viewport."""
+    space = pointer.view_area().spaces.active
+    return [item.name for item in spot().children if item.visible_get(viewport=space)]
+
+
 def elsewhere():
     """From the button in the sidebar; in local view; in a maximised area; in each of four views."""
     for name, beside in BUTTONS.items():
@@ -270,7 +276,12 @@ def elsewhere():
     yield from pointer.press(*pointer.surface_places(spot())[number("Part 02")])
     note("picked in local view", chosen())
     yield from pointer.tap("Return")
+    in_view(bpy.ops.view3d.localview_remove_from)
+    yield from pointer.until(lambda: not in_this_view())
+    note("graph in local view without its model", in_this_view())
     in_view(bpy.ops.view3d.localview)
+    spot().select_set(True)
+    bpy.context.view_layer.objects.active = spot()
     yield from pointer.tap("n")
     yield 0.5
     yield from pointer.search("Pick Parts")

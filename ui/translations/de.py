@@ -161,7 +161,8 @@ TEXTS = {
         "Die Farben der Teile in dieser Ansicht zeigen: Solid, nach Attribut gefärbt",
     "The parts have no colors. Switch these on under Advanced, Output; decompose again.":
         "Die Teile haben keine Farben. Bitte unter „Erweitert“, „Ausgabe“ einschalten und erneut zerlegen.",
-    "Show the Reeb graph over the model, or hide it": "Den Reeb-Graphen über dem Modell zeigen oder verbergen",
+    "Show the Reeb graphs over the selected models, or hide them":
+        "Die Reeb-Graphen über den ausgewählten Modellen zeigen oder verbergen",
     "{n} Small {n:Part|Parts}": "{n} {n:kleines Teil|kleine Teile}",
     "Sort": "Sortieren",
     "Size": "Größe",
@@ -199,6 +200,7 @@ TEXTS = {
     "{part} of {name}": "{part} von {name}",
     "A part of {name}": "Ein Teil von {name}",
     "Show {name}": "{name} zeigen",
+    "Show Originals": "Originale zeigen",
     "New scenes start with these settings.": "Neue Szenen beginnen mit diesen Einstellungen.",
     # Wie weit die Berechnung ist
     "Reeb Parts: {stage} ({share:.0%})    Esc: cancel": "Reeb Parts: {stage} ({share:.0%})    Esc: abbrechen",
@@ -564,10 +566,10 @@ TEXTS = {
         "Das Teil mit dem ausgewählten Knoten am besten Schnitt entlang der Bögen des Knotens teilen",
     "Make separate objects of the parts, with all that the mesh carries; the original stays as it is":
         "Aus den Teilen eigene Objekte machen, mit allem, was das Mesh trägt; das Original bleibt, wie es ist",
-    "Show and select the object that this piece was separated from, and hide the pieces":
-        "Das Objekt zeigen und auswählen, von dem dieses Stück abgetrennt wurde, und die Stücke ausblenden",
-    "Show and select the pieces that were separated from this object, and hide the object":
-        "Die Stücke zeigen und auswählen, die von diesem Objekt abgetrennt wurden, und das Objekt ausblenden",
+    "Show and select the objects that the selected pieces were separated from, and hide the pieces":
+        "Die Objekte zeigen und auswählen, von denen die ausgewählten Stücke abgetrennt wurden, und diese ausblenden",
+    "Show and select the pieces that were separated from the selected objects, and hide these":
+        "Die Stücke zeigen und auswählen, die von den ausgewählten Objekten abgetrennt wurden, und diese ausblenden",
     "Take Back": "Zurücknehmen",
     "Take them away again; what was there before is back":
         "Sie wieder wegnehmen; was vorher da war, ist wieder da",
@@ -892,6 +894,8 @@ TEXTS = {
         "Die gespeicherten Teile stammen von einer anderen Version. Bitte erneut zerlegen.",
     # Was die Werkzeuge melden
     "There is no part with the number {number}.": "Es gibt kein Teil mit der Nummer {number}.",
+    "No other part is like {name}; a larger difference finds more":
+        "Kein anderes Teil ist wie {name}; eine größere Differenz findet mehr",
     "Similar parts: {n}, marked on {objects} {objects:object|objects}":
         "Ähnliche Teile: {n}, angekreuzt an {objects} {objects:Objekt|Objekten}",
     "Parts named: {n}, on {objects} {objects:object|objects}":
@@ -962,7 +966,7 @@ TEXTS = {
         "Modell es dort tut: {names}",
     "{n} {n:part is closed and does not cross itself|parts are closed and do not cross themselves}":
         "{n} {n:Teil ist geschlossen und durchdringt|Teile sind geschlossen und durchdringen} sich nicht",
-    "{name} has nothing of the kind": "{name} hat nichts dergleichen",
+    "{name} has nothing of the kind.": "{name} hat nichts dergleichen.",
     "{n} {n:face|faces} selected": "{n} {n:Fläche|Flächen} ausgewählt",
     "Other objects share the mesh of {name}": "Andere Objekte teilen sich das Mesh von {name}",
     "Nothing of {name} can be repaired": "An {name} lässt sich nichts reparieren",

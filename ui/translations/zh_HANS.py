@@ -176,7 +176,7 @@ TEXTS = {
         "在此视图中显示部件的颜色：实体模式，按属性着色",
     "The parts have no colors. Switch these on under Advanced, Output; decompose again.":
         "部件没有颜色。请在“高级”的“输出”中启用颜色，然后重新分解。",
-    "Show the Reeb graph over the model, or hide it": "在模型上显示或隐藏 Reeb 图",
+    "Show the Reeb graphs over the selected models, or hide them": "在所选模型上显示或隐藏 Reeb 图",
     "{n} Small {n:Part|Parts}": "{n} 个小部件",
     "Sort": "排序",
     "Size": "尺寸",
@@ -213,6 +213,7 @@ TEXTS = {
     "{part} of {name}": "{name} 的 {part}",
     "A part of {name}": "{name} 的部件",
     "Show {name}": "显示 {name}",
+    "Show Originals": "显示原物体",
     "New scenes start with these settings.": "新场景以这些设置开始。",
     # 计算进度
     "Reeb Parts: {stage} ({share:.0%})    Esc: cancel": "Reeb Parts：{stage}（{share:.0%}）    Esc：取消",
@@ -535,10 +536,10 @@ TEXTS = {
         "沿节点的弧在最佳切口处拆分所选节点所在的部件",
     "Make separate objects of the parts, with all that the mesh carries; the original stays as it is":
         "由部件创建单独的物体，并带有网格的全部数据；原物体保持不变",
-    "Show and select the object that this piece was separated from, and hide the pieces":
-        "显示并选择此块所分离自的物体，并隐藏各块",
-    "Show and select the pieces that were separated from this object, and hide the object":
-        "显示并选择从此物体分离出的各块，并隐藏此物体",
+    "Show and select the objects that the selected pieces were separated from, and hide the pieces":
+        "显示并选择所选各块所分离自的物体，并隐藏各块",
+    "Show and select the pieces that were separated from the selected objects, and hide these":
+        "显示并选择从所选物体分离出的各块，并隐藏这些物体",
     "Take Back": "撤回",
     "Take them away again; what was there before is back": "将其移除；恢复之前的内容",
     "Mark UV seams where parts meet, beside your own; they follow the parts":
@@ -801,6 +802,7 @@ TEXTS = {
     "The stored parts were written by another version. Decompose again.": "存储的部件由另一个版本写入。请重新分解。",
     # 工具的报告
     "There is no part with the number {number}.": "没有编号为 {number} 的部件。",
+    "No other part is like {name}; a larger difference finds more": "没有其他部件与 {name} 相似；增大差值可找到更多",
     "Similar parts: {n}, marked on {objects} {objects:object|objects}": "相似部件：{n} 个，已在 {objects} 个物体上勾选",
     "Parts named: {n}, on {objects} {objects:object|objects}": "已命名部件：{n} 个，在 {objects} 个物体上",
     "No part of {name} has a name of its own. Double-click parts in the list to name them.":
@@ -858,7 +860,7 @@ TEXTS = {
         "{total} 个部件中有 {n} 个未封闭或自相交，模型在该处本就如此：{names}",
     "{n} {n:part is closed and does not cross itself|parts are closed and do not cross themselves}":
         "{n} 个部件封闭且无自相交",
-    "{name} has nothing of the kind": "{name} 没有此类内容",
+    "{name} has nothing of the kind.": "{name} 没有此类内容。",
     "{n} {n:face|faces} selected": "已选择 {n} 个面",
     "Other objects share the mesh of {name}": "其他物体共用 {name} 的网格",
     "Nothing of {name} can be repaired": "{name} 没有可修复之处",

@@ -38,6 +38,13 @@ def marked(obj):
     return {part.number for part in obj.data.reeb_parts.parts if part.selected}
 
 
+def test_that_no_part_is_like_another_is_said(make, capfd):
+    make(shapes.dumbbell(24, 10))
+    bpy.ops.reeb_parts.decompose(n_parts=1)
+    bpy.ops.reeb_parts.find_similar()
+    assert "No other part is like Part 01; a larger difference finds more" in capfd.readouterr().out
+
+
 def test_names_go_to_the_same_parts_in_another_pose_left_and_right(figures):
     first, second = figures
     for index, part in enumerate(first.data.reeb_parts.parts):

@@ -43,6 +43,35 @@ def test_what_came_along_with_a_joined_object_is_ours(make, after):
     assert into.vertex_groups.keys() == ["Part 99"]
 
 
+@pytest.mark.parametrize("after", ["decompose", "clear"])
+def test_what_came_into_a_decomposed_object_is_ours(make, after):
+    """Its groups and materials stayed for ever."""
+    into, tree = make(shapes.dumbbell(24, 10), "Into"), make(shapes.tube_tree(), "Tree")
+    gold, steel = (bpy.data.materials.new(name) for name in ("Gold", "Steel"))
+    tree.data.materials.append(gold)
+    into.data.materials.append(steel)
+    tree.vertex_groups.new(name="Part 99").add([0, 1], 1.0, "REPLACE")
+    tree.data.edges[0].use_seam = into.data.edges[5].use_seam = True
+    into.data.transform(Matrix.Translation((20, 0, 0)))
+    activate(into)
+    bpy.ops.reeb_parts.decompose(graph=False)
+    activate(tree)
+    bpy.ops.reeb_parts.decompose(graph=False, materials=True, seams=True, face_sets=True)
+    assert len(tree.data.reeb_parts.parts) > len(into.data.reeb_parts.parts)
+    activate(into)
+    tree.select_set(True)
+    bpy.ops.object.join()
+    getattr(bpy.ops.reeb_parts, after)(**({"graph": False} if after == "decompose" else {}))
+    names = [part.name for part in into.data.reeb_parts.parts]
+    assert sorted(into.vertex_groups.keys()) == sorted(["Part 99", *names])
+    assert [material.name for material in into.data.materials] == ["Steel", "Gold"]
+    assert {face.material_index == (face.center.x < 10) for face in into.data.polygons} == {True}
+    assert sum(edge.use_seam for edge in into.data.edges) == 2
+    assert not {".reeb_former_material", ".reeb_former_seam", ".sculpt_face_set"} & set(into.data.attributes.keys())
+    bpy.ops.reeb_parts.clear() if after == "decompose" else None
+    assert into.vertex_groups.keys() == ["Part 99"]
+
+
 def test_attributes_of_the_user_that_are_called_as_ours_stay(obj):
     mesh = obj.data
     numbers = mesh.attributes.new("reeb_part", "INT", "FACE")

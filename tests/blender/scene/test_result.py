@@ -7,7 +7,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from mathutils import Vector
+from mathutils import Matrix, Vector
 from results import numbers
 from snapshot import snapshot
 
@@ -261,6 +261,71 @@ def test_an_edited_mesh_is_noticed_and_not_mislabelled(obj, result):
     check_outputs(obj)
 
 
+def rested(package, obj):
+    """Whether a mesh that has been left alone for a moment counts as edited."""
+    watch = importlib.import_module(f"{package}.scene.watch")
+    watch._waiting.add(obj.data.session_uid)
+    watch._last = 0.0
+    watch._look()
+    bpy.context.view_layer.update()
+    return obj.data.reeb_parts.edited
+
+
+def graph_places(obj):
+    """Where the nodes and the points of the arcs are in the world, and how thick these are."""
+    nodes = [item.matrix_world.translation[:] for item in obj.children if item.get("reeb_parts_role") == "node"]
+    (arcs,) = [item for item in obj.children if item.get("reeb_parts_role") == "arcs"]
+    points = [point for spline in arcs.data.splines for point in spline.points]
+    return np.array(nodes + [(arcs.matrix_world @ point.co.to_3d())[:] for point in points])
+
+
+def apply_transform():
+    bpy.ops.object.transform_apply()
+
+
+def set_origin():
+    bpy.ops.object.origin_set(type="ORIGIN_CENTER_OF_VOLUME")
+
+
+def apply_to_the_mesh():
+    """As a script does, which leaves the children to themselves."""
+    obj = bpy.context.object
+    obj.data.transform(obj.matrix_world)
+    obj.matrix_world.identity()
+
+
+@pytest.mark.parametrize("move", [apply_transform, set_origin, apply_to_the_mesh])
+def test_a_mesh_that_is_moved_as_a_whole_keeps_its_parts(package, obj, move):
+    """The parts were out of date, and the graph lay about, once the scale was applied."""
+    obj.location, obj.rotation_euler, obj.scale = (1.0, 2.0, 3.0), (0.3, 0.2, 0.1), (0.02, 0.03, 0.02)
+    bpy.ops.reeb_parts.decompose()
+    result, names = obj.data.reeb_parts, [part.name for part in obj.data.reeb_parts.parts]
+    before, size = graph_places(obj), max(obj.dimensions)
+    move()
+    if move is apply_to_the_mesh:  # without a window no timer looks
+        bpy.ops.reeb_parts.select()
+        bpy.context.view_layer.update()
+    else:
+        assert not rested(package, obj)
+    assert np.abs(graph_places(obj) - before).max() < 1e-5 * size
+    assert [part.name for part in result.parts] == names
+    result.detail = 0.9
+    check_outputs(obj)
+    assert not result.edited
+    assert bpy.ops.reeb_parts.separate() == {"FINISHED"}
+
+
+def test_a_mesh_that_is_mirrored_or_flattened_or_half_of_a_model_does_not(package, obj, result):
+    obj.modifiers.new("Mirror", "MIRROR")
+    obj.data.transform(Matrix.Translation((1, 0, 0)))
+    assert rested(package, obj)
+    obj.modifiers.clear()
+    assert not rested(package, obj)
+    for matrix in (Matrix.Scale(-1.0, 4, (1, 0, 0)), Matrix.Scale(0.0, 4, (1, 0, 0))):
+        obj.data.transform(matrix)
+        assert rested(package, obj)
+
+
 def test_a_mesh_with_other_faces_is_decomposed_anew(obj, result):
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
@@ -287,10 +352,11 @@ def test_clear_works_on_an_edited_mesh(obj, result):
     assert len(bpy.data.objects) == 1
 
 
-def test_select_and_isolate(obj, result):
+def test_select_and_isolate(obj, result, capfd):
     result.active = 1
     wanted = numbers(obj.data) == result.parts[1].number
     bpy.ops.reeb_parts.select()
+    assert f"{wanted.sum()} faces selected" in capfd.readouterr().out  # nothing is seen of it in Object Mode
     assert [p.select for p in obj.data.polygons] == wanted.tolist()
     bpy.ops.reeb_parts.select(number=result.parts[0].number, action="ADD")
     assert sum(p.select for p in obj.data.polygons) > wanted.sum()

@@ -71,6 +71,16 @@ def test_arcs_have_the_colours_of_the_parts_that_they_pass(obj, arcs):
     assert {tuple(color[:3]) for color in colors} == {tuple(part.color) for part in obj.data.reeb_parts.parts}
 
 
+def test_arcs_are_colored_anew_once_the_mesh_is_edited(package, markers, obj, arcs):
+    """Those of before were drawn on over the model as it was."""
+    before = markers.state(obj, list(obj.children))
+    obj.data.vertices[0].co.x += 0.5
+    sys.modules[f"{package}.scene.watch"].check(obj.data)  # as a timer does
+    assert markers.state(obj, list(obj.children)) != before
+    with refused(package):
+        arcs()
+
+
 def test_arcs_keep_their_colours_in_edit_mode(obj, arcs):
     before = arcs()
     bpy.ops.object.mode_set(mode="EDIT")

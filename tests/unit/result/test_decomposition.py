@@ -241,6 +241,15 @@ def test_areas_grow_with_the_square_of_lengths():
     assert larger.candidate_pair_length.tolist() == [4.0, 12.0, 20.0]
 
 
+def test_a_moved_mesh_has_its_graph_and_its_plane_elsewhere(tree):
+    offset = np.array([1.0, 2.0, 3.0])
+    moved = replace(tree, mirror=np.array([0.6, 0.8, 0.0, 5.0])).shifted(offset)
+    assert moved.graph.node_position == pytest.approx(tree.graph.node_position + offset)
+    assert moved.graph.point_position == pytest.approx(tree.graph.point_position + offset)
+    assert moved.mirror == pytest.approx([0.6, 0.8, 0.0, 7.2])
+    assert len(replace(tree, mirror=np.empty(0)).shifted(offset).mirror) == 0
+
+
 def test_a_stretched_mesh_has_other_areas_and_lengths():
     """Candidates grow by 2, 8, 9 and 18, all by 9; of the three pairs the last has no edge, so that the root tells."""
     result, pairs = row(), np.array([(0, 1), (2, 3)])

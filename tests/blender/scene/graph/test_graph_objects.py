@@ -193,6 +193,30 @@ def test_the_eye_hides_and_shows(obj, settings):
         assert settings.graph != hidden
 
 
+def test_the_eye_works_on_all_selected_models(make, tree, obj, settings):
+    """It hid the graph of the active one only."""
+    other = make(tree, "Other")
+    bpy.ops.reeb_parts.decompose()
+    obj.select_set(True)
+    for hidden in (True, False):
+        bpy.ops.reeb_parts.show_graph()
+        assert {layer_of(f"Reeb Graph {item.name}").hide_viewport for item in (obj, other)} == {hidden}
+
+
+def test_the_eye_works_on_a_mesh_that_was_edited(obj, settings):
+    """The graph was in the way, and could not be hidden until the mesh was decomposed again."""
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    for hidden in (True, False, True):
+        bpy.ops.reeb_parts.show_graph()
+        assert layer_of("Reeb Graph Tree").hide_viewport == hidden
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.collections.remove(bpy.data.collections["Reeb Graph Tree"])
+    with pytest.raises(RuntimeError, match="was edited since"):
+        bpy.ops.reeb_parts.show_graph()
+
+
 def test_a_graph_that_would_be_clutter_is_hidden_at_first(package, make, obj, settings):
     graph_objects = importlib.import_module(f"{package}.scene.graph.graph_objects")
     store = importlib.import_module(f"{package}.scene.store")

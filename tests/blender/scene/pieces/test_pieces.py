@@ -338,6 +338,21 @@ def test_the_original_is_hidden_and_comes_back(obj):
     assert bpy.context.view_layer.objects.active == obj
 
 
+def test_there_and_back_for_all_that_is_selected(make, tree, obj):
+    """Of two models that were separated together only the active one came back, and only its pieces after that."""
+    other = make(tree, "Other")
+    obj.select_set(True)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate()
+    pieces = set(bpy.context.selected_objects)
+    for _ in range(2):
+        bpy.ops.reeb_parts.show_original()
+        assert set(bpy.context.selected_objects) == {obj, other}
+        assert set(bpy.context.visible_objects) == {obj, other, *obj.children, *other.children}
+        bpy.ops.reeb_parts.show_pieces()
+        assert set(bpy.context.selected_objects) == pieces == set(bpy.context.visible_objects)
+
+
 @pytest.mark.parametrize("seen", [True, False])
 def test_a_graph_that_was_hidden_stays_hidden_with_the_original(obj, seen):
     bpy.ops.reeb_parts.decompose()
