@@ -73,7 +73,7 @@ def test_parts_of_another_mesh_are_refused(tree):
 
 def test_faces_that_are_there_twice_are_measured_once(tree):
     """Radii and cuts were in units of the root of an area that counted them twice."""
-    shape, parts = tree
+    shape, _ = tree
     ball = shapes.moved(shapes.icosphere(2), (9.0, 0.0, 0.0))
     vertices, faces = shapes.together(shape, ball)
     once = decompose(vertices, faces).parts()
@@ -91,8 +91,9 @@ def test_a_part_of_copies_alone_is_described_with_them():
     vertices, faces = ball.vertices, np.concatenate([ball.faces, ball.faces[:, ::-1]])
     result = decompose(vertices, faces)
     sides = replace(
-        result, candidates=np.repeat([0, 1], len(ball.faces)), candidate_area=np.ones(2), node_candidate=np.zeros(1, np.int64),
-        candidate_pairs=np.empty((0, 2), np.int64), candidate_pair_length=np.empty(0), hierarchy=Hierarchy.of(2, [], []))
+        result, candidates=np.repeat([0, 1], len(ball.faces)), candidate_area=np.ones(2),
+        node_candidate=np.zeros(1, np.int64), candidate_pairs=np.empty((0, 2), np.int64),
+        candidate_pair_length=np.empty(0), hierarchy=Hierarchy.of(2, [], []))
     one, other = part_descriptors(vertices, faces, sides.group([0, 1]))
     assert column(np.stack([one, other]), "log_length") == pytest.approx(np.full(2, np.log(np.sqrt(1 / 3 / 4 / np.pi))),
                                                                          abs=0.02)
