@@ -12,8 +12,8 @@ measure                           equal gives    reference
 ``mean_intersection_over_union``  1              for each region the best match
 ================================  =============  ===================================================
 
-Labels may be any whole numbers; only which faces have equal labels matters. The first labeling is the one that is
-judged, the second is the one with which it is compared.
+Labels may be any whole numbers, also such as 2.0; only which faces have equal labels matters. The first labeling is the
+one that is judged, the second is the one with which it is compared.
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ from scipy.sparse.csgraph import dijkstra
 
 from .errors import ParameterError
 from .sentence import Sentence
+from .surface.arguments import numbers, whole_numbers
 from .surface.mesh import TriMesh
+from .surface.polygons import normalized
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,10 +80,8 @@ class Overlap:
         pair = np.stack(np.divmod(cell, width), axis=1)
         if weight is None:
             return cls(pair, count, count)
-        try:
-            weight = np.asarray(weight, np.float64).ravel()
-        except (TypeError, ValueError):  # such as texts: no numbers
-            weight = np.full(len(first), np.nan)
+        weight = numbers(weight, truth=True)
+        weight = np.full(len(first), np.nan) if weight is None else weight.astype(np.float64).ravel()
         _check_count(len(weight), len(first), "weight")
         if not ((weight >= 0).all() and 0 < weight.sum() < np.inf):
             raise ParameterError(Sentence("Weights must be 0 or more, finite, and not all of them 0."), "weight")
@@ -280,8 +280,8 @@ def cut_discrepancy(mesh: Any, first: ArrayLike, second: ArrayLike) -> float:
     Returns
     -------
     discrepancy : float
-        0 or more. NaN where a labeling has no cut, or no cut can be reached from any of the other's; ends from
-        which none can be reached do not count.
+        0 or more. NaN where a labeling has no cut, or no cut can be reached from any of the other's, or the mesh has
+        no area; ends from which none can be reached do not count.
 
     Raises
     ------
@@ -294,13 +294,13 @@ def cut_discrepancy(mesh: Any, first: ArrayLike, second: ArrayLike) -> float:
     -----
     One search by Dijkstra's algorithm from all cuts of each labeling: O(n log n) time for n vertices.
     """
-    mesh = TriMesh.of(mesh)
+    mesh, _ = normalized(TriMesh.of(mesh))
     first, second = _numbered(first), _numbered(second)
     for label in (first, second):
         _check_count(len(label), mesh.n_faces, "labels")
     graph = coo_array((mesh.edge_length, mesh.edges.vertices.T), shape=(mesh.n_vertices, mesh.n_vertices)).tocsr()
     ends = [_cut_ends(mesh, label) for label in (first, second)]
-    if not all(map(len, ends)):
+    if not all(map(len, ends)) or not mesh.area > 0:
         return float("nan")
     distance = np.concatenate([
         dijkstra(graph, directed=False, indices=goal, min_only=True)[start] for start, goal in (ends, ends[::-1])])
@@ -323,14 +323,18 @@ def _pairs(count: np.ndarray) -> np.ndarray:
 
 def _numbered(labels: Any) -> np.ndarray:
     """Labels renumbered to 0..k-1, (n,); ParameterError if they are not whole numbers or there are none."""
-    try:
-        row = np.asarray(labels)
-    except ValueError:  # rows of different lengths
-        row = np.empty(len(labels), object)
-    if row.ndim != 1 or not row.size or not np.issubdtype(row.dtype, np.integer):
+    row = numbers(labels)
+    if row is not None and row.dtype.kind == "f":  # as NumPy reads them from a text
+        row = whole_numbers(row)
+    if row is None or row.ndim != 1 or not row.size:
+        try:
+            given = np.asarray(labels)
+        except ValueError:  # rows of different lengths
+            given = np.empty(len(labels), object)
+        kind = f"masked {given.dtype}" if np.ma.is_masked(labels) else given.dtype
         raise ParameterError(
             Sentence("Labels must be a row of whole numbers, at least one, not {type} of shape {shape}.",
-                     type=row.dtype, shape=row.shape), "labels")
+                     type=kind, shape=given.shape), "labels")
     return np.unique(row, return_inverse=True)[1].reshape(-1).astype(np.int64)
 
 

@@ -94,7 +94,7 @@ class PolygonMesh:
         vertices = positions(vertices)
         if vertices.ndim:  # or TriMesh says what they are
             check_corners(faces, len(vertices), polygon)
-        triangles, exponent = _normalized(TriMesh(vertices, faces))
+        triangles, exponent = normalized(TriMesh(vertices, faces))
         if sizes is not None and (cut := without_folds(triangles.vertices, faces, sizes)) is not faces:
             triangles = TriMesh(triangles.vertices, cut)
         mesh = cls(triangles, frozen(polygon, np.int64), n_polygons, exponent)
@@ -121,8 +121,11 @@ class PolygonMesh:
                 "All {n} faces have zero area. Check the scale of the object.", n=self.n_polygons))
 
 
-def _normalized(mesh: TriMesh) -> tuple[TriMesh, int]:
-    """The mesh divided by a power of two so that no length is very large or very small, and the exponent."""
+def normalized(mesh: TriMesh) -> tuple[TriMesh, int]:
+    """Divide a mesh by a power of two where lengths are very large or very small.
+
+    mesh : TriMesh. Returns the TriMesh, in which vertices without a face may lie elsewhere, and the exponent.
+    """
     exponent = int(np.frexp(np.abs(mesh.vertices[mesh.used]).max(initial=0.0))[1])
     if abs(exponent) <= USUAL_EXPONENT:
         return mesh, 0

@@ -11,7 +11,9 @@ taken whose places lie nearer to each other in space.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,10 +21,14 @@ from ..field.agd import spread_base_vertices
 from ..field.geodesic import GeodesicSolver
 from ..surface.arrays import inverse, sums_by
 from ..surface.coarsening import Pyramid
+from ..surface.copies import find_copies
 from ..surface.labels import majority
 from ..surface.ordering import sorted_by_place
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import Component, repair
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 SPACING = 0.006  # squared radius of the disc of a sample over the area: some 90 to 150 samples
 VERTICES = 3_000  # upper bound of the number of vertices on which paths are searched
@@ -56,7 +62,7 @@ class Samples:
     face_sample : (p,) int64
         Sample that stands for each face; -1 for a face without area.
     face_area : (p,) float64
-        Share of the area; the sum is 1.
+        Share of the area; the sum is 1. Faces that lie on each other with the same corners divide that of one.
     """
 
     distances: np.ndarray
@@ -67,7 +73,9 @@ class Samples:
     face_area: np.ndarray
 
 
-def sample_surface(vertices: np.ndarray, faces: np.ndarray, polygon: np.ndarray | None = None) -> Samples:
+def sample_surface(
+    vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], polygon: ArrayLike | None = None
+) -> Samples:
     """Spread samples over a surface.
 
     Parameters
@@ -89,7 +97,10 @@ def sample_surface(vertices: np.ndarray, faces: np.ndarray, polygon: np.ndarray 
     A search for shortest paths per sample, on at most VERTICES vertices. Pieces that do not touch are linked where they
     are nearest.
     """
-    given, ordering = sorted_by_place(PolygonMesh.of(vertices, faces, polygon))
+    given = PolygonMesh.of(vertices, faces, polygon)
+    if copies := find_copies(given):
+        given = copies.without(given)
+    given, ordering = sorted_by_place(given)
     working = repair(given)
     body = Component.of(working, np.arange(working.mesh.n_faces))
     pyramid = Pyramid(body.mesh, body.bridges.vertices)
@@ -108,12 +119,16 @@ def sample_surface(vertices: np.ndarray, faces: np.ndarray, polygon: np.ndarray 
     face_area = np.bincount(body.polygon, body.mesh.face_area, given.n_polygons)
     sample = np.where(face_area > 0, sample, -1)
     face = inverse(ordering.polygon)
+    sample, face_area = sample[face], (face_area / face_area.sum())[face]
+    if copies:
+        number = np.bincount(copies.original)
+        sample, face_area = sample[copies.original], (face_area / number)[copies.original]
     distances = base.distances[:, base.indices].astype(np.float64)
     distances = (distances + distances.T) / (2 * unit)
     weight = base.areas / base.areas.sum()
     position = mesh.vertices[base.indices] / unit
     return Samples(distances / max(distances.max(), 1e-300), weight, _profiles(distances, weight),
-                   position - weight @ position, sample[face], (face_area / face_area.sum())[face])
+                   position - weight @ position, sample, face_area)
 
 
 def _profiles(distances: np.ndarray, weight: np.ndarray) -> np.ndarray:

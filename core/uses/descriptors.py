@@ -7,7 +7,9 @@ scale of a model is of no account. ``distances`` compares parts of any models.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -18,10 +20,14 @@ from ..graph.critical import MAXIMUM
 from ..result.decomposition import Parts
 from ..sentence import Sentence
 from ..surface.arrays import sums_by
+from ..surface.copies import find_copies
 from ..surface.mesh import TriMesh
 from ..surface.ordering import sorted_by_place
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import repair
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 QUANTILES = (0.1, 0.5, 0.9)
 N_POINTS = 48  # points of a part between which distances in space are measured
@@ -62,27 +68,54 @@ class _Surface:
         Part of each face.
     field : (n,) float64
         Normalized average geodesic distance.
-    count : int
-        Number of parts.
+    area : (count,) float64
+        Area of each part as ``Parts.area``, but without faces that lie on others with the same corners.
     """
 
     mesh: TriMesh
     label: np.ndarray
     field: np.ndarray
-    count: int
+    area: np.ndarray
 
     @classmethod
-    def of(cls, vertices: np.ndarray, faces: np.ndarray, polygon: np.ndarray | None, parts: Parts) -> _Surface:
+    def of(cls, vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], polygon: ArrayLike | None,
+           parts: Parts) -> _Surface:
         """The surface of a mesh as ``decompose`` takes it, in an order that does not depend on the caller's."""
-        given, ordering = sorted_by_place(PolygonMesh.of(vertices, faces, polygon))
-        result = parts.decomposition
-        if (len(ordering.polygon), len(ordering.vertex)) != (result.n_faces, result.n_vertices):
+        given, result = PolygonMesh.of(vertices, faces, polygon), parts.decomposition
+        label, field, area = parts.labels, result.field, parts.area
+        if (given.n_polygons, given.triangles.n_vertices) != (len(label), len(field)):
             raise MeshError(Sentence("The parts are of another mesh: give the one that was decomposed."))
+        copies = find_copies(given)
+        # By hand a face can be in one part and its copy in another.
+        if copies and (label == label[copies.polygon][copies.original]).all():
+            before = _areas(given, label, parts.count)
+            given, label, field = copies.without(given), label[copies.polygon], field[copies.vertex]
+            area = area * _areas(given, label, parts.count) / np.maximum(before, 1e-300)
+        given, ordering = sorted_by_place(given)
         working = repair(given)
         unit = np.sqrt(working.mesh.area)
-        field = result.field[ordering.vertex][working.vertex_source]
-        return cls(TriMesh(working.mesh.vertices / unit, working.mesh.faces),
-                   parts.labels[ordering.polygon][working.polygon], np.nan_to_num(field), parts.count)
+        return cls(TriMesh(working.mesh.vertices / unit, working.mesh.faces), label[ordering.polygon][working.polygon],
+                   np.nan_to_num(field[ordering.vertex][working.vertex_source]), area)
+
+    @property
+    def count(self) -> int:
+        """Number of parts."""
+        return len(self.area)
+
+    @property
+    def share(self) -> np.ndarray:
+        """Area of each part as a share of the whole, (count,)."""
+        return self.area / self.area.sum()
+
+    @property
+    def size(self) -> np.ndarray:
+        """Root of the share of each part, (count,)."""
+        return np.sqrt(np.maximum(self.share, 1e-12))
+
+    @property
+    def unit(self) -> float:
+        """Length that is 1 in ``mesh``, in the unit of the caller's vertices."""
+        return float(np.sqrt(self.area.sum()))
 
     def mean_field(self) -> np.ndarray:
         """Field of each face, (m,)."""
@@ -105,6 +138,11 @@ class _Surface:
         return _quantiles(values, self.mesh.face_area, self.label, self.count, shares)
 
 
+def _areas(mesh: PolygonMesh, label: np.ndarray, count: int) -> np.ndarray:
+    """Area of the polygons with each label, (count,); label : (n_polygons,) int64."""
+    return np.bincount(label[mesh.polygon], mesh.triangles.face_area, count)
+
+
 def _quantiles(values: np.ndarray, weight: np.ndarray, group: np.ndarray, count: int,
                shares: tuple[float, ...]) -> np.ndarray:
     """Weighted quantiles of the values of each group, (count, len(shares)); 0 for a group of none."""
@@ -121,7 +159,7 @@ def _quantiles(values: np.ndarray, weight: np.ndarray, group: np.ndarray, count:
 
 
 def part_descriptors(
-    vertices: np.ndarray, faces: np.ndarray, parts: Parts, polygon: np.ndarray | None = None
+    vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], parts: Parts, polygon: ArrayLike | None = None
 ) -> np.ndarray:
     """Describe each part.
 
@@ -148,20 +186,19 @@ def part_descriptors(
     One search for shortest paths from all cuts at a time; O(m log m).
     """
     surface = _Surface.of(vertices, faces, polygon, parts)
-    share = parts.share
-    size = np.sqrt(np.maximum(share, 1e-12))
+    size = surface.size
     touching, others = _neighborhood(surface, parts)
     columns = {
         "log_share": np.log(size) * 2,
         "has_twin": ((parts.twin >= 0) & (parts.twin != np.arange(parts.count))).astype(float),
         "n_leaves": np.log1p(_in_parts(parts, parts.decomposition.graph.node_kind == MAXIMUM)),
         "n_arcs": np.log1p(np.bincount(parts.arc_part, minlength=parts.count)),
-        "hops": np.log1p(_hops(parts)),
-        **touching, **others, **_shape(surface, size),
+        "hops": np.log1p(_hops(parts, surface.area)),
+        **touching, **others, **_shape(surface),
     }
     field = surface.quantiles(surface.mean_field(), QUANTILES)
     depth = surface.quantiles(surface.depth(), (0.5, 0.9, 1.0)) / size[:, None]
-    radius = np.log(_radii(parts, size))
+    radius = np.log(_radii(surface, parts))
     for place, quantile in enumerate((10, 50, 90)):
         columns |= {f"field_{quantile}": field[:, place], f"log_radius_{quantile}": radius[:, place]}
     columns |= {"depth_50": depth[:, 0], "depth_90": depth[:, 1], "depth_100": depth[:, 2]}
@@ -173,10 +210,13 @@ def _in_parts(parts: Parts, nodes: np.ndarray) -> np.ndarray:
     return np.bincount(parts.node_part[nodes], minlength=parts.count)
 
 
-def _hops(parts: Parts) -> np.ndarray:
-    """How many cuts lie between each part and the largest one, (count,); the number of parts where there is no way."""
+def _hops(parts: Parts, area: np.ndarray) -> np.ndarray:
+    """How many cuts lie between each part and the largest one, (count,); the number of parts where there is no way.
+
+    area : (count,) float64, of each part.
+    """
     graph = coo_array((np.ones(len(parts.cuts)), parts.cuts.T), (parts.count,) * 2).tocsr()
-    hops = dijkstra(graph, directed=False, unweighted=True, indices=int(parts.area.argmax()))
+    hops = dijkstra(graph, directed=False, unweighted=True, indices=int(area.argmax()))
     return np.where(np.isfinite(hops), hops, parts.count)
 
 
@@ -184,35 +224,32 @@ def _neighborhood(surface: _Surface, parts: Parts) -> tuple[dict[str, np.ndarray
     """How a part touches others, and what these are like."""
     a, b = parts.cuts.T
     owner, other = np.concatenate([a, b]), np.concatenate([b, a])
-    unit = np.sqrt(parts.area.sum())
+    unit, size, share = surface.unit, surface.size, surface.share
     weight = np.maximum(np.tile(parts.cut_length, 2), 1e-9 * unit)
     total = np.maximum(np.bincount(owner, weight, parts.count), 1e-300)
     field = surface.quantiles(surface.mean_field(), (0.5,))[:, 0]
-    size = np.sqrt(np.maximum(parts.share, 1e-12))
     return (
         {"cut_length": np.bincount(owner, weight, parts.count) / unit / size,
          "n_neighbors": np.log1p(np.bincount(owner, minlength=parts.count))},
-        {"neighbor_share": np.bincount(owner, weight * parts.share[other], parts.count) / total,
+        {"neighbor_share": np.bincount(owner, weight * share[other], parts.count) / total,
          "neighbor_field": np.bincount(owner, weight * field[other], parts.count) / total},
     )
 
 
-def _radii(parts: Parts, size: np.ndarray) -> np.ndarray:
+def _radii(surface: _Surface, parts: Parts) -> np.ndarray:
     """Quantiles of the radius of the contours in each part, (count, 3), in units of its size.
 
     A part without a contour counts as a ball of its area.
     """
-    graph = parts.decomposition.graph
-    unit = np.sqrt(parts.area.sum())
-    radius = graph.point_radius / unit
+    radius, size = parts.decomposition.graph.point_radius / surface.unit, surface.size
     found = _quantiles(radius, np.ones(len(radius)), parts.point_part, parts.count, QUANTILES)
     found = np.where(found > 0, found, (size / np.sqrt(4 * np.pi))[:, None])
     return np.maximum(found / size[:, None], LEAST)
 
 
-def _shape(surface: _Surface, size: np.ndarray) -> dict[str, np.ndarray]:
+def _shape(surface: _Surface) -> dict[str, np.ndarray]:
     """Extent of each part along its principal axes, and distances between points of it, in units of its size."""
-    mesh, label, count = surface.mesh, surface.label, surface.count
+    mesh, label, count, size = surface.mesh, surface.label, surface.count, surface.size
     area = mesh.face_area
     total = np.maximum(np.bincount(label, area, count), 1e-300)
     middle = sums_by(label, area[:, None] * mesh.face_centroids, count) / total[:, None]

@@ -11,8 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import scipy
 
+from ..errors import ParameterError
 from ..graph.critical import KINDS
 from ..result.decomposition import Decomposition, Parts
+from ..sentence import Sentence
+from ..surface.arguments import numbers as as_numbers
 from ..version import VERSION
 from .colors import part_colors
 
@@ -88,10 +91,21 @@ def report(
 
     Raises
     ------
-    ValueError
-        ``numbers`` and ``names`` are not equally long.
+    ParameterError
+        ``parts`` are of another result, or one of the others has another shape, or values that are no finite numbers;
+        ``error.name`` says which.
     """
     parts = decomposition.parts() if parts is None else parts
+    _check_result(decomposition, parts)
+    numbers = list(range(1, parts.count + 1) if numbers is None else numbers)
+    names = list(parts.names if names is None else names)
+    for given, values in (("numbers", numbers), ("names", names)):
+        if len(values) != parts.count:
+            raise ParameterError(Sentence("There are {n} values for {total} elements: each needs one.",
+                                          n=len(values), total=parts.count), given)
+    colors = part_colors(parts.count, parts.cuts) if colors is None else _checked("colors", colors, (parts.count, 3))
+    boxes = None if boxes is None else _checked("boxes", boxes, (parts.count, 2, 3))
+    transform = np.eye(4) if transform is None else _checked("transform", transform, (4, 4))
     result = {
         "name": name,
         "vertices": decomposition.n_vertices,
@@ -109,6 +123,26 @@ def report(
     if labels:
         result["labels"] = parts.labels.tolist()
     return result
+
+
+def _check_result(decomposition: Decomposition, parts: Parts) -> None:
+    """Raise ParameterError if parts are not of a result, nor of its copy."""
+    own = getattr(parts, "decomposition", None)
+    if own is not decomposition and not (isinstance(own, Decomposition) and all(
+            np.array_equal(getattr(own, name), getattr(decomposition, name))
+            for name in ("candidates", "node_candidate", "point_candidate"))):
+        raise ParameterError(Sentence("The parts are of another result: give the one that they were read from."),
+                             "parts")
+
+
+def _checked(name: str, values: ArrayLike, shape: tuple[int, ...]) -> np.ndarray:
+    """Values as an array of finite numbers of a shape; raises ParameterError if they are none."""
+    array = as_numbers(values)
+    if array is None or array.shape != shape or not np.isfinite(array).all():
+        raise ParameterError(
+            Sentence("{name} must be finite numbers of shape {shape}, not {given}.", name=name, shape=shape,
+                     given=type(values).__name__ if array is None else array.shape), name)
+    return array
 
 
 def bounding_boxes(labels: np.ndarray, points: np.ndarray, count: int) -> np.ndarray:
@@ -136,13 +170,9 @@ def bounding_boxes(labels: np.ndarray, points: np.ndarray, count: int) -> np.nda
 
 
 def _parts(
-    parts: Parts, numbers: Iterable[int] | None, names: Iterable[str] | None, colors: ArrayLike | None,
-    boxes: ArrayLike | None,
+    parts: Parts, numbers: list[int], names: list[str], colors: np.ndarray, boxes: np.ndarray | None
 ) -> list[dict[str, Any]]:
     """Description of each part; the arguments are those of ``report``."""
-    numbers = range(1, parts.count + 1) if numbers is None else numbers
-    names = parts.names if names is None else names
-    colors = part_colors(parts.count, parts.cuts) if colors is None else np.asarray(colors)
     faces = np.bincount(parts.labels, minlength=parts.count)
     beside = [[] for _ in range(parts.count)]
     for a, b in parts.cuts[parts.cut_touches].tolist():
@@ -157,7 +187,7 @@ def _parts(
             "area": float(parts.area[index]),
             "share": float(parts.share[index]),
             "color": colors[index].tolist(),
-            "bounding_box": None if boxes is None else np.asarray(boxes)[index].tolist(),
+            "bounding_box": None if boxes is None else boxes[index].tolist(),
             "neighbours": sorted(beside[index]),
             "twin": None if parts.twin[index] < 0 else int(parts.twin[index]),
         }
@@ -165,9 +195,8 @@ def _parts(
     ]
 
 
-def _graph(graph: ReebGraph, parts: Parts, transform: ArrayLike | None) -> dict[str, Any]:
-    """Description of the graph; the arguments are those of ``report``."""
-    matrix = np.eye(4) if transform is None else np.asarray(transform, np.float64)
+def _graph(graph: ReebGraph, parts: Parts, matrix: np.ndarray) -> dict[str, Any]:
+    """Description of the graph; matrix : (4, 4), the ``transform`` of ``report``."""
     node_position = graph.node_position @ matrix[:3, :3].T + matrix[:3, 3]
     point_position = graph.point_position @ matrix[:3, :3].T + matrix[:3, 3]
     nodes = [

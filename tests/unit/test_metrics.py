@@ -85,6 +85,17 @@ def test_cut_discrepancy_is_not_a_number_without_a_cut():
     assert np.isnan(cut_discrepancy(mesh, np.zeros_like(square), square))
 
 
+@pytest.mark.parametrize("scale", [1e-170, 1e160, 0.0])
+def test_cut_discrepancy_has_no_unit(scale):
+    """The area of the smallest and the largest meshes was 0 or infinite, and a warning came with the nan."""
+    mesh = TriMesh(*shapes.icosphere(1))
+    above, beside = (mesh.face_centroids[:, [2, 0]] > 0).T.astype(int)
+    expected = cut_discrepancy(mesh, above, beside) if scale else np.nan
+    far = np.append(scale * mesh.vertices, [(1e200, 0, 0)], axis=0)  # a vertex of no face
+    found = cut_discrepancy(TriMesh(far, mesh.faces), above, beside)
+    assert found == pytest.approx(expected, nan_ok=True)
+
+
 def test_cut_discrepancy_leaves_out_what_cannot_be_reached():
     mesh, square = strip(4)
     far = TriMesh(np.concatenate([mesh.vertices, mesh.vertices + [0, 9, 0]]),
@@ -157,11 +168,17 @@ def test_a_single_element_has_no_pairs():
     assert rand_index_error([3], [8]) == 0.0
 
 
-@pytest.mark.parametrize("labels", [[], [0.5, 1.0], [[0, 1]], np.zeros(3, bool), [[0], [0, 1]], ["a", "b"]])
+@pytest.mark.parametrize("labels", [[], [0.5, 1.0], [[0, 1]], np.zeros(3, bool), [[0], [0, 1]], ["a", "b"],
+                                    np.ma.masked_equal([0, 1, 1], 1)])
 @pytest.mark.parametrize("measure", ALL)
 def test_labels_are_a_row_of_whole_numbers(measure, labels):
     with pytest.raises(ParameterError, match="Labels must be a row of whole numbers"):
         measure(labels, labels)
+
+
+@pytest.mark.parametrize("measure", ALL)
+def test_labels_may_be_such_as_numpy_reads_from_a_text(measure):
+    assert measure(np.asarray(A, float), B) == measure(A, B)
 
 
 @pytest.mark.parametrize("measure", ALL)

@@ -829,6 +829,10 @@ TEXTS = {
         "Es gibt {n} Werte für {total} Elemente: Jedes braucht einen.",
     "The parts are of another mesh: give the one that was decomposed.":
         "Die Teile gehören zu einem anderen Mesh: Nötig ist das, das zerlegt wurde.",
+    "The parts are of another result: give the one that they were read from.":
+        "Die Teile gehören zu einem anderen Ergebnis: Nötig ist das, aus dem sie gelesen wurden.",
+    "{name} must be finite numbers of shape {shape}, not {given}.":
+        "{name} müssen endliche Zahlen der Form {shape} sein, nicht {given}.",
     "Weights must be 0 or more, finite, and not all of them 0.":
         "Gewichte müssen 0 oder mehr und endlich sein, und nicht alle 0.",
     "Faces must have shape (m, corners), not {shape}.": "Flächen müssen die Form (m, Ecken) haben, nicht {shape}.",

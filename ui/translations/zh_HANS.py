@@ -750,6 +750,10 @@ TEXTS = {
     "There are {n} values for {total} elements: each needs one.":
         "有 {n} 个值对应 {total} 个元素：每个元素需要一个值。",
     "The parts are of another mesh: give the one that was decomposed.": "部件属于另一个网格：请给出被分解的那个网格。",
+    "The parts are of another result: give the one that they were read from.":
+        "部件属于另一个结果：请给出读取这些部件的那个结果。",
+    "{name} must be finite numbers of shape {shape}, not {given}.":
+        "{name} 必须为形状 {shape} 的有限数字，而不是 {given}。",
     "Weights must be 0 or more, finite, and not all of them 0.": "权重必须大于或等于 0 且有限，不能全部为 0。",
     "Faces must have shape (m, corners), not {shape}.": "面的形状必须为 (m, 角点)，而不是 {shape}。",
     "Face indices must be whole numbers, not {type}.": "面的编号必须为整数，而不是 {type}。",

@@ -53,6 +53,17 @@ def test_a_surface_corresponds_to_itself_in_any_order_and_size(figure):
     assert share.min() > 0.5
 
 
+def test_faces_that_are_there_twice_are_one_place(figure):
+    """At each of their edges four faces meet, and the surface seemed to branch there."""
+    shape, labels, samples = figure
+    twice = sample_surface(shape.vertices, np.concatenate([shape.faces, shape.faces[:, ::-1]]))
+    for name in ("distances", "weight", "profile", "position"):
+        assert (getattr(twice, name) == getattr(samples, name)).all()
+    assert (twice.face_sample == np.tile(samples.face_sample, 2)).all()
+    assert twice.face_area == pytest.approx(np.tile(samples.face_area, 2) / 2)
+    assert carried_labels(samples, labels, twice, np.tile(labels, 2))[0].tolist() == list(range(labels.max() + 1))
+
+
 @pytest.mark.parametrize("angle", [40, -60])
 def test_a_bent_and_finer_surface_has_the_same_parts_left_and_right(figure, angle):
     shape, labels, samples = figure

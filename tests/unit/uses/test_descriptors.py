@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Descriptors of parts: invariant, worked out by hand where that is possible, alike for parts of one kind."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapes
 
-from core import MeshError, Parameters, decompose
+from core import Hierarchy, MeshError, Parameters, decompose
 from core.surface.mesh import TriMesh
 from core.uses.descriptors import NAMES, SCALE, _Surface, distances, part_descriptors
 
@@ -67,6 +69,34 @@ def test_parts_of_another_mesh_are_refused(tree):
     assert len(part_descriptors(*grid, of_polygons, pairs)) == of_polygons.count
     with pytest.raises(MeshError, match="of another mesh"):
         part_descriptors(*grid, of_polygons)
+
+
+def test_faces_that_are_there_twice_are_measured_once(tree):
+    """Radii and cuts were in units of the root of an area that counted them twice."""
+    shape, _ = tree
+    ball = shapes.moved(shapes.icosphere(2), (9.0, 0.0, 0.0))
+    vertices, faces = shapes.together(shape, ball)
+    once = decompose(vertices, faces).parts()
+    turned = shape.faces[:, ::-1]
+    twice = decompose(vertices, np.concatenate([turned, faces])).parts()
+    expected = part_descriptors(vertices, faces, once)
+    to = [int(once.labels[(twice.labels == part)[len(turned):]][0]) for part in range(twice.count)]
+    found = part_descriptors(vertices, np.concatenate([turned, faces]), twice)
+    np.testing.assert_allclose(found, expected[to], rtol=1e-9, atol=1e-9)
+
+
+def test_a_part_of_copies_alone_is_described_with_them():
+    """As one that was made by hand, of the faces of one side."""
+    ball = shapes.icosphere(2)
+    vertices, faces = ball.vertices, np.concatenate([ball.faces, ball.faces[:, ::-1]])
+    result = decompose(vertices, faces)
+    sides = replace(
+        result, candidates=np.repeat([0, 1], len(ball.faces)), candidate_area=np.ones(2),
+        node_candidate=np.zeros(1, np.int64), candidate_pairs=np.empty((0, 2), np.int64),
+        candidate_pair_length=np.empty(0), hierarchy=Hierarchy.of(2, [], []))
+    one, other = part_descriptors(vertices, faces, sides.group([0, 1]))
+    assert column(np.stack([one, other]), "log_length") == pytest.approx(np.full(2, np.log(np.sqrt(1 / 3 / 4 / np.pi))),
+                                                                         abs=0.02)
 
 
 def test_a_ball_alone_is_what_it_is():

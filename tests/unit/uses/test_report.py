@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core import Parameters, decompose
+from core import ParameterError, Parameters, decompose
 from core.result.decomposition import Decomposition
 from core.uses.report import SCHEMA_VERSION, bounding_boxes, document, report
 
@@ -99,6 +99,27 @@ def test_transform_moves_the_graph(result):
     here, there = report(result)["graph"], report(result, transform=move)["graph"]
     for a, b in zip(here["nodes"], there["nodes"], strict=True):
         assert np.subtract(b["position"], a["position"]) == pytest.approx([1, 2, 3])
+
+
+@pytest.mark.parametrize(("name", "value"), [
+    ("transform", np.eye(3)), ("transform", np.full((4, 4), np.nan)), ("transform", "far"),
+    ("colors", [(0, 0, 0)]), ("boxes", np.zeros((1, 2, 3))), ("numbers", [1]), ("names", ["only"])])
+def test_what_is_not_one_for_each_part_is_refused(result, name, value):
+    """An IndexError, or a report of fewer parts."""
+    more = {"names": ["only"]} if name == "numbers" else {"numbers": [1]} if name == "names" else {}
+    assert result.parts().count > 1
+    with pytest.raises(ParameterError, match="of shape|each needs one") as caught:
+        report(result, **{name: value, **more})
+    assert caught.value.name in (name, *more)
+
+
+def test_parts_of_another_result_are_refused(result):
+    other = decompose(*shapes.tube_tree(), Parameters(method="lavoue"))
+    for parts in (other.parts(), result.parts().labels):
+        with pytest.raises(ParameterError, match="of another result"):
+            report(result, parts)
+    copy = Decomposition.from_bytes(result.to_bytes())
+    assert report(result, copy.parts(), labels=True) == report(result, labels=True)
 
 
 def test_bounding_boxes_by_hand():
