@@ -17,6 +17,7 @@ from urllib.parse import unquote
 from ..core.file_names import readable
 from ..core.parameters import Parameters
 from ..core.version import VERSION
+from ..gltf_files import load_header
 from ..model_files import check_ends
 
 FORMAT = 1  # version of what a record holds
@@ -84,7 +85,7 @@ def files_of(path: Path) -> list[Path]:
     if path.suffix.lower() != ".gltf":
         return [path]
     try:
-        buffers = json.loads(path.read_text(encoding="utf-8")).get("buffers", [])
+        buffers = load_header(path.read_bytes())[0].get("buffers", [])
         names = [unquote(buffer["uri"]) for buffer in buffers if not buffer.get("uri", "data:").startswith("data:")]
     except (ValueError, AttributeError, KeyError, TypeError):
         names = []  # whoever reads it will say so
