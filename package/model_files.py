@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Models read from files: .obj, .ply and arrays here, what only Blender reads by Blender, all others by trimesh."""
+"""Models read from files: .obj, .ply, .off and arrays here, what only Blender reads by Blender, others by trimesh."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from .core.surface.ears import fans, without_folds
 from .core.surface.mesh import check_corners
 from .gltf_checks import load_header, unread
 from .obj_files import parse_obj
+from .off_files import parse_off
 from .ply_files import ASCII, read_ply
 
 #: Files that Blender alone can read, see ``blender_export``.
@@ -57,8 +58,8 @@ class Model:
     faces : (m, 3) int64
         Triangles; in the order of the file, polygons cut into triangles.
     polygon : (m,) int64
-        Face of the file to which each triangle belongs; in files other than .obj, .ply, .blend and .fbx, whose readers
-        cut polygons themselves, each triangle is a face.
+        Face of the file to which each triangle belongs; in files other than .obj, .ply, .off, .blend and .fbx,
+        whose readers cut polygons themselves, each triangle is a face.
     up : str
         "y" or "z", the axis that is up in files of its kind.
     """
@@ -169,6 +170,11 @@ def _read_obj(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return parse_obj(path.read_bytes())
 
 
+def _read_off(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices, triangles and their polygons of an .off."""
+    return parse_off(path.read_bytes())
+
+
 def _read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of a .ply."""
     from plyfile import PlyHeaderParseError
@@ -189,7 +195,8 @@ def _read_gltf(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 #: What reads files of a kind; trimesh all others.
 _READERS: dict[str, Callable[[Path], tuple[np.ndarray, np.ndarray, np.ndarray]]] = {
-    ARRAYS: _read_arrays, ".glb": _read_gltf, ".gltf": _read_gltf, ".obj": _read_obj, ".ply": _read_ply}
+    ARRAYS: _read_arrays, ".glb": _read_gltf, ".gltf": _read_gltf, ".obj": _read_obj, ".off": _read_off,
+    ".ply": _read_ply}
 
 
 def _plain(path: Path) -> bytes:
@@ -218,7 +225,7 @@ def _text_of_ply(data: bytes) -> int:
 
 
 #: How many bytes at the beginning of files are text, by the kinds of files that may have text in them that is no UTF-8.
-_TEXT: dict[str, Callable[[bytes], int]] = {".off": len, ".stl": _text_of_stl, ".ply": _text_of_ply}
+_TEXT: dict[str, Callable[[bytes], int]] = {".stl": _text_of_stl, ".ply": _text_of_ply}
 
 
 def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

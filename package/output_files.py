@@ -138,18 +138,22 @@ class SharedFolder:
         if fcntl:
             os.close(self._handle)
 
-    def remove_leftovers(self) -> None:
-        """``remove_leftovers``, unless another run is there as well; this one must not be writing."""
+    def remove_leftovers(self) -> bool:
+        """``remove_leftovers``, unless another run is there as well; this one must not be writing.
+
+        Returns whether this run is alone.
+        """
         if fcntl:
             try:
                 fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 self._enter()  # a lock that does not become another one may be lost
-                return
+                return False
             except OSError:  # there are no locks here
                 pass
         remove_leftovers(self.folder)
         self._enter()
+        return True
 
     def _enter(self) -> None:
         """Let others know that this run is there."""

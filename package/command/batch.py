@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import random
 import sys
 import time
 from collections import Counter
@@ -88,9 +89,9 @@ def run(options: argparse.Namespace) -> int:
         shared = SharedFolder(batch.out)
     interrupted = False
     with shared:
-        shared.remove_leftovers()
+        alone = shared.remove_leftovers()
         try:
-            batch.run()
+            batch.run(alone)
         except KeyboardInterrupt:
             interrupted = True
             say("Interrupted; what is done is kept.")
@@ -125,8 +126,12 @@ class _Batch:
         """Where the results of a model are."""
         return folder_of(self.out, source.name)
 
-    def run(self) -> None:
-        """Do all models that are not done yet; raises KeyboardInterrupt after Ctrl+C."""
+    def run(self, alone: bool = True) -> None:
+        """Do all models that are not done yet; raises KeyboardInterrupt after Ctrl+C.
+
+        alone : bool, whether no other run writes to the same folder. Runs that share one do not go the same way, or
+        all would come to each model at the same time.
+        """
         from tqdm import tqdm
 
         with tqdm(self.sources, desc="looking", unit="model", disable=None, leave=False) as looking:
@@ -137,6 +142,8 @@ class _Batch:
             say(f"{self.kept} of {_models(len(self.sources))} {'is' if self.kept == 1 else 'are'} done already.")
         if not waiting:
             return
+        if not alone:
+            random.shuffle(waiting)
         # Dask takes long to import, and a look at what is done needs none of it.
         from ..batch import cluster
 
@@ -144,7 +151,7 @@ class _Batch:
             say(f"Dask's dashboard: {client.dashboard_link}")
             failed: Counter[str] = Counter()
             with (tqdm(total=len(waiting), desc="models", unit="model", smoothing=0.1, mininterval=0.5) as progress,
-                  closing(cluster.spread(client, cluster.do_job, map(self._job, waiting))) as answers):
+                  closing(cluster.spread(client, cluster.do_job, self._jobs(waiting, progress))) as answers):
                 for job, answer in answers:
                     if isinstance(answer, BaseException):
                         answer = self._lost(job, answer)
@@ -154,6 +161,15 @@ class _Batch:
                         tqdm.write(f"reeb-parts: {job['name']}: {answer['status']}: {answer['reason']}",
                                    file=sys.stderr)
                     progress.update()
+
+    def _jobs(self, sources: list[Source], progress: Any) -> Iterator[dict[str, Any]]:
+        """What the workers are given of some models, without those that another run has done by the time of each."""
+        for source in sources:
+            if is_done(source.path, self.folder(source), self.settings, self.options.retry):
+                self.kept += 1
+                progress.update()
+            else:
+                yield self._job(source)
 
     def _job(self, source: Source) -> dict[str, Any]:
         """What a worker is given."""

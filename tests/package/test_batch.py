@@ -448,6 +448,18 @@ def test_a_lost_model_whose_record_cannot_be_written_costs_only_itself(models, t
     assert answer == {"status": "crash", "reason": "The workers that had it ended: killed"}
 
 
+def test_what_another_run_does_meanwhile_is_not_done_again(models, tmp_path):
+    """Two runs on one folder did every model, both."""
+    parser = argparse.ArgumentParser()
+    command.add_options(parser)
+    run = command._Batch(parser.parse_args([str(models), "--out", str(tmp_path / "out")]))
+    jobs = run._jobs(run.sources, argparse.Namespace(update=lambda: None))
+    first = next(jobs)
+    do_model(run._job(run.sources[2]))  # tiny.stl, which is refused
+    assert [first["name"], *(entry["name"] for entry in jobs)] == ["damaged.ply", "deep/dumb bell.obj", "tree.ply"]
+    assert run.kept == 1
+
+
 def test_nothing_is_left_of_a_process_when_the_one_that_asked_is_killed(large, tmp_path):
     code = ("import sys, json; from reeb_parts.batch.model_process import ModelProcess; p = ModelProcess(); p._start();"
             "print(p._process.pid, flush=True); p.run(json.loads(sys.argv[1]), 0)")

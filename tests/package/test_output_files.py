@@ -81,11 +81,11 @@ def test_what_another_run_is_writing_is_left_until_it_has_ended(tmp_path):
         written = tmp_path / "models" / f"{HIDDEN}4567"
         write_folder(written, {"record.json": b"new"})
         with SharedFolder(tmp_path) as folder:
-            folder.remove_leftovers()
+            assert not folder.remove_leftovers()  # it is not alone
             assert written.exists()
             other.kill()
             other.wait()
-            folder.remove_leftovers()
+            assert folder.remove_leftovers()
             assert not written.exists()
 
 

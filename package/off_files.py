@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertices and faces of .off files. Colors, normals and texture coordinates do not matter.
+
+trimesh puts quads behind all triangles, and reads no larger polygons.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from .core.surface.ears import triangulated
+
+# Letters before the word tell what follows the position of a vertex; with 4 and n it has other than three coordinates.
+_HEAD = re.compile(rb"\s*(?:ST)?C?N?(4?n?)OFF\b|\s*(4?n?)OFF(?=\d)|(?=\s*\d)")
+
+
+def parse_off(text: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Read the text of an .off.
+
+    Parameters
+    ----------
+    text : bytes
+        As the file has it, with any ends of lines.
+
+    Returns
+    -------
+    vertices : (n, 3) float64
+        All of the file, also those of no face.
+    triangles : (m, 3) int64
+        In the order of the faces; of a polygon its fan, or other triangles where that is folded.
+    polygon : (m,) int64
+        Face of each triangle, from 0; lines of less than three corners are no faces.
+
+    Raises
+    ------
+    ValueError
+        It is none, ends before its last face, or a face has a vertex that is not there.
+    """
+    head = _HEAD.match(text.removeprefix(b"\xef\xbb\xbf"))
+    if head is None or head[1] or head[2] or re.match(rb"[ \t]*BINARY", head.string[head.end():]):
+        raise ValueError("it does not begin as an .off of words in three dimensions")
+    body = re.sub(rb"#[^\r\n]*", b"", head.string[head.end():])
+    lines = [line for line in map(bytes.strip, re.split(rb"[\r\n]+", body)) if line]
+    n_vertices, n_faces = (int(word) for word in (lines or [b""])[0].split()[:2])
+    rows = lines[1 + n_vertices : 1 + n_vertices + n_faces]
+    if n_vertices < 0 or n_faces < 0 or len(rows) < n_faces:
+        raise ValueError("it ends before its last face")
+    vertices = _table(lines[1 : 1 + n_vertices])
+    corner, sizes = _corners(rows)
+    if ((corner < 0) | (corner >= n_vertices)).any():
+        raise ValueError("a face has a vertex that is not there")
+    is_polygon = sizes > 2
+    return vertices, *triangulated(vertices, corner[np.repeat(is_polygon, sizes)], sizes[is_polygon])
+
+
+def _table(rows: list[bytes]) -> np.ndarray:
+    """The first three numbers of each row, (n, 3)."""
+    places = [row.split(None, 3)[:3] for row in rows]
+    return np.array(places, np.bytes_).astype(np.float64) if places else np.empty((0, 3))
+
+
+def _corners(rows: list[bytes]) -> tuple[np.ndarray, np.ndarray]:
+    """Vertex of each corner of all faces, (c,), and how many corners each has, (p,); a color may follow them."""
+    sizes = np.array([row.split(None, 1)[0] for row in rows], np.bytes_).astype(np.int64)
+    words = b" ".join(rows).split()
+    if len(words) != len(sizes) + sizes.sum():
+        faces = [row.split(None, size + 1)[: size + 1] for row, size in zip(rows, sizes.tolist(), strict=True)]
+        words = [word for face in faces for word in face]
+    # Each face begins with its size. One that lacks a corner moves all that follow it.
+    starts = np.cumsum(sizes + 1) - sizes - 1
+    numbers = np.array(words, np.bytes_).astype(np.int64)
+    if len(numbers) != len(sizes) + sizes.sum() or (numbers[starts] != sizes).any() or (sizes < 0).any():
+        raise ValueError("a face has fewer corners than it says")
+    return np.delete(numbers, starts), sizes
