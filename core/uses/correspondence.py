@@ -17,8 +17,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..errors import ParameterError
 from ..field.agd import spread_base_vertices
 from ..field.geodesic import GeodesicSolver
+from ..sentence import Sentence
+from ..surface.arguments import whole_numbers
 from ..surface.arrays import inverse, sums_by
 from ..surface.coarsening import Pyramid
 from ..surface.copies import find_copies
@@ -189,7 +192,7 @@ def _balanced(plan: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.nda
 
 
 def carried_labels(
-    source: Samples, source_labels: np.ndarray, target: Samples, target_labels: np.ndarray
+    source: Samples, source_labels: ArrayLike, target: Samples, target_labels: ArrayLike
 ) -> tuple[np.ndarray, np.ndarray]:
     """Find the part of one surface that each part of another corresponds to.
 
@@ -210,13 +213,27 @@ def carried_labels(
         Part of the source from which most of the area of each part of the target comes.
     share : (count of target,) float64
         How much of it, 0..1.
+
+    Raises
+    ------
+    ParameterError
+        Labels are not whole numbers from 0, one for each face.
     """
+    source_labels, target_labels = _checked(source, source_labels), _checked(target, target_labels)
     plan = correspond(source, target)
     from_source = _of_samples(source, source_labels, len(source.weight))
     mixture = (plan / np.maximum(plan.sum(axis=0), 1e-300)).T @ from_source  # what each sample of the target is
     to_target = _of_samples(target, target_labels, len(target.weight)) * target.weight[:, None]
     score = to_target.T @ mixture
     return score.argmax(axis=1), score.max(axis=1) / np.maximum(score.sum(axis=1), 1e-300)
+
+
+def _checked(samples: Samples, labels: ArrayLike) -> np.ndarray:
+    """Labels of the faces of a surface as (p,) int64; raises ParameterError if they are none."""
+    found, count = whole_numbers(labels), len(samples.face_sample)
+    if found is None or found.shape != (count,) or (found < 0).any():
+        raise ParameterError(Sentence("Labels must be {n} whole numbers from 0, one for each face.", n=count), "labels")
+    return found
 
 
 def _of_samples(samples: Samples, labels: np.ndarray, count: int) -> np.ndarray:

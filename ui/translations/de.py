@@ -837,6 +837,8 @@ TEXTS = {
         "Gewichte müssen 0 oder mehr und endlich sein, und nicht alle 0.",
     "Faces must have shape (m, corners), not {shape}.": "Flächen müssen die Form (m, Ecken) haben, nicht {shape}.",
     "Face indices must be whole numbers, not {type}.": "Flächenindizes müssen ganze Zahlen sein, nicht {type}.",
+    "Labels must be {n} whole numbers from 0, one for each face.":
+        "Kennzahlen müssen {n} ganze Zahlen ab 0 sein, eine für jede Fläche.",
     "Groups must be {n} whole numbers, one for each candidate.":
         "Gruppen müssen {n} ganze Zahlen sein, eine für jeden Kandidaten.",
     "Polygon numbers must be {n} whole numbers from 0, one per triangle.":

@@ -757,6 +757,7 @@ TEXTS = {
     "Weights must be 0 or more, finite, and not all of them 0.": "权重必须大于或等于 0 且有限，不能全部为 0。",
     "Faces must have shape (m, corners), not {shape}.": "面的形状必须为 (m, 角点)，而不是 {shape}。",
     "Face indices must be whole numbers, not {type}.": "面的编号必须为整数，而不是 {type}。",
+    "Labels must be {n} whole numbers from 0, one for each face.": "标签必须为 {n} 个从 0 开始的整数，每个面一个。",
     "Groups must be {n} whole numbers, one for each candidate.": "分组必须为 {n} 个整数，每个候选部件一个。",
     "Polygon numbers must be {n} whole numbers from 0, one per triangle.":
         "多边形编号必须是从 0 开始的 {n} 个整数，每个三角形一个。",

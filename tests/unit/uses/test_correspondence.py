@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core import TriMesh, decompose
+from core import ParameterError, TriMesh, decompose
 from core.uses.correspondence import carried_labels, correspond, sample_surface
 
 
@@ -62,6 +62,15 @@ def test_faces_that_are_there_twice_are_one_place(figure):
     assert (twice.face_sample == np.tile(samples.face_sample, 2)).all()
     assert twice.face_area == pytest.approx(np.tile(samples.face_area, 2) / 2)
     assert carried_labels(samples, labels, twice, np.tile(labels, 2))[0].tolist() == list(range(labels.max() + 1))
+
+
+def test_labels_of_another_surface_are_refused(figure):
+    """An IndexError, or, of labels below 0, the wrong part."""
+    _, labels, samples = figure
+    for wrong in (labels[:-1], labels - 1, labels + 0.5, labels[None]):
+        for pair in ((wrong, labels), (labels, wrong)):
+            with pytest.raises(ParameterError, match=f"Labels must be {len(labels)} whole numbers from 0"):
+                carried_labels(samples, pair[0], samples, pair[1])
 
 
 @pytest.mark.parametrize("angle", [40, -60])
