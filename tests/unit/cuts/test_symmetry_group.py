@@ -108,9 +108,8 @@ def test_rays_of_a_star_are_cut_alike(count):
     # Where a cut runs along a plane of symmetry, a face across it, its own image, goes to one of two images.
     beside = (images == np.arange(len(faces))).sum(axis=0) == 1
     assert beside.mean() > 0.9
-    several = 0
-    for detail in np.linspace(0.1, 1.0, 10):
-        labels = found.parts(float(detail)).labels
-        several += labels.max() > 0
+    counts = {found.parts(float(detail)).count for detail in np.linspace(0.1, 1.0, 10)}
+    assert max(counts) > 1
+    for count in counts:
+        labels = found.parts(n_parts=count).labels
         assert all(rand_index_error(labels[beside], labels[image[beside]]) == 0 for image in images)
-    assert several

@@ -10,7 +10,7 @@ import shapes
 from shapes import Shape
 
 from core import Parameters, decompose
-from core.cuts.perceptual.method import MAX_FACES
+from core.cuts.perceptual import method
 from core.metrics import rand_index_error
 
 # Error of the parts at the default detail against the figure's own, by faces; one part would have 0.57 to 0.81. The
@@ -64,9 +64,10 @@ def test_one_polygon_for_each_part(name):
     assert rand_index_error(parts.labels, truth) == 0
 
 
-def test_a_dense_figure_goes_through_a_coarse_copy():
-    shape, truth = figure("hand", 0.0065)
-    assert len(shape.faces) > MAX_FACES
+def test_a_dense_figure_goes_through_a_coarse_copy(monkeypatch):
+    monkeypatch.setattr(method, "MAX_FACES", 5_000)
+    shape, truth = figure("hand", 0.02)
+    assert len(shape.faces) > method.MAX_FACES
     assert_right("hand", shape, truth, more=2)
 
 
