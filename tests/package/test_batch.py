@@ -584,6 +584,23 @@ def double(number):
     return 2 * number
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of the system")
+def test_a_cluster_that_cannot_be_made_is_said_to_be_none():
+    """It was a traceback of a hundred lines."""
+    import resource
+
+    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+    few = os.open(os.devnull, os.O_RDONLY)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (few + 4, limits[1]))
+    try:
+        with (pytest.raises(cluster.ClusterError, match="could be started: .*Too many open files"),
+              cluster.connected(None, 1, "127.0.0.1:0")):
+            pass
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, limits)
+        os.close(few)
+
+
 def test_the_scheduler_holds_a_bounded_number_of_jobs(address):
     taken = ended = most = 0
 
