@@ -17,6 +17,7 @@ from pathlib import Path
 import jsonschema
 import numpy as np
 import psutil
+import pyarrow as pa
 import pytest
 import shapes
 import trimesh
@@ -25,6 +26,7 @@ from pyarrow import parquet
 from reeb_parts.batch import cluster
 from reeb_parts.batch.model_process import ModelProcess
 from reeb_parts.batch.records import RECORD, Settings, is_done, read_record
+from reeb_parts.batch.similar import PartError, similar_parts
 from reeb_parts.batch.sources import SourceError, find_sources
 from reeb_parts.batch.tables import MODELS, PARTS
 from reeb_parts.batch.work import do_model
@@ -132,12 +134,27 @@ def test_parts_like_a_part_are_found_with_pictures(batch, reeb_parts_command, tm
 
 
 @pytest.mark.parametrize(("part", "status", "words"), [
-    ("tree.ply:99", 1, "There is no part 99 of a model tree.ply"), ("tree.ply", 2, "must be the name of a model"),
+    ("tree.ply:99", 1, "There is no part 99 of a model tree.ply"), ("tree.ply:²", 2, "must be the name of a model"),
 ])  # fmt: skip
 def test_a_part_that_is_not_there_is_said_not_to_be(part, status, words, batch, reeb_parts_command):
     done = reeb_parts_command("similar", batch[0], part)
     assert done.returncode == status
     assert words in done.stderr
+
+
+@pytest.mark.parametrize(("change", "words"), [
+    (lambda row: {**row, "descriptor": row["descriptor"][:-1]}, "is of another version of Reeb Parts"),
+    (lambda row: {key: value for key, value in row.items() if key != "descriptor"}, "is of another version of Reeb"),
+    (None, "could not be read: Parquet")], ids=["shorter", "none", "damaged"])
+def test_tables_of_another_version_are_one_sentence(change, words, batch, tmp_path):
+    """They ended with tracebacks."""
+    table = tmp_path / "parts.parquet"
+    if change is None:
+        table.write_text("no table")
+    else:
+        parquet.write_table(pa.Table.from_pylist([change(row) for row in rows(batch[0] / table.name)]), table)
+    with pytest.raises(PartError, match=words):
+        similar_parts(tmp_path, "tree.ply", 1, 3, False)
 
 
 @pytest.mark.parametrize(("page", "status", "words"), [
