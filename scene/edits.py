@@ -11,7 +11,7 @@ SciPy from core when they are called, so that the panel comes up without it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import bpy
@@ -98,7 +98,7 @@ def merged_into_neighbors(mesh: bpy.types.Mesh, stored: Stored, numbers: list[in
     return stored
 
 
-def _neighbor(parts: Parts, cuts: np.ndarray, number: int, locked: Iterable[int] = ()) -> int:
+def _neighbor(parts: Parts, cuts: np.ndarray, number: int, locked: Sequence[int] = ()) -> int:
     """The number of a part's neighbor beyond its least salient cut; of equals, beyond the longest; 0 without one.
 
     cuts : (e, 2) int64, ``parts.cuts`` by the numbers of the parts. locked : numbers of parts that are none.

@@ -44,7 +44,7 @@ _own = threading.local()
 
 
 class ClusterError(ReebError):
-    """There is no cluster at an address."""
+    """There is no cluster at an address, or none can be made."""
 
 
 @contextlib.contextmanager
@@ -67,7 +67,7 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
     Raises
     ------
     ClusterError
-        Nobody answers at the address.
+        Nobody answers at the address, or no workers can be started, as where too few files may be open.
     """
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     if scheduler is not None:
@@ -87,11 +87,23 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
             cluster = LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
                                    dashboard_address=dashboard, silence_logs=logging.CRITICAL)
             client = Client(cluster)
+    except (OSError, RuntimeError) as error:
+        raise ClusterError(Sentence("No workers could be started: {reason}", reason=_first_cause(error))) from error
     finally:
         for number, handler in zip(OWN_SIGNALS, former, strict=True):
             signal.signal(number, handler)
     with cluster, client:
         yield client
+
+
+def _first_cause(error: BaseException) -> BaseException:
+    """The first error of the system that led to an exception, or itself."""
+    first, cause = error, error.__cause__ or error.__context__
+    while cause is not None:
+        if isinstance(cause, OSError):
+            first = cause
+        cause = cause.__cause__ or cause.__context__
+    return first
 
 
 def spread(client: Client, function: Callable[[Any], Any], jobs: Iterable[Any]) -> Generator[tuple[Any, Any]]:

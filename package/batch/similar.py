@@ -5,15 +5,17 @@ from __future__ import annotations
 
 import base64
 import html
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pyarrow import ArrowException
 
 from ..core.errors import ReebError
 from ..core.sentence import Sentence
 from ..core.surface.mesh import TriMesh
-from ..core.uses.descriptors import distances
+from ..core.uses.descriptors import NAMES, distances
 from ..core.uses.pictures import picture, png
 from ..model_files import read_model
 from .tables import read_rows
@@ -63,18 +65,31 @@ def similar_parts(out: Path, model: str, number: int, count: int, other_models: 
     table = out / "parts.parquet"
     if not table.is_file():
         raise PartError(Sentence("There is no table of parts in {out}: run reeb-parts batch first.", out=out))
-    one = next((row for row in read_rows(table, COLUMNS) if (row["model"], row["number"]) == (model, number)), None)
+    one = next((row for row in _rows(table, COLUMNS) if (row["model"], row["number"]) == (model, number)), None)
     if one is None:
         raise PartError(Sentence("There is no part {number} of a model {model} in {table}.", number=number,
                                  model=model, table=table))
     found: list[dict[str, Any]] = []
     rows: list[dict[str, Any]] = []
-    for row in read_rows(table, COLUMNS):
+    for row in _rows(table, COLUMNS):
         if not (other_models and row["model"] == model) and (row["model"], row["number"]) != (model, number):
             rows.append(row)
         if len(rows) >= 10_000:  # a table can be larger than memory
             found, rows = _nearest(one, found, rows, count), []
     return [{**_plain(one), "distance": 0.0}, *_nearest(one, found, rows, count)]
+
+
+def _rows(table: Path, columns: list[str]) -> Iterator[dict[str, Any]]:
+    """Rows of a table; raises PartError where it is damaged, or of a version that had other columns."""
+    try:
+        for row in read_rows(table, columns):
+            if row.keys() != set(columns) or None in row.values() or len(row.get("descriptor", NAMES)) != len(NAMES):
+                raise PartError(Sentence("{table} is of another version of Reeb Parts: run reeb-parts batch again.",
+                                         table=table))
+            yield row
+    except (OSError, ArrowException) as error:
+        raise PartError(Sentence("{table} could not be read: {reason}", table=table,
+                                 reason=getattr(error, "strerror", None) or error)) from error
 
 
 def _nearest(one: dict[str, Any], found: list[dict[str, Any]], rows: list[dict[str, Any]],
@@ -94,7 +109,7 @@ def _plain(row: dict[str, Any]) -> dict[str, Any]:
 
 def page(out: Path, parts: list[dict[str, Any]]) -> str:
     """A page with a picture of each part in its model, the one that was asked for first."""
-    paths = {row["name"]: row["path"] for row in read_rows(out / "models.parquet", ["name", "path"])}
+    paths = {row["name"]: row["path"] for row in _rows(out / "models.parquet", ["name", "path"])}
     cards = "".join(
         f"<figure>{_image(out, paths[part['model']], part)}<figcaption><b>{html.escape(part['model'])}</b><br>"
         f"{html.escape(part['name'])}, {part['share']:.1%} of the area<br>distance {part['distance']:.2f}</figcaption>"

@@ -79,7 +79,9 @@ class _Table:
 
     def __init__(self, path: Path, schema: pa.Schema) -> None:
         self._schema, self._rows = schema, list[dict[str, Any]]()
-        self._writer = parquet.ParquetWriter(path, schema, compression="zstd")
+        # Arrow itself opens only files whose names are UTF-8.
+        self._file = path.open("wb")
+        self._writer = parquet.ParquetWriter(self._file, schema, compression="zstd")
 
     def add(self, row: dict[str, Any]) -> None:
         """Add a row; a column that it lacks is empty."""
@@ -95,12 +97,13 @@ class _Table:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._flush()
-        self._writer.close()
+        with self._file:
+            self._flush()
+            self._writer.close()
 
 
 def read_rows(path: Path, columns: list[str] | None = None) -> Iterator[dict[str, Any]]:
     """Rows of a table, as dicts."""
-    with parquet.ParquetFile(path) as file:
+    with path.open("rb") as data, parquet.ParquetFile(data) as file:
         for batch in file.iter_batches(columns=columns):
             yield from batch.to_pylist()

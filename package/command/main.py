@@ -3,10 +3,14 @@
 
 from __future__ import annotations
 
+import io
 import os
 import signal
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from types import FrameType
+from typing import Any
 
 from .words import say
 
@@ -16,6 +20,7 @@ INTERRUPTED = 130
 def main(arguments: list[str] | None = None) -> int:
     """The command; returns the exit status: 0 only if all went well, 130 after Ctrl+C."""
     _hear_signals(_end)
+    _open_standard_streams()
     from . import commands
 
     options = commands.parse(arguments)
@@ -36,6 +41,28 @@ def _hear_signals(heard: Callable[[int, FrameType | None], object]) -> None:
         # As is Ctrl+C in the background of a script, and the end of the terminal after nohup.
         if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, heard)
+
+
+def _open_standard_streams() -> None:
+    """Have something in the places of standard streams that are closed, or the next files would get their numbers.
+
+    What is said on standard error is lost where that cannot be written, and nothing else.
+    """
+    while (handle := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(handle, True)
+    os.close(handle)
+    if sys.stderr is sys.__stderr__:  # which is None where it was closed
+        sys.stderr = io.TextIOWrapper(_Errors(2, "w", closefd=False), getattr(sys.stderr, "encoding", "utf-8"),
+                                      "backslashreplace", line_buffering=True)
+
+
+class _Errors(io.FileIO):
+    """Standard error that takes what is written in any case, as to a full disk or a terminal that was closed."""
+
+    def write(self, data: Any) -> int:
+        with suppress(OSError):
+            super().write(data)
+        return len(data)
 
 
 def _end(number: int, frame: FrameType | None) -> None:

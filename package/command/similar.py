@@ -54,6 +54,6 @@ def run(options: argparse.Namespace) -> int:
 def _part(text: str) -> tuple[str, int]:
     """The model and the number of a part; argparse turns the error into a sentence."""
     model, colon, number = text.rpartition(":")
-    if not (colon and number.isdigit()):
+    if not (colon and number.isdecimal()):
         raise argparse.ArgumentTypeError(f"{text} must be the name of a model, a colon and a number")
     return model, int(number)

@@ -7,6 +7,7 @@ import os
 import sys
 from contextlib import suppress
 
+from ..core.file_names import readable
 from ..core.sentence import Sentence
 
 
@@ -14,7 +15,7 @@ def say(text: str) -> None:
     """A line on standard error, if there is one."""
     if sys.stderr is not None:
         with suppress(OSError):  # such as a terminal that was closed
-            print(f"reeb-parts: {text}", file=sys.stderr, flush=True)
+            print(f"reeb-parts: {readable(text)}", file=sys.stderr, flush=True)
 
 
 def print_answer(text: str) -> None:

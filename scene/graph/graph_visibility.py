@@ -54,10 +54,10 @@ def _leave(context: bpy.types.Context, gone: set[tuple[int, int]]) -> None:
     """Take objects of graphs that came along out of local views that their models have left; by keys of ``_along``."""
     for layer, space in _local_views(context) if gone else ():
         for _, source in _graphs():
-            if in_view_layer(layer, source) and source.local_view_get(space):
+            if in_layer(layer, source) and source.local_view_get(space):
                 continue
             for item in source.children:
-                if (space.as_pointer(), item.session_uid) in gone and in_view_layer(layer, item):
+                if (space.as_pointer(), item.session_uid) in gone and in_layer(layer, item):
                     item.local_view_set(space, False)
 
 

@@ -17,6 +17,7 @@ from pathlib import Path
 import jsonschema
 import numpy as np
 import psutil
+import pyarrow as pa
 import pytest
 import shapes
 import trimesh
@@ -25,6 +26,7 @@ from pyarrow import parquet
 from reeb_parts.batch import cluster
 from reeb_parts.batch.model_process import ModelProcess
 from reeb_parts.batch.records import RECORD, Settings, is_done, read_record
+from reeb_parts.batch.similar import PartError, similar_parts
 from reeb_parts.batch.sources import SourceError, find_sources
 from reeb_parts.batch.tables import MODELS, PARTS
 from reeb_parts.batch.work import do_model
@@ -133,12 +135,27 @@ def test_parts_like_a_part_are_found_with_pictures(batch, reeb_parts_command, tm
 
 
 @pytest.mark.parametrize(("part", "status", "words"), [
-    ("tree.ply:99", 1, "There is no part 99 of a model tree.ply"), ("tree.ply", 2, "must be the name of a model"),
+    ("tree.ply:99", 1, "There is no part 99 of a model tree.ply"), ("tree.ply:²", 2, "must be the name of a model"),
 ])  # fmt: skip
 def test_a_part_that_is_not_there_is_said_not_to_be(part, status, words, batch, reeb_parts_command):
     done = reeb_parts_command("similar", batch[0], part)
     assert done.returncode == status
     assert words in done.stderr
+
+
+@pytest.mark.parametrize(("change", "words"), [
+    (lambda row: {**row, "descriptor": row["descriptor"][:-1]}, "is of another version of Reeb Parts"),
+    (lambda row: {key: value for key, value in row.items() if key != "descriptor"}, "is of another version of Reeb"),
+    (None, "could not be read: Parquet")], ids=["shorter", "none", "damaged"])
+def test_tables_of_another_version_are_one_sentence(change, words, batch, tmp_path):
+    """They ended with tracebacks."""
+    table = tmp_path / "parts.parquet"
+    if change is None:
+        table.write_text("no table")
+    else:
+        parquet.write_table(pa.Table.from_pylist([change(row) for row in rows(batch[0] / table.name)]), table)
+    with pytest.raises(PartError, match=words):
+        similar_parts(tmp_path, "tree.ply", 1, 3, False)
 
 
 @pytest.mark.parametrize(("page", "status", "words"), [
@@ -584,6 +601,23 @@ def test_an_address_where_nobody_answers_is_said_to_be_one(reeb_parts_command, t
 def double(number):
     """A job."""
     return 2 * number
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of the system")
+def test_a_cluster_that_cannot_be_made_is_said_to_be_none():
+    """It was a traceback of a hundred lines."""
+    import resource
+
+    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+    few = os.open(os.devnull, os.O_RDONLY)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (few + 4, limits[1]))
+    try:
+        with (pytest.raises(cluster.ClusterError, match="could be started: .*Too many open files"),
+              cluster.connected(None, 1, "127.0.0.1:0")):
+            pass
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, limits)
+        os.close(few)
 
 
 def test_the_scheduler_holds_a_bounded_number_of_jobs(address):

@@ -222,6 +222,16 @@ def test_an_answer_that_cannot_be_written_is_one_sentence(request, model, tmp_pa
     assert json.loads((tmp_path / "x.json").read_text())["objects"]
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no such device")
+@pytest.mark.parametrize("end", ["2>/dev/full", "2>&-", "2>&- <&-"])
+def test_standard_error_may_be_full_or_closed(end):
+    """Bars of progress could not be written, and that was the end of a batch."""
+    code = ("import sys, os; from reeb_parts.command import main; main._open_standard_streams(); "
+            "print('x' * 9999, file=sys.stderr, flush=True); assert os.open(os.devnull, os.O_RDONLY) > 2")
+    done = subprocess.run(["sh", "-c", f'exec "$0" -c "{code}" {end}', sys.executable], check=False)
+    assert done.returncode == 0
+
+
 def test_standard_output_is_no_file(model, reeb_parts_command, tmp_path):
     done = reeb_parts_command("decompose", model, "--json", "-", cwd=tmp_path)
     assert (done.returncode, list(tmp_path.iterdir())) == (2, [])

@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from reeb_parts.batch.tables import write_tables
+from reeb_parts.batch.tables import read_rows, write_tables
 from reeb_parts.core.atomic_files import FORMER, HIDDEN
 from reeb_parts.output_files import OutputFileError, SharedFolder, remove_leftovers, write_files, write_folder
 
@@ -96,6 +96,15 @@ def test_tables_are_both_new_or_both_old(tmp_path):
     with pytest.raises(OutputFileError, match="parts.parquet could not be written"):
         write_tables(tmp_path, [])
     assert content(tmp_path) == {"models.parquet": b"old", "parts.parquet/mine": b"mine"}
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not take such names")
+def test_tables_are_in_a_folder_whose_name_is_no_utf8(tmp_path):
+    """After all models were done, the run ended with a traceback of Arrow's."""
+    out = tmp_path / os.fsdecode(b"m\xf6bel")
+    out.mkdir()
+    models, parts = write_tables(out, [])
+    assert [*read_rows(models), *read_rows(parts)] == []
 
 
 def test_files_are_all_new_or_all_old(full_at, tmp_path):
