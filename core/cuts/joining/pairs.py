@@ -15,6 +15,7 @@ from scipy.spatial import cKDTree
 from ...surface.arrays import last_of_each, sums_by
 from ...surface.contact import NEAR, SurfacePoints, diameter, near_pairs
 from ...surface.mesh import TriMesh
+from ...surface.ordering import EQUAL
 from ...surface.pairs import distinct_pairs
 from ...surface.ties import rounded, square_roots
 from ...surface.vectors import second_moments_of_each
@@ -267,7 +268,9 @@ def _part_shapes(
     mesh: TriMesh, label: np.ndarray, points: SurfacePoints, mine: np.ndarray, area: np.ndarray, level: np.ndarray,
     touching: np.ndarray,
 ) -> dict[str, np.ndarray]:
-    """The columns PART of every part, and its piece, center, principal axes and extents along them.
+    """The columns PART of every part, its piece, its center, its principal axes, extents along them, and their spaces.
+
+    Axes of equal extents are in one space, all of whose directions are principal axes.
 
     mine, level, touching : (s,), of each point, its part, its AGD, and whether it is near another part. area : (c,)
     of each part.
@@ -276,6 +279,7 @@ def _part_shapes(
     center = sums_by(mine, weight[:, None] * position, count) / area[:, None]
     offset = position - center[mine]
     values, axes = np.linalg.eigh(second_moments_of_each(mine, offset, weight, count) / area[:, None, None])
+    equal = np.diff(values[:, ::-1]) >= -EQUAL * values[:, -1:]
     extents = square_roots(values[:, ::-1], values[:, -1:])
     mean = np.bincount(mine, weight * level, count) / area
     square = np.bincount(mine, weight * level**2, count) / area
@@ -288,6 +292,7 @@ def _part_shapes(
     touched = np.bincount(mine, weight * touching, count) / area
     return {
         "piece": part_piece, "center": center, "axes": axes[:, :, ::-1], "extents": extents, "log_area": np.log(area),
+        "space": np.cumsum(np.insert(~equal, 0, False, axis=1), axis=1),
         "extent_1": extents[:, 0] / np.sqrt(area), "extent_2": extents[:, 1] / np.maximum(extents[:, 0], 1e-6),
         "extent_3": extents[:, 2] / np.maximum(extents[:, 0], 1e-6), "repeats": alike, "agd": mean,
         "agd_deviation": deviation, "touched": touched, "log_piece_area": np.log(piece_area[part_piece]),
@@ -297,7 +302,13 @@ def _part_shapes(
 
 
 def _inside(shape: dict[str, np.ndarray], one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """How far out the middle of a part lies in the spread of another, in its standard deviations, at most 5."""
+    """How far out the middle of a part lies in the spread of another, in its standard deviations, at most 5.
+
+    Along the axis where this is most. Around the axis of a solid of revolution any turn of the others would do: one of
+    them then points at that middle.
+    """
     offset = shape["center"][one] - shape["center"][other]
-    along = np.abs(np.einsum("ni,nij->nj", offset, shape["axes"][other]))
+    along = np.einsum("ni,nij->nj", offset, shape["axes"][other])
+    space = shape["space"][other]
+    along = np.sqrt((along[:, :, None] ** 2 * (space[:, :, None] == space[:, None, :])).sum(axis=1))
     return np.minimum((along / (shape["extents"][other] + 0.01)).max(axis=1), 5.0)
