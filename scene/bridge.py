@@ -94,8 +94,11 @@ def reading_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Steps[
     yield 0.7
     stretch = world_stretch(obj)
     vertices = points.astype(np.float64)
+    # Blender makes of an infinite coordinate that a script sets the largest number there is.
+    vertices[np.abs(points) == np.finfo(np.float32).max] = np.inf
     if not np.array_equal(stretch, np.eye(3)):
-        vertices = vertices @ stretch.T
+        with np.errstate(invalid="ignore"):  # of coordinates at no finite place, which are refused later
+            vertices = vertices @ stretch.T
     mirror = half_plane(obj, vertices, stretch)
     yield 0.8
     digest = mesh_arrays.digest(vertices, triangles, polygon)

@@ -55,6 +55,17 @@ def test_infinite_coordinates(make, shape):
 
 
 @pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("scale", [1.0, 2.0])
+def test_an_infinite_coordinate_set_by_a_script(make, scale):
+    """Blender makes the largest number of it, beside which no face had an area."""
+    obj = make(shapes.box_quads())
+    obj.scale = (scale, 1.0, 1.0)
+    bpy.context.view_layer.update()
+    obj.data.vertices[7].co.x = -np.inf
+    refused("7")
+
+
+@pytest.mark.filterwarnings("error")
 def test_coordinates_whose_squares_are_infinite(make):
     """In single precision, in which Blender keeps areas, too."""
     make(shapes.Shape(1e30 * shapes.box_quads()[0], shapes.box_quads()[1]))
