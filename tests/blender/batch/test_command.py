@@ -310,7 +310,7 @@ def test_a_rigged_glb_has_no_object_for_its_bones(run, obj, tmp_path):
     bpy.ops.wm.read_homefile(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=str(path))
     assert len([o for o in bpy.data.objects if o.type == "MESH"]) == 2
-    ended = run(path, "--parts", tmp_path / "parts", "--picture", tmp_path / "x.png")
+    ended = run(path, "--parts", tmp_path / "parts", "--picture", tmp_path / "x.png", "--picture-size", "64x64")
     assert [entry["name"] for entry in ended.answer["objects"]] == ["Tree"]
     assert all(file.name.startswith("Tree ") for file in (tmp_path / "parts").iterdir())
 
