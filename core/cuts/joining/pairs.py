@@ -279,7 +279,7 @@ def _part_shapes(
     center = sums_by(mine, weight[:, None] * position, count) / area[:, None]
     offset = position - center[mine]
     values, axes = np.linalg.eigh(second_moments_of_each(mine, offset, weight, count) / area[:, None, None])
-    equal = np.diff(values[:, ::-1]) >= -EQUAL * values[:, -1:]
+    equal = np.diff(values[:, ::-1]) >= -EQUAL * values[:, -1:] - 1e-16  # of what is but a point, too
     extents = square_roots(values[:, ::-1], values[:, -1:])
     mean = np.bincount(mine, weight * level, count) / area
     square = np.bincount(mine, weight * level**2, count) / area
