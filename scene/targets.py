@@ -100,6 +100,12 @@ def check_object(obj: bpy.types.Object | None) -> None:
     """Raise SceneError unless the object is a mesh that can be read and written."""
     if obj is None:
         raise SceneError(rpt_("There is no active object. Select a mesh and try again."))
+    for data in (obj, obj.data):
+        if data is not None and data.is_missing:  # Blender has an empty in the place of such an object
+            raise SceneError(
+                rpt_("{name} is linked from {source}, which is not there or does not have it any more. Bring it back "
+                     "and open the file again.").format(name=data.name, source=_source(data))
+            )
     if obj.type != "MESH":
         raise SceneError(rpt_("{name} is not a mesh but of the type {kind}. Select a mesh and try again.").format(
             name=obj.name, kind=_kind(obj)))
@@ -110,10 +116,9 @@ def check_object(obj: bpy.types.Object | None) -> None:
                      "Library Override > Make Local) and try again.").format(name=data.name)
             )
         if data.library or not data.is_editable:
-            source = data.library.filepath if data.library else rpt_("another file")
             raise SceneError(
                 rpt_("{name} is linked from {source} and cannot be written. Make it local (Object > "
-                     "Relations > Make Local) and try again.").format(name=data.name, source=source)
+                     "Relations > Make Local) and try again.").format(name=data.name, source=_source(data))
             )
     check_mode(obj)
     if obj.data.is_editmode and obj.mode != "EDIT":
@@ -121,6 +126,11 @@ def check_object(obj: bpy.types.Object | None) -> None:
             rpt_("The mesh of {name} is being edited through another object. Leave Edit Mode there first.").format(
                 name=obj.name)
         )
+
+
+def _source(data: bpy.types.ID) -> str:
+    """The file that a data block is linked from."""
+    return data.library.filepath if data.library else rpt_("another file")
 
 
 def _kind(obj: bpy.types.Object) -> str:

@@ -790,6 +790,10 @@ TEXTS = {
     "Local) and try again.":
         "{name} ist eine Bibliotheksüberschreibung, ihr Mesh kann nicht geändert werden. Bitte lokal machen (Objekt > "
         "Bibliotheksüberschreibung > Lokal machen) und erneut versuchen.",
+    "{name} is linked from {source}, which is not there or does not have it any more. Bring it back and open the file "
+    "again.":
+        "{name} ist aus {source} verknüpft, was nicht da ist oder es nicht mehr enthält. Bitte zurückholen und die "
+        "Datei noch einmal öffnen.",
     "{name} is linked from {source} and cannot be written. Make it local (Object > Relations > Make Local) and try "
     "again.":
         "{name} ist aus {source} verknüpft und kann nicht geändert werden. Bitte lokal machen (Objekt > Beziehungen > "

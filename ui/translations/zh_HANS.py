@@ -722,6 +722,9 @@ TEXTS = {
     "{name} is a library override and its mesh cannot be written. Make it local (Object > Library Override > Make "
     "Local) and try again.":
         "{name} 是库重写，其网格无法写入。请将其转为本地项（物体 > 库重写 > 转为本地项）并重试。",
+    "{name} is linked from {source}, which is not there or does not have it any more. Bring it back and open the file "
+    "again.":
+        "{name} 关联自 {source}，但该文件不存在或已不包含它。请将其恢复，然后重新打开文件。",
     "{name} is linked from {source} and cannot be written. Make it local (Object > Relations > Make Local) and try "
     "again.":
         "{name} 关联自 {source}，无法写入。请将其转为本地项（物体 > 关系 > 转为本地项）并重试。",

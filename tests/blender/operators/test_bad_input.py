@@ -114,6 +114,21 @@ def test_linked_data(obj, tmp_path):
     refused("linked")
 
 
+def test_what_is_linked_from_a_file_that_is_gone_is_said_to_be(obj, tmp_path):
+    """Blender has an empty in its place, and a mesh was to be selected."""
+    library = tmp_path / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(library))
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(str(library), link=True) as (_, to):
+        to.objects = ["Tree"]
+    bpy.context.scene.collection.objects.link(bpy.data.objects["Tree"])
+    bpy.context.view_layer.objects.active = bpy.data.objects["Tree"]
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "shot.blend"))
+    library.unlink()
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "shot.blend"))
+    refused("linked from .*library.blend, which is not there")
+
+
 def test_a_selected_mesh_of_another_file_is_left_out_and_named(obj, tmp_path, capfd):
     """Even one of the same name; every operator that works on the selected objects."""
     path = str(tmp_path / "library.blend")
