@@ -33,6 +33,7 @@ _digested: list[tuple[tuple[np.ndarray, ...], str]] = []
 # By fingerprint, of meshes as they were decomposed: positions, and a digest of the faces.
 _shapes: dict[str, tuple[np.ndarray, str]] = {}
 _MOST_KEPT = 4_000_000  # vertices of these together, but for the last one
+_FITTED = 1000  # vertices that tell how a mesh was moved
 _ROUNDING = 1e-6  # of single precision, as a share of the largest coordinate
 
 
@@ -120,20 +121,31 @@ def motion_since(mesh: bpy.types.Mesh, known: str) -> tuple[np.ndarray, np.ndarr
     fingerprint(mesh)
     (after, *faces), _ = _digested[0]
     before, faces_before = _shapes.get(known, (None, ""))
-    if before is None or before.shape != after.shape or digest(*faces) != faces_before:
+    if before is None or before.shape != after.shape or len(after) < 4:
         return None
-    old, new = before.astype(np.float64), after.astype(np.float64)
+    # Some vertices tell of most edits that they are none of these, before all are looked at.
+    some = np.linspace(0, len(after) - 1, min(len(after), _FITTED)).astype(np.int64)
+    some = np.unique(np.concatenate([some, before.argmin(axis=0), before.argmax(axis=0)]))
+    found = _affine(before[some].astype(np.float64), after[some].astype(np.float64))
+    if found is None:
+        return None
+    matrix, offset = found
+    largest = max(np.abs(after).max(), np.abs(before).max() * np.linalg.norm(matrix, 2))
+    for part in (some, slice(None)):
+        if not np.abs(before[part] @ matrix.T + offset - after[part]).max() <= _ROUNDING * largest:
+            return None
+    return found if digest(*faces) == faces_before else None
+
+
+def _affine(old: np.ndarray, new: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """The matrix and the offset that take points, (k, 3), nearest to others; None if they are flat, or mirrored."""
     middle, now = old.mean(axis=0), new.mean(axis=0)
     if not (np.isfinite(middle).all() and np.isfinite(now).all()):
         return None
     transposed, _, rank, _ = np.linalg.lstsq(old - middle, new - now, rcond=1e-6)
     if rank < 3 or np.linalg.det(transposed) <= 0:
         return None
-    offset = now - middle @ transposed
-    largest = max(np.abs(new).max(), np.abs(old).max() * np.linalg.norm(transposed, 2))
-    if not np.abs(old @ transposed + offset - new).max() <= _ROUNDING * largest:
-        return None
-    return transposed.T, offset
+    return transposed.T, now - middle @ transposed
 
 
 def digest(*arrays: np.ndarray) -> str:
