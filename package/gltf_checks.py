@@ -42,8 +42,9 @@ def unread(header: dict[str, Any]) -> str:
         if primitive.get("mode") == _FAN:
             return "triangle fans"
         places = header["accessors"][primitive["attributes"]["POSITION"]]
-        if "sparse" in places:
-            return "sparse positions"
+        for kind in ("sparse", "normalized"):
+            if places.get(kind):
+                return f"{kind} positions"
         packed = _DRACO in primitive.get("extensions", {})
         if packed and "bufferView" not in places and importlib.util.find_spec("DracoPy") is None:
             return f"{_DRACO} without the package DracoPy"

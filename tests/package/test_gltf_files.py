@@ -35,6 +35,11 @@ def sparse(header):
     return "sparse positions"
 
 
+def normalized(header):
+    positions(header)["normalized"] = True
+    return "normalized positions"
+
+
 def fan(header):
     primitive(header)["mode"] = 6
     return "triangle fans"
@@ -56,9 +61,9 @@ def meshopt(header):
     return "EXT_meshopt_compression"
 
 
-@pytest.mark.parametrize("change", [sparse, fan, draco, instances, meshopt])
+@pytest.mark.parametrize("change", [sparse, normalized, fan, draco, instances, meshopt])
 def test_what_is_not_read_is_named(change, header, tmp_path, monkeypatch):
-    """Sparse and compressed positions were zeros, refused for ever as a mesh without an area; fans were missing."""
+    """Sparse and compressed positions were zeros, normalized ones thousands of times too large; fans were missing."""
     monkeypatch.setitem(sys.modules, "DracoPy", None)  # as where it is not installed
     words = change(header)
     (tmp_path / "model.gltf").write_text(json.dumps(header), encoding="utf-8")
