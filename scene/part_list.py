@@ -112,7 +112,7 @@ def small_parts(mesh: bpy.types.Mesh) -> list[bpy.types.PropertyGroup]:
 
 
 def folded(mesh: bpy.types.Mesh) -> set[int]:
-    """Numbers of the parts that the list leaves out: small ones, but for those that are ticked or the active one."""
+    """Numbers of the parts that the list leaves out: small ones, but for those that are marked or the active one."""
     if bpy.context.scene.reeb_parts.show_small:
         return set()
     active = mesh.reeb_parts.active

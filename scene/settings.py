@@ -184,7 +184,7 @@ class WhichProperties:
     which: EnumProperty(
         name="Parts", default="ALL",
         items=[("ALL", "All", "All parts of the mesh"),
-               ("CHOSEN", "Chosen", "The parts ticked in the list, or else the active one")],
+               ("CHOSEN", "Chosen", "The parts marked in the list, or else the active one")],
         description="Which parts to use",
     )
 

@@ -393,7 +393,7 @@ TEXTS = {
     "All": "Alle",
     "All parts of the mesh": "Alle Teile des Meshs",
     "Chosen": "Gewählte",
-    "The parts ticked in the list, or else the active one":
+    "The parts marked in the list, or else the active one":
         "Die in der Liste angekreuzten Teile, sonst das aktive",
     "Closed, crosses nothing": "Geschlossen, durchdringt nichts",
     "{n} open {n:edge|edges}": "{n} offene {n:Kante|Kanten}",

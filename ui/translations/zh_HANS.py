@@ -4,7 +4,7 @@
 Words, as in Blender's own Chinese where it has them: object 物体, mesh 网格, face 面, vertex 顶点, seam 缝合边,
 face set 面组, empty 空物体, armature 骨架, bone 骨骼, modifier 修改器, parent 父级, hull 凸壳, crease 折痕,
 loose part 松散块, overlay 叠加; and part 部件, decompose 分解, cut 切口, boundary 边界, border edge 开放边,
-graph 图, node 节点, arc 弧, loop 环, level set 等值线, slab 层片, piece 块, tick 勾选.
+graph 图, node 节点, arc 弧, loop 环, level set 等值线, slab 层片, piece 块, mark 勾选.
 """
 
 OPERATORS = {
@@ -384,7 +384,7 @@ TEXTS = {
     "All": "全部",
     "All parts of the mesh": "网格的全部部件",
     "Chosen": "所选",
-    "The parts ticked in the list, or else the active one": "列表中勾选的部件；若无勾选则为活动部件",
+    "The parts marked in the list, or else the active one": "列表中勾选的部件；若无勾选则为活动部件",
     "Closed, crosses nothing": "封闭且无相交",
     "{n} open {n:edge|edges}": "{n} 条开放边",
     "{n} {n:edge|edges} of three faces": "{n} 条边连接三个面",
