@@ -30,8 +30,9 @@ def start(*arguments, before="", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         words = [bpy.app.binary_path, "--background", "--python-expr", before, "--command", "reeb_parts"]
     else:
         words = [sys.executable, "-c", MODULE.format(tests=str(TESTS), before=before)]
+    crashes_said = {**os.environ, "PYTHONFAULTHANDLER": "1"}
     return subprocess.Popen([*words, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=stdout,
-                            stderr=stderr, text=True, env=dict(os.environ))
+                            stderr=stderr, text=True, env=crashes_said)
 
 
 def run(*arguments, before="") -> subprocess.CompletedProcess:

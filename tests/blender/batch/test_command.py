@@ -219,7 +219,7 @@ def test_ctrl_c_leaves_nothing_half_written(model, tmp_path, tmp_path_factory, m
         os.kill(running.pid, number)
         running.wait(timeout=120)
     out, err = ((said / name).read_text() for name in ("out", "err"))
-    assert running.returncode == 128 + number
+    assert running.returncode == 128 + number, err
     assert "{" not in out  # a full Blender says its version there
     assert "Interrupted; nothing was written." in err
     assert process.content(tmp_path) == before
