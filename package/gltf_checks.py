@@ -7,6 +7,7 @@ import importlib.util
 import json
 import struct
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 _DRACO, _MESHOPT = "KHR_draco_mesh_compression", ("EXT_meshopt_compression", "KHR_meshopt_compression")
@@ -14,15 +15,19 @@ _INSTANCING = "EXT_mesh_gpu_instancing"
 _FAN = 6  # a primitive's mode
 
 
-def load_header(data: bytes) -> dict[str, Any]:
-    """The description in a file, which of a .glb is its first chunk.
+def read_header(path: Path) -> dict[str, Any]:
+    """The description in a file, which of a .glb is its first chunk; the numbers behind that are not read.
 
-    data : bytes, the file. Raises ValueError if there is none.
+    Raises ValueError if there is none, OSError if the file cannot be read.
     """
-    if data[:4] == b"glTF":
-        if len(data) < 20:
+    with path.open("rb") as file:
+        data = file.read(20)
+        if data[:4] != b"glTF":
+            data += file.read()
+        elif len(data) < 20:
             raise ValueError("it ends in its head")
-        data = data[20 : 20 + struct.unpack_from("<I", data, 12)[0]]
+        else:
+            data = file.read(struct.unpack_from("<I", data, 12)[0])
     header = json.loads(data.decode("utf-8-sig", errors="replace"))
     if not isinstance(header, dict):
         raise ValueError("it has no description of a scene")
@@ -32,7 +37,7 @@ def load_header(data: bytes) -> dict[str, Any]:
 def unread(header: dict[str, Any]) -> str:
     """Name what the meshes of a file have that trimesh does not read; empty if there is nothing.
 
-    header : dict, of ``load_header``. Raises LookupError, TypeError or AttributeError if it is damaged.
+    header : dict, of ``read_header``. Raises LookupError, TypeError or AttributeError if it is damaged.
     """
     used = {*header.get("extensionsUsed", ()), *header.get("extensionsRequired", ())}
     for extension in (*_MESHOPT, _INSTANCING):

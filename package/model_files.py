@@ -22,7 +22,7 @@ from .core.sentence import Sentence
 from .core.surface.arguments import corners, positions
 from .core.surface.ears import fans, without_folds
 from .core.surface.mesh import check_corners
-from .gltf_checks import load_header, unread
+from .gltf_checks import read_header, unread
 from .obj_files import parse_obj
 from .off_files import parse_off
 from .ply_files import ASCII, read_ply
@@ -187,7 +187,7 @@ def _read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def _read_gltf(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices, triangles and their polygons of a .glb or .gltf; raises NoReaderError where some would be missing."""
-    if name := unread(load_header(path.read_bytes())):
+    if name := unread(read_header(path)):
         raise NoReaderError(Sentence("{path} has {name}, which nothing here reads. Save it without, or as a .blend or "
                                      ".fbx, which Blender reads with --blender.", path=path, name=name))
     return _read_by_trimesh(path)

@@ -10,7 +10,7 @@ import re
 
 import numpy as np
 
-from .core.surface.ears import triangulated
+from .polygons_in_files import MARK, cut_polygons, places
 
 # Letters before the word tell what follows the position of a vertex; with 4 and n it has other than three coordinates.
 _HEAD = re.compile(rb"\s*(?:ST)?C?N?(4?n?)OFF\b|\s*(4?n?)OFF(?=\d)|(?=\s*\d)")
@@ -26,19 +26,15 @@ def parse_off(text: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
     Returns
     -------
-    vertices : (n, 3) float64
-        All of the file, also those of no face.
-    triangles : (m, 3) int64
-        In the order of the faces; of a polygon its fan, or other triangles where that is folded.
-    polygon : (m,) int64
-        Face of each triangle, from 0; lines of less than three corners are no faces.
+    vertices, triangles, polygon
+        As of ``cut_polygons``.
 
     Raises
     ------
     ValueError
         It is none, ends before its last face, or a face has a vertex that is not there.
     """
-    head = _HEAD.match(text.removeprefix(b"\xef\xbb\xbf"))
+    head = _HEAD.match(text.removeprefix(MARK))
     if head is None or head[1] or head[2] or re.match(rb"[ \t]*BINARY", head.string[head.end():]):
         raise ValueError("it does not begin as an .off of words in three dimensions")
     body = re.sub(rb"#[^\r\n]*", b"", head.string[head.end():])
@@ -47,18 +43,7 @@ def parse_off(text: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     rows = lines[1 + n_vertices : 1 + n_vertices + n_faces]
     if n_vertices < 0 or n_faces < 0 or len(rows) < n_faces:
         raise ValueError("it ends before its last face")
-    vertices = _table(lines[1 : 1 + n_vertices])
-    corner, sizes = _corners(rows)
-    if ((corner < 0) | (corner >= n_vertices)).any():
-        raise ValueError("a face has a vertex that is not there")
-    is_polygon = sizes > 2
-    return vertices, *triangulated(vertices, corner[np.repeat(is_polygon, sizes)], sizes[is_polygon])
-
-
-def _table(rows: list[bytes]) -> np.ndarray:
-    """The first three numbers of each row, (n, 3)."""
-    places = [row.split(None, 3)[:3] for row in rows]
-    return np.array(places, np.bytes_).astype(np.float64) if places else np.empty((0, 3))
+    return cut_polygons(places(lines[1 : 1 + n_vertices]), *_corners(rows))
 
 
 def _corners(rows: list[bytes]) -> tuple[np.ndarray, np.ndarray]:

@@ -18,7 +18,7 @@ from typing import IO, TYPE_CHECKING
 
 import numpy as np
 
-from .core.surface.ears import triangulated
+from .polygons_in_files import cut_polygons
 
 if TYPE_CHECKING:
     from plyfile import PlyData, PlyElement
@@ -39,12 +39,8 @@ def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
     Returns
     -------
-    vertices : (n, 3) float64
-        All of the file, also those of no face.
-    triangles : (m, 3) int64
-        In the order of the faces; of a polygon its fan, or other triangles where that is folded.
-    polygon : (m,) int64
-        Face of each triangle, from 0; lists of less than three vertices are no faces.
+    vertices, triangles, polygon
+        As of ``cut_polygons``.
 
     Raises
     ------
@@ -61,10 +57,7 @@ def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     if "vertex" not in data or "face" not in data:
         return np.empty((0, 3)), np.empty((0, 3), np.int64), np.empty(0, np.int64)
     vertices = np.stack([data["vertex"][axis] for axis in "xyz"], axis=1).astype(np.float64)
-    corner, sizes = _corners(data["face"])
-    if ((corner < 0) | (corner >= len(vertices))).any():
-        raise ValueError("a face has a vertex that is not there")
-    return vertices, *triangulated(vertices, corner, sizes)
+    return cut_polygons(vertices, *_corners(data["face"]))
 
 
 def _data(path: Path) -> PlyData:

@@ -16,7 +16,7 @@ from urllib.parse import unquote
 from ..core.file_names import readable
 from ..core.parameters import Parameters
 from ..core.version import VERSION
-from ..gltf_checks import load_header
+from ..gltf_checks import read_header
 from ..model_files import check_ends
 from ..output_files import write_folder
 
@@ -85,7 +85,7 @@ def files_of(path: Path) -> list[Path]:
     if path.suffix.lower() != ".gltf":
         return [path]
     try:
-        buffers = load_header(path.read_bytes()).get("buffers", [])
+        buffers = read_header(path).get("buffers", [])
         names = [unquote(buffer["uri"]) for buffer in buffers if not buffer.get("uri", "data:").startswith("data:")]
     except (ValueError, AttributeError, KeyError, TypeError):
         names = []  # whoever reads it will say so

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the readers of files of polygons, .obj, .off and .ply, have in common."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .core.surface.ears import triangulated
+
+MARK = b"\xef\xbb\xbf"  # some editors begin files in UTF-8 with it
+
+
+def places(rows: list[bytes]) -> np.ndarray:
+    """The first three numbers of each row of words, (n, 3) float64; raises ValueError where there are none."""
+    words = [row.split(None, 3)[:3] for row in rows]
+    return np.array(words, np.bytes_).astype(np.float64) if words else np.empty((0, 3))
+
+
+def cut_polygons(
+    vertices: np.ndarray, corner: np.ndarray, sizes: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Cut the polygons of a file into triangles.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        All of the file, also those of no face.
+    corner : (c,) int64
+        Vertex of each corner of all faces, one face after the other.
+    sizes : (p,) int64
+        Number of corners of each face; those of less than three are no polygons.
+
+    Returns
+    -------
+    vertices : (n, 3) float64
+        As they were given.
+    triangles : (m, 3) int64
+        In the order of the faces; of a polygon its fan, or other triangles where that is folded.
+    polygon : (m,) int64
+        Polygon of each triangle, from 0.
+
+    Raises
+    ------
+    ValueError
+        A face has a vertex that is not there.
+    """
+    if ((corner < 0) | (corner >= len(vertices))).any():
+        raise ValueError("a face has a vertex that is not there")
+    is_polygon = sizes > 2
+    return vertices, *triangulated(vertices, corner[np.repeat(is_polygon, sizes)], sizes[is_polygon])
