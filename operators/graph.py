@@ -5,7 +5,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits, part_names, property_updates, reactions, store, targets, transaction
+from ..scene import edits, moved, part_names, property_updates, reactions, store, targets, transaction
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.graph.graph_objects import part_of, source_of_arcs
@@ -29,7 +29,7 @@ class REEB_PARTS_OT_show_graph(ReportingOperator, bpy.types.Operator):
             # What is drawn already can be hidden and shown also after an edit, when it may be in the way.
             if shown and graph_objects.find(obj) is None:
                 with object_mode(context):
-                    store.load(obj.data)
+                    moved.load(obj.data)
 
         chosen = targets.chosen_objects(context, self.report, one_per_mesh=False)
         objects = [obj for obj in chosen if store.has_result(obj.data)]

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import bridge, part_list, part_names, reactions, store
+from . import bridge, moved, part_list, part_names, reactions, store
 from .errors import SceneError
 
 
@@ -31,7 +31,7 @@ def objects_with_parts(context: bpy.types.Context, selected: bool = False) -> li
 def _can_be_read(obj: bpy.types.Object) -> bool:
     try:
         part_list.check_parts(obj)
-        store.load(obj.data)
+        moved.load(obj.data)
     except SceneError:
         return False
     return True

@@ -125,17 +125,19 @@ def is_discarded(block: bpy.types.ID) -> bool:
 
 
 def discard(*blocks: bpy.types.ID) -> None:
-    """Remove data blocks, at the end; their names are free at once."""
-    at_once = [block for block in blocks if not _open or is_new(block)]
-    for block in blocks:
-        if block not in at_once and not is_discarded(block):
+    """Remove data blocks, each of which may use those that follow, at the end; their names are free at once."""
+    # A new one goes at once, unless one that stays until the end uses it: Blender would remove that one, too.
+    first = next((place for place, block in enumerate(blocks) if _open and not is_new(block)), len(blocks))
+    for block in blocks[first:]:
+        if not is_discarded(block):
             _open[0].discarded.append(block)
             for named in (block, getattr(block, "shape_keys", None)):
                 if named is not None:
-                    _open[0].renamed.append(partial(setattr, named, "name", named.name))
+                    if not is_new(named):
+                        _open[0].renamed.append(partial(setattr, named, "name", named.name))
                     named.name = "Reeb Parts, to be removed"
-    if at_once:
-        bpy.data.batch_remove(at_once)
+    if first:
+        bpy.data.batch_remove(blocks[:first])
 
 
 class Transaction:

@@ -45,6 +45,18 @@ def test_that_no_part_is_like_another_is_said(make, capfd):
     assert "No other part is like Part 01; a larger difference finds more" in capfd.readouterr().out
 
 
+def test_parts_of_a_model_that_was_moved_are_found(make):
+    """Once its scale was applied, its parts were left out until something else was done with it."""
+    other = make(shapes.dumbbell(24, 10), "Other")
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    other.scale = (2.0, 2.0, 2.0)
+    bpy.ops.object.transform_apply()
+    obj = make(shapes.dumbbell(24, 10), "One")
+    bpy.ops.reeb_parts.decompose(n_parts=2)
+    bpy.ops.reeb_parts.find_similar()
+    assert (len(marked(obj)), len(marked(other))) == (2, 2)
+
+
 def test_names_go_to_the_same_parts_in_another_pose_left_and_right(figures):
     first, second = figures
     for index, part in enumerate(first.data.reeb_parts.parts):

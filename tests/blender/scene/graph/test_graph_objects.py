@@ -217,6 +217,15 @@ def test_the_eye_works_on_a_mesh_that_was_edited(obj, settings):
         bpy.ops.reeb_parts.show_graph()
 
 
+def test_the_eye_draws_the_graph_of_a_mesh_that_was_moved(obj, settings):
+    """Where no graph was drawn, Apply counted as an edit."""
+    bpy.data.collections.remove(bpy.data.collections["Reeb Graph Tree"])
+    obj.scale = (2.0, 2.0, 2.0)
+    bpy.ops.object.transform_apply()
+    bpy.ops.reeb_parts.show_graph()
+    assert not layer_of("Reeb Graph Tree").hide_viewport
+
+
 def test_a_graph_that_would_be_clutter_is_hidden_at_first(package, make, obj, settings):
     graph_objects = importlib.import_module(f"{package}.scene.graph.graph_objects")
     store = importlib.import_module(f"{package}.scene.store")
