@@ -22,8 +22,11 @@ from .vectors import weighted_sum
 # In units of the diameter of a surface: how near two pieces must come to touch, how near to belong to one body, and
 # how much farther from each other than the nearest two points of two pieces other points may be to be linked.
 TOUCH, NEAR, SLACK = 0.01, 0.03, 0.005
+CROWD = 1_000  # pieces; of so many, those that touch are looked for first
 MAX_POINTS = 8_000  # of a denser surface so many are taken
-MAX_PAIRS = 2_000_000  # of points near each other that are looked at one by one
+# Pairs of points near each other that are looked at one by one, and how many more for each label that would be
+# searched otherwise.
+MAX_PAIRS, MORE_PAIRS = 2_000_000, 1_000
 FEW_LABELS = 24  # up to so many it is faster to search the nearest of each than to look at all pairs of points
 FAR_POINTS = 1_500  # to look farther than NEAR, where all pairs of points are compared in the end
 # Of links from which on pieces that hang together are one to those who look farther: between thousands of pieces there
@@ -102,7 +105,7 @@ def near_pairs(points: SurfacePoints, label: np.ndarray, radius: float) -> tuple
     distance : (k,) float64
     """
     found = _near_points(points.position, label, radius)
-    distance = np.linalg.norm(points.position[found[:, 0]] - points.position[found[:, 1]], axis=1)
+    distance = np.sqrt(sum((at[found[:, 0]] - at[found[:, 1]]) ** 2 for at in points.position.T.copy()))
     cells, cell = distinct_pairs(found[:, 0], label[found[:, 1]])
     nearest = last_of_each(cell, -distance, -found[:, 1], count=len(cells))
     return found[nearest], distance[nearest]
@@ -110,10 +113,11 @@ def near_pairs(points: SurfacePoints, label: np.ndarray, radius: float) -> tuple
 
 def _near_points(position: np.ndarray, label: np.ndarray, radius: float) -> np.ndarray:
     """Pairs (k, 2) int64 of points of different labels, with the nearest of each other label within the radius."""
-    if np.count_nonzero(np.bincount(label)) <= FEW_LABELS:
+    n_labels = np.count_nonzero(np.bincount(label))
+    if n_labels <= FEW_LABELS:
         return _nearest_of_each_label(position, label, radius)
     tree = cKDTree(position)
-    if tree.count_neighbors(tree, radius) > MAX_PAIRS:
+    if tree.count_neighbors(tree, radius) > MAX_PAIRS + MORE_PAIRS * n_labels:
         return _nearest_of_each_label(position, label, radius)
     found = tree.query_pairs(radius, output_type="ndarray")
     found = found[label[found[:, 0]] != label[found[:, 1]]]
@@ -195,6 +199,10 @@ def bridges(mesh: TriMesh, connected: bool = False) -> Bridges:
     size = diameter(points.position, points.area)
     near = NEAR * size
     group, kept = np.arange(count), Bridges.none()
+    if count > CROWD:  # which mostly hang together by what touches, and all that is near would be many times as much
+        found = _links(points, piece[points.face], (TOUCH + SLACK) * size, size)
+        if components(count, *piece[points.face[found]].T)[0] == 1:
+            return Bridges(points.vertex[found], points.face[found])
     while True:
         found = _links(points, group[piece[points.face]], near, size)
         links = kept.with_more(points.vertex[found], points.face[found])

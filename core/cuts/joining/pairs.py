@@ -21,9 +21,10 @@ from ...surface.ties import rounded, square_roots
 from ...surface.vectors import second_moments_of_each
 
 RADII = (0.004, 0.012, NEAR)  # within which surfaces are counted as touching, in units of the diameter
-# Pairs of parts are looked at if either is among so many that come nearest to the other. A blade of a lawn comes near
-# hundreds of others; in 8 of 362 ordinary models a few pairs are more, and the parts of one of these change.
-MOST_NEAR = 48
+# Pairs of parts are looked at if either is among the MOST_NEAR that come nearest to the other, or as near. Where that
+# would be more than MOST_PAIRS, it is fewer, but at least LEAST_NEAR. A blade of a lawn comes near hundreds of others;
+# in 8 of 362 ordinary models a few pairs are more, and the parts of one of these change.
+LEAST_NEAR, MOST_NEAR, MOST_PAIRS = 12, 48, 50_000
 ALIKE = 0.1  # how much the logarithms of area and extents of parts that repeat each other may differ
 
 #: Of one part; of a pair first the smaller.
@@ -124,7 +125,7 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: Salience, agd: np.nda
     near = _Nearness.of(points, mine)
     level = agd[points.vertex]
     shape = _part_shapes(mesh, label, points, mine, area, level, near.touching())
-    near = near.of_neighbors(MOST_NEAR)
+    near = near.of_neighbors(count)
     swap = area[near.parts[:, 0]] > area[near.parts[:, 1]]
     small, large = np.where(swap[:, None], near.parts[:, ::-1], near.parts).T
     same = shape["piece"][small] == shape["piece"][large]
@@ -204,16 +205,18 @@ class _Nearness:
         k = last_of_each(self.row, -self.distance, -np.arange(len(self.row)), count=len(self.parts))
         return self.ends[k], self.distance[k]
 
-    def of_neighbors(self, most: int) -> _Nearness:
-        """The pairs of which either part is among the ``most`` nearest to the other; of equally near ones all."""
-        gap = rounded(self.nearest()[1])
-        part, near = self.parts.T.ravel(), np.tile(gap, 2)
-        order = np.lexsort((near, part))
+    def of_neighbors(self, count: int) -> _Nearness:
+        """The pairs of which either part is among those that come nearest to the other, of ``count`` parts."""
+        most = max(LEAST_NEAR, MOST_PAIRS // count)
+        gap, part = rounded(self.nearest()[1]), self.parts.T.ravel()
+        order = np.lexsort((np.tile(gap, 2), part))
         start = np.flatnonzero(np.diff(part[order], prepend=-1))
-        last = np.minimum(start + most, np.append(start[1:], len(part))) - 1
-        bound = np.zeros(int(part.max(initial=-1)) + 1)
-        bound[part[order[start]]] = near[order[last]]
-        kept = gap <= bound[self.parts].max(axis=1)
+        of_each = np.diff(start, append=len(part))
+        farthest = order[start + np.minimum(of_each, min(most, MOST_NEAR)) - 1] % len(gap)
+        rank = np.arange(len(part)) - np.repeat(start, of_each)
+        row = order % len(gap)
+        kept = np.zeros(len(gap), bool)
+        kept[row[(gap[row] <= np.repeat(gap[farthest], of_each)) & (rank < most)]] = True
         ends = kept[self.row]
         return _Nearness(self.points, self.parts[kept], self.ends[ends], (np.cumsum(kept) - 1)[self.row[ends]],
                          self.first[ends], self.distance[ends])

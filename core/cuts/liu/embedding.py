@@ -5,13 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.linalg import eigh
-from scipy.sparse import csc_array, diags_array
-from scipy.sparse.linalg import ArpackNoConvergence, eigsh
+from scipy.sparse import diags_array
 
 from ...surface.pairs import symmetric_matrix
 from .patch_graph import PatchGraph
 
-FEW_PATCHES = 250  # number of patches up to which dense matrices are faster
 # A border counts exp(-crease / SHARP) in the geometric operator, where creases are in units of 1 / square root of the
 # area.
 SHARP = 3.0
@@ -52,22 +50,9 @@ def embed(graph: PatchGraph, conductance: np.ndarray) -> np.ndarray:
     ties = symmetric_matrix(graph.pairs, np.maximum(conductance, 1e-9), k)
     root = 1.0 / np.sqrt(graph.area)
     laplacian = diags_array(root) @ (diags_array(ties.sum(axis=1)) - ties) @ diags_array(root)
-    vectors = None if k <= FEW_PATCHES else _sparse_vectors(laplacian.tocsc(), graph.area)
-    if vectors is None:
-        vectors = eigh(laplacian.toarray(), subset_by_index=[0, 2])[1]
+    # A dense matrix: where creases are deep, hundreds of the lowest eigenvalues lie within a millionth of each other,
+    # and ARPACK took a thousand times as long as LAPACK to tell them apart.
+    vectors = eigh(laplacian.toarray(), subset_by_index=[0, 2])[1]
     position = vectors[:, 1:3] * root[:, None] * np.sqrt(graph.area.sum())
     largest = np.abs(position).argmax(axis=0)
     return position * np.sign(position[largest, [0, 1]])
-
-
-def _sparse_vectors(laplacian: csc_array, area: np.ndarray) -> np.ndarray | None:
-    """Its first three eigenvectors, (k, 3); None where they are not found, as their values lie too near each other."""
-    # The start is fixed, and does not depend on the order of the patches, so that the answer does not either.
-    start = np.empty(len(area))
-    start[np.argsort(area, kind="stable")] = np.random.default_rng(0).standard_normal(len(area))
-    shift = -1e-3 * float(laplacian.diagonal().mean())
-    try:
-        values, vectors = eigsh(laplacian, k=3, sigma=shift, v0=start)
-    except ArpackNoConvergence:
-        return None
-    return vectors[:, np.argsort(values)]

@@ -8,7 +8,7 @@ import shapes
 from core import TriMesh
 from core.surface import contact
 from core.surface.components import components
-from core.surface.contact import MAX_POINTS, SurfacePoints, bridges, diameter, near_pairs
+from core.surface.contact import FEW_LABELS, MAX_POINTS, SurfacePoints, bridges, diameter, near_pairs
 
 
 def points_at(position):
@@ -59,9 +59,9 @@ def test_diameter_of_a_rod_is_its_length():
     assert diameter(3 * along + 7, np.full(1001, 2.0)) == pytest.approx(15, rel=2e-3)
 
 
-@pytest.mark.parametrize("most", [0, 10**9])
-def test_near_pairs_by_hand(most, monkeypatch):
-    monkeypatch.setattr(contact, "MAX_PAIRS", most)  # compared label by label, and all at once
+@pytest.mark.parametrize("few", [0, 10])
+def test_near_pairs_by_hand(few, monkeypatch):
+    monkeypatch.setattr(contact, "FEW_LABELS", few)  # compared all at once, and label by label
     points = points_at([(0, 0, 0), (1, 0, 0), (2.5, 0, 0), (1, 3, 0), (9, 9, 9)])
     pairs, distance = near_pairs(points, np.array([0, 0, 1, 2, 3]), 3.0)
     found = dict(zip(map(tuple, pairs.tolist()), distance.tolist(), strict=True))
@@ -70,12 +70,37 @@ def test_near_pairs_by_hand(most, monkeypatch):
 
 def test_both_ways_of_finding_near_pairs_agree(monkeypatch):
     rng = np.random.default_rng(0)
-    points, label = points_at(rng.random((300, 3))), rng.integers(0, 6, 300)
+    points, label = points_at(rng.random((900, 3))), rng.integers(0, FEW_LABELS + 6, 900)
     one = near_pairs(points, label, 0.3)
     monkeypatch.setattr(contact, "MAX_PAIRS", 0)
+    monkeypatch.setattr(contact, "MORE_PAIRS", 0)
     two = near_pairs(points, label, 0.3)
     np.testing.assert_array_equal(one[0], two[0])
-    np.testing.assert_allclose(one[1], two[1])
+    np.testing.assert_array_equal(one[1], two[1])
+
+
+def test_of_a_crowd_that_hangs_together_what_touches_is_linked_as_before(monkeypatch):
+    """A chain of small triangles; with one far off, which no touch joins, and without."""
+    rng = np.random.default_rng(0)
+    corners = np.linspace((0, 0, 0), (1, 0, 0), 400)[:, None] + 0.003 * rng.normal(size=(400, 3, 3))
+    searched, links = [], contact._links
+
+    def counted(points, piece, near, size):
+        searched.append(near)
+        return links(points, piece, near, size)
+
+    monkeypatch.setattr(contact, "_links", counted)
+    for far in (0.0, 2.0):
+        corners[-1] += (far, 0, 0)
+        mesh = TriMesh(corners.reshape(-1, 3), np.arange(1200).reshape(-1, 3))
+        expected = bridges(mesh, connected=True)
+        with monkeypatch.context() as patch:
+            patch.setattr(contact, "CROWD", 100)
+            searched.clear()
+            found = bridges(mesh, connected=True)
+        assert (len(searched) == 1) == (far == 0)
+        np.testing.assert_array_equal(found.vertices, expected.vertices)
+        np.testing.assert_array_equal(found.faces, expected.faces)
 
 
 def test_of_very_many_links_those_farther_off_join_only_what_does_not_hang_together(monkeypatch):

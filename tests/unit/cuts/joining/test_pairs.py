@@ -6,6 +6,7 @@ import pytest
 import shapes
 
 from core import TriMesh
+from core.cuts.joining import pairs
 from core.cuts.joining.pairs import FEATURES, MOST_NEAR, part_pairs
 
 
@@ -108,3 +109,10 @@ def test_of_a_crowd_each_is_compared_with_those_that_are_nearest():
 
 def test_all_that_are_equally_near_are_compared():
     assert len(measured(grains(np.zeros((100, 3)))).parts) == 100 * 99 / 2
+
+
+def test_however_many_are_equally_near_pairs_are_bounded(monkeypatch):
+    monkeypatch.setattr(pairs, "MOST_PAIRS", 2_000)
+    crowd = measured(grains(np.zeros((100, 3))))
+    assert np.bincount(crowd.parts.ravel(), minlength=100).min() >= 20
+    assert len(crowd.parts) <= 2_000
