@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Iterator
 
 import numpy as np
@@ -144,18 +145,19 @@ def fuse_small(
         Area of the fused region over that of the region that was then the largest.
     """
     graph = FusionGraph(sets, count, region, contours)
-    merges, ratio, alone = [], [], 0.0
-    while len(graph.alive) > 1:
-        smallest = min(graph.alive, key=lambda r: (graph.area[r], r))
-        if not graph.neighbors[smallest]:
-            graph.alive.discard(smallest)
-            alone = max(alone, graph.area[smallest])
-            continue
-        largest = max(alone, *(graph.area[r] for r in graph.alive))
+    merges, ratio, largest = [], [], max(graph.area, default=0.0)
+    queue = [(area, r) for r, area in enumerate(graph.area)]
+    heapq.heapify(queue)
+    while queue:
+        area, smallest = heapq.heappop(queue)
+        if area != graph.area[smallest] or not graph.neighbors[smallest]:
+            continue  # it has grown since, or nothing is left to join it
         neighbor = graph.longest_boundary(smallest)
         merges.append((neighbor, smallest))
-        ratio.append(graph.area[smallest] / largest)
+        ratio.append(area / largest)
         graph.merge_(neighbor, smallest)
+        largest = max(largest, graph.area[neighbor])
+        heapq.heappush(queue, (graph.area[neighbor], neighbor))
     return np.array(merges, np.int64).reshape(-1, 2), np.array(ratio)
 
 
@@ -185,28 +187,50 @@ def fuse_weakest(
         Of each merge, 0..1; need not rise. With x the area ratio over ``small_region``, or that area over the disc's,
         x / (x + 1).
     """
-    graph = FusionGraph(sets, count, region)
-    area, nothing = graph.area, 1e-12 * sets.mesh.area
+    graph, nothing = FusionGraph(sets, count, region), 1e-12 * sets.mesh.area
     # A contour that parts the surface does so whatever is fused elsewhere, and its sides stay the same.
     sides = graph.bridges()
-    merges, salience = [], []
-    while touching := [r for r in sorted(graph.alive) if graph.neighbors[r]]:
-        small = min(touching, key=lambda r: (area[r], r))
-        worth = area[small] / (area[small] + small_region * max(area[r] for r in graph.alive))
-        weakest = (worth, small, graph.longest_boundary(small))
-        for a in touching:
-            for b, (_, longest) in graph.contours[a].items():
-                if (area[a], a) < (area[b], b):
-                    beyond = sides.get((min(a, b), max(a, b)), area[a])
-                    weakest = min(weakest, (beyond / (beyond + disc(longest) + nothing), a, b))
-        worth, gone, keep = weakest
+    queue = [(area, r) for r, area in enumerate(graph.area)]
+    weak = [_weakness(graph, sides, nothing, a, b) for a in range(count) for b in graph.neighbors[a] if a < b]
+    heapq.heapify(queue)
+    heapq.heapify(weak)
+    merges, salience, largest = [], [], max(graph.area, default=0.0)
+    while True:
+        # What has been fused or changed since is in the queues anew.
+        while queue and not (graph.neighbors[queue[0][1]] and queue[0][0] == graph.area[queue[0][1]]):
+            heapq.heappop(queue)
+        if not queue:
+            return np.array(merges, np.int64).reshape(-1, 2), np.array(salience)
+        while weak[0][2] not in graph.neighbors[weak[0][1]] or _weakness(
+                graph, sides, nothing, *weak[0][1:]) != weak[0]:
+            heapq.heappop(weak)
+        area, small = queue[0]
+        worth, gone, keep = min((area / (area + small_region * largest), small, graph.longest_boundary(small)), weak[0])
         merges.append((keep, gone))
         salience.append(worth)
+        for other in graph.neighbors[gone]:
+            side = sides.pop((min(gone, other), max(gone, other)), None)
+            if side is not None and other != keep:
+                sides[min(keep, other), max(keep, other)] = side
         graph.merge_(keep, gone)
-        if_gone = {gone: keep}
-        ends = [(if_gone.get(a, a), if_gone.get(b, b)) for a, b in sides]
-        sides = {(min(a, b), max(a, b)): side for (a, b), side in zip(ends, sides.values(), strict=True) if a != b}
-    return np.array(merges, np.int64).reshape(-1, 2), np.array(salience)
+        largest = max(largest, graph.area[keep])
+        heapq.heappush(queue, (graph.area[keep], keep))
+        for other in graph.neighbors[keep]:
+            heapq.heappush(weak, _weakness(graph, sides, nothing, keep, other))
+
+
+def _weakness(
+    graph: FusionGraph, sides: dict[tuple[int, int], float], nothing: float, a: int, b: int
+) -> tuple[float, int, int]:
+    """How much the boundary of two regions cuts off, 0..1, the smaller region and the larger one.
+
+    sides : of the boundaries that part the surface, the area of the smaller side. nothing : an area beside which all
+    others are large.
+    """
+    area = graph.area
+    small, large = (a, b) if (area[a], a) < (area[b], b) else (b, a)
+    beyond = sides.get((min(a, b), max(a, b)), area[small])
+    return beyond / (beyond + disc(graph.contours[a][b][1]) + nothing), small, large
 
 
 def disc(length: float) -> float:

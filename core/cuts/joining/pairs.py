@@ -24,8 +24,9 @@ RADII = (0.004, 0.012, NEAR)  # within which surfaces are counted as touching, i
 # Pairs of parts are looked at if either is among the MOST_NEAR that come nearest to the other, or as near. Where that
 # would be more than MOST_PAIRS, it is fewer, but at least LEAST_NEAR. A blade of a lawn comes near hundreds of others;
 # in 8 of 362 ordinary models a few pairs are more, and the parts of one of these change.
-LEAST_NEAR, MOST_NEAR, MOST_PAIRS = 12, 48, 50_000
+LEAST_NEAR, MOST_NEAR, MOST_PAIRS = 8, 48, 50_000
 ALIKE = 0.1  # how much the logarithms of area and extents of parts that repeat each other may differ
+MOST_ALIKE = 10_000  # parts among which a part's repeats are counted; of more, as in heaps of loose faces, every few
 
 #: Of one part; of a pair first the smaller.
 PART = ("log_area", "extent_1", "extent_2", "extent_3", "repeats", "agd", "agd_deviation", "touched", "log_piece_area",
@@ -288,7 +289,8 @@ def _part_shapes(
     square = np.bincount(mine, weight * level**2, count) / area
     deviation = square_roots(square - mean**2, square)
     logs = np.column_stack([0.5 * np.log(area), np.log(extents + 0.003)])
-    alike = cKDTree(logs).query_ball_point(logs, np.nextafter(ALIKE, 0), p=np.inf, return_length=True) - 1.0
+    some = np.arange(count) % (count // MOST_ALIKE + 1) == 0
+    alike = cKDTree(logs[some]).query_ball_point(logs, np.nextafter(ALIKE, 0), p=np.inf, return_length=True) - some
     part_piece = np.zeros(count, np.int64)
     part_piece[label] = mesh.face_components[1]
     piece_area = np.bincount(part_piece, area)
@@ -297,7 +299,7 @@ def _part_shapes(
         "piece": part_piece, "center": center, "axes": axes[:, :, ::-1], "extents": extents, "log_area": np.log(area),
         "space": np.cumsum(np.insert(~equal, 0, False, axis=1), axis=1),
         "extent_1": extents[:, 0] / np.sqrt(area), "extent_2": extents[:, 1] / np.maximum(extents[:, 0], 1e-6),
-        "extent_3": extents[:, 2] / np.maximum(extents[:, 0], 1e-6), "repeats": alike, "agd": mean,
+        "extent_3": extents[:, 2] / np.maximum(extents[:, 0], 1e-6), "repeats": alike.astype(float), "agd": mean,
         "agd_deviation": deviation, "touched": touched, "log_piece_area": np.log(piece_area[part_piece]),
         "parts_of_piece": np.bincount(part_piece)[part_piece].astype(float),
         "flatness": extents[:, 2] / np.sqrt(area),
