@@ -19,10 +19,9 @@ from .arrays import spread_evenly, sums_by
 from .balls import ball_radius
 from .labels import majority
 from .mesh import TriMesh
-from .nearest import search_tree
+from .nearest import nearest, search_tree
 from .pairs import symmetric_matrix
 from .preparation import split_edges
-from .vectors import inner_products
 from .winding import MOST_OF_SHEETS, winding_numbers
 
 # A sheet has at least this square of the length of its border, as a share of its area; a disc has 4 pi, a hemisphere
@@ -41,7 +40,6 @@ WRINKLES = 0.15  # width over which a sheet is smoothed, in units of the square 
 # Share of their diagonal that is added to the matrices of linear systems: among needles, whose cotangents are as large
 # as numbers of this precision can tell apart, they would have no solution.
 ROUNDING = 1e-12
-CHUNK = 250_000  # number of distances that are computed at once: they fit into the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,13 +239,12 @@ def _ball_height(mesh: TriMesh, thin: np.ndarray, within: np.ndarray) -> np.ndar
     point, inwards, ends = _outline(mesh, thin, place)
     radius = ball_radius(search_tree(np.concatenate([point, ends])), point, inwards, LARGEST_BALL)
     center = point + radius[:, None] * inwards
-    # r^2 - |x - c|^2 = r^2 - |c|^2 + 2 x c - |x|^2, of which the largest needs inner products only.
-    rest, height = radius**2 - (center**2).sum(axis=1), np.zeros(mesh.n_vertices)
-    for some in np.array_split(np.flatnonzero(within), 1 + len(center) * mesh.n_vertices // CHUNK):
-        x = place[some]
-        products = inner_products(x, 2 * center)
-        products += rest
-        height[some] = products.max(axis=1) - (x**2).sum(axis=1)
+    # The ball with the largest r^2 - |x - c|^2 is the nearest to x once each is moved into a fourth dimension, farther
+    # the smaller it is. Two are found, for rounding must not choose among balls that are equally good.
+    lifted = np.column_stack([center, np.sqrt(np.maximum((radius**2).max(initial=0.0) - radius**2, 0.0))])
+    x, height = place[within], np.zeros(mesh.n_vertices)
+    ball = nearest(search_tree(lifted), np.column_stack([x, np.zeros(len(x))]), [1, 2])[1] % len(center)
+    height[within] = (radius[ball] ** 2 - ((x[:, None] - center[ball]) ** 2).sum(axis=2)).max(axis=1)
     return unit * np.sqrt(np.maximum(height, 0.0))
 
 

@@ -16,6 +16,7 @@ from core.result.numbering import Numbering
 from core.surface.mesh import TriMesh
 from core.surface.polygons import PolygonMesh
 from core.surface.preparation import MAX_EDGE, MIN_BUDGET, bodies, repair, split_long_edges
+from core.surface.sheets import inflated
 
 #: An odd shape of up to so many faces takes at most as many times as long as an ordinary one, which takes 0.6 s.
 FACES, TIMES = 10_000, 5.0
@@ -168,6 +169,21 @@ def test_thousands_of_regions_cost_in_proportion(ordinary):
     """Ten thousand regions of level sets were looked through for each that was fused."""
     shape = hair(FACES // 24)
     assert any(seconds(shape, method="berretti") <= TIMES * ordinary for _ in range(2))
+
+
+def seconds_to_inflate(count):
+    """Of a sheet of so many quads along an edge, of which every third is missing in every third row."""
+    grid = shapes.flat_grid(count, count)
+    hole = (np.arange(len(grid.faces)) // 2 % 3 == 0) & (np.arange(len(grid.faces)) // (2 * count) % 3 == 0)
+    mesh = TriMesh(grid.vertices, grid.faces[~hole])
+    start = time.process_time()
+    inflated(mesh, np.ones(mesh.n_faces, bool))
+    return time.process_time() - start
+
+
+def test_sheets_full_of_holes_cost_in_proportion():
+    """The ball at each border edge was compared with each vertex: 160,000 faces took minutes."""
+    assert any(seconds_to_inflate(180) <= 8 * seconds_to_inflate(90) for _ in range(2))
 
 
 def test_deep_creases_cost_what_others_do():
