@@ -16,7 +16,9 @@ SEPARATION = np.cos(np.deg2rad(50.0))
 BEFORE = 1.0 - 1e-4
 
 
-def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest: float) -> np.ndarray:
+def ball_radius(
+    tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest: float, slack: float = 0.0
+) -> np.ndarray:
     """Measure the largest balls that touch some points and hold no other: a large ball shrinks until none lies in it.
 
     Parameters
@@ -29,6 +31,8 @@ def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest
         Unit vector from there to its center.
     largest : float
         Radius at which balls begin to shrink, in the unit of the points.
+    slack : float
+        See ``nearest``.
 
     Returns
     -------
@@ -42,7 +46,7 @@ def ball_radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray, largest
         # A little before the center: of points that are equally far from it, as around the axis of a tube, the one
         # that makes the smallest ball is then the nearest.
         center = p + BEFORE * radius[active, None] * d
-        distance, touched = nearest(tree, center)
+        distance, touched = nearest(tree, center, slack=slack)
         offset = tree.data[touched] - p
         height = row_products(offset, d)
         smaller = row_products(offset, offset) / np.maximum(2 * height, 1e-12)

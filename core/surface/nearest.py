@@ -32,7 +32,9 @@ def search_tree(point: np.ndarray, balanced: bool = True) -> cKDTree:
     return cKDTree(point, leafsize=LEAF, compact_nodes=False, balanced_tree=balanced)
 
 
-def nearest(tree: cKDTree, point: np.ndarray, k: int | list[int] = 1) -> tuple[np.ndarray, np.ndarray]:
+def nearest(
+    tree: cKDTree, point: np.ndarray, k: int | list[int] = 1, slack: float = 0.0
+) -> tuple[np.ndarray, np.ndarray]:
     """Find the nearest points of a tree, of many points at once.
 
     Parameters
@@ -42,6 +44,9 @@ def nearest(tree: cKDTree, point: np.ndarray, k: int | list[int] = 1) -> tuple[n
     point : (m, d) float64
     k : int or list of int
         How many, or which: [1, 2] for the nearest and the next.
+    slack : float
+        Share by which what is found may be farther off than the nearest; where thousands are equally far, it is found
+        sooner.
 
     Returns
     -------
@@ -52,6 +57,6 @@ def nearest(tree: cKDTree, point: np.ndarray, k: int | list[int] = 1) -> tuple[n
     """
     workers = max(1, min(n_processors(), len(point) // PER_THREAD))
     try:
-        return tree.query(point, k, workers=workers)
+        return tree.query(point, k, slack, workers=workers)
     except RuntimeError:  # no thread is to be had, as while the interpreter ends
-        return tree.query(point, k)
+        return tree.query(point, k, slack)

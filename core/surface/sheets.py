@@ -33,6 +33,9 @@ LEAST_AREA = 0.05  # share of the area of a surface of several pieces below whic
 HEIGHT = 0.25  # of the inflated surface over that of the balls
 PER_EDGE = 3  # number of balls that touch each edge of the outline
 LARGEST_BALL = 0.6  # radius at which these begin to shrink, in units of the square root of the area; a disc has 0.56
+# Points of outlines up to which balls are exact. The middle of a disc is equally far from all, each of which would be
+# looked at for each ball; of more, balls may hold a point that is so much nearer than their border.
+MOST_EXACT, SLACK = 20_000, 0.03
 # Bounds of the height of the balls over that of a membrane: they pass over roughness, and over sheets that lie on
 # each other, where straight distances mislead.
 LOWEST, HIGHEST = 0.5, 1.5
@@ -237,7 +240,8 @@ def _ball_height(mesh: TriMesh, thin: np.ndarray, within: np.ndarray) -> np.ndar
     unit = np.sqrt(mesh.area)
     place = (mesh.vertices - mesh.vertices.mean(axis=0)) / unit
     point, inwards, ends = _outline(mesh, thin, place)
-    radius = ball_radius(search_tree(np.concatenate([point, ends])), point, inwards, LARGEST_BALL)
+    tree = search_tree(np.concatenate([point, ends]))
+    radius = ball_radius(tree, point, inwards, LARGEST_BALL, SLACK if tree.n > MOST_EXACT else 0.0)
     center = point + radius[:, None] * inwards
     # The ball with the largest r^2 - |x - c|^2 is the nearest to x once each is moved into a fourth dimension, farther
     # the smaller it is. Two are found, for rounding must not choose among balls that are equally good.

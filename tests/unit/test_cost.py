@@ -132,7 +132,7 @@ def crumpled(count):
 
 ODD = {
     "ribbon": lambda: ribbon(120, 1e-6), "long ribbon": lambda: ribbon(5000, 1e-3), "fan": lambda: fan(10_000, 1.0),
-    "tall fan": lambda: fan(120, 100.0), "tetrahedra": lambda: tetrahedra(99),
+    "flat fan": lambda: fan(6_000, 0.3), "tall fan": lambda: fan(120, 100.0), "tetrahedra": lambda: tetrahedra(99),
     "thousands of tetrahedra": lambda: tetrahedra(2500, 1e-2), "needles": lambda: needles(3),
     "needle": lambda: shapes.cylinder(4, 12, 1e-4, 1.0), "crumbs": lambda: shapes.crumbs(3000),
     "lawn": lambda: lawn(2_500), "planks": lambda: planks(7),
