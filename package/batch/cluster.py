@@ -70,15 +70,35 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
         Nobody answers at the address, or no workers can be started, as where too few files may be open.
     """
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    if scheduler is not None:
-        try:
-            client = Client(scheduler, timeout=PATIENCE)
-        except (OSError, ValueError) as error:
-            raise ClusterError(Sentence("No scheduler answers at {address}: {reason}", address=scheduler,
-                                        reason=error)) from error
-        with client:
+    if scheduler is None:
+        with _safe_path(), _own_cluster(workers, dashboard) as client:
             yield client
         return
+    try:
+        client = Client(scheduler, timeout=PATIENCE)
+    except (OSError, ValueError) as error:
+        raise ClusterError(Sentence("No scheduler answers at {address}: {reason}", address=scheduler,
+                                    reason=error)) from error
+    with client:
+        yield client
+
+
+@contextlib.contextmanager
+def _safe_path() -> Iterator[None]:
+    """Keep the Pythons that are started from looking for modules in the working folder before all others."""
+    former = os.environ.get("PYTHONSAFEPATH")
+    os.environ["PYTHONSAFEPATH"] = "1"
+    try:
+        yield
+    finally:
+        del os.environ["PYTHONSAFEPATH"]
+        if former is not None:
+            os.environ["PYTHONSAFEPATH"] = former
+
+
+@contextlib.contextmanager
+def _own_cluster(workers: int, dashboard: str) -> Iterator[Client]:
+    """A cluster on this machine, see ``connected``; it ends with the block."""
     # The workers inherit that they do not hear these: they are for this process, which ends them.
     former = [signal.signal(number, signal.SIG_IGN) for number in OWN_SIGNALS]
     try:

@@ -98,9 +98,12 @@ def run(options: argparse.Namespace) -> int:
         shared.remove_leftovers()  # of processes that were ended while they wrote
         with as_output_error(batch.out):
             answer = batch.finish()
+    if batch.unread:
+        answer["unread"] = batch.unread
     answer["seconds"] = round(time.perf_counter() - start, 3)
     print_answer(json.dumps(answer, indent=2) + "\n")
-    return INTERRUPTED if interrupted else int(any(status != DONE for status in answer["models"]))
+    all_done = not batch.unread and all(status == DONE for status in answer["models"])
+    return INTERRUPTED if interrupted else int(not all_done)
 
 
 class _Batch:
@@ -116,11 +119,18 @@ class _Batch:
         self.options = options
         self.out = Path(os.path.abspath(options.out))
         places = [*options.models, *(place for path in options.list for place in read_list(path))]
+        self.unread: list[str] = []
         # Without a Blender, too: that a model could not be read is to be seen in the table.
-        self.sources = find_sources(places, formats() + BY_BLENDER, self.out, options.root)
+        self.sources = find_sources(places, formats() + BY_BLENDER, self.out, options.root, self._unread)
         self.settings = Settings(parameters, options.json, _suffix(options.labels), _suffix(options.colored),
                                  options.parts or "", options.thumbnail)
         self.kept = 0
+
+    def _unread(self, error: OSError) -> None:
+        """Say that nobody can look into a folder; one that is gone by now has no models."""
+        if not isinstance(error, FileNotFoundError):
+            self.unread.append(readable(error.filename))
+            say(f"{error.filename} could not be read: {error.strerror}")
 
     def folder(self, source: Source) -> Path:
         """Where the results of a model are."""
