@@ -15,8 +15,9 @@ from typing import Any
 
 import dask
 import dask.utils
-import psutil
+from dask.system import cpu_count
 from distributed import Client, LocalCluster, as_completed
+from distributed.system import memory_limit
 
 from ..core.errors import ReebError
 from ..core.sentence import Sentence
@@ -174,10 +175,10 @@ def _failure(answer: Any) -> BaseException:
 def do_job(job: dict[str, Any]) -> dict[str, Any]:
     """What a worker does with a model: have it done by the process that belongs to this thread.
 
-    job : dict, see ``work.do_model``, with ``memory_limit`` in bytes, 0 for the memory of the worker's machine divided
+    job : dict, see ``work.do_model``, with ``memory_limit`` in bytes, 0 for the memory that the worker may use divided
     by its processors, and ``time_limit`` in seconds. Returns the answer of ``ModelProcess.run``.
     """
-    limit = job["memory_limit"] or psutil.virtual_memory().total // (os.cpu_count() or 1)
+    limit = job["memory_limit"] or memory_limit() // cpu_count()
     process = getattr(_own, "process", None)
     if process is None or process.memory_limit != limit:
         if process is not None:

@@ -322,6 +322,21 @@ def test_a_model_that_needs_too_much_memory_costs_only_itself(large, models, tmp
         small.close()
 
 
+@pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="other systems do not have it")
+def test_a_run_takes_the_processors_and_the_memory_that_it_may_use(models, tmp_path, monkeypatch):
+    """In a container it took all of the machine's: too many models at a time, which the system then killed."""
+    monkeypatch.setattr("distributed.system.memory_limit", lambda: 2**31)
+    parser = argparse.ArgumentParser()
+    command.add_options(parser)
+    run = command._Batch(parser.parse_args([str(models / "tree.ply"), "--out", str(tmp_path / "out")]))
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(before)})
+    try:
+        assert (run.workers, run._job(run.sources[0])["memory_limit"]) == (1, 2**31)
+    finally:
+        os.sched_setaffinity(0, before)
+
+
 def test_a_model_keeps_one_processor_busy(tmp_path, monkeypatch):
     """There is a process for each; threads of one would get in the way of the others."""
     monkeypatch.setenv("OMP_NUM_THREADS", "2")
