@@ -35,6 +35,7 @@ from ..scene import armature, bridge, export, file_checks, hulls, results, store
 from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core
 from ..scene.graph import graph_objects
+from ..scene.modes import leave_edit_mode
 from ..scene.pieces import piece_objects, separation
 from ..scene.run_files import RunFiles, reason, scene_files, together
 from ..scene.settings import closes_holes
@@ -91,6 +92,7 @@ def run(options: argparse.Namespace, interrupts: Interrupts) -> dict:
                     twin = next((other for other in done if obj is not None and other.data == obj.data), None)
                     try:
                         with _in_its_scene(obj):
+                            leave_edit_mode(bpy.context)
                             report = decompose_object(obj, parameters, options, twin)
                         reports.append(report | sources.get(obj, {}))
                         done.append(obj)

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import argparse
+import stat
 import sys
 from itertools import takewhile
 from pathlib import Path
 
 import bpy
 
-from ..core.file_names import readable
+from ..core.file_names import kind_of, readable
 from ..scene.errors import SceneError
 from ..scene.run_files import reason
 from .messages import problem
@@ -105,11 +106,15 @@ def _check_opened(words: list[str]) -> None:
 
 def _check_model(path: Path, kinds: tuple[str, ...]) -> None:
     """Raise SceneError if there is no file of that kind there."""
-    if path.is_dir():
+    try:
+        kind = kind_of(path)
+    except OSError as error:  # such as a folder that one may not enter
+        raise SceneError(f"{path} could not be read: {reason(error)}") from error
+    if stat.S_ISDIR(kind):
         raise SceneError(f"{path} is a folder, not a model.")
-    if not path.exists():
+    if not kind:
         raise SceneError(f"There is no file {path}.")
-    if not path.is_file():
+    if not stat.S_ISREG(kind):
         raise SceneError(f"{path} is no file but a pipe or a device: write the model to a file first.")
     if path.suffix.lower() not in kinds:
         raise SceneError(f"{path} is none of {', '.join(kinds)}.")

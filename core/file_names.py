@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import re
+import stat
 import unicodedata
 from pathlib import Path
 
@@ -23,6 +24,18 @@ def readable(name: str | Path) -> str:
     except UnicodeEncodeError:
         return os.fsencode(text).decode(errors="backslashreplace")
     return text
+
+
+def kind_of(path: str | Path) -> int:
+    """What is behind a name: ``stat.S_IFREG``, ``stat.S_IFDIR`` and such, 0 if nothing is.
+
+    Raises OSError where nobody can say, as in a folder that one may not enter; ``Path.exists`` does so, or not, by the
+    version of Python.
+    """
+    try:
+        return stat.S_IFMT(os.stat(path).st_mode)
+    except (FileNotFoundError, NotADirectoryError, ValueError):  # the last of a name with a zero in it
+        return 0
 
 
 def file_name(text: str, default: str) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import io
 import os
 import re
+import stat
 import subprocess
 import tempfile
 from collections.abc import Callable
@@ -16,7 +17,7 @@ import numpy as np
 
 from .core.atomic_files import HIDDEN
 from .core.errors import ReebError
-from .core.file_names import readable
+from .core.file_names import kind_of, readable
 from .core.memory import lacks_memory
 from .core.sentence import Sentence
 from .core.surface.arguments import corners, positions
@@ -103,11 +104,7 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
     """
     path = Path(path)
     kind = path.suffix.lower()
-    if path.is_dir():
-        raise ModelFileError(Sentence("{path} is a folder, not a model.", path=path))
-    if not path.exists():
-        raise ModelFileError(Sentence("There is no file {path}.", path=path))
-    check_ends(path)
+    _check_is_file(path)
     if kind in BY_BLENDER:
         vertices, faces, polygon = _read_by_blender(path, blender, temporary)
     elif kind in formats():
@@ -120,9 +117,22 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
     return Model(readable(path.stem), vertices, faces, polygon, "z" if kind in Z_UP else "y")
 
 
+def _check_is_file(path: Path) -> None:
+    """Raise ModelFileError unless there is a file."""
+    try:
+        kind = kind_of(path)
+        check_ends(path)
+    except OSError as error:  # such as a folder that one may not enter
+        raise _unreadable(path, error.strerror or str(error)) from error
+    if stat.S_ISDIR(kind):
+        raise ModelFileError(Sentence("{path} is a folder, not a model.", path=path))
+    if not kind:
+        raise ModelFileError(Sentence("There is no file {path}.", path=path))
+
+
 def check_ends(path: Path) -> None:
-    """Raise ModelFileError if there is a pipe or a device: who opens one may wait for ever."""
-    if path.exists() and not path.is_file() and not path.is_dir():
+    """Raise ModelFileError for a pipe or a device: who opens one may wait for ever. OSError as ``kind_of``."""
+    if kind_of(path) not in (0, stat.S_IFREG, stat.S_IFDIR):
         raise ModelFileError(Sentence("{path} is no file but a pipe or a device: write the model to a file first.",
                                       path=path))
 

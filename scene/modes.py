@@ -36,6 +36,13 @@ def object_mode(context: bpy.types.Context) -> Iterator[None]:
         set_mode(active, mode)
 
 
+def leave_edit_mode(context: bpy.types.Context) -> None:
+    """Go from Edit Mode, in which a scene may have been saved, to Object Mode for good."""
+    active = context.view_layer.objects.active
+    if active is not None and active.mode == "EDIT":
+        set_mode(active, "OBJECT")
+
+
 def set_mode(obj: bpy.types.Object, mode: str) -> None:
     """Change the mode of the active object."""
     call_with(bpy.ops.object.mode_set, obj, mode=mode)

@@ -20,6 +20,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.atomic_files import HIDDEN, hidden_place, put_in_place, sync
+from ..core.file_names import kind_of
 from .errors import SceneError
 
 
@@ -56,9 +57,7 @@ class RunFiles:
         """
         target = Path(os.path.realpath(path))
         try:
-            kind = os.stat(path).st_mode
-        except (FileNotFoundError, NotADirectoryError):
-            kind = stat.S_IFREG
+            kind = kind_of(path) or stat.S_IFREG
         except OSError as error:
             raise _unwritten(path, error) from error
         if not stat.S_ISREG(kind) or path.name in {"", ".", ".."}:
@@ -71,7 +70,7 @@ class RunFiles:
     def claim_folder(self, path: Path) -> None:
         """Say that files will be written in a folder, which may not be there yet; raises SceneError as ``claim``."""
         self._check_apart(Path(os.path.realpath(path)), path, folder=True)
-        if os.path.lexists(path) and not path.is_dir():
+        if os.path.lexists(path) and not os.path.isdir(path):
             raise _unwritten(path, NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR)))
 
     def withdraw_on_failure(self, path: Path) -> None:
@@ -95,7 +94,8 @@ class RunFiles:
 
     def folder(self, path: Path) -> None:
         """Make a folder and those that it is in, unless they are there; raises SceneError if that is not possible."""
-        missing = [folder for folder in (path, *path.parents) if not folder.exists()]
+        # What nobody can look at counts as missing here: to make it says why that is not possible.
+        missing = [folder for folder in (path, *path.parents) if not os.path.exists(folder)]
         for folder in reversed(missing):
             self._made.append(folder)  # before it is there: an interruption may come between
             try:
@@ -103,7 +103,7 @@ class RunFiles:
             except OSError as error:
                 self._made.pop()
                 raise _unwritten(path, error) from error
-        if not path.is_dir():
+        if not os.path.isdir(path):
             raise _unwritten(path, NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR)))
 
     @contextmanager

@@ -15,8 +15,9 @@ from typing import Any
 
 import dask
 import dask.utils
-import psutil
+from dask.system import cpu_count
 from distributed import Client, LocalCluster, as_completed
+from distributed.system import memory_limit
 
 from ..core.errors import ReebError
 from ..core.sentence import Sentence
@@ -70,15 +71,35 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
         Nobody answers at the address, or no workers can be started, as where too few files may be open.
     """
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    if scheduler is not None:
-        try:
-            client = Client(scheduler, timeout=PATIENCE)
-        except (OSError, ValueError) as error:
-            raise ClusterError(Sentence("No scheduler answers at {address}: {reason}", address=scheduler,
-                                        reason=error)) from error
-        with client:
+    if scheduler is None:
+        with _safe_path(), _own_cluster(workers, dashboard) as client:
             yield client
         return
+    try:
+        client = Client(scheduler, timeout=PATIENCE)
+    except (OSError, ValueError) as error:
+        raise ClusterError(Sentence("No scheduler answers at {address}: {reason}", address=scheduler,
+                                    reason=error)) from error
+    with client:
+        yield client
+
+
+@contextlib.contextmanager
+def _safe_path() -> Iterator[None]:
+    """Keep the Pythons that are started from looking for modules in the working folder before all others."""
+    former = os.environ.get("PYTHONSAFEPATH")
+    os.environ["PYTHONSAFEPATH"] = "1"
+    try:
+        yield
+    finally:
+        del os.environ["PYTHONSAFEPATH"]
+        if former is not None:
+            os.environ["PYTHONSAFEPATH"] = former
+
+
+@contextlib.contextmanager
+def _own_cluster(workers: int, dashboard: str) -> Iterator[Client]:
+    """A cluster on this machine, see ``connected``; it ends with the block."""
     # The workers inherit that they do not hear these: they are for this process, which ends them.
     former = [signal.signal(number, signal.SIG_IGN) for number in OWN_SIGNALS]
     try:
@@ -154,10 +175,10 @@ def _failure(answer: Any) -> BaseException:
 def do_job(job: dict[str, Any]) -> dict[str, Any]:
     """What a worker does with a model: have it done by the process that belongs to this thread.
 
-    job : dict, see ``work.do_model``, with ``memory_limit`` in bytes, 0 for the memory of the worker's machine divided
+    job : dict, see ``work.do_model``, with ``memory_limit`` in bytes, 0 for the memory that the worker may use divided
     by its processors, and ``time_limit`` in seconds. Returns the answer of ``ModelProcess.run``.
     """
-    limit = job["memory_limit"] or psutil.virtual_memory().total // (os.cpu_count() or 1)
+    limit = job["memory_limit"] or memory_limit() // cpu_count()
     process = getattr(_own, "process", None)
     if process is None or process.memory_limit != limit:
         if process is not None:

@@ -128,10 +128,12 @@ class ModelProcess:
         variables = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "PYTHONUNBUFFERED": "1"}
         self._messages = queue.SimpleQueue()
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - it is closed with the process
-        package = __package__.removesuffix(".batch")
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", f"{package}.batch.model_process", str(self.memory_limit)], stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE, stderr=self._errors, env=variables, start_new_session=True)
+        # It finds modules where this process does; "-m" would look into the working folder first.
+        paths = ascii([path for path in sys.path if isinstance(path, str)])
+        begin = f"import sys; sys.path[:] = {paths}; from {__name__} import main; main({self.memory_limit})"
+        self._process = subprocess.Popen(  # the last word is for those who look at the list of processes
+            [sys.executable, "-P", "-c", begin, __name__], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            stderr=self._errors, env=variables, start_new_session=True)
         threading.Thread(target=_listen, args=(self._process.stdout, self._messages), daemon=True).start()
         try:
             return bool(self._messages.get(timeout=START).get("ready"))
@@ -257,6 +259,3 @@ def _limit_memory(limit: int) -> None:
 
         resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
 
-
-if __name__ == "__main__":
-    main(int(sys.argv[1]))

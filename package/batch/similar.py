@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import base64
 import html
+import stat
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import numpy as np
 from pyarrow import ArrowException
 
 from ..core.errors import ReebError
+from ..core.file_names import kind_of
 from ..core.sentence import Sentence
 from ..core.surface.mesh import TriMesh
 from ..core.uses.descriptors import NAMES, distances
@@ -63,7 +65,11 @@ def similar_parts(out: Path, model: str, number: int, count: int, other_models: 
     PartError
     """
     table = out / "parts.parquet"
-    if not table.is_file():
+    try:
+        kind = kind_of(table)
+    except OSError as error:  # such as a folder that one may not enter
+        raise _unread(table, error) from error
+    if not stat.S_ISREG(kind):
         raise PartError(Sentence("There is no table of parts in {out}: run reeb-parts batch first.", out=out))
     one = next((row for row in _rows(table, COLUMNS) if (row["model"], row["number"]) == (model, number)), None)
     if one is None:
@@ -88,8 +94,13 @@ def _rows(table: Path, columns: list[str]) -> Iterator[dict[str, Any]]:
                                          table=table))
             yield row
     except (OSError, ArrowException) as error:
-        raise PartError(Sentence("{table} could not be read: {reason}", table=table,
-                                 reason=getattr(error, "strerror", None) or error)) from error
+        raise _unread(table, error) from error
+
+
+def _unread(table: Path, error: Exception) -> PartError:
+    """The sentence that a table could not be read."""
+    return PartError(Sentence("{table} could not be read: {reason}", table=table,
+                              reason=getattr(error, "strerror", None) or error))
 
 
 def _nearest(one: dict[str, Any], found: list[dict[str, Any]], rows: list[dict[str, Any]],

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import glob
 import os
-from collections.abc import Iterable, Iterator
+import stat
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 from ..core.errors import ReebError
-from ..core.file_names import readable
+from ..core.file_names import kind_of, readable
 from ..core.sentence import Sentence
 from .records import RECORD, read_record
 
@@ -36,7 +37,8 @@ class Source:
     name: str
 
 
-def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root: Path | None = None) -> list[Source]:
+def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root: Path | None = None,
+                 unread: Callable[[OSError], object] | None = None) -> list[Source]:
     """Find all models.
 
     Parameters
@@ -49,6 +51,8 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
         Folder of the results. It may have models in it; what runs made, there and elsewhere, is none.
     root : Path, optional
         What names begin below; the innermost folder that holds all models without.
+    unread : callable(error), optional
+        Told of each folder below a place in which nobody can look.
 
     Returns
     -------
@@ -61,7 +65,7 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
         A place is none, there is no model anywhere, a model lies outside the root, or where its results belong.
     """
     out = Path(os.path.abspath(out))
-    paths = {path for place in places for path in _paths(place, kinds)}
+    paths = {path for place in places for path in _paths(place, kinds, unread)}
     if not paths:
         raise SourceError(Sentence("There is no model to decompose."))
     if root is None:
@@ -91,11 +95,16 @@ def _check_folders(sources: list[Source], out: Path) -> None:
                                    "another folder for --out.", n=len(lost), first=lost[0]))
 
 
-def _paths(place: str, kinds: tuple[str, ...]) -> Iterator[Path]:
+def _paths(place: str, kinds: tuple[str, ...], unread: Callable[[OSError], object] | None) -> Iterator[Path]:
     """Absolute paths of the models of one place."""
     path = Path(place)
-    if path.is_dir():
-        for base, folders, files in os.walk(path):
+    try:
+        kind = kind_of(path)
+    except OSError as error:  # such as a folder that one may not enter
+        raise SourceError(Sentence("{path} could not be read: {reason}", path=path,
+                                   reason=error.strerror or error)) from error
+    if stat.S_ISDIR(kind):
+        for base, folders, files in os.walk(path, onerror=unread):
             if _is_of_a_run(base):
                 folders.clear()
                 continue
@@ -103,7 +112,7 @@ def _paths(place: str, kinds: tuple[str, ...]) -> Iterator[Path]:
             for name in files:
                 if os.path.splitext(name)[1].lower() in kinds and not name.startswith("."):
                     yield Path(os.path.abspath(os.path.join(base, name)))
-    elif path.is_file():
+    elif stat.S_ISREG(kind):
         yield Path(os.path.abspath(path))
     elif glob.has_magic(place):
         for found in glob.iglob(place, recursive=True):

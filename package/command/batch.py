@@ -62,14 +62,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     files.add_argument("--thumbnail", type=int, choices=(64, 96, 128, 192, 256), default=128,
                        help="pixels along a side of the pictures (default: %(default)s)")
     run = parser.add_argument_group("how to run")
-    run.add_argument("--workers", type=number(1, kind=int), default=os.cpu_count() or 1, metavar="N",
-                     help="processes on this machine (default: one for each processor, %(default)s)")
+    run.add_argument("--workers", type=number(1, kind=int), metavar="N",
+                     help="processes on this machine (default: one for each processor that may be used)")
     run.add_argument("--scheduler", metavar="ADDRESS", help="use the Dask cluster that is there instead, such as "
                      "tcp://host:8786; its workers have this package and see the same folders")
     run.add_argument("--dashboard", type=_address, default="127.0.0.1:8787", metavar="ADDRESS",
                      help="where Dask's dashboard is shown (default: %(default)s)")
     run.add_argument("--memory-limit", type=number(0), metavar="GIB", help="memory of one model (default: that of the "
-                     "machine, divided by the number of its workers)")
+                     "machine, or of the container, divided by the number of its workers)")
     run.add_argument("--time-limit", type=number(0), default=600.0, metavar="SECONDS",
                      help="time of one model, 0 for any (default: %(default)g)")
     run.add_argument("--retry", action="store_true", help="also try models again that were refused before")
@@ -98,9 +98,12 @@ def run(options: argparse.Namespace) -> int:
         shared.remove_leftovers()  # of processes that were ended while they wrote
         with as_output_error(batch.out):
             answer = batch.finish()
+    if batch.unread:
+        answer["unread"] = batch.unread
     answer["seconds"] = round(time.perf_counter() - start, 3)
     print_answer(json.dumps(answer, indent=2) + "\n")
-    return INTERRUPTED if interrupted else int(any(status != DONE for status in answer["models"]))
+    all_done = not batch.unread and all(status == DONE for status in answer["models"])
+    return INTERRUPTED if interrupted else int(not all_done)
 
 
 class _Batch:
@@ -116,11 +119,18 @@ class _Batch:
         self.options = options
         self.out = Path(os.path.abspath(options.out))
         places = [*options.models, *(place for path in options.list for place in read_list(path))]
+        self.unread: list[str] = []
         # Without a Blender, too: that a model could not be read is to be seen in the table.
-        self.sources = find_sources(places, formats() + BY_BLENDER, self.out, options.root)
+        self.sources = find_sources(places, formats() + BY_BLENDER, self.out, options.root, self._unread)
         self.settings = Settings(parameters, options.json, _suffix(options.labels), _suffix(options.colored),
                                  options.parts or "", options.thumbnail)
         self.kept = 0
+
+    def _unread(self, error: OSError) -> None:
+        """Say that nobody can look into a folder; one that is gone by now has no models."""
+        if not isinstance(error, FileNotFoundError):
+            self.unread.append(readable(error.filename))
+            say(f"{error.filename} could not be read: {error.strerror}")
 
     def folder(self, source: Source) -> Path:
         """Where the results of a model are."""
@@ -147,7 +157,7 @@ class _Batch:
         # Dask takes long to import, and a look at what is done needs none of it.
         from ..batch import cluster
 
-        with cluster.connected(self.options.scheduler, self.options.workers, self.options.dashboard) as client:
+        with cluster.connected(self.options.scheduler, self.workers, self.options.dashboard) as client:
             say(f"Dask's dashboard: {client.dashboard_link}")
             failed: Counter[str] = Counter()
             with (tqdm(total=len(waiting), desc="models", unit="model", smoothing=0.1, mininterval=0.5) as progress,
@@ -162,6 +172,13 @@ class _Batch:
                                    file=sys.stderr)
                     progress.update()
 
+    @property
+    def workers(self) -> int:
+        """How many processes on this machine: one for each processor that may be used, unless the user has said."""
+        from dask.system import cpu_count
+
+        return self.options.workers or cpu_count()
+
     def _jobs(self, sources: list[Source], progress: Any) -> Iterator[dict[str, Any]]:
         """What the workers are given of some models, without those that another run has done by the time of each."""
         for source in sources:
@@ -173,9 +190,11 @@ class _Batch:
 
     def _job(self, source: Source) -> dict[str, Any]:
         """What a worker is given."""
+        from distributed.system import memory_limit
+
         limit = self.options.memory_limit
         # The workers of a cluster may be machines of another size, and know it.
-        own = 0 if self.options.scheduler else _memory() // self.options.workers
+        own = 0 if self.options.scheduler else memory_limit() // self.workers
         memory = int(limit * 2**30) if limit else own
         return {"path": str(source.path), "name": source.name, "folder": str(self.folder(source)),
                 "settings": self.settings.to_dict(), "blender": self.options.blender, "memory_limit": memory,
@@ -211,13 +230,6 @@ class _Batch:
 def _models(count: int) -> str:
     """So many models."""
     return Sentence("{n} {n:model|models}", n=count)
-
-
-def _memory() -> int:
-    """Bytes of memory of this machine."""
-    import psutil
-
-    return psutil.virtual_memory().total
 
 
 def _address(text: str) -> str:

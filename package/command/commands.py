@@ -24,7 +24,7 @@ def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     parser.add_argument("--version", action="version", version=VERSION)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, module in COMMANDS.items():
-        summary = (module.__doc__ or "").splitlines()[0]
+        summary = (module.__doc__ or "").partition("\n")[0]  # there is none with python -OO
         module.add_options(commands.add_parser(name, help=summary, description=module.__doc__,
                                                formatter_class=argparse.RawDescriptionHelpFormatter))
     return parser.parse_args(arguments)

@@ -2,6 +2,7 @@
 """``reeb-parts batch``: what it writes, what one bad model costs, and what is lost when something is killed."""
 
 import argparse
+import errno
 import json
 import os
 import shutil
@@ -74,9 +75,15 @@ def models(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def batch(models, reeb_parts_command, tmp_path_factory):
-    """The folder of results of a whole run, and what it answered."""
+    """The folder of results of a whole run, and what it answered.
+
+    Files in the working folder that are called like modules of Python's ended the processes that the run started.
+    """
+    work = tmp_path_factory.mktemp("work")
+    for name in ("socket", "types", "queue", "trimesh", "reeb_parts"):
+        (work / f"{name}.py").write_text("raise SystemExit('not this one')")
     out = tmp_path_factory.mktemp("batch") / "out"
-    done = reeb_parts_command("batch", models, "--out", out, "--colored", "ply", "--parts", "glb", *LOCAL)
+    done = reeb_parts_command("batch", models, "--out", out, "--colored", "ply", "--parts", "glb", *LOCAL, cwd=work)
     assert done.returncode == 1, done.stderr  # two of the models are none
     return out, json.loads(done.stdout), done.stderr
 
@@ -313,6 +320,21 @@ def test_a_model_that_needs_too_much_memory_costs_only_itself(large, models, tmp
         assert small.run(job(models / "tree.ply", tmp_path / "tree"), 60.0)["status"] == "done"
     finally:
         small.close()
+
+
+@pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="other systems do not have it")
+def test_a_run_takes_the_processors_and_the_memory_that_it_may_use(models, tmp_path, monkeypatch):
+    """In a container it took all of the machine's: too many models at a time, which the system then killed."""
+    monkeypatch.setattr("distributed.system.memory_limit", lambda: 2**31)
+    parser = argparse.ArgumentParser()
+    command.add_options(parser)
+    run = command._Batch(parser.parse_args([str(models / "tree.ply"), "--out", str(tmp_path / "out")]))
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(before)})
+    try:
+        assert (run.workers, run._job(run.sources[0])["memory_limit"]) == (1, 2**31)
+    finally:
+        os.sched_setaffinity(0, before)
 
 
 def test_a_model_keeps_one_processor_busy(tmp_path, monkeypatch):
@@ -696,12 +718,35 @@ def test_results_do_not_take_the_place_of_models(place, tree, tmp_path, monkeypa
 
 
 @pytest.mark.parametrize(("places", "root", "words"), [
-    (["none"], None, "no file and no folder none"), (["*.xyz"], None, "no model"), (["tree.ply"], "deep", "1 model is"),
+    (["none"], None, "no file and no folder none"), (["x" * 300], None, "x could not be read: "),
+    (["*.xyz"], None, "no model"), (["tree.ply"], "deep", "1 model is"),
 ])  # fmt: skip
 def test_places_without_models_are_refused(places, root, words, models, tmp_path, monkeypatch):
     monkeypatch.chdir(models)
     with pytest.raises(SourceError, match=words):
         find_sources(places, (".ply",), tmp_path, root and models / root)
+
+
+def test_a_folder_where_nobody_can_look_is_named_and_no_success(tree, tmp_path, monkeypatch, capsys):
+    """Its models were missing, and the exit status 0."""
+    model, secret = save(tree, tmp_path / "in" / "tree.ply"), tmp_path / "in" / "secret"
+    secret.mkdir()
+    do_model(job(model, tmp_path / "out" / "models" / "tree.ply"))
+    scandir = os.scandir
+
+    def refuse(folder):
+        if Path(folder) == secret:
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), folder)
+        return scandir(folder)
+
+    monkeypatch.setattr(os, "scandir", refuse)
+    parser = argparse.ArgumentParser()
+    command.add_options(parser)
+    status = command.run(parser.parse_args([str(tmp_path / "in"), "--out", str(tmp_path / "out")]))
+    said = capsys.readouterr()
+    answer = json.loads(said.out)
+    assert (status, answer["models"], answer["unread"]) == (1, {"done": 1}, [str(secret)])
+    assert f"{secret} could not be read: Permission denied" in said.err
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")

@@ -12,6 +12,7 @@ import jsonschema
 import numpy as np
 import pytest
 import trimesh
+from reeb_parts.command import commands
 
 from core import decompose
 
@@ -103,6 +104,12 @@ def test_the_picture_shows_three_colors_on_white(everything):
     data = (everything[0] / "tree.png").read_bytes()
     assert data.startswith(b"\x89PNG")
     assert int.from_bytes(data[16:20], "big") == 640
+
+
+def test_it_reads_its_options_without_docstrings(monkeypatch):
+    """As with python -OO, where it ended with a traceback."""
+    monkeypatch.setattr(commands.decompose, "__doc__", None)
+    assert commands.parse(["decompose", "x.obj"]).command == "decompose"
 
 
 @pytest.mark.parametrize(("arguments", "words"), [

@@ -271,6 +271,7 @@ def test_meshes_of_a_scene_come_in_their_places(tmp_path):
 @pytest.mark.parametrize(("name", "text", "words"), [
     ("there_is_none.obj", None, "There is no file"),
     ("", None, "is a folder, not a model"),
+    (f"{'x' * 300}.obj", None, "obj could not be read: "),  # no system has such names
     ("model.xyzzy", "", "is none of"),
     ("damaged.ply", "ply\nformat nonsense", "could not be read"),
     ("empty.obj", "# nothing\n", "empty.obj"),

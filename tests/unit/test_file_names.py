@@ -2,11 +2,12 @@
 """Names of files: which characters stay."""
 
 import os
+import stat
 import unicodedata
 
 import pytest
 
-from core.file_names import file_name, readable
+from core.file_names import file_name, kind_of, readable
 
 
 @pytest.mark.parametrize(("text", "name"), [
@@ -21,3 +22,14 @@ def test_names_are_such_as_every_file_system_takes(text, name):
 def test_names_that_are_no_utf8_are_readable():
     assert readable("plain ä") == "plain ä"
     assert readable(os.fsdecode(b"stra\xdfe.obj")) == "stra\\xdfe.obj"
+
+
+def test_what_is_behind_a_name_is_known_or_said_not_to_be(tmp_path):
+    (tmp_path / "file").touch()
+    assert kind_of(tmp_path) == stat.S_IFDIR
+    assert kind_of(tmp_path / "file") == stat.S_IFREG
+    assert [kind_of(tmp_path / name) for name in ("none", "file/below", "zero\0")] == [0, 0, 0]
+    (tmp_path / "loop").symlink_to("loop")
+    for name in ("x" * 300, "loop"):
+        with pytest.raises(OSError, match="too long|Too many"):
+            kind_of(tmp_path / name)

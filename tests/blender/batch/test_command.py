@@ -344,6 +344,19 @@ def test_an_object_of_an_excluded_collection_costs_nobody_anything(run, obj, mak
         assert "Traceback" not in ended.err
 
 
+def test_a_scene_that_was_saved_in_edit_mode(run, obj, make, tree, tmp_path):
+    """Both objects were being edited; the command ended with a traceback."""
+    other = make(tree, "Other")
+    obj.select_set(True)
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert other.mode == "EDIT"
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "x.blend"))
+    ended = run(tmp_path / "x.blend", "--object", "Tree", "--object", "Other", "--save", tmp_path / "y.blend")
+    assert ended.status == 0, ended.err
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "y.blend"))
+    assert [len(bpy.data.objects[name].data.reeb_parts.parts) > 1 for name in ("Tree", "Other")] == [True, True]
+
+
 def test_an_object_of_which_not_all_can_be_made_is_left_as_it_was(run, obj, make, tree, tmp_path):
     """It has as many UV maps as there can be, so that it cannot be unwrapped."""
     other = make(tree, "Other")

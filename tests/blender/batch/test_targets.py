@@ -91,6 +91,8 @@ def test_a_model_that_is_a_folder(run, tmp_path, name):
 def test_a_folder_given_as_model_is_said_to_be_one(run, model, tmp_path):
     refused(run, tmp_path, [f"{tmp_path} is a folder, not a model."], tmp_path, "--json", tmp_path / "x.json")
     (tmp_path / "scene.blend").mkdir()
+    refused(run, tmp_path, ["x.obj could not be read: "], tmp_path / f"{'x' * 300}.obj")
+    refused(run, tmp_path, ["x could not be written: "], model, "--parts", tmp_path / ("x" * 300))
     refused(run, tmp_path, ["scene.blend is a folder"], tmp_path / "scene.blend", "--json", tmp_path / "x.json")
 
 
