@@ -84,7 +84,7 @@ What every operator needs:
 - ``sculpt_undo``: undo in Sculpt Mode
 - ``modes``: leaves a mode, and returns to it
 - ``selection``: what is selected or hidden
-- ``visibility``: objects that are hidden for a while
+- ``visibility``: what is hidden for a while
 - ``modifiers``: modifiers of ours
 - ``temporary``: data that is there for a while only
 - ``handlers``: functions that Blender calls

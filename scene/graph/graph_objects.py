@@ -18,7 +18,7 @@ from ...core.graph.reeb import ReebGraph
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
 from ...core.uses.graph_folding import unfolded
-from .. import bridge, made_objects, mesh_arrays, part_names, store, transaction
+from .. import bridge, made_objects, mesh_arrays, part_names, store, transaction, visibility
 from ..made_objects import ROLE
 from ..selection import in_layer
 from ..temporary import remove_object
@@ -83,6 +83,8 @@ def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) 
     collection = find(obj)
     if collection is None:
         return False
+    if not hidden:
+        visibility.include(context, collection)
     for layer in _layers(context, collection):
         transaction.keep(layer, "hide_viewport")
         layer.hide_viewport = hidden
@@ -90,8 +92,9 @@ def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) 
 
 
 def is_shown(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
-    """Whether an object has a graph that is not hidden in the view layer."""
-    return (any(not layer.hide_viewport for layer in _layers(context, find(obj)))
+    """Whether an object has a graph that is not hidden in the view layer, nor left out of it."""
+    return (any(not (layer.hide_viewport or layer.exclude or layer.collection.hide_viewport)
+                for layer in _layers(context, find(obj)))
             or any(item.visible_get() for item in _elsewhere_in_layer(context, obj)))
 
 
