@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..scene import jobs
+from ..scene import running
 from . import (
     alike,
     armature,
@@ -38,5 +38,5 @@ register, _unregister_classes = bpy.utils.register_classes_factory(CLASSES)
 
 
 def unregister() -> None:
-    jobs.cancel()
+    running.end_all()
     _unregister_classes()

@@ -76,6 +76,7 @@ What every operator needs:
 
 - ``reporting``: operators that tell what is wrong
 - ``stepped``: operators whose work can be long
+- ``running``: operators that go on in the window
 - ``targets``: which objects can be worked on
 - ``errors``: what users are told, and the way into core
 - ``transaction``: all or nothing
@@ -83,7 +84,7 @@ What every operator needs:
 - ``sculpt_undo``: undo in Sculpt Mode
 - ``modes``: leaves a mode, and returns to it
 - ``selection``: what is selected or hidden
-- ``visibility``: objects that are hidden for a while
+- ``visibility``: what is hidden for a while
 - ``modifiers``: modifiers of ours
 - ``temporary``: data that is there for a while only
 - ``handlers``: functions that Blender calls

@@ -165,16 +165,16 @@ def mark(mesh: bpy.types.Mesh, action: str, with_faces: Container[int] = ()) -> 
     ----------
     mesh : bpy.types.Mesh
     action : str
-        "ALL", "NONE", "INVERT", "SMALL" (parts smaller than the active one) or "FACES".
+        "ALL", "NONE", "INVERT" (parts that are not chosen), "SMALL" (parts smaller than the active one) or "FACES".
     with_faces : container of int
         Numbers of the parts that "FACES" marks.
     """
     transaction.keep_result(mesh)
     result = mesh.reeb_parts
-    share = result.parts[result.active].share
+    share, chosen = result.parts[result.active].share, chosen_numbers(mesh)
     for part in result.parts:
         part.selected = {
-            "ALL": True, "NONE": False, "INVERT": not part.selected,
+            "ALL": True, "NONE": False, "INVERT": part.number not in chosen,
             "SMALL": part.share < share, "FACES": part.number in with_faces,
         }[action]
 

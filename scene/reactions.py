@@ -27,23 +27,25 @@ from .transaction import keep_result
 def show_detail(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The Detail slider was moved."""
     result.by_number, result.asked = False, 0
-    show(result, context)
-    for other in _other_results(result, context):
-        with property_updates.quiet():
-            other.by_number, other.asked, other.detail = False, 0, result.detail
-        show(other, context)
+    with object_mode(context):  # which leaves Edit Mode for all objects that are edited together
+        show(result, context)
+        for other in _other_results(result, context):
+            with property_updates.quiet():
+                other.by_number, other.asked, other.detail = False, 0, result.detail
+            show(other, context)
 
 
 @reaction
 def show_number(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A number of parts was typed: Detail goes to where there are so many."""
     result.by_number, asked = True, result.n_parts
-    show(result, context)
-    result.asked = 0 if result.n_parts == asked else asked
-    for other in _other_results(result, context):
-        with property_updates.quiet():
-            other.by_number, other.asked, other.n_parts = True, 0, asked
-        show(other, context)
+    with object_mode(context):
+        show(result, context)
+        result.asked = 0 if result.n_parts == asked else asked
+        for other in _other_results(result, context):
+            with property_updates.quiet():
+                other.by_number, other.asked, other.n_parts = True, 0, asked
+            show(other, context)
 
 
 def _other_results(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> list[bpy.types.PropertyGroup]:

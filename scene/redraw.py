@@ -25,6 +25,12 @@ def viewports() -> None:
         area.tag_redraw()
 
 
+def clear_status() -> None:
+    """Let the status bar be Blender's again, in all workspaces: there may be another one now than at the start."""
+    for workspace in bpy.data.workspaces:
+        workspace.status_text_set(None)
+
+
 def sidebars() -> None:
     """Draw the sidebars of all 3D viewports again, and not the views, which may take long."""
     for area in _viewports():

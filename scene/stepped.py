@@ -10,7 +10,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.errors import ReebError
 from ..core.steps import Steps, finished
-from . import jobs, redraw, store
+from . import jobs, redraw, running, store
 from .errors import SceneError, translated
 from .reporting import ReportingOperator
 from .transaction import transaction
@@ -111,6 +111,7 @@ class SteppedOperator(ReportingOperator):
         """Have the window show how far it is, and call ``modal`` after so many seconds, again and again."""
         self._progress = jobs.current = progress
         self._shown = ""
+        running.begun(self, context)
         self._timer = context.window_manager.event_timer_add(interval, window=context.window)
         context.window_manager.progress_begin(0, 100)
         self._show_progress(context)
@@ -127,5 +128,6 @@ class SteppedOperator(ReportingOperator):
         jobs.current = None
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
+        redraw.clear_status()
         redraw.sidebars()
+        running.ended(self)

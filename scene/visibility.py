@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects that are hidden for a while, in all view layers of the scene and in renders, and come back as they were."""
+"""What is hidden for a while, in all view layers of the scene and in renders, and comes back as it was."""
 
 from __future__ import annotations
 
@@ -33,6 +33,24 @@ def is_rendered(obj: bpy.types.Object) -> bool:
 def is_known(obj: bpy.types.Object) -> bool:
     """Whether ``hide`` has hidden an object, and ``show`` not yet shown it again."""
     return _known(obj) != _UNKNOWN
+
+
+def include(context: bpy.types.Context, collection: bpy.types.Collection) -> None:
+    """Have the view layer show a collection, which is put into the scene if it is not there."""
+    if collection not in context.scene.collection.children_recursive:
+        if not transaction.is_new(collection):
+            transaction.on_failure(context.scene.collection.children.unlink, collection)
+        context.scene.collection.children.link(collection)
+    transaction.keep(collection, "hide_viewport")
+    collection.hide_viewport = False
+    open_ = [context.view_layer.layer_collection]
+    while open_:
+        layer = open_.pop()
+        for name in ("exclude", "hide_viewport") if layer.collection == collection else ():
+            if getattr(layer, name):
+                transaction.on_failure(setattr, layer, name, True)
+                setattr(layer, name, False)
+        open_ += layer.children
 
 
 def _known(obj: bpy.types.Object) -> int:

@@ -92,9 +92,19 @@ class Surface:
         with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
             gpu.matrix.load_projection_matrix(projection)
             gpu.matrix.multiply_matrix(matrix)
-            self.batch.draw(self.shader)
+            self._draw_nearest()
         gpu.state.depth_test_set("NONE")
         gpu.state.blend_set("NONE")
+
+    def _draw_nearest(self) -> None:
+        """Draw what is nearest, once: the inner side of a thin wall is drawn nearer than the wall, too."""
+        gpu.state.color_mask_set(False, False, False, False)
+        gpu.state.depth_mask_set(True)
+        self.batch.draw(self.shader)
+        gpu.state.color_mask_set(True, True, True, True)
+        gpu.state.depth_mask_set(False)
+        gpu.state.depth_test_set("EQUAL")
+        self.batch.draw(self.shader)
 
 
 def fill(corners: np.ndarray, matrix: Matrix, color: tuple[float, ...]) -> None:

@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.steps import Steps
-from ..scene import redraw
+from ..scene import redraw, running
 from ..scene.errors import SceneError
 from ..scene.reporting import ReportingOperator
 from ..scene.transaction import transaction
@@ -124,6 +124,7 @@ class ViewTool(ReportingOperator):
         context.window.cursor_modal_set(self.cursor)
         context.workspace.status_text_set(self.hint())
         context.window_manager.modal_handler_add(self)
+        running.begun(self, context)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -205,9 +206,9 @@ class ViewTool(ReportingOperator):
     def _end(self, context: bpy.types.Context) -> None:
         self.preview.remove()
         context.window.cursor_modal_restore()
-        for workspace in bpy.data.workspaces:
-            workspace.status_text_set(None)
+        redraw.clear_status()
         redraw.viewports()
+        running.ended(self)
 
 
 def turns_view(context: bpy.types.Context, event: bpy.types.Event) -> bool:

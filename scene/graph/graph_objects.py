@@ -8,6 +8,8 @@ carries them along. They are recognized by custom properties, never by name.
 from __future__ import annotations
 
 from collections.abc import Collection, Container, Iterable, Iterator
+from functools import partial
+from itertools import chain
 from typing import Any
 
 import bpy
@@ -18,7 +20,7 @@ from ...core.graph.reeb import ReebGraph
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
 from ...core.uses.graph_folding import unfolded
-from .. import bridge, made_objects, mesh_arrays, part_names, store, transaction
+from .. import bridge, made_objects, mesh_arrays, part_names, store, transaction, visibility
 from ..made_objects import ROLE
 from ..selection import in_layer
 from ..temporary import remove_object
@@ -75,35 +77,44 @@ def exists(obj: bpy.types.Object) -> bool:
     return find(obj) is not None or bool(_elsewhere(obj))
 
 
-def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> bool:
-    """Hide the graph of an object in the view layer, or show it again; whether it has a collection."""
-    for item in _elsewhere_in_layer(context, obj):
-        transaction.on_failure(item.hide_set, item.hide_get())
-        item.hide_set(hidden)
+def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool,
+               layers: Iterable[bpy.types.ViewLayer] = ()) -> bool:
+    """Hide the graph of an object, or show it again; whether it has a collection.
+
+    layers : in which view layers of the scene; in that of the context without.
+    """
+    layers = [*layers] or [context.view_layer]
+    for view_layer in layers:
+        for item in _elsewhere_in_layer(view_layer, obj):
+            transaction.on_failure(partial(item.hide_set, item.hide_get(view_layer=view_layer), view_layer=view_layer))
+            item.hide_set(hidden, view_layer=view_layer)
     collection = find(obj)
     if collection is None:
         return False
-    for layer in _layers(context, collection):
+    if not hidden:
+        visibility.include(context, collection)
+    for layer in chain.from_iterable(_layers(view_layer, collection) for view_layer in layers):
         transaction.keep(layer, "hide_viewport")
         layer.hide_viewport = hidden
     return True
 
 
 def is_shown(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
-    """Whether an object has a graph that is not hidden in the view layer."""
-    return (any(not layer.hide_viewport for layer in _layers(context, find(obj)))
-            or any(item.visible_get() for item in _elsewhere_in_layer(context, obj)))
+    """Whether an object has a graph that is not hidden in the view layer, nor left out of it."""
+    return (any(not (layer.hide_viewport or layer.exclude or layer.collection.hide_viewport)
+                for layer in _layers(context.view_layer, find(obj)))
+            or any(item.visible_get() for item in _elsewhere_in_layer(context.view_layer, obj)))
 
 
-def _elsewhere_in_layer(context: bpy.types.Context, obj: bpy.types.Object) -> list[bpy.types.Object]:
-    """Those objects of ``_elsewhere`` that the view layer has."""
-    return [item for item in _elsewhere(obj) if in_layer(context.view_layer, item)]
+def _elsewhere_in_layer(view_layer: bpy.types.ViewLayer, obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """Those objects of ``_elsewhere`` that a view layer has."""
+    return [item for item in _elsewhere(obj) if in_layer(view_layer, item)]
 
 
-def _layers(context: bpy.types.Context, collection: bpy.types.Collection | None
+def _layers(view_layer: bpy.types.ViewLayer, collection: bpy.types.Collection | None
             ) -> Iterator[bpy.types.LayerCollection]:
-    """Where a collection is in the view layer."""
-    waiting = [context.view_layer.layer_collection] if collection else []
+    """Where a collection is in a view layer."""
+    waiting = [view_layer.layer_collection] if collection else []
     while waiting:
         layer = waiting.pop()
         if layer.collection == collection:

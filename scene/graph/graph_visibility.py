@@ -67,7 +67,7 @@ def hide(context: bpy.types.Context, source: bpy.types.Object) -> None:
     if graph is not None and SHOWN_BEFORE not in graph:
         transaction.keep_keys(graph, SHOWN_BEFORE)
         graph[SHOWN_BEFORE] = int(graph_objects.is_shown(context, source))
-        graph_objects.set_hidden(context, source, True)
+        graph_objects.set_hidden(context, source, True, _view_layers(context, source, False))
 
 
 def show(context: bpy.types.Context, source: bpy.types.Object) -> None:
@@ -76,7 +76,13 @@ def show(context: bpy.types.Context, source: bpy.types.Object) -> None:
     if graph is not None and SHOWN_BEFORE in graph:
         transaction.keep_keys(graph, SHOWN_BEFORE)
         if graph.pop(SHOWN_BEFORE) and context.scene.reeb_parts.graph:
-            graph_objects.set_hidden(context, source, False)
+            graph_objects.set_hidden(context, source, False, _view_layers(context, source, True))
+
+
+def _view_layers(context: bpy.types.Context, source: bpy.types.Object, seen: bool) -> list[bpy.types.ViewLayer]:
+    """That of the context, and the others of the scene in which a model is seen, or those in which it is not."""
+    return [layer for layer in context.scene.view_layers
+            if layer == context.view_layer or source.visible_get(view_layer=layer) == seen]
 
 
 def _in_local_views(context: bpy.types.Context

@@ -184,26 +184,8 @@ def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.ty
         collection[COLLECTION_OF] = obj
         transaction.keep_group(obj, "reeb_parts_made")
         obj.reeb_parts_made.pieces = collection
-    if collection not in context.scene.collection.children_recursive:
-        if not transaction.is_new(collection):
-            transaction.on_failure(context.scene.collection.children.unlink, collection)
-        context.scene.collection.children.link(collection)
-    _include(context, collection)
+    visibility.include(context, collection)
     return collection
-
-
-def _include(context: bpy.types.Context, collection: bpy.types.Collection) -> None:
-    """Have a collection of ours shown by the view layer: what is made in it is to be seen."""
-    transaction.keep(collection, "hide_viewport")
-    collection.hide_viewport = False
-    open_ = [context.view_layer.layer_collection]
-    while open_:
-        layer = open_.pop()
-        for name in ("exclude", "hide_viewport") if layer.collection == collection else ():
-            if getattr(layer, name):
-                transaction.on_failure(setattr, layer, name, True)
-                setattr(layer, name, False)
-        open_ += layer.children
 
 
 def removing_earlier(obj: bpy.types.Object, numbers: list[int], coming: Collection[str]) -> Steps[made_objects.Earlier]:

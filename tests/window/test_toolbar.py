@@ -23,6 +23,11 @@ def test_the_part_under_the_pointer_is_filled_and_named(seen):
     assert seen["hover beside"] is None
 
 
+def test_a_thin_wall_is_filled_once(seen):
+    """Its inner side was drawn over the outer one, here and there: triangles of a wheelbarrow made a pattern."""
+    assert seen["a thin wall"] == pytest.approx([0.25, 0.25], abs=0.01)
+
+
 def test_a_click_chooses_a_part_and_shift_adds_another(seen):
     assert seen["clicked"] == ["Part 06", []]
     assert seen["shift-clicked"] == ["Part 03", ["Part 03", "Part 06"]]

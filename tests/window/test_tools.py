@@ -153,3 +153,11 @@ def test_a_tool_ends_when_its_object_is_deleted(seen, tool):
 def test_deleting_is_undone(seen, tool):
     assert seen[f"at work after deleting within {tool}"] == []
     assert seen[f"deletion within {tool} undone"] == []
+
+
+def test_nothing_goes_on_when_the_extension_is_switched_off_or_updated(seen):
+    """The stroke stayed, and so did the progress: nothing could be decomposed until Blender was started again."""
+    assert seen["at work before it is switched off"] == ["REEB_PARTS_OT_decompose", "REEB_PARTS_OT_paint"]
+    assert seen["at work when it is switched off"] == []
+    assert seen["ready when it is on again"] is True
+    assert seen["switched off and on again"] == []

@@ -4,11 +4,15 @@
 Executed inside Blender as driver.py is, which says how.
 """
 
+import importlib
 import json
 import os
 import sys
 
 import bpy
+import gpu
+import numpy as np
+from mathutils import Matrix
 
 sys.path += [os.path.dirname(__file__), os.path.dirname(os.path.dirname(__file__))]
 import pointer
@@ -25,10 +29,30 @@ def steps():
     yield from pointer.until(lambda: "reeb_part" in spot().data.attributes, pointer.PATIENCE)
     yield 0.5
     pointer.view_area().spaces.active.show_region_toolbar = True
+    note("a thin wall", filled())
     for scene in (started, hovered, clicked, boxed, merged, cut, painted, grown, slid, renamed, hidden, framed,
                   kept, elsewhere):
         yield from scene()
         (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
+
+
+def filled():
+    """How bright a fill is of both sides of a thin wall, the far one drawn last and first, over black."""
+    lines = importlib.import_module("bl_ext.user_default.reeb_parts.viewport.lines")
+    half = np.array([[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]], np.float32)
+    wall, shades = np.concatenate([half - [0, 0, 1], half - [0, 0, 1.0005]]), []
+    for triangles in (wall, wall[::-1]):
+        offscreen = gpu.types.GPUOffScreen(8, 8)
+        with offscreen.bind(), gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+            frame = gpu.state.active_framebuffer_get()
+            frame.clear(color=(0.0, 0.0, 0.0, 0.0), depth=1.0)
+            gpu.matrix.load_matrix(Matrix())
+            perspective = (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, -1.02, -0.202), (0, 0, -1, 0)
+            gpu.matrix.load_projection_matrix(Matrix(perspective))
+            lines.Surface(triangles.astype(np.float32)).draw(Matrix(), (1.0, 1.0, 1.0, 0.25), True)
+            shades.append(frame.read_color(4, 4, 1, 1, 4, 0, "FLOAT").to_list()[0][0][0])
+        offscreen.free()
+    return shades
 
 
 def started():

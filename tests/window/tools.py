@@ -17,6 +17,7 @@ import pointer
 from snapshot import snapshot
 from spot import SEEN, at_work, chosen, differences, keys_to, note, number, shares, spot, undo_to
 
+PACKAGE = "bl_ext.user_default.reeb_parts"
 TOOLS = ("Pick Parts", "Cut Part", "Paint into", "Slide Boundary")
 PARTS_ENTRY = 10  # entries of the menu above that of the parts, whose letter the first has taken
 # The buttons that start them, and what is beside those in the sidebar.
@@ -32,7 +33,7 @@ def steps():
     yield 0.5
     yield from by_submenu()
     yield from hidden()
-    for scene in (picked, cut, painted, escaped, by_graph, disturbed, elsewhere, next_door, deleted):
+    for scene in (picked, cut, painted, escaped, by_graph, disturbed, elsewhere, next_door, deleted, switched_off):
         yield from scene()
         (pointer.OUT / "seen.json").write_text(json.dumps(SEEN, indent=2))
 
@@ -394,6 +395,23 @@ def deleted():
 
 
 
+
+
+def switched_off():
+    """The extension is switched off, as an update does, while a stroke has yet to be confirmed and a run goes on."""
+    bpy.context.scene.reeb_parts.base_spacing *= 1.01  # nothing of this is known
+    before = snapshot()
+    yield from pointer.search("Paint into")
+    yield from pointer.drag(stroke("Part 01", "Part 06"))
+    in_view(lambda: bpy.ops.reeb_parts.decompose("INVOKE_DEFAULT"))
+    note("at work before it is switched off", at_work())
+    bpy.ops.preferences.addon_disable(module=PACKAGE)
+    yield 0.2
+    note("at work when it is switched off", at_work())
+    bpy.ops.preferences.addon_enable(module=PACKAGE)
+    note("switched off and on again", differences(before))
+    note("ready when it is on again", bpy.ops.reeb_parts.decompose.poll())
+    pointer.shot("11_switched_off.png")
 
 
 def choose(name):

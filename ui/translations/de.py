@@ -515,7 +515,7 @@ TEXTS = {
     "None": "Keine",
     "Mark no part": "Kein Teil ankreuzen",
     "Invert": "Invertieren",
-    "Mark the parts that are not marked": "Die Teile ankreuzen, die nicht angekreuzt sind",
+    "Mark the parts that are not chosen": "Die Teile ankreuzen, die nicht gewählt sind",
     "Smaller": "Kleinere",
     "Mark the parts smaller than the active one": "Die Teile ankreuzen, die kleiner als das aktive sind",
     "Of selected faces": "Ausgewählter Flächen",

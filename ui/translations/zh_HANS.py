@@ -491,7 +491,7 @@ TEXTS = {
     "None": "无",
     "Mark no part": "不勾选任何部件",
     "Invert": "反转",
-    "Mark the parts that are not marked": "勾选未勾选的部件",
+    "Mark the parts that are not chosen": "勾选未选中的部件",
     "Smaller": "较小",
     "Mark the parts smaller than the active one": "勾选小于活动部件的部件",
     "Of selected faces": "所选面的部件",

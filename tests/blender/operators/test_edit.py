@@ -477,6 +477,14 @@ def test_marks(obj, result):
     assert [p.selected for p in result.parts] == [True] + [False] * (len(result.parts) - 1)
 
 
+def test_the_others_of_a_part_that_is_clicked_are_all_but_this_one(obj, result):
+    """After a click and Ctrl+I all were marked, and M made one part of the whole."""
+    result.active = 2
+    for others in (True, False):
+        bpy.ops.reeb_parts.mark(action="INVERT")
+        assert [p.selected == others for p in result.parts] == [index != 2 for index in range(len(result.parts))]
+
+
 def test_nodes_are_handles_of_their_parts(obj, result):
     nodes = [item for item in bpy.data.collections["Reeb Graph Tree"].objects if item.type == "EMPTY"]
     tip = next(item for item in nodes if item["kind"] == "maximum" and item["part"] != 1)

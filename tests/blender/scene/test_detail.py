@@ -168,7 +168,10 @@ def test_detail_of_several_selected_models_is_set_together(make, tree):
     bpy.context.view_layer.objects.active = first
     first.data.reeb_parts.n_parts = 3
     assert [len(obj.data.reeb_parts.parts) for obj in (first, second, third)] == [3, 3, 5]
+    bpy.ops.object.mode_set(mode="EDIT")  # both: only those that are not edited were set
     first.data.reeb_parts.detail = 0.5
+    assert [obj.mode for obj in (first, second, third)] == ["EDIT", "EDIT", "OBJECT"]
+    bpy.ops.object.mode_set(mode="OBJECT")
     assert [len(obj.data.reeb_parts.parts) for obj in (first, second, third)] == [5, 5, 5]
     # A script that sets the detail of a model that is not the active one means this one alone.
     second.data.reeb_parts.n_parts = 2

@@ -193,6 +193,23 @@ def test_the_eye_hides_and_shows(obj, settings):
         assert settings.graph != hidden
 
 
+@pytest.mark.parametrize("how", ["exclude", "disable", "unlink"])
+def test_the_eye_shows_a_graph_that_the_outliner_has_taken_away(obj, settings, how):
+    """Without its tick there, as artists get rid of collections, it said that the graph is shown, and showed none."""
+    collection = bpy.data.collections["Reeb Graph Tree"]
+    if how == "unlink":
+        bpy.context.scene.collection.children.unlink(collection)
+    else:
+        place, name = (layer_of(collection.name), "exclude") if how == "exclude" else (collection, "hide_viewport")
+        setattr(place, name, True)
+    bpy.context.view_layer.update()
+    bpy.ops.reeb_parts.show_graph()
+    bpy.context.view_layer.update()
+    assert all(item.visible_get() for item in nodes(obj))
+    bpy.ops.reeb_parts.show_graph()
+    assert layer_of(collection.name).hide_viewport
+
+
 def test_the_eye_works_on_all_selected_models(make, tree, obj, settings):
     """It hid the graph of the active one only."""
     other = make(tree, "Other")

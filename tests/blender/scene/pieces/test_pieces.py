@@ -368,6 +368,17 @@ def test_a_graph_that_was_hidden_stays_hidden_with_the_original(obj, seen):
         assert graph.hide_viewport
 
 
+def test_a_graph_is_hidden_with_the_original_in_all_view_layers(obj):
+    """In another one than that of the window it lay over the pieces."""
+    bpy.ops.reeb_parts.decompose()
+    bpy.context.scene.view_layers.new("Another")
+    for command, seen in (("separate", False), ("show_original", True), ("show_pieces", False)):
+        getattr(bpy.ops.reeb_parts, command)()
+        bpy.context.view_layer.update()
+        for layer in bpy.context.scene.view_layers:
+            assert {item.visible_get(view_layer=layer) for item in (obj, *obj.children)} == {seen}
+
+
 def test_the_original_or_its_pieces_are_seen(obj):
     """Both in the same place were speckled. Pieces are hidden in the view alone, which is no work on them."""
     bpy.ops.reeb_parts.decompose()

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Operators that go on in the window, as tools do: they end before the extension is switched off or updated.
+
+Blender drops them then without a word to them: their progress, their cursor and what they draw would stay for good.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+_running: list[tuple[Any, int]] = []  # each with the address of its window
+
+
+def begun(operator: Any, context: bpy.types.Context) -> None:
+    """An operator goes on in a window. operator : its ``cancel`` ends it, and calls ``ended``."""
+    if all(known is not operator for known, _ in _running):
+        _running.append((operator, context.window.as_pointer()))
+
+
+def ended(operator: Any) -> None:
+    """An operator has ended, however it did."""
+    _running[:] = [entry for entry in _running if entry[0] is not operator]
+
+
+def end_all() -> None:
+    """End them all now, each in its own window."""
+    for operator, address in reversed(_running.copy()):
+        window = next((found for found in bpy.context.window_manager.windows if found.as_pointer() == address), None)
+        with bpy.context.temp_override(window=window):
+            operator.cancel(bpy.context)
