@@ -144,7 +144,7 @@ def _kind(obj: bpy.types.Object) -> str:
 
 def users(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:
     """The objects of a mesh; vertex groups can be written through any of them."""
-    return [obj for obj in bpy.data.objects if obj.type == "MESH" and obj.data == mesh]
+    return [obj for obj in bpy.data.objects if obj.data == mesh]
 
 
 def name_of(mesh: bpy.types.Mesh) -> str:
