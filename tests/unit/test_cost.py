@@ -123,11 +123,10 @@ def hair(count):
 
 def crumpled(count):
     """A sheet of so many quads along an edge, with a deep crease at nearly every edge."""
-    x, y = np.meshgrid(np.linspace(0, 1, count + 1), np.linspace(0, 1, count + 1), indexing="ij")
-    number = np.arange((count + 1) ** 2).reshape(count + 1, -1)
-    a, b, c, d = (number[i].ravel() for i in (np.s_[:-1, :-1], np.s_[1:, :-1], np.s_[1:, 1:], np.s_[:-1, 1:]))
-    return shapes.Shape(np.stack([x, y, 0.3 * np.sin(40 * x) * np.sin(37 * y)], axis=-1).reshape(-1, 3),
-                        np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]))
+    grid = shapes.flat_grid(count, count, 1 / count)
+    x, y = grid.vertices[:, :2].T
+    grid.vertices[:, 2] = 0.3 * np.sin(40 * x) * np.sin(37 * y)
+    return grid
 
 
 ODD = {
