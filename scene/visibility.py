@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
 
 import bpy
@@ -43,14 +44,23 @@ def include(context: bpy.types.Context, collection: bpy.types.Collection) -> Non
         context.scene.collection.children.link(collection)
     transaction.keep(collection, "hide_viewport")
     collection.hide_viewport = False
-    open_ = [context.view_layer.layer_collection]
-    while open_:
-        layer = open_.pop()
-        for name in ("exclude", "hide_viewport") if layer.collection == collection else ():
+    for layer in layers_of(context.view_layer, collection):
+        for name in ("exclude", "hide_viewport"):
             if getattr(layer, name):
                 transaction.on_failure(setattr, layer, name, True)
                 setattr(layer, name, False)
-        open_ += layer.children
+
+
+def layers_of(
+    view_layer: bpy.types.ViewLayer, collection: bpy.types.Collection | None
+) -> Iterator[bpy.types.LayerCollection]:
+    """Where a collection is in a view layer."""
+    waiting = [view_layer.layer_collection] if collection else []
+    while waiting:
+        layer = waiting.pop()
+        if layer.collection == collection:
+            yield layer
+        waiting += layer.children
 
 
 def _known(obj: bpy.types.Object) -> int:

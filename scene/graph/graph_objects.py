@@ -93,7 +93,7 @@ def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool,
         return False
     if not hidden:
         visibility.include(context, collection)
-    for layer in chain.from_iterable(_layers(view_layer, collection) for view_layer in layers):
+    for layer in chain.from_iterable(visibility.layers_of(view_layer, collection) for view_layer in layers):
         transaction.keep(layer, "hide_viewport")
         layer.hide_viewport = hidden
     return True
@@ -102,24 +102,13 @@ def set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool,
 def is_shown(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     """Whether an object has a graph that is not hidden in the view layer, nor left out of it."""
     return (any(not (layer.hide_viewport or layer.exclude or layer.collection.hide_viewport)
-                for layer in _layers(context.view_layer, find(obj)))
+                for layer in visibility.layers_of(context.view_layer, find(obj)))
             or any(item.visible_get() for item in _elsewhere_in_layer(context.view_layer, obj)))
 
 
 def _elsewhere_in_layer(view_layer: bpy.types.ViewLayer, obj: bpy.types.Object) -> list[bpy.types.Object]:
     """Those objects of ``_elsewhere`` that a view layer has."""
     return [item for item in _elsewhere(obj) if in_layer(view_layer, item)]
-
-
-def _layers(view_layer: bpy.types.ViewLayer, collection: bpy.types.Collection | None
-            ) -> Iterator[bpy.types.LayerCollection]:
-    """Where a collection is in a view layer."""
-    waiting = [view_layer.layer_collection] if collection else []
-    while waiting:
-        layer = waiting.pop()
-        if layer.collection == collection:
-            yield layer
-        waiting.extend(layer.children)
 
 
 def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: NumberedParts, style: Any) -> int:
