@@ -16,6 +16,7 @@ import numpy as np
 from ..surface.arrays import expanded, sums_by
 from ..surface.components import components
 from ..surface.mesh import LEAST_WEIGHT, TriMesh
+from ..surface.vectors import lengths
 from .bridged_levels import FaceBridges, joined_by_faces
 
 
@@ -107,8 +108,9 @@ class LevelSets:
         last = np.append(self.element_face[1:] != self.element_face[:-1], True)
         below[last] = 1.0
         inner = ~last
-        below[inner] = _share_below(self.values[self.mesh.faces[self.element_face[inner]]],
-                                    top[inner])
+        corners = np.sort(self.values[self.mesh.faces], axis=1).T
+        low, middle, high = (corner.take(self.element_face[inner]) for corner in corners)
+        below[inner] = _share_below(low, middle, high, top[inner])
         first = np.append(True, last[:-1])
         share = below - np.where(first, 0.0, np.append(0.0, below[:-1]))
         return np.maximum(share, 0.0) * self.mesh.face_area[self.element_face]
@@ -126,11 +128,13 @@ class LevelSets:
     @cached_property
     def segment_edges(self) -> np.ndarray:
         """(S, 2) int64, the two edges of the mesh on which each segment ends."""
-        above = self.vertex_slab[self.mesh.faces[self.segment_face]] > self.segment_level[:, None]
-        alone = np.where((above.sum(axis=1) == 1)[:, None], above, ~above).argmax(axis=1)
-        edges = self.mesh.edges.face_edges[self.segment_face]
-        rows = np.arange(len(edges))
-        return np.stack([edges[rows, alone], edges[rows, (alone + 2) % 3]], axis=1)
+        first, second, third = (slab.take(self.segment_face) > self.segment_level
+                                for slab in self.vertex_slab[self.mesh.faces].T)
+        alone = np.where(first == second, 2, first == third)  # the corner on a side of its own
+        # One column at a time, here and below: of thousands of faces through all levels there are millions of segments.
+        after = 3 * self.segment_face + alone
+        before = after - np.where(alone == 0, -2, 1)
+        return np.stack([self.mesh.edges.face_edges.ravel().take(edge) for edge in (after, before)]).T
 
     def crossing(self, edge: np.ndarray, level: np.ndarray) -> np.ndarray:
         """Find where levels cross edges.
@@ -148,27 +152,32 @@ class LevelSets:
             Position of the crossing, 0..1 from the first vertex of the edge to the second; 0.5 on an edge along
             which the field does not change.
         """
-        low, high = (self.values[self.mesh.edges.vertices[edge, end]] for end in (0, 1))
+        low, high = (self.values.take(end.take(edge)) for end in self.mesh.edges.vertices.T)
         rise = high - low
-        share = np.divide(self.levels[level] - low, rise, out=np.full(rise.shape, 0.5),
-                          where=rise != 0)
-        return np.clip(share, 0.0, 1.0)
+        share = np.divide(self.levels.take(level) - low, rise, out=np.full(rise.shape, 0.5), where=rise != 0)
+        return np.clip(share, 0.0, 1.0, out=share)
 
     @cached_property
     def segment_points(self) -> np.ndarray:
         """(S, 2, 3) float64, ends of each segment on its ``segment_edges``, in units of the vertices."""
-        share = self.crossing(self.segment_edges, self.segment_level[:, None])[..., None]
-        start, points = (self.mesh.vertices[self.mesh.edges.vertices[self.segment_edges, k]] for k in (0, 1))
-        # In place: of thousands of faces through all levels there are millions of these.
-        points -= start
-        points *= share
-        points += start
-        return points
+        points = np.empty((2, 3, len(self.segment_face)))
+        for edge, at in zip(self.segment_edges.T, points, strict=True):
+            share = self.crossing(edge, self.segment_level)
+            start, end = (vertex.take(edge) for vertex in self.mesh.edges.vertices.T)
+            for axis, coordinate in zip(self.mesh.vertices.T, at, strict=True):
+                low = axis.take(start)
+                coordinate[:] = (axis.take(end) - low) * share + low
+        return points.transpose(2, 0, 1)
 
     @cached_property
     def segment_length(self) -> np.ndarray:
         """(S,) float64, length of each segment, in units of the vertices."""
-        return np.linalg.norm(self.segment_points[:, 1] - self.segment_points[:, 0], axis=1)
+        return lengths(self.segment_points[:, 1] - self.segment_points[:, 0])
+
+    @cached_property
+    def segment_middle(self) -> np.ndarray:
+        """(S, 3) float64, middle of each segment, in units of the vertices."""
+        return (self.segment_points[:, 0] + self.segment_points[:, 1]) / 2
 
     @cached_property
     def contour_length(self) -> np.ndarray:
@@ -178,13 +187,13 @@ class LevelSets:
     @cached_property
     def contour_center(self) -> np.ndarray:
         """(C, 3) float64, centroid of each contour, in units of the vertices."""
-        return self._contour_mean(self.segment_points.mean(axis=1))
+        return self._contour_mean(self.segment_middle)
 
     @cached_property
     def contour_radius(self) -> np.ndarray:
         """(C,) float64, mean distance of each contour from its centroid, in units of the vertices."""
-        offset = self.segment_points.mean(axis=1) - self.contour_center[self.segment_contour]
-        return self._contour_mean(np.linalg.norm(offset, axis=1))
+        center = self.contour_center.T.take(self.segment_contour, axis=1).T
+        return self._contour_mean(lengths(self.segment_middle - center))
 
     def _contour_mean(self, of_segments: np.ndarray) -> np.ndarray:
         """Mean over each contour, (C,) or (C, k), of a value per segment, (S,) or (S, k), weighted by length."""
@@ -298,13 +307,12 @@ def _bridged(
     return components(len(loose_part), *pieces.T)[1], components(len(contour_pieces), *contours.T)[1]
 
 
-def _share_below(corner_values: np.ndarray, level: np.ndarray) -> np.ndarray:
+def _share_below(low: np.ndarray, middle: np.ndarray, high: np.ndarray, level: np.ndarray) -> np.ndarray:
     """Share of each triangle's area, (r,), on which the linear field is below a level.
 
-    corner_values : (r, 3), the field at the corners. level : (r,), of each triangle: above its lowest corner, and not
+    low, middle, high : (r,), the field at the corners. level : (r,), of each triangle: above its lowest corner, and not
     above its highest.
     """
-    low, middle, high = np.sort(corner_values, axis=1).T
     with np.errstate(divide="ignore", invalid="ignore"):
         rising = (level - low) ** 2 / ((middle - low) * (high - low))
         falling = 1.0 - (high - level) ** 2 / ((high - low) * (high - middle))
