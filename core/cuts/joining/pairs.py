@@ -24,7 +24,7 @@ RADII = (0.004, 0.012, NEAR)  # within which surfaces are counted as touching, i
 # Pairs of parts are looked at if either is among the MOST_NEAR that come nearest to the other, or as near. Where that
 # would be more than MOST_PAIRS, it is fewer, but at least LEAST_NEAR. A blade of a lawn comes near hundreds of others;
 # in 8 of 362 ordinary models a few pairs are more, and the parts of one of these change.
-LEAST_NEAR, MOST_NEAR, MOST_PAIRS = 8, 48, 50_000
+LEAST_NEAR, MOST_NEAR, MOST_PAIRS = 8, 48, 20_000
 ALIKE = 0.1  # how much the logarithms of area and extents of parts that repeat each other may differ
 MOST_ALIKE = 10_000  # parts among which a part's repeats are counted; of more, as in heaps of loose faces, every few
 
