@@ -108,8 +108,9 @@ def connected_cells(mesh: TriMesh, cell: np.ndarray) -> np.ndarray:
     mesh : TriMesh, m faces. cell : (m,) int64. Returns (m,) int64, components numbered in the order of their lowest
     faces.
     """
-    a, b = mesh.edges.pairs[cell[mesh.edges.pairs[:, 0]] == cell[mesh.edges.pairs[:, 1]]].T
-    return components(mesh.n_faces, a, b)[1]
+    a, b = mesh.edges.pairs.T
+    same = cell[a] == cell[b]
+    return components(mesh.n_faces, a[same], b[same])[1]
 
 
 def _crease_graph(mesh: TriMesh) -> csr_array:

@@ -9,8 +9,10 @@ from scipy.sparse.csgraph import dijkstra
 
 from ..errors import DisconnectedMeshError
 from ..sentence import Sentence
+from ..surface.arrays import taken
 from ..surface.mesh import ON_A_LINE, TriMesh
 from ..surface.pairs import symmetric_matrix
+from ..surface.vectors import lengths, row_products
 from .sight import lines_in_sight
 
 
@@ -86,22 +88,22 @@ def _shortest_of(rows: np.ndarray, columns: np.ndarray, length: np.ndarray, n: i
     first = np.ones(len(low), bool)
     first[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
     first &= low != high
-    return symmetric_matrix(np.stack([low, high], axis=1)[first], length[first], n)
+    return symmetric_matrix(taken(np.stack([low, high], axis=1), first), length[first], n)
 
 
 def _unfolded_lines(mesh: TriMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Far corners of each two triangles whose straight line crosses the shared edge, and its length; (k,) each."""
     pairs, edge = mesh.edges.pairs, mesh.edges.pair_edge
-    a, b = mesh.edges.vertices[edge].T
-    far = mesh.faces[pairs].sum(axis=2) - (a + b)[:, None]  # the corner that is not on the shared edge
-    origin, length = mesh.vertices[a], mesh.edge_length[edge]
+    a, b = taken(mesh.edges.vertices, edge).T
+    far = taken(mesh.faces.sum(axis=1), pairs) - (a + b)[:, None]  # the corner that is not on the shared edge
+    origin, length = taken(mesh.vertices, a), mesh.edge_length[edge]
     safe = np.where(length > 0, length, 1.0)
-    along = (mesh.vertices[b] - origin) / safe[:, None]
+    along = (taken(mesh.vertices, b) - origin) / safe[:, None]
     x, y = [], []
     for corner in far.T:
-        offset = mesh.vertices[corner] - origin
-        x.append((offset * along).sum(axis=1))
-        y.append(np.linalg.norm(offset - x[-1][:, None] * along, axis=1))
+        offset = taken(mesh.vertices, corner) - origin
+        x.append(row_products(offset, along))
+        y.append(lengths(offset - x[-1][:, None] * along))
     height = y[0] + y[1]
     crossing = x[0] + (x[1] - x[0]) * np.divide(y[0], height, out=np.zeros_like(height),
                                                 where=height > 0)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..surface.arrays import taken
 from ..surface.mesh import ON_A_LINE, TriMesh
 from ..surface.ties import TIE
 from ..surface.vectors import cross_in_plane, lengths, row_products
@@ -106,7 +107,8 @@ def _across(mesh: TriMesh) -> np.ndarray:
 def _first_windows(mesh: TriMesh, across: np.ndarray) -> _Windows:
     """What each vertex sees through the opposite sides of its needles."""
     source, begin, end = (np.roll(mesh.faces, -k, axis=1).ravel() for k in range(3))
-    right, left = mesh.vertices[begin] - mesh.vertices[source], mesh.vertices[end] - mesh.vertices[source]
+    origin = taken(mesh.vertices, source)
+    right, left = (taken(mesh.vertices, to) - origin for to in (begin, end))
     far, near = lengths(left), lengths(right)
     safe = np.where(near > 0, near, 1.0)
     along = row_products(left, right) / safe
@@ -129,11 +131,11 @@ def _behind(mesh: TriMesh, windows: _Windows) -> tuple[np.ndarray, np.ndarray]:
     """The far corner of the triangle behind each edge, (w,) int64, and its place, (w, 2)."""
     face, first = np.divmod(windows.side, 3)
     corner = mesh.faces[face, (first + 2) % 3]
-    start = mesh.vertices[windows.ends[:, 0]]
-    edge = mesh.vertices[windows.ends[:, 1]] - start
+    start, end = (taken(mesh.vertices, place) for place in windows.ends.T)
+    edge = end - start
     length = lengths(edge)
     safe = np.where(length > 0, length, 1.0)[:, None]
-    offset = mesh.vertices[corner] - start
+    offset = taken(mesh.vertices, corner) - start
     along = row_products(offset, edge / safe)[:, None]
     away = lengths(offset - along * edge / safe)[:, None]
     x, y = ((windows.left - windows.right) / safe).T

@@ -237,8 +237,8 @@ def cut_at_levels(
     Time and memory grow with faces + crossings of faces and levels.
     """
     slab = np.searchsorted(levels, values, side="right")
-    corner_slab = slab[mesh.faces]
-    lowest, highest = corner_slab.min(axis=1), corner_slab.max(axis=1)
+    a, b, c = (slab.take(corner) for corner in mesh.faces.T)
+    lowest, highest = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
     element_face, element_slab = expanded(lowest, highest - lowest + 1)
     segment_face, segment_level = expanded(lowest, highest - lowest)
     first = np.cumsum(highest - lowest + 1) - (highest - lowest + 1) - lowest
@@ -274,8 +274,8 @@ def _connected(
     slab 0, if it had one there.
     """
     pairs = mesh.edges.pairs
-    ends = slab[mesh.edges.vertices[mesh.edges.pair_edge]]
-    low, high = ends.min(axis=1), ends.max(axis=1)
+    a, b = (slab.take(end.take(mesh.edges.pair_edge)) for end in mesh.edges.vertices.T)
+    low, high = np.minimum(a, b), np.maximum(a, b)
     n_elements, n_segments = int((highest - lowest + 1).sum()), int((highest - lowest).sum())
     pair, at = expanded(low, high - low + 1)
     n_pieces, piece = components(n_elements, first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import first_of_rows, inverse, stable_order, sums_by
+from .arrays import first_of_rows, inverse, stable_order, sums_by, taken
 from .mesh import TriMesh
 from .ordering import rank_by_place
 from .pairs import both_ways
@@ -89,7 +89,7 @@ def coarsen(
     owner = name.copy()
     near = np.flatnonzero(seed[b] & ~seed[a])
     a, b = a[near], b[near]
-    length = lengths(mesh.vertices[a] - mesh.vertices[b])
+    length = lengths(taken(mesh.vertices, a) - taken(mesh.vertices, b))
     start = np.flatnonzero(np.append(True, a[1:] != a[:-1])[: len(a)])
     least = np.minimum.reduceat(length, start) if len(start) else length
     nearest = np.flatnonzero(length <= np.repeat((1 + TIE) * least, np.diff(np.append(start, len(a)))))[::-1]
@@ -97,13 +97,13 @@ def coarsen(
     count = int(seed.sum())
     p, q, r = owner[mesh.faces.T]
     whole = np.flatnonzero((p != q) & (q != r) & (r != p))
-    faces = np.stack([p, q, r], axis=1)[whole]
+    faces = taken(np.stack([p, q, r], axis=1), whole)
     once = np.sort(first_of_rows(np.sort(faces, axis=1), count))
     p, q = owner[links.T]
     apart = np.flatnonzero(p != q)
-    between = np.stack([np.minimum(p, q), np.maximum(p, q)], axis=1)[apart]
+    between = taken(np.stack([np.minimum(p, q), np.maximum(p, q)], axis=1), apart)
     between = between[first_of_rows(between, count)]
-    return Coarsening(TriMesh(mesh.vertices[seed], faces[once]), between, links, owner,
+    return Coarsening(TriMesh(taken(mesh.vertices, seed), taken(faces, once)), between, links, owner,
                       np.bincount(owner, vertex_area, count))
 
 
@@ -178,10 +178,10 @@ def prolong(mesh: TriMesh, coarsening: Coarsening, values: np.ndarray) -> np.nda
     """
     coarse = coarsening.mesh
     gradient = _gradients(coarse, coarsening.links, values)
-    offset = mesh.vertices - coarse.vertices[coarsening.owner]
+    offset = mesh.vertices - taken(coarse.vertices, coarsening.owner)
     # Neighbors almost on a line, of which the cell's vertices are not, do not tell how it rises across.
     most = MOST_RISE * _largest_rise(coarsening.links, values)[coarsening.owner]
-    fine = values[coarsening.owner] + np.clip(row_products(gradient[coarsening.owner], offset), -most, most)
+    fine = values[coarsening.owner] + np.clip(row_products(taken(gradient, coarsening.owner), offset), -most, most)
     a, b = coarsening.fine_links.T
     degree = np.bincount(a, minlength=len(fine)) + np.bincount(b, minlength=len(fine))
     for _ in range(SMOOTHING_STEPS):
@@ -201,7 +201,7 @@ def _largest_rise(links: np.ndarray, values: np.ndarray) -> np.ndarray:
 def _gradients(mesh: TriMesh, links: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Least-squares gradient, (c, 3), of the values at each vertex and its linked neighbors."""
     a, b = both_ways(links).T
-    step = mesh.vertices[b] - mesh.vertices[a]
+    step = taken(mesh.vertices, b) - taken(mesh.vertices, a)
     rise = values[b] - values[a]
     weight = 1.0 / np.maximum(row_products(step, step), np.finfo(float).tiny)
     n = len(values)
@@ -219,7 +219,7 @@ def _near(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray,
     Across needles vertices are much nearer to each other than along them. As in algebraic multigrid, cells grow across
     only, until they are about as wide as long; else the way around a cylinder of many sides would zigzag.
     """
-    length = lengths(points[a] - points[b])
+    length = lengths(taken(points, a) - taken(points, b))
     shortest = np.minimum.reduceat(length, np.searchsorted(a, np.arange(len(points))))
     short = length <= (1 + TIE) * SLIM * np.maximum(shortest[a], shortest[b])
     return a[short], b[short]

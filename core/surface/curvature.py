@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
-from .arrays import sums_by
+from .arrays import sums_by, taken
 from .mesh import TriMesh
 from .pairs import symmetric_matrix
 from .vectors import second_moments_of_each
@@ -59,8 +59,8 @@ def principal_curvatures(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
     -----
     O(n + m), whole arrays.
     """
-    start, end = mesh.edges.vertices[mesh.edges.pair_edge].T
-    edge = mesh.vertices[end] - mesh.vertices[start]
+    start, end = taken(mesh.edges.vertices, mesh.edges.pair_edge).T
+    edge = taken(mesh.vertices, end) - taken(mesh.vertices, start)
     length = np.linalg.norm(edge, axis=1)
     direction = np.divide(edge, length[:, None], out=np.zeros_like(edge), where=length[:, None] > 0)
     turn = 0.5 * mesh.dihedral * length
@@ -77,7 +77,7 @@ def principal_curvatures(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
 
 def _plus_neighbors(values: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Sum of each vertex's value and those of its neighbors. a, b : the ends of all edges, (e,) int64."""
-    return values + sums_by(a, values[b], len(values)) + sums_by(b, values[a], len(values))
+    return values + sums_by(a, values.take(b, axis=0), len(values)) + sums_by(b, values.take(a, axis=0), len(values))
 
 
 def _tangent_eigenvalues(tensor: np.ndarray, normals: np.ndarray) -> np.ndarray:
@@ -114,13 +114,13 @@ def curvature_across(mesh: TriMesh, scales: tuple[float, ...] = SCALES) -> np.nd
     """
     unit = np.sqrt(mesh.area)
     a, b = mesh.edges.pairs.T
-    way = mesh.face_centroids[b] - mesh.face_centroids[a]
+    way = taken(mesh.face_centroids, b) - taken(mesh.face_centroids, a)
     square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-12 * mesh.area)
     exchange = _exchange(mesh)
     normal, curvature = mesh.face_normals, []
     for scale in scales:
         normal = _diffuse(mesh, exchange, (scale * unit) ** 2, normal)
-        change = np.einsum("ij,ij->i", normal[b] - normal[a], way) / square * unit
+        change = np.einsum("ij,ij->i", taken(normal, b) - taken(normal, a), way) / square * unit
         curvature.append(np.clip(change, -MAX_CURVATURE, MAX_CURVATURE))
     return np.array(curvature)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import MeshError
 from ..sentence import Sentence
-from .arrays import frozen, renumbered, stable_order
+from .arrays import frozen, renumbered, stable_order, taken
 from .components import components
 from .vectors import cross, lengths, row_products
 
@@ -126,7 +126,7 @@ class TriMesh:
     @property
     def corners(self) -> np.ndarray:
         """(m, 3, 3) float64, position of each corner of each face; made anew, because a large mesh has many."""
-        return self.vertices[self.faces]
+        return taken(self.vertices, self.faces)
 
     @cached_property
     def used(self) -> np.ndarray:
@@ -138,7 +138,7 @@ class TriMesh:
     @cached_property
     def area_normals(self) -> np.ndarray:
         """(m, 3) float64, normal of each face, as long as the face's area."""
-        p, q, r = (self.vertices[column] for column in self.faces.T)
+        p, q, r = (taken(self.vertices, column) for column in self.faces.T)
         return 0.5 * cross(q - p, r - p)
 
     @cached_property
@@ -157,14 +157,14 @@ class TriMesh:
         area = self.face_area
         some = area > 0
         small = np.flatnonzero(area <= 0.01 * area.mean())  # the others are no lines, and take long
-        p, q, r = self.vertices[self.faces[small].T]
+        p, q, r = taken(self.vertices, self.faces[small].T)
         some[small] &= area[small] > ON_A_LINE * lengths(q - p) * lengths(r - p)
         return np.divide(self.area_normals, area[:, None], out=np.zeros((self.n_faces, 3)), where=some[:, None])
 
     @cached_property
     def face_centroids(self) -> np.ndarray:
         """(m, 3) float64, mean of the corners of each face."""
-        p, q, r = (self.vertices[column] for column in self.faces.T)
+        p, q, r = (taken(self.vertices, column) for column in self.faces.T)
         return (p + q + r) / 3
 
     @cached_property
@@ -186,19 +186,24 @@ class TriMesh:
     def edge_length(self) -> np.ndarray:
         """(e,) float64, length of each edge of ``edges.vertices``."""
         a, b = self.edges.vertices.T
-        return lengths(self.vertices[a] - self.vertices[b])
+        return lengths(taken(self.vertices, a) - taken(self.vertices, b))
 
     @cached_property
     def pair_length(self) -> np.ndarray:
         """(p,) float64, length of the edge between the faces of each pair of ``edges.pairs``."""
         return self.edge_length[self.edges.pair_edge]
 
+    @property
+    def pair_middle(self) -> np.ndarray:
+        """(p, 3) float64, middle of the edge between the faces of each pair; made anew, as seldom used."""
+        a, b = taken(self.edges.vertices, self.edges.pair_edge).T
+        return (taken(self.vertices, a) + taken(self.vertices, b)) / 2
+
     @cached_property
     def pair_distance(self) -> np.ndarray:
         """(p,) float64, length of the way from centroid to centroid across the middle of the shared edge."""
-        a, b = self.edges.vertices[self.edges.pair_edge].T
-        middle = (self.vertices[a] + self.vertices[b]) / 2
-        left, right = (self.face_centroids[face] - middle for face in self.edges.pairs.T)
+        middle = self.pair_middle
+        left, right = (taken(self.face_centroids, face) - middle for face in self.edges.pairs.T)
         return np.sqrt(np.einsum("ij,ij->i", left, left)) + np.sqrt(np.einsum("ij,ij->i", right, right))
 
     @cached_property
@@ -209,11 +214,12 @@ class TriMesh:
         area. It is positive, too, where neither can be said, as of faces that are folded onto each other.
         """
         left, right = self.edges.pairs.T
-        sine = cross(self.face_normals[left], self.face_normals[right])
-        cosine = row_products(self.face_normals[left], self.face_normals[right])
+        normal_left, normal_right = (taken(self.face_normals, face) for face in (left, right))
+        sine = cross(normal_left, normal_right)
+        cosine = row_products(normal_left, normal_right)
         angle = np.arctan2(lengths(sine), cosine + 0.0)  # -0.0 would be half a turn
-        across = self.face_centroids[right] - self.face_centroids[left]
-        rises = row_products(self.face_normals[left] - self.face_normals[right], across)
+        across = taken(self.face_centroids, right) - taken(self.face_centroids, left)
+        rises = row_products(normal_left - normal_right, across)
         convex = rises <= LEVEL * np.sqrt(self.area)
         return np.where(convex, angle, -angle)
 
@@ -251,8 +257,8 @@ class TriMesh:
         vertex_index : (n',) int64
             Vertex of this mesh at each vertex of the copy.
         """
-        vertex_index, faces = renumbered(self.faces[face_mask])
-        return TriMesh(self.vertices[vertex_index], faces), vertex_index
+        vertex_index, faces = renumbered(taken(self.faces, face_mask))
+        return TriMesh(taken(self.vertices, vertex_index), faces), vertex_index
 
 
 @dataclass(frozen=True, eq=False)
@@ -308,7 +314,7 @@ class EdgeTable:
             vertices=frozen(np.stack(np.divmod(unique, max(n_vertices, 1)), axis=1), np.int64),
             face_edges=frozen(edge.reshape(-1, 3), np.int64),
             n_faces=frozen(count, np.int64),
-            pairs=frozen(pairs[distinct], np.int64),
+            pairs=frozen(taken(pairs, distinct), np.int64),
             pair_edge=frozen(edge_sorted[1:][together][distinct], np.int64),
-            pair_sides=frozen(sides[distinct], np.int64),
+            pair_sides=frozen(taken(sides, distinct), np.int64),
         )

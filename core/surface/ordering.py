@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import frozen, hashed_rows, inverse, renumbered, stable_order, sums_by
+from .arrays import frozen, hashed_rows, inverse, renumbered, stable_order, sums_by, taken
 from .components import components
 from .mesh import TriMesh
 from .polygons import PolygonMesh
@@ -105,7 +105,7 @@ class Ordering:
         triangle = stable_order(inverse(self.polygon)[polygon])
         faces = inverse(self.vertex)[mesh.faces[triangle]]
         turn = (faces.argmin(axis=1)[:, None] + np.arange(3)) % 3
-        return TriMesh(mesh.vertices[self.vertex], np.take_along_axis(faces, turn, axis=1)), triangle
+        return TriMesh(taken(mesh.vertices, self.vertex), np.take_along_axis(faces, turn, axis=1)), triangle
 
 
 def sorted_by_place(given: PolygonMesh, together: bool = True) -> tuple[PolygonMesh, Ordering]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..sentence import Sentence
-from .arrays import frozen, inverse, renumbered, stable_order
+from .arrays import frozen, inverse, renumbered, stable_order, taken
 from .borders import joined_borders
 from .components import components
 from .contact import Bridges, bridges
@@ -23,6 +23,7 @@ from .orientation import turn_outwards
 from .pairs import distinct_pairs
 from .polygons import MIN_FACES, PolygonMesh
 from .ties import TIE
+from .vectors import lengths
 
 # Longest edge of the copy, in units of the square root of the component's area: half the radius of the disc that a base
 # vertex stands for, so that the field can vary within every disc.
@@ -273,10 +274,10 @@ def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]
     parent : (m',) int64
         Face given in which each face lies.
     """
-    ends = mesh.edges.vertices[marked]
+    begin, end = taken(mesh.edges.vertices, marked).T
     middle = np.full(len(marked), -1)
-    middle[marked] = mesh.n_vertices + np.arange(len(ends))
-    vertices = np.concatenate([mesh.vertices, mesh.vertices[ends].mean(axis=1)])
+    middle[marked] = mesh.n_vertices + np.arange(len(begin))
+    vertices = np.concatenate([mesh.vertices, (taken(mesh.vertices, begin) + taken(mesh.vertices, end)) / 2])
     mids = middle[mesh.edges.face_edges]
     n_split = (mids >= 0).sum(axis=1)
     # Each face is turned so that its only split edge, or its only whole edge, is the first, or its first vertex.
@@ -288,7 +289,7 @@ def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]
     # Where two edges are split, a quadrangle is left, which is cut along its shorter diagonal. If both are equal, and
     # for the order of what a face becomes, numbers of vertices decide, not the way round the face: the mirror image of
     # a mesh is to become its mirror image.
-    from_a, from_b = (np.linalg.norm(vertices[p] - vertices[q], axis=1) for p, q in ((a, bc), (b, ca)))
+    from_a, from_b = (lengths(taken(vertices, p) - taken(vertices, q)) for p, q in ((a, bc), (b, ca)))
     at_a = (from_a < (1 - TIE) * from_b) | ((from_a <= (1 + TIE) * from_b) & (a < b))
     patterns = (
         (n_split == 0, ((a, b, c),)),
@@ -300,7 +301,7 @@ def split_edges(mesh: TriMesh, marked: np.ndarray) -> tuple[TriMesh, np.ndarray]
     faces, parent = [], []
     for chosen, triangles in patterns:
         for corners in triangles:
-            faces.append(np.stack(corners, axis=1)[chosen])
+            faces.append(taken(np.stack(corners, axis=1), chosen))
             parent.append(np.flatnonzero(chosen))
     return TriMesh(vertices, np.concatenate(faces)), np.concatenate(parent)
 

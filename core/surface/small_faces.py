@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import even_steps, rounded_order, sums_by
+from .arrays import even_steps, rounded_order, sums_by, taken
 from .contact import diameter
 from .mesh import TriMesh
 from .mirror_plane import MirrorPlane
@@ -86,10 +86,10 @@ class Elements:
 
     def matched(self, image: Elements, nearest: np.ndarray, most: float) -> np.ndarray:
         """Whether images lie on the surface, or beside it by so much, at the element nearest to each, (k,) bool."""
-        offset = image.position - self.position[nearest]
-        beside = np.abs(row_products(offset, self.normal[nearest]))
+        offset = image.position - taken(self.position, nearest)
+        beside = np.abs(row_products(offset, taken(self.normal, nearest)))
         spacing = 2.0 / np.sqrt(len(self.area))  # elements of a surface whose diameter and area are about 1
-        aligned = row_products(image.normal, self.normal[nearest]) > 0.5
+        aligned = row_products(image.normal, taken(self.normal, nearest)) > 0.5
         within = lengths(offset) <= most + spacing
         return (beside <= most) & within & aligned
 
@@ -102,7 +102,7 @@ class Elements:
 
     def chosen(self, which: np.ndarray) -> Elements:
         """Some elements."""
-        return Elements(self.position[which], self.normal[which], self.area[which])
+        return Elements(taken(self.position, which), taken(self.normal, which), self.area[which])
 
     @classmethod
     def joined(cls, several: list[Elements]) -> Elements:

@@ -114,8 +114,7 @@ def surface_measures(sets: LevelSets, field: ScalarField) -> SurfaceMeasures:
     face = np.column_stack([face, angle_defect(mesh), _bins(log_thickness) * share[:, None]])
     curvature = curvature_across(mesh)
     a, b = mesh.edges.pairs.T
-    middle = mesh.vertices[mesh.edges.vertices[mesh.edges.pair_edge]].mean(axis=1)
-    middle = (middle - centroid) / unit
+    middle = (mesh.pair_middle - centroid) / unit
     pair = np.column_stack([
         np.ones(len(a)), *curvature, *(np.minimum(c, 0.0) for c in curvature),
         *(curvature < CREASE), np.minimum(mesh.dihedral, 0.0),

@@ -15,7 +15,16 @@ from core.surface.arrays import (
     renumbered,
     rounded_order,
     stable_order,
+    taken,
 )
+
+
+@pytest.mark.parametrize("index", [[3, 0, -1, 3], [[1, 2], [0, 0]], [], [True, False, False, True]])
+def test_rows_are_those_of_an_index(index):
+    values, index = np.arange(8.0).reshape(4, 2), np.array(index, None if index else np.int64)
+    found = taken(values, index)
+    assert np.array_equal(found, values[index])
+    assert not np.shares_memory(found, values)
 
 
 def test_ranges_are_listed_one_after_the_other():
