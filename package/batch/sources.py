@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import Path
 
 from ..core.errors import ReebError
-from ..core.file_names import kind_of, readable
+from ..core.file_names import kind_of, readable, spelled
 from ..core.sentence import Sentence
 from .records import RECORD, read_record
 
@@ -83,7 +83,7 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
 
 def folder_of(out: Path, name: str) -> Path:
     """Where the results of the model of a name are."""
-    return out / "models" / name
+    return out / "models" / spelled(name)
 
 
 def _check_folders(sources: list[Source], out: Path) -> None:
@@ -137,4 +137,4 @@ def read_list(path: Path) -> list[str]:
                                    reason=error.strerror or error)) from error
     except UnicodeDecodeError as error:
         raise SourceError(Sentence("{path} could not be read: {reason}", path=path, reason=error)) from error
-    return [line.strip() for line in lines if line.strip() and not line.startswith("#")]
+    return [spelled(line.strip()) for line in lines if line.strip() and not line.startswith("#")]

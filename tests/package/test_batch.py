@@ -751,17 +751,25 @@ def test_a_folder_where_nobody_can_look_is_named_and_no_success(tree, tmp_path, 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")
 def test_a_file_whose_name_is_no_utf8_is_a_model_as_any_other(tree, reeb_parts_command, tmp_path):
-    save(tree, tmp_path / "models" / "tree.ply")
+    """Nor does it matter which letters the locale has: with those of ASCII alone, a "größe.ply" ended the whole run."""
+    plain = {"env": {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}}
+    save(tree, tmp_path / "models" / "größe.ply")
     odd = Path(os.fsdecode(os.fsencode(tmp_path) + b"/models/Stra\xdfe.ply"))
-    shutil.copy(tmp_path / "models" / "tree.ply", odd)
+    shutil.copy(tmp_path / "models" / "größe.ply", odd)
+    (tmp_path / "list.txt").write_text(str(tmp_path / "models" / "größe.ply"), encoding="utf-8")
     odd.with_name(f"torn {odd.name}").write_text("ply\nnonsense")
-    done = reeb_parts_command("batch", tmp_path / "models", "--out", tmp_path / "out", "--parts", "ply", *ONE)
+    done = reeb_parts_command("batch", tmp_path / "models", "--list", tmp_path / "list.txt", "--out", tmp_path / "out",
+                              "--parts", "ply", *ONE, **plain)
     assert json.loads(done.stdout)["models"] == {"done": 2, "unreadable": 1}, done.stderr
     table = {row["name"]: row for row in rows(tmp_path / "out" / "models.parquet")}
-    assert set(table) == {"tree.ply", r"Stra\xdfe.ply", r"torn Stra\xdfe.ply"}
-    assert table[r"Stra\xdfe.ply"]["n_parts"] == table["tree.ply"]["n_parts"]
+    assert set(table) == {"größe.ply", r"Stra\xdfe.ply", r"torn Stra\xdfe.ply"}
+    assert table[r"Stra\xdfe.ply"]["n_parts"] == table["größe.ply"]["n_parts"]
+    assert (tmp_path / "out" / "models" / "größe.ply" / "parts" / "größe Part 01.ply").is_file()
     assert r"Stra\xdfe.ply could not be read" in table[r"torn Stra\xdfe.ply"]["reason"]
     assert r"Stra\\xdfe.ply" in (tmp_path / "out" / "index.html").read_text(encoding="utf-8")
+    done = reeb_parts_command("decompose", tmp_path / "models" / "größe.ply", "--parts", tmp_path / "ü", **plain)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["files"]["parts"][0] == str(tmp_path / "ü" / "größe Part 01.obj")
     done = reeb_parts_command("decompose", odd, "--json", tmp_path / "odd.json", "--labels", odd.with_suffix(".npy"))
     assert done.returncode == 0, done.stderr
     answer = json.loads(done.stdout)
