@@ -12,8 +12,9 @@ import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import jsonschema
 import numpy as np
@@ -262,8 +263,9 @@ def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tm
 @pytest.mark.parametrize(("arguments", "status", "words"), [
     (["--out", "MODEL"], 1, "could not be written: File exists"), (["--out", "/proc/none"], 1, "could not be written"),
     (["--out", "OUT", "--workers", "0"], 2, "must be a whole number, 1 or more, not 0"),
-    (["--out", "OUT", "--memory-limit", "nan"], 2, "must be a number, 0 or more, not nan"),
-    (["--out", "OUT", "--memory-limit=-1"], 2, "must be a number, 0 or more, not -1"),
+    (["--out", "OUT", "--memory-limit", "nan"], 2, "must be a number from 0 to 100000, not nan"),
+    (["--out", "OUT", "--memory-limit", "8589934592"], 2, "must be a number from 0 to 100000, not 8589934592"),
+    (["--out", "OUT", "--memory-limit=-1"], 2, "must be a number from 0 to 100000, not -1"),
     (["--out", "OUT", "--time-limit=-1"], 2, "must be a number, 0 or more, not -1"),
     (["--out", "OUT", "--time-limit", "nan"], 2, "must be a number, 0 or more, not nan"),
     (["--out", "OUT", "--dashboard", "nonsense"], 2, "nonsense is no address such as 127.0.0.1:8787"),
@@ -618,6 +620,42 @@ def test_an_address_where_nobody_answers_is_said_to_be_one(reeb_parts_command, t
     monkeypatch.setattr(cluster, "PATIENCE", 0.5)
     with pytest.raises(cluster.ClusterError, match="No scheduler answers at tcp://127.0.0.1:1"):
         cluster.connected("tcp://127.0.0.1:1", 1, "").__enter__()
+
+
+def test_a_scheduler_that_goes_loses_nothing_that_is_done(models, tmp_path, monkeypatch, capsys):
+    """What the workers were at became crashes, in place of results that were there by then; then came a traceback."""
+    def spread(client, function, jobs):
+        job = next(jobs)
+        yield job, do_model(job)
+        raise cluster.SchedulerLostError("The scheduler does not answer any more")
+
+    monkeypatch.setattr(cluster, "spread", spread)
+    monkeypatch.setattr(cluster, "connected", lambda *_: nullcontext(SimpleNamespace(dashboard_link="")))
+    parser = argparse.ArgumentParser()
+    command.add_options(parser)
+    status = command.run(parser.parse_args([str(models), "--out", str(tmp_path / "out")]))
+    said = capsys.readouterr()
+    assert (status, json.loads(said.out)["models"]["open"]) == (1, 3)
+    assert len(rows(tmp_path / "out" / "models.parquet")) == 4
+    assert "The scheduler does not answer any more" in said.err
+
+
+def test_workers_of_a_scheduler_that_goes_have_not_crashed():
+    with (LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0") as there,
+          Client(there.scheduler_address, timeout=1) as client):
+        answers = cluster.spread(client, double, range(1000))
+        assert next(answers)[1] % 2 == 0
+        there.close()
+        with pytest.raises(cluster.SchedulerLostError):
+            assert all(isinstance(answer, int) for _, answer in answers)
+
+
+def test_workers_with_another_version_are_named(address, monkeypatch):
+    """All that they did counted as not reached, and was done again by each run."""
+    monkeypatch.setattr(cluster, "VERSION", "9.9.9")
+    with (pytest.raises(cluster.ClusterError, match=r"2 workers do not have Reeb Parts 9\.9\.9 \(first: tcp://.*, "),
+          cluster.connected(address, 1, "")):
+        pass
 
 
 def double(number):
