@@ -805,6 +805,11 @@ def test_a_file_whose_name_is_no_utf8_is_a_model_as_any_other(tree, reeb_parts_c
     assert (tmp_path / "out" / "models" / "größe.ply" / "parts" / "größe Part 01.ply").is_file()
     assert r"Stra\xdfe.ply could not be read" in table[r"torn Stra\xdfe.ply"]["reason"]
     assert r"Stra\\xdfe.ply" in (tmp_path / "out" / "index.html").read_text(encoding="utf-8")
+    done = reeb_parts_command("similar", tmp_path / "out", "größe.ply:1", "--page", tmp_path / "ü.html", **plain)
+    assert done.returncode == 0, done.stderr
+    parts = json.loads(done.stdout)
+    assert (parts["part"]["model"], {part["model"] for part in parts["similar"]}) == (
+        "größe.ply", {"größe.ply", r"Stra\xdfe.ply"})
     done = reeb_parts_command("decompose", tmp_path / "models" / "größe.ply", "--parts", tmp_path / "ü", **plain)
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["files"]["parts"][0] == str(tmp_path / "ü" / "größe Part 01.obj")
