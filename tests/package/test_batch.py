@@ -794,7 +794,9 @@ def test_a_file_whose_name_is_no_utf8_is_a_model_as_any_other(tree, reeb_parts_c
     save(tree, tmp_path / "models" / "größe.ply")
     odd = Path(os.fsdecode(os.fsencode(tmp_path) + b"/models/Stra\xdfe.ply"))
     shutil.copy(tmp_path / "models" / "größe.ply", odd)
-    (tmp_path / "list.txt").write_text(str(tmp_path / "models" / "größe.ply"), encoding="utf-8")
+    # As editors for Windows write it, and find.
+    (tmp_path / "list.txt").write_bytes(b"\xef\xbb\xbf" + str(tmp_path / "models" / "größe.ply").encode() + b"\r\n"
+                                        + os.fsencode(odd))
     odd.with_name(f"torn {odd.name}").write_text("ply\nnonsense")
     done = reeb_parts_command("batch", tmp_path / "models", "--list", tmp_path / "list.txt", "--out", tmp_path / "out",
                               "--parts", "ply", *ONE, **plain)
