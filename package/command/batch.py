@@ -248,8 +248,8 @@ def _models(count: int) -> str:
 
 def _address(text: str) -> str:
     """A host and a port, or a port; argparse turns the error into a sentence."""
-    port = text.rpartition(":")[2]
-    if not port.isdecimal() or int(port) > 65535:
+    host, _, port = text.rpartition(":")
+    if ":" in host or not port.isdecimal() or int(port) > 65535:
         raise argparse.ArgumentTypeError(f"{text} is no address such as 127.0.0.1:8787")
     return text
 

@@ -268,7 +268,7 @@ def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tm
     (["--out", "OUT", "--memory-limit=-1"], 2, "must be a number from 0 to 100000, not -1"),
     (["--out", "OUT", "--time-limit=-1"], 2, "must be a number, 0 or more, not -1"),
     (["--out", "OUT", "--time-limit", "nan"], 2, "must be a number, 0 or more, not nan"),
-    (["--out", "OUT", "--dashboard", "nonsense"], 2, "nonsense is no address such as 127.0.0.1:8787"),
+    (["--out", "OUT", "--dashboard", "http://host:80"], 2, "http://host:80 is no address such as 127.0.0.1:8787"),
     (["--out", "OUT", "--list", "-"], 1, "- could not be read: No such file or directory"),
     (["--out", "OUT", "--dashboard", ":99999"], 2, ":99999 is no address such as 127.0.0.1:8787"),
 ])  # fmt: skip
