@@ -26,6 +26,18 @@ def readable(name: str | Path) -> str:
     return text
 
 
+def spelled(name: str) -> str:
+    """A text as the name of a file here: where the locale lacks its letters, as LC_ALL=C, by the bytes of its UTF-8.
+
+    Names that come from the system are spelled so already; those that are made of texts are not.
+    """
+    try:
+        os.fsencode(name)
+    except UnicodeEncodeError:
+        return os.fsdecode(name.encode(errors="surrogateescape"))
+    return name
+
+
 def kind_of(path: str | Path) -> int:
     """What is behind a name: ``stat.S_IFREG``, ``stat.S_IFDIR`` and such, 0 if nothing is.
 

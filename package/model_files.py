@@ -214,13 +214,26 @@ def _plain(path: Path) -> bytes:
 
     Names and comments in the encoding of some country do not matter, but trimesh would not read on.
     """
-    data = path.read_bytes()
+    data = _whole_stl(path.read_bytes()) if path.suffix.lower() == ".stl" else path.read_bytes()
     n_text = _TEXT[path.suffix.lower()](data)
     try:
         data[:n_text].decode()
     except UnicodeDecodeError:
         return data[:n_text].translate(ASCII) + data[n_text:]
     return data
+
+
+def _whole_stl(data: bytes) -> bytes:
+    """The bytes of an .stl without what follows its last face; raises ValueError if that is missing.
+
+    trimesh takes numbers for words, in which it finds no mesh, unless their length is what the header says.
+    """
+    if b"\0" not in data[80:] or re.search(rb"facet\s+normal", data, re.IGNORECASE):
+        return data
+    end = 84 + 50 * int.from_bytes(data[80:84], "little")
+    if len(data) < end:
+        raise ValueError("it ends before its last face")
+    return data[:end]
 
 
 def _text_of_stl(data: bytes) -> int:

@@ -13,7 +13,10 @@ import numpy as np
 from .polygons_in_files import MARK, cut_polygons, places
 
 # Letters before the word tell what follows the position of a vertex; with 4 and n it has other than three coordinates.
-_HEAD = re.compile(rb"\s*(?:ST)?C?N?(4?n?)OFF\b|\s*(4?n?)OFF(?=\d)|(?=\s*\d)")
+_HEAD = re.compile(rb"\s*(?:ST)?C?N?(4?n?)OFF\b|\s*(4?n?)OFF(?=\d)|(?=\s*\d)", re.IGNORECASE)
+_COMMENT = re.compile(rb"#[^\r\n]*")
+# How many vertices and faces there are; edges may follow.
+_COUNTS = re.compile(rb"\s*(-?\d+)\s+(-?\d+)\b[^\r\n]*")
 
 
 def parse_off(text: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -34,16 +37,18 @@ def parse_off(text: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     ValueError
         It is none, ends before its last face, or a face has a vertex that is not there.
     """
-    head = _HEAD.match(text.removeprefix(MARK))
+    head = _HEAD.match(_COMMENT.sub(b"", text.removeprefix(MARK)))
     if head is None or head[1] or head[2] or re.match(rb"[ \t]*BINARY", head.string[head.end():]):
         raise ValueError("it does not begin as an .off of words in three dimensions")
-    body = re.sub(rb"#[^\r\n]*", b"", head.string[head.end():])
-    lines = [line for line in map(bytes.strip, re.split(rb"[\r\n]+", body)) if line]
-    n_vertices, n_faces = (int(word) for word in (lines or [b""])[0].split()[:2])
-    rows = lines[1 + n_vertices : 1 + n_vertices + n_faces]
+    counts = _COUNTS.match(head.string, head.end())
+    if counts is None:
+        raise ValueError("it does not say how many vertices and faces it has")
+    n_vertices, n_faces = int(counts[1]), int(counts[2])
+    lines = [line for line in map(bytes.strip, re.split(rb"[\r\n]+", head.string[counts.end():])) if line]
+    rows = lines[n_vertices : n_vertices + n_faces]
     if n_vertices < 0 or n_faces < 0 or len(rows) < n_faces:
         raise ValueError("it ends before its last face")
-    return cut_polygons(places(lines[1 : 1 + n_vertices]), *_corners(rows))
+    return cut_polygons(places(lines[:n_vertices]), *_corners(rows))
 
 
 def _corners(rows: list[bytes]) -> tuple[np.ndarray, np.ndarray]:

@@ -12,6 +12,7 @@ from types import TracebackType
 
 from .core.atomic_files import FORMER, HIDDEN, hidden_place, put_in_place, restore_former
 from .core.errors import ReebError
+from .core.file_names import spelled
 from .core.sentence import Sentence
 
 try:
@@ -91,8 +92,9 @@ def write_folder(folder: Path, files: dict[str, bytes]) -> None:
     place.mkdir()
     try:
         for name, data in files.items():
-            (place / name).parent.mkdir(parents=True, exist_ok=True)
-            _write(place / name, data)
+            path = place / spelled(name)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            _write(path, data)
         put_in_place({place: folder}, nullcontext)
     finally:
         shutil.rmtree(place, ignore_errors=True)

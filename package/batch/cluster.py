@@ -21,6 +21,7 @@ from distributed.system import memory_limit
 
 from ..core.errors import ReebError
 from ..core.sentence import Sentence
+from ..core.version import VERSION
 from .model_process import ModelProcess
 
 #: Jobs that are with the scheduler per thread of the workers. The rest wait here: the scheduler knows of no more jobs,
@@ -43,9 +44,15 @@ QUIET = {
 
 _own = threading.local()
 
+_LOST = Sentence("The scheduler does not answer any more; what is done is kept.")
+
 
 class ClusterError(ReebError):
     """There is no cluster at an address, or none can be made."""
+
+
+class SchedulerLostError(ClusterError):
+    """The scheduler does not answer any more."""
 
 
 @contextlib.contextmanager
@@ -68,9 +75,11 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
     Raises
     ------
     ClusterError
-        Nobody answers at the address, or no workers can be started, as where too few files may be open.
+        Nobody answers at the address, its workers have another version of this package, or no workers can be started,
+        as where too few files may be open.
     """
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    for name in ("distributed", "distributed.client"):  # the latter has a level of its own
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     if scheduler is None:
         with _safe_path(), _own_cluster(workers, dashboard) as client:
             yield client
@@ -81,7 +90,21 @@ def connected(scheduler: str | None, workers: int, dashboard: str) -> Iterator[C
         raise ClusterError(Sentence("No scheduler answers at {address}: {reason}", address=scheduler,
                                     reason=error)) from error
     with client:
+        _check_versions(client)
         yield client
+
+
+def _check_versions(client: Client) -> None:
+    """Raise ClusterError for workers without this very version: their results would be those of another one."""
+    # By a function that every worker has, whatever its version.
+    module = __name__.partition(".")[0] + ".core.version"
+    found = client.run(eval, f"__import__({module!r}, fromlist=['VERSION']).VERSION", on_error="return")
+    others = {worker: theirs for worker, theirs in sorted(found.items()) if theirs != VERSION}
+    if others:
+        worker, theirs = next(iter(others.items()))
+        raise ClusterError(Sentence(
+            "{n} {n:worker does|workers do} not have Reeb Parts {version} (first: {worker}, {theirs}). Install it "
+            "there, too.", n=len(others), version=VERSION, worker=worker, theirs=theirs))
 
 
 @contextlib.contextmanager
@@ -143,6 +166,11 @@ def spread(client: Client, function: Callable[[Any], Any], jobs: Iterable[Any]) 
     job, answer : object
         As they end. The answer is the exception if the worker that had the job ended, again and again.
 
+    Raises
+    ------
+    SchedulerLostError
+        The scheduler has gone: of what the workers are at nobody hears any more.
+
     Notes
     -----
     What the scheduler and this process hold is in proportion to the number of workers, not to that of jobs.
@@ -155,7 +183,7 @@ def spread(client: Client, function: Callable[[Any], Any], jobs: Iterable[Any]) 
         if time.monotonic() > looked + LOOK:
             # Dask keeps the names of the last 100,000 jobs, half a kilobyte each.
             dask.utils.key_split.cache_clear()
-            room, looked = AHEAD * max(sum(client.nthreads().values()), 1), time.monotonic()
+            room, looked = AHEAD * max(_n_threads(client), 1), time.monotonic()
         for job in islice(waiting, max(room - len(running), 0)):
             future = client.submit(function, job, pure=False)
             running[future.key] = job
@@ -163,7 +191,17 @@ def spread(client: Client, function: Callable[[Any], Any], jobs: Iterable[Any]) 
         if not running:
             return
         future, answer = next(ended)
+        if client.status != "running":  # then Dask has cancelled all jobs, those that are done by now, too
+            raise SchedulerLostError(_LOST)
         yield running.pop(future.key), _failure(answer) if future.status != "finished" else answer
+
+
+def _n_threads(client: Client) -> int:
+    """How many jobs the workers do at a time; raises SchedulerLostError."""
+    try:
+        return sum(client.nthreads().values())
+    except (OSError, AttributeError) as error:  # the latter from within Dask, after it has given up
+        raise SchedulerLostError(_LOST) from error
 
 
 def _failure(answer: Any) -> BaseException:

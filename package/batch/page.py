@@ -6,6 +6,7 @@ from __future__ import annotations
 import base64
 import html
 import json
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -137,7 +138,7 @@ def page(title: str, models: list[dict[str, Any]]) -> str:
 def _entry(out: Path, record: dict[str, Any], folder: Path, embedded: bool) -> dict[str, Any]:
     """What the page shows of a model."""
     model = record["model"]
-    link = quote(folder.relative_to(out).as_posix())
+    link = quote(os.fsencode(folder.relative_to(out).as_posix()))
     image = ""
     if "thumbnail.png" in record["files"]:
         image = f"{link}/thumbnail.png"

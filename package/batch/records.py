@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
-from ..core.file_names import readable
+from ..core.file_names import readable, spelled
 from ..core.parameters import Parameters
 from ..core.version import VERSION
 from ..gltf_checks import read_header
@@ -114,7 +114,7 @@ def is_done(path: Path, folder: Path, settings: Settings, retry: bool = False) -
         return False
     try:
         # A power failure may leave a file without its end.
-        whole = all((folder / name).stat().st_size == size for name, size in record["files"].items())
+        whole = all((folder / spelled(name)).stat().st_size == size for name, size in record["files"].items())
         return whole and record["digest"] == digest_of(path)
     except OSError:
         return False

@@ -14,12 +14,13 @@ import numpy as np
 from pyarrow import ArrowException
 
 from ..core.errors import ReebError
-from ..core.file_names import kind_of
+from ..core.file_names import kind_of, spelled
 from ..core.sentence import Sentence
 from ..core.surface.mesh import TriMesh
 from ..core.uses.descriptors import NAMES, distances
 from ..core.uses.pictures import picture, png
 from ..model_files import read_model
+from .sources import folder_of
 from .tables import read_rows
 
 COLUMNS = ["model", "number", "name", "share", "descriptor"]
@@ -132,9 +133,9 @@ def page(out: Path, parts: list[dict[str, Any]]) -> str:
 
 def _image(out: Path, path: str, part: dict[str, Any]) -> str:
     """A picture of a part as an element of the page; the thumbnail of its model where that cannot be read any more."""
-    folder = out / "models" / part["model"]
+    folder = folder_of(out, part["model"])
     try:
-        model = read_model(path)
+        model = read_model(spelled(path))
         labels = np.load(folder / "labels.npy")[model.polygon]
         color = np.where((labels == part["number"] - 1)[:, None], PART, REST)
         data = png(picture(TriMesh(model.vertices, model.faces), color, 160, model.up, fine=2))

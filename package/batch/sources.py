@@ -12,8 +12,9 @@ from functools import cache
 from pathlib import Path
 
 from ..core.errors import ReebError
-from ..core.file_names import kind_of, readable
+from ..core.file_names import kind_of, readable, spelled
 from ..core.sentence import Sentence
+from ..polygons_in_files import MARK
 from .records import RECORD, read_record
 
 
@@ -83,7 +84,7 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
 
 def folder_of(out: Path, name: str) -> Path:
     """Where the results of the model of a name are."""
-    return out / "models" / name
+    return out / "models" / spelled(name)
 
 
 def _check_folders(sources: list[Source], out: Path) -> None:
@@ -129,12 +130,15 @@ def _is_of_a_run(folder: str | Path) -> bool:
 
 
 def read_list(path: Path) -> list[str]:
-    """Places of a list, one a line; empty lines and those that begin with # are none. Raises SourceError."""
+    """Places of a list, one a line; empty lines and those that begin with # are none. Raises SourceError.
+
+    Names are the bytes of the list, which need not be UTF-8 where the system allows others.
+    """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = [os.fsdecode(line.strip()) for line in path.read_bytes().removeprefix(MARK).splitlines()]
     except OSError as error:
         raise SourceError(Sentence("{path} could not be read: {reason}", path=path,
                                    reason=error.strerror or error)) from error
     except UnicodeDecodeError as error:
         raise SourceError(Sentence("{path} could not be read: {reason}", path=path, reason=error)) from error
-    return [line.strip() for line in lines if line.strip() and not line.startswith("#")]
+    return [line for line in lines if line and not line.startswith("#")]

@@ -18,8 +18,9 @@ import random
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import closing, suppress
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -68,8 +69,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                      "tcp://host:8786; its workers have this package and see the same folders")
     run.add_argument("--dashboard", type=_address, default="127.0.0.1:8787", metavar="ADDRESS",
                      help="where Dask's dashboard is shown (default: %(default)s)")
-    run.add_argument("--memory-limit", type=number(0), metavar="GIB", help="memory of one model (default: that of the "
-                     "machine, or of the container, divided by the number of its workers)")
+    # More are bytes by mistake, and no number that the system takes.
+    run.add_argument("--memory-limit", type=number(0, 100_000), metavar="GIB",
+                     help="memory of one model (default: that of the machine, or of the container, divided by the "
+                     "number of its workers)")
     run.add_argument("--time-limit", type=number(0), default=600.0, metavar="SECONDS",
                      help="time of one model, 0 for any (default: %(default)g)")
     run.add_argument("--retry", action="store_true", help="also try models again that were refused before")
@@ -157,20 +160,31 @@ class _Batch:
         # Dask takes long to import, and a look at what is done needs none of it.
         from ..batch import cluster
 
-        with cluster.connected(self.options.scheduler, self.workers, self.options.dashboard) as client:
-            say(f"Dask's dashboard: {client.dashboard_link}")
-            failed: Counter[str] = Counter()
-            with (tqdm(total=len(waiting), desc="models", unit="model", smoothing=0.1, mininterval=0.5) as progress,
-                  closing(cluster.spread(client, cluster.do_job, self._jobs(waiting, progress))) as answers):
-                for job, answer in answers:
-                    if isinstance(answer, BaseException):
-                        answer = self._lost(job, answer)
-                    if answer["status"] != DONE:
-                        failed[answer["status"]] += 1
-                        progress.set_postfix(failed, refresh=False)
-                        tqdm.write(f"reeb-parts: {job['name']}: {answer['status']}: {answer['reason']}",
-                                   file=sys.stderr)
-                    progress.update()
+        try:
+            with cluster.connected(self.options.scheduler, self.workers, self.options.dashboard) as client:
+                say(f"Dask's dashboard: {client.dashboard_link}")
+                self._spread(waiting, partial(cluster.spread, client, cluster.do_job))
+        except cluster.SchedulerLostError as error:
+            say(str(error))
+
+    def _spread(self, waiting: list[Source], spread: Callable[[Iterator[dict[str, Any]]], Any]) -> None:
+        """Have some models done.
+
+        spread : callable(jobs), as ``cluster.spread`` with its first arguments.
+        """
+        from tqdm import tqdm
+
+        failed: Counter[str] = Counter()
+        with (tqdm(total=len(waiting), desc="models", unit="model", smoothing=0.1, mininterval=0.5) as progress,
+              closing(spread(self._jobs(waiting, progress))) as answers):
+            for job, answer in answers:
+                if isinstance(answer, BaseException):
+                    answer = self._lost(job, answer)
+                if answer["status"] != DONE:
+                    failed[answer["status"]] += 1
+                    progress.set_postfix(failed, refresh=False)
+                    tqdm.write(f"reeb-parts: {job['name']}: {answer['status']}: {answer['reason']}", file=sys.stderr)
+                progress.update()
 
     @property
     def workers(self) -> int:
@@ -234,8 +248,8 @@ def _models(count: int) -> str:
 
 def _address(text: str) -> str:
     """A host and a port, or a port; argparse turns the error into a sentence."""
-    port = text.rpartition(":")[2]
-    if not port.isdecimal() or int(port) > 65535:
+    host, _, port = text.rpartition(":")
+    if ":" in host or not port.isdecimal() or int(port) > 65535:
         raise argparse.ArgumentTypeError(f"{text} is no address such as 127.0.0.1:8787")
     return text
 

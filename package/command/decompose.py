@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ..core.file_names import readable
+from ..core.file_names import readable, spelled
 from ..core.memory import keep_freed_memory
 from ..core.options import add_parameters, chosen_parameters, named_file, number
 from ..core.sentence import Sentence
@@ -114,7 +114,7 @@ def _run(options: argparse.Namespace) -> str:
         for note in Rounding.of(model).notes(options.parts_format):
             say(note)
         made = part_files(model, parts, options.parts_format)
-        written["parts"] = [add(options.parts / name, data) for name, data in made.items()]
+        written["parts"] = [add(options.parts / spelled(name), data) for name, data in made.items()]
     if options.json:
         written["json"] = readable(options.json)
     answer = json_bytes(model_document(model, result, parts, files=written))

@@ -31,6 +31,8 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         say("Interrupted.")
         return INTERRUPTED
+    finally:
+        _hear_signals(_end)  # all is written, and what is left, such as Dask's end, need not be waited for
 
 
 def _hear_signals(heard: Callable[[int, FrameType | None], object]) -> None:
@@ -66,6 +68,6 @@ class _Errors(io.FileIO):
 
 
 def _end(number: int, frame: FrameType | None) -> None:
-    """End the process at once: nothing has been begun, and modules that are half imported may take any exception."""
+    """End the process at once: nothing is begun, or all is done, and modules half imported may take any exception."""
     say("Interrupted.")
     os._exit(INTERRUPTED)

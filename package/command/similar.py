@@ -14,6 +14,7 @@ import json
 from importlib.util import find_spec
 from pathlib import Path
 
+from ..core.file_names import readable
 from ..core.options import number as number_option
 from ..core.sentence import Sentence
 from ..output_files import OutputFileError, write_files
@@ -56,4 +57,4 @@ def _part(text: str) -> tuple[str, int]:
     model, colon, number = text.rpartition(":")
     if not (colon and number.isdecimal()):
         raise argparse.ArgumentTypeError(f"{text} must be the name of a model, a colon and a number")
-    return model, int(number)
+    return readable(model), int(number)  # as names are in the tables

@@ -12,8 +12,9 @@ import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import jsonschema
 import numpy as np
@@ -262,11 +263,12 @@ def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tm
 @pytest.mark.parametrize(("arguments", "status", "words"), [
     (["--out", "MODEL"], 1, "could not be written: File exists"), (["--out", "/proc/none"], 1, "could not be written"),
     (["--out", "OUT", "--workers", "0"], 2, "must be a whole number, 1 or more, not 0"),
-    (["--out", "OUT", "--memory-limit", "nan"], 2, "must be a number, 0 or more, not nan"),
-    (["--out", "OUT", "--memory-limit=-1"], 2, "must be a number, 0 or more, not -1"),
+    (["--out", "OUT", "--memory-limit", "nan"], 2, "must be a number from 0 to 100000, not nan"),
+    (["--out", "OUT", "--memory-limit", "8589934592"], 2, "must be a number from 0 to 100000, not 8589934592"),
+    (["--out", "OUT", "--memory-limit=-1"], 2, "must be a number from 0 to 100000, not -1"),
     (["--out", "OUT", "--time-limit=-1"], 2, "must be a number, 0 or more, not -1"),
     (["--out", "OUT", "--time-limit", "nan"], 2, "must be a number, 0 or more, not nan"),
-    (["--out", "OUT", "--dashboard", "nonsense"], 2, "nonsense is no address such as 127.0.0.1:8787"),
+    (["--out", "OUT", "--dashboard", "http://host:80"], 2, "http://host:80 is no address such as 127.0.0.1:8787"),
     (["--out", "OUT", "--list", "-"], 1, "- could not be read: No such file or directory"),
     (["--out", "OUT", "--dashboard", ":99999"], 2, ":99999 is no address such as 127.0.0.1:8787"),
 ])  # fmt: skip
@@ -620,6 +622,42 @@ def test_an_address_where_nobody_answers_is_said_to_be_one(reeb_parts_command, t
         cluster.connected("tcp://127.0.0.1:1", 1, "").__enter__()
 
 
+def test_a_scheduler_that_goes_loses_nothing_that_is_done(models, tmp_path, monkeypatch, capsys):
+    """What the workers were at became crashes, in place of results that were there by then; then came a traceback."""
+    def spread(client, function, jobs):
+        job = next(jobs)
+        yield job, do_model(job)
+        raise cluster.SchedulerLostError("The scheduler does not answer any more")
+
+    monkeypatch.setattr(cluster, "spread", spread)
+    monkeypatch.setattr(cluster, "connected", lambda *_: nullcontext(SimpleNamespace(dashboard_link="")))
+    parser = argparse.ArgumentParser()
+    command.add_options(parser)
+    status = command.run(parser.parse_args([str(models), "--out", str(tmp_path / "out")]))
+    said = capsys.readouterr()
+    assert (status, json.loads(said.out)["models"]["open"]) == (1, 3)
+    assert len(rows(tmp_path / "out" / "models.parquet")) == 4
+    assert "The scheduler does not answer any more" in said.err
+
+
+def test_workers_of_a_scheduler_that_goes_have_not_crashed():
+    with (LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0") as there,
+          Client(there.scheduler_address, timeout=1) as client):
+        answers = cluster.spread(client, double, range(1000))
+        assert next(answers)[1] % 2 == 0
+        there.close()
+        with pytest.raises(cluster.SchedulerLostError):
+            assert all(isinstance(answer, int) for _, answer in answers)
+
+
+def test_workers_with_another_version_are_named(address, monkeypatch):
+    """All that they did counted as not reached, and was done again by each run."""
+    monkeypatch.setattr(cluster, "VERSION", "9.9.9")
+    with (pytest.raises(cluster.ClusterError, match=r"2 workers do not have Reeb Parts 9\.9\.9 \(first: tcp://.*, "),
+          cluster.connected(address, 1, "")):
+        pass
+
+
 def double(number):
     """A job."""
     return 2 * number
@@ -751,17 +789,32 @@ def test_a_folder_where_nobody_can_look_is_named_and_no_success(tree, tmp_path, 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")
 def test_a_file_whose_name_is_no_utf8_is_a_model_as_any_other(tree, reeb_parts_command, tmp_path):
-    save(tree, tmp_path / "models" / "tree.ply")
+    """Nor does it matter which letters the locale has: with those of ASCII alone, a "größe.ply" ended the whole run."""
+    plain = {"env": {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}}
+    save(tree, tmp_path / "models" / "größe.ply")
     odd = Path(os.fsdecode(os.fsencode(tmp_path) + b"/models/Stra\xdfe.ply"))
-    shutil.copy(tmp_path / "models" / "tree.ply", odd)
+    shutil.copy(tmp_path / "models" / "größe.ply", odd)
+    # As editors for Windows write it, and find.
+    (tmp_path / "list.txt").write_bytes(b"\xef\xbb\xbf" + str(tmp_path / "models" / "größe.ply").encode() + b"\r\n"
+                                        + os.fsencode(odd))
     odd.with_name(f"torn {odd.name}").write_text("ply\nnonsense")
-    done = reeb_parts_command("batch", tmp_path / "models", "--out", tmp_path / "out", "--parts", "ply", *ONE)
+    done = reeb_parts_command("batch", tmp_path / "models", "--list", tmp_path / "list.txt", "--out", tmp_path / "out",
+                              "--parts", "ply", *ONE, **plain)
     assert json.loads(done.stdout)["models"] == {"done": 2, "unreadable": 1}, done.stderr
     table = {row["name"]: row for row in rows(tmp_path / "out" / "models.parquet")}
-    assert set(table) == {"tree.ply", r"Stra\xdfe.ply", r"torn Stra\xdfe.ply"}
-    assert table[r"Stra\xdfe.ply"]["n_parts"] == table["tree.ply"]["n_parts"]
+    assert set(table) == {"größe.ply", r"Stra\xdfe.ply", r"torn Stra\xdfe.ply"}
+    assert table[r"Stra\xdfe.ply"]["n_parts"] == table["größe.ply"]["n_parts"]
+    assert (tmp_path / "out" / "models" / "größe.ply" / "parts" / "größe Part 01.ply").is_file()
     assert r"Stra\xdfe.ply could not be read" in table[r"torn Stra\xdfe.ply"]["reason"]
     assert r"Stra\\xdfe.ply" in (tmp_path / "out" / "index.html").read_text(encoding="utf-8")
+    done = reeb_parts_command("similar", tmp_path / "out", "größe.ply:1", "--page", tmp_path / "ü.html", **plain)
+    assert done.returncode == 0, done.stderr
+    parts = json.loads(done.stdout)
+    assert (parts["part"]["model"], {part["model"] for part in parts["similar"]}) == (
+        "größe.ply", {"größe.ply", r"Stra\xdfe.ply"})
+    done = reeb_parts_command("decompose", tmp_path / "models" / "größe.ply", "--parts", tmp_path / "ü", **plain)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["files"]["parts"][0] == str(tmp_path / "ü" / "größe Part 01.obj")
     done = reeb_parts_command("decompose", odd, "--json", tmp_path / "odd.json", "--labels", odd.with_suffix(".npy"))
     assert done.returncode == 0, done.stderr
     answer = json.loads(done.stdout)

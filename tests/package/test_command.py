@@ -195,6 +195,26 @@ def test_ctrl_c_is_heard_while_modules_are_imported(module, name, model):
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "reeb-parts: Interrupted.\n")
 
 
+#: The command, which gets a signal while Python ends, as from somebody impatient while Dask closes its workers.
+ENDING = """
+import atexit, os, signal, sys, time
+def late():
+    os.kill(os.getpid(), getattr(signal, sys.argv[1]))
+    time.sleep(60)
+atexit.register(late)
+from reeb_parts.command.main import main
+sys.exit(main(["decompose", "none.obj"]))
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_ctrl_c_once_more_ends_it_at_once(name):
+    """It printed what Python and Dask were at, and its exit status was another one."""
+    done = subprocess.run([sys.executable, "-c", ENDING, name], capture_output=True, text=True, check=False, timeout=50)
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr.splitlines() == ["reeb-parts: There is no file none.obj.", "reeb-parts: Interrupted."]
+
+
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="other systems close terminals in another way")
 @pytest.mark.parametrize("kept", [False, True], ids=["closed", "nohup"])
 def test_a_terminal_that_is_closed_ends_it_unless_the_signal_is_ignored(request, model, tmp_path, kept):

@@ -60,8 +60,15 @@ def test_a_file_that_was_cut_off_is_no_lack_of_a_package(tree, tmp_path):
     """Its numbers were taken for words in an encoding that a package had to find out."""
     data = trimesh.Trimesh(*tree, process=False).export(file_type="stl")
     (tmp_path / "torn.stl").write_bytes(data[:-20])
-    with pytest.raises(reeb_parts.ModelFileError, match="There is no mesh in"):
+    with pytest.raises(reeb_parts.ModelFileError, match="ends before its last face"):
         reeb_parts.read_model(tmp_path / "torn.stl")
+
+
+def test_what_follows_the_last_face_of_an_stl_is_not_read(tree, tmp_path):
+    """There was said to be no mesh."""
+    data = trimesh.Trimesh(*tree, process=False).export(file_type="stl")
+    (tmp_path / "more.stl").write_bytes(data + b"more")
+    assert len(reeb_parts.read_model(tmp_path / "more.stl").faces) == len(tree[1])
 
 
 def test_a_package_that_is_not_there_is_a_lack_of_a_reader(tree, tmp_path, monkeypatch):

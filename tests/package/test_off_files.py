@@ -14,6 +14,9 @@ FILES = {
     "without a space": "OFF5 5 8\n" + VERTEX_LINES + FACE_LINES,
     "no word": "5 5 8\n" + VERTEX_LINES + FACE_LINES,
     "no edges": "OFF\n5 5\n" + VERTEX_LINES + FACE_LINES,
+    "counts on lines of their own": "OFF\n5\n5\n" + VERTEX_LINES + FACE_LINES,
+    "small letters": "off\n5 5 8\n" + VERTEX_LINES + FACE_LINES,
+    "a comment first": "# of a house\n\n# OFF\nOFF\n5 5 8\n" + VERTEX_LINES + FACE_LINES,
     "colors of faces": "OFF\n5 5 0\n" + VERTEX_LINES + FACE_LINES.replace("\n", " 255 0 9\n", 3),
     "small colors of faces": "OFF\n5 5 0\n" + VERTEX_LINES + FACE_LINES.replace("\n", " 0.5 .5 1e-1 1\n"),
     "colors": "COFF\n5 5 0\n" + VERTEX_LINES.replace("\n", " 9 9 9 255\n") + FACE_LINES,
@@ -47,7 +50,7 @@ def test_a_pentagon_is_a_face(tmp_path):
     ("OFF BINARY\n5 5 0\n", "words"), ("4OFF\n1 0 0\n0 0 0 1\n", "three dimensions"), ("solid\n", "words"),
     ("OFF\n5 5 0\n" + VERTEX_LINES + FACE_LINES[:-9], "ends before"), ("OFF\n-1 1 0\n3 0 0 0\n", "ends before"),
     ("OFF\n5 5 0\n" + VERTEX_LINES + FACE_LINES.replace("3 1 2 4", "3 1 2"), "fewer corners"),
-    ("OFF\n5 1 0\n" + VERTEX_LINES + "-3 0 1 2\n", "fewer corners"), ("OFF\n", "could not be read"),
+    ("OFF\n5 1 0\n" + VERTEX_LINES + "-3 0 1 2\n", "fewer corners"), ("OFF\n", "does not say how many"),
     ("OFF\n5 5 0\n" + VERTEX_LINES + FACE_LINES.replace("4 2 3", "5 2 3"), "not there")])
 def test_a_damaged_file_is_one_sentence(text, words, tmp_path):
     (tmp_path / "model.off").write_text(text)

@@ -7,7 +7,7 @@ import unicodedata
 
 import pytest
 
-from core.file_names import file_name, kind_of, readable
+from core.file_names import file_name, kind_of, readable, spelled
 
 
 @pytest.mark.parametrize(("text", "name"), [
@@ -22,6 +22,11 @@ def test_names_are_such_as_every_file_system_takes(text, name):
 def test_names_that_are_no_utf8_are_readable():
     assert readable("plain ä") == "plain ä"
     assert readable(os.fsdecode(b"stra\xdfe.obj")) == "stra\\xdfe.obj"
+
+
+def test_names_that_a_locale_can_spell_stay():
+    for name in ("plain ä", os.fsdecode(b"stra\xdfe.obj")):
+        assert spelled(name) == name
 
 
 def test_what_is_behind_a_name_is_known_or_said_not_to_be(tmp_path):
