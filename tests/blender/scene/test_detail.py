@@ -160,8 +160,8 @@ def test_what_a_script_says_of_the_parts_wins(result):
 
 
 def test_nothing_leaves_dynamic_topology(obj, result):
-    """Buttons refuse there, for the sculpted mesh is not the object's; but sliders, and what is done when a command fails,
-    left it and came back."""
+    """Buttons refuse there, for the sculpted mesh is not the object's; but sliders, and what takes back a failed
+    command, left it and came back."""
     bpy.ops.object.mode_set(mode="SCULPT")
     bpy.ops.sculpt.dynamic_topology_toggle()
     order, detail = obj.data.attributes.keys(), result.detail
