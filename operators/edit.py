@@ -90,6 +90,8 @@ class REEB_PARTS_OT_split(ChosenPartsOperator, bpy.types.Operator):
 class MovedPartsOperator(RingTool, ChosenPartsOperator):
     """For Grow and Shrink: over a view ring by ring, for scripts by a number of rings or as far as the next crease."""
 
+    needs_object_mode = False
+
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         in_view = context.area is not None and context.area.type == "VIEW_3D" and context.mode == "OBJECT"
         return super().invoke(context, event) if in_view else self.execute(context)

@@ -89,7 +89,7 @@ class REEB_PARTS_OT_rename(PartOperator, bpy.types.Operator):
     bl_label = "Rename Part"
 
     new_name: bpy.props.StringProperty(
-        name="Name", maxlen=63, options={"SKIP_SAVE"}, description="The new name of the active part",
+        name="Name", options={"SKIP_SAVE"}, description="The new name of the active part",
     )
 
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> None:

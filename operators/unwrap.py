@@ -6,6 +6,7 @@ from math import degrees
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.sentence import Count
 from ..scene import uv_map
 from ..scene.reporting import SelectedPartsOperator
 from ..scene.store import Stored
@@ -44,6 +45,9 @@ class REEB_PARTS_OT_unwrap(SelectedPartsOperator, bpy.types.Operator):
         told = rpt_("Unwrapped into the UV map {name}: areas {low:.1f} to {high:.1f} times their size, "
                     "{share:.0%} of the faces within 0.3 to 3; angles {angle:.0f}° off on average").format(
             name=name, low=low, high=high, share=distortion.even, angle=degrees(distortion.angle))
+        if distortion.turned:
+            self.report({"INFO"}, rpt_("{n} {n:face is|faces are} mirrored in the UV map").format(
+                n=Count(distortion.turned)))
         if distortion.even >= _FEW_EVEN:
             return told
         self.report({"WARNING"}, told)

@@ -154,7 +154,7 @@ def _new_groups(obj: bpy.types.Object, found: Skeleton) -> list[str]:
     mesh = obj.data
     transaction.keep_mesh(mesh)
     active = obj.vertex_groups.active_index
-    wanted = _sided_names(obj, found) if found.is_half else [DEFORM + name for name in found.names]
+    wanted = _sided_names(obj, found) if found.is_half else [part_names.fitted(DEFORM + name) for name in found.names]
     names = [obj.vertex_groups.new(name=name).name for name in wanted]
     obj.vertex_groups.active_index = max(active, 0)
     mesh[WEIGHTS] = json.dumps(names)
@@ -174,8 +174,7 @@ def _sided_names(obj: bpy.types.Object, found: Skeleton) -> list[str]:
             names[bone] = bpy.utils.flip_name(names[image])
             continue
         stem, side = (names[bone][:-2], names[bone][-2:]) if image != bone else (names[bone], "")
-        name = (DEFORM + stem).encode()[: 63 - len(side)].decode(errors="ignore") + side
-        names[bone] = part_names.distinct(name, taken)
+        names[bone] = part_names.distinct(part_names.fitted(DEFORM + stem, side), taken)
         taken |= {names[bone], bpy.utils.flip_name(names[bone])}
     return names
 

@@ -12,13 +12,18 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from .errors import SceneError
 
 
+def why_not_left(obj: bpy.types.Object | None) -> str:
+    """Why the mode of an object cannot be left without a loss, empty where it can."""
+    if obj is None or obj.mode != "SCULPT" or not obj.use_dynamic_topology_sculpting:
+        return ""
+    return rpt_("{name} is being sculpted with dynamic topology, which keeps its own mesh. Switch Dyntopo "
+                "off, or leave Sculpt Mode, and try again.").format(name=obj.name)
+
+
 def check_mode(obj: bpy.types.Object) -> None:
     """Raise SceneError in a mode that cannot be left without a loss."""
-    if obj.mode == "SCULPT" and obj.use_dynamic_topology_sculpting:
-        raise SceneError(
-            rpt_("{name} is being sculpted with dynamic topology, which keeps its own mesh. Switch Dyntopo "
-                 "off, or leave Sculpt Mode, and try again.").format(name=obj.name)
-        )
+    if words := why_not_left(obj):
+        raise SceneError(words)
 
 
 @contextmanager

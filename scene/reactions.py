@@ -16,7 +16,7 @@ from ..core.result.numbering import NumberedParts
 from . import moved, outputs, part_names, property_updates, store, targets, transaction
 from .errors import SceneError
 from .graph import graph_objects
-from .modes import object_mode
+from .modes import object_mode, why_not_left
 from .outputs import materials, vertex_groups
 from .settled import reaction
 from .store import Stored
@@ -26,6 +26,8 @@ from .transaction import keep_result
 @reaction
 def show_detail(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """The Detail slider was moved."""
+    if _goes_back(result, context):
+        return
     result.by_number, result.asked = False, 0
     with object_mode(context):  # which leaves Edit Mode for all objects that are edited together
         show(result, context)
@@ -38,6 +40,8 @@ def show_detail(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> 
 @reaction
 def show_number(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """A number of parts was typed: Detail goes to where there are so many."""
+    if _goes_back(result, context):
+        return
     result.by_number, asked = True, result.n_parts
     with object_mode(context):
         show(result, context)
@@ -206,8 +210,19 @@ def show(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     _with_result(mesh, context, write)
 
 
+def _goes_back(result: bpy.types.PropertyGroup, context: bpy.types.Context) -> bool:
+    """Whether a property that was changed has gone back, since its mesh cannot be written; the panel says why."""
+    if not why_not_left(context.view_layer.objects.active):
+        return False
+    with property_updates.quiet():
+        result.take_back()
+    return True
+
+
 def _with_result(mesh: bpy.types.Mesh, context: bpy.types.Context, work: Callable[[Stored], None]) -> None:
     """Do something with the stored result of a mesh, in Object Mode."""
+    if _goes_back(mesh.reeb_parts, context):
+        return
     with object_mode(context):
         try:
             stored = moved.load(mesh)

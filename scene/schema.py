@@ -29,7 +29,7 @@ class ReebPart(bpy.types.PropertyGroup):
     """A part as the list shows it."""
 
     name: StringProperty(
-        name="Name", update=reactions.rename, options=set(), maxlen=63,
+        name="Name", update=reactions.rename, options=set(),  # Blender 4 would cut it off in the midst of a letter
         description="Name of the part and of its vertex group; double click to change it",
     )
     number: IntProperty(name="Number", description="What the part is known by; the value of reeb_part")

@@ -211,7 +211,8 @@ class Transaction:
         """Whatever mode it was interrupted in: meshes can be written in Object Mode only."""
         there = [obj for obj in self._layer.objects if obj is not None]  # after removals some places are empty
         new = [obj for obj in there if obj.mode != "OBJECT" and self.is_new(obj)]
-        for obj in [*new, self._active]:
+        # Where nothing was written there is nothing to leave a mode for, and not every mode can be left.
+        for obj in [*new, *([self._active] if self.inverses else [])]:
             if obj is not None and obj.mode != "OBJECT":
                 self._layer.objects.active = obj
                 set_mode(obj, "OBJECT")

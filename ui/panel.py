@@ -10,7 +10,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from mathutils import Matrix
 
 from ..core.sentence import Count
-from ..scene import jobs, notes, part_list, part_names, store
+from ..scene import jobs, modes, notes, part_list, part_names, store
 from ..scene.graph import graph_objects
 from ..scene.pieces import piece_objects
 from . import toolbar
@@ -123,7 +123,7 @@ class REEB_PARTS_PT_main(ReebPanel, bpy.types.Panel):
             _draw_hint(layout, context, room)
             room.properties(layout.column(align=True), context.scene.reeb_parts, ("detail", "n_parts"))
         else:
-            _draw_notes(layout, result, room)
+            _draw_notes(layout, context, result, room)
             _draw_unseen(layout, context, result, room)
             _draw_models(layout, context, room)
             _draw_detail(layout, context, room, result)
@@ -158,10 +158,13 @@ def _draw_hint(layout: bpy.types.UILayout, context: bpy.types.Context, room: Roo
     room.wrapped(layout.column(align=True), text, "INFO")
 
 
-def _draw_notes(layout: bpy.types.UILayout, result: bpy.types.PropertyGroup, room: Room) -> None:
-    """That the mesh was edited; the notes on it, folded into one line."""
-    if store.is_edited(result.id_data):
+def _draw_notes(layout: bpy.types.UILayout, context: bpy.types.Context, result: bpy.types.PropertyGroup,
+                room: Room) -> None:
+    """Why the parts cannot be changed, as that the mesh was edited; the notes on it, folded into one line."""
+    words = modes.why_not_left(context.object)
+    if not words and store.is_edited(result.id_data):
         words = iface_("The mesh was edited since. Decompose it again.")
+    if words:
         room.less().wrapped(layout.box().column(align=True), words, "ERROR")
     found = notes.spoken(result)
     if not found:
@@ -224,7 +227,8 @@ def _draw_models(layout: bpy.types.UILayout, context: bpy.types.Context, room: R
 def _draw_detail(layout: bpy.types.UILayout, context: bpy.types.Context, room: Room,
                  result: bpy.types.PropertyGroup) -> None:
     """How many parts there are, by a slider, by a number, and by steps from one clear choice to the next."""
-    column, known = layout.column(align=True), not store.is_edited(result.id_data)
+    column = layout.column(align=True)
+    known = not store.is_edited(result.id_data) and not modes.why_not_left(context.object)
     row = room.field(column, result, "detail", iface_("Detail"), "0.00", icons=1, enabled=known, slider=True)
     shown = graph_objects.is_shown(context, context.object)
     row.operator("reeb_parts.show_graph", text="", icon="HIDE_OFF" if shown else "HIDE_ON", depress=shown)

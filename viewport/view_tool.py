@@ -25,6 +25,7 @@ _CONFIRM = {"RET", "NUMPAD_ENTER"}
 _CANCEL = {"ESC", "RIGHTMOUSE"}
 _MOVES = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}
 CHANGED = n_("The object was changed meanwhile.")
+UNSEEN = n_("This works in Object Mode, where the parts can be seen.")
 _TURNS = {"view3d.rotate", "view3d.move", "view3d.zoom", "view3d.dolly"}
 
 
@@ -82,6 +83,15 @@ class ViewTool(ReportingOperator):
     cursor = "EYEDROPPER"
     aims = True  # at places of the model; a tool that does not is confirmed by a click
     uses_graph = True  # or only the surface
+    needs_object_mode = True  # or does its work at once in other modes
+
+    @classmethod
+    def check_context(cls, context: bpy.types.Context) -> None:
+        super().check_context(context)
+        # Of what has no button that could be grey, as in a search or a script, the call itself tells.
+        has_button = context.region is not None and context.region.type == "UI"
+        if has_button and cls.needs_object_mode and context.mode != "OBJECT":
+            raise SceneError(rpt_(UNSEEN))
 
     def hint(self) -> str:
         """What the status bar says."""
@@ -116,7 +126,7 @@ class ViewTool(ReportingOperator):
         if context.area is None or context.area.type != "VIEW_3D":
             raise SceneError(rpt_("This works over a 3D viewport."))
         if obj.mode != "OBJECT":
-            raise SceneError(rpt_("This works in Object Mode, where the parts can be seen."))
+            raise SceneError(rpt_(UNSEEN))
         self._read(context, obj)
         self.preview = Preview()
         self.preview.matrix = obj.matrix_world.copy()

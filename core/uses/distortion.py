@@ -38,10 +38,15 @@ class Distortion:
 
     @property
     def range(self) -> tuple[float, float]:
-        """Scale that 1 in 100 faces are below, and scale that 1 in 100 are above."""
-        scale = self.scale[np.isfinite(self.scale)]
+        """Scale that 1 in 100 faces are below, and scale that 1 in 100 are above, be they turned over or not."""
+        scale = np.abs(self.scale[np.isfinite(self.scale)])
         low, high = np.quantile(scale, (0.01, 0.99)) if len(scale) else (1.0, 1.0)
         return float(low), float(high)
+
+    @property
+    def turned(self) -> int:
+        """How many faces are turned over."""
+        return int((self.scale < 0).sum())
 
 
 def distortion(table: CornerTable, flat: np.ndarray) -> Distortion:

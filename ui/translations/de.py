@@ -1022,6 +1022,8 @@ TEXTS = {
     "0.3 to 3; angles {angle:.0f}° off on average":
         "In die UV-Map {name} abgewickelt: Flächen auf das {low:.1f}- bis {high:.1f}-Fache, {share:.0%} davon "
         "zwischen 0.3 und 3; Winkel im Mittel um {angle:.0f}° verändert",
+    "{n} {n:face is|faces are} mirrored in the UV map":
+        "{n} {n:Fläche ist|Flächen sind} in der UV-Map gespiegelt",
     "{n} {n:hull|hulls}": "{n} {n:Hülle|Hüllen}",
     "There is no folder to write to. Choose one and try again.":
         "Es ist kein Ordner angegeben. Bitte einen wählen und erneut versuchen.",

@@ -906,6 +906,7 @@ TEXTS = {
     "within 0.3 to 3; angles {angle:.0f}° off on average":
         "已展开到 UV 贴图 {name}：面积为原来的 {low:.1f} 到 {high:.1f} 倍，{share:.0%} 的面在 0.3 到 3 倍之间；角度平"
         "均偏差 {angle:.0f}°",
+    "{n} {n:face is|faces are} mirrored in the UV map": "UV 贴图中有 {n} 个面是镜像的",
     "{n} {n:hull|hulls}": "{n} 个凸壳",
     "There is no folder to write to. Choose one and try again.": "没有可写入的文件夹。请选择一个并重试。",
     "{path} could not be written: {reason}": "无法写入 {path}：{reason}",

@@ -170,6 +170,18 @@ def test_a_group_of_the_user_is_left_alone(obj):
     assert [obj.vertex_groups[name].weight(index) for index in range(3)] == [0.25] * 3
 
 
+def test_groups_of_long_names_can_be_read(obj):
+    """Behind DEF- there is no room for all of such a name; Blender 4.2 cut it off within a letter, and the names of all
+    groups of the mesh were unreadable from then on."""
+    bpy.ops.reeb_parts.decompose(detail=0.3)
+    for part in obj.data.reeb_parts.parts:
+        part.name = 21 * "足"
+    bpy.ops.reeb_parts.armature()
+    groups = obj.vertex_groups.keys()
+    assert sorted(rig_of(obj).data.bones.keys()) == sorted(name for name in groups if name.startswith(DEFORM))
+    assert len(groups) == 2 * len(obj.data.reeb_parts.parts) > 2
+
+
 def test_groups_are_made_if_they_are_not_there(obj):
     bpy.ops.reeb_parts.decompose(vertex_groups=False)
     bpy.ops.reeb_parts.armature(weights="PARTS")

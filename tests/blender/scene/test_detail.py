@@ -159,6 +159,21 @@ def test_what_a_script_says_of_the_parts_wins(result):
     assert not result.by_number
 
 
+def test_nothing_leaves_dynamic_topology(obj, result):
+    """Buttons refuse there, for the sculpted mesh is not the object's; but sliders, and what takes back a failed
+    command, left it and came back."""
+    bpy.ops.object.mode_set(mode="SCULPT")
+    bpy.ops.sculpt.dynamic_topology_toggle()
+    order, detail = obj.data.attributes.keys(), result.detail
+    result.detail, result.n_parts = 0.9, 3
+    result.parts[0].color, result.parts[0].locked = (1, 0, 0), True
+    for operator in (bpy.ops.reeb_parts.decompose, bpy.ops.reeb_parts.clear):
+        with pytest.raises(RuntimeError, match="Switch Dyntopo off"):
+            operator()
+    assert (result.detail, len(result.parts), result.parts[0].locked) == (detail, 5, False)
+    assert obj.data.attributes.keys() == order  # another one, and masks, when the mesh has come back from sculpting
+
+
 def test_detail_of_several_selected_models_is_set_together(make, tree):
     first, second, third = (make((tree[0] * size, tree[1]), name) for size, name in ((1, "A"), (2, "B"), (3, "C")))
     for obj in (first, second, third):

@@ -53,6 +53,15 @@ def test_long_names_stay_within_what_blender_keeps(result):
     assert max(len(part.name.encode()) for part in result.parts) <= 63
 
 
+def test_a_name_never_ends_within_a_letter(result):
+    """Blender 4 cuts a property off in the midst of one, and nothing could read the list of parts any more."""
+    result.parts[0].name = 62 * "x" + "ü"
+    assert result.parts[0].name == 62 * "x"
+    result.active = 1
+    bpy.ops.reeb_parts.rename(new_name=61 * "y" + "漢字")
+    assert result.parts[1].name == 61 * "y"
+
+
 def test_orders(obj, result, listed):
     assert order(listed, obj, "NUMBER") == [f"Part 0{n}" for n in range(1, 6)]
     shares = {part.name: part.share for part in result.parts}

@@ -74,6 +74,22 @@ def test_the_gizmo_is_there_while_there_are_parts_in_object_mode(package, obj):
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT"])
+def test_buttons_of_what_needs_object_mode_are_grey_in_others(obj, mode):
+    """They could be pressed, and all that happened was that they said so."""
+    bpy.ops.reeb_parts.decompose(method="berretti")
+    bpy.ops.object.mode_set(mode=mode)
+    window = bpy.context.window_manager.windows[0]
+    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    region = {region.type: region for region in area.regions}
+    can = {}
+    for kind in ("UI", "WINDOW"):  # search, which is over the view, finds them
+        with bpy.context.temp_override(window=window, area=area, region=region[kind]):
+            can[kind] = {name for name in ("pick", "cut", "slide", "paint", "grow", "shrink")
+                         if getattr(bpy.ops.reeb_parts, name).poll()}
+    assert can == {"UI": {"grow", "shrink"}, "WINDOW": {"pick", "cut", "slide", "paint", "grow", "shrink"}}
+
+
 def test_switched_off_nothing_of_it_is_left(toolbar):
     name = toolbar.ReebPartsTool._bl_tool.keymap[0]
     drawn = bpy.types.STATUSBAR_HT_header.draw._draw_funcs

@@ -43,6 +43,8 @@ def test_faces_that_grow_and_that_are_turned_over():
     found = distortion(table, flat)
     assert found.scale == pytest.approx([4 / 2.5, -1 / 2.5])
     assert found.even == 0.5
+    assert found.range == pytest.approx((0.4 + 0.01 * 1.2, 1.6 - 0.01 * 1.2))
+    assert found.turned == 1
 
 
 @pytest.mark.parametrize("direction", [(0.0, 0.0), (1.0, 0.0), (0.3, 0.7)])
