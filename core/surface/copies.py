@@ -102,8 +102,14 @@ def find_copies(given: PolygonMesh) -> Copies | None:
         return None
     kept = np.zeros(mesh.n_vertices, bool)
     kept[mesh.faces[is_kept[given.polygon]]] = True
-    vertex = np.flatnonzero(kept | ~mesh.used)
     home = _first_kept(place, kept)
+    # A polygon that is folded onto itself somewhere may have the outline of one that does not come there.
+    elsewhere = np.unique(given.polygon[~kept[home][mesh.faces].all(axis=1)])
+    is_kept[elsewhere], original[elsewhere] = True, elsewhere
+    if is_kept.all():
+        return None
+    kept[mesh.faces[is_kept[given.polygon]]] = True
+    vertex = np.flatnonzero(kept | ~mesh.used)
     home[vertex] = vertex
     return Copies(np.flatnonzero(is_kept), (np.cumsum(is_kept) - 1)[original], vertex, np.searchsorted(vertex, home))
 

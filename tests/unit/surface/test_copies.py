@@ -118,3 +118,16 @@ def test_so_few_faces_that_none_may_be_left_out_stay():
     three = faces[:3]
     result = decompose(vertices, np.concatenate([three, same(three)]), Parameters())
     assert len(result.candidates) == 6
+
+
+def test_a_polygon_that_also_comes_elsewhere_is_no_copy():
+    """Two triangles that are folded onto each other have no outline, and their corners are those of nothing else."""
+    vertices = np.concatenate([shapes.octahedron().vertices, np.eye(3) + 5])
+    faces = shapes.octahedron().faces
+    folded = np.array([[6, 7, 8], [8, 7, 6]])
+    polygon = np.concatenate([np.arange(16), [15, 15]])
+    result = decompose(vertices, np.concatenate([faces, same(faces), folded]), polygon=polygon)
+    assert len(result.candidates) == 16
+    assert ((result.field >= 0) & (result.field <= 1)).all()
+    assert (result.vertex_candidates >= 0).all()
+    assert result.notes[-1].startswith("7 faces lie on another one")
