@@ -77,7 +77,7 @@ def principal_curvatures(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
 
 def _plus_neighbors(values: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Sum of each vertex's value and those of its neighbors. a, b : the ends of all edges, (e,) int64."""
-    return values + sums_by(a, values.take(b, axis=0), len(values)) + sums_by(b, values.take(a, axis=0), len(values))
+    return values + sums_by(a, taken(values, b), len(values)) + sums_by(b, taken(values, a), len(values))
 
 
 def _tangent_eigenvalues(tensor: np.ndarray, normals: np.ndarray) -> np.ndarray:
