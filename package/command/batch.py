@@ -18,9 +18,8 @@ import random
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import closing, suppress
-from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -158,33 +157,33 @@ class _Batch:
         if not alone:
             random.shuffle(waiting)
         # Dask takes long to import, and a look at what is done needs none of it.
-        from ..batch import cluster
+        from ..batch.cluster import SchedulerLostError
 
         try:
-            with cluster.connected(self.options.scheduler, self.workers, self.options.dashboard) as client:
-                say(f"Dask's dashboard: {client.dashboard_link}")
-                self._spread(waiting, partial(cluster.spread, client, cluster.do_job))
-        except cluster.SchedulerLostError as error:
+            self._spread(waiting)
+        except SchedulerLostError as error:
             say(str(error))
 
-    def _spread(self, waiting: list[Source], spread: Callable[[Iterator[dict[str, Any]]], Any]) -> None:
-        """Have some models done.
-
-        spread : callable(jobs), as ``cluster.spread`` with its first arguments.
-        """
+    def _spread(self, waiting: list[Source]) -> None:
+        """Have some models done by a cluster; raises SchedulerLostError."""
         from tqdm import tqdm
 
-        failed: Counter[str] = Counter()
-        with (tqdm(total=len(waiting), desc="models", unit="model", smoothing=0.1, mininterval=0.5) as progress,
-              closing(spread(self._jobs(waiting, progress))) as answers):
-            for job, answer in answers:
-                if isinstance(answer, BaseException):
-                    answer = self._lost(job, answer)
-                if answer["status"] != DONE:
-                    failed[answer["status"]] += 1
-                    progress.set_postfix(failed, refresh=False)
-                    tqdm.write(f"reeb-parts: {job['name']}: {answer['status']}: {answer['reason']}", file=sys.stderr)
-                progress.update()
+        from ..batch import cluster
+
+        with cluster.connected(self.options.scheduler, self.workers, self.options.dashboard) as client:
+            say(f"Dask's dashboard: {client.dashboard_link}")
+            failed: Counter[str] = Counter()
+            with (tqdm(total=len(waiting), desc="models", unit="model", smoothing=0.1, mininterval=0.5) as progress,
+                  closing(cluster.spread(client, cluster.do_job, self._jobs(waiting, progress))) as answers):
+                for job, answer in answers:
+                    if isinstance(answer, BaseException):
+                        answer = self._lost(job, answer)
+                    if answer["status"] != DONE:
+                        failed[answer["status"]] += 1
+                        progress.set_postfix(failed, refresh=False)
+                        tqdm.write(f"reeb-parts: {job['name']}: {answer['status']}: {answer['reason']}",
+                                   file=sys.stderr)
+                    progress.update()
 
     @property
     def workers(self) -> int:
