@@ -92,8 +92,6 @@ def draw_little():
     """Where there is no graphics card, drawing two million faces takes a second, whatever else happens."""
     if "FLUID_ALL" not in os.environ:
         bpy.data.objects["spot"].display_type = "BOUNDS"
-        bpy.context.preferences.system.viewport_aa = "OFF"
-        pointer.view_area().spaces.active.overlay.show_floor = False
 
 
 def job():

@@ -4,6 +4,7 @@
 What is compared is the same window before and meanwhile: how fast it draws at all depends on the machine.
 """
 
+import os
 from pathlib import Path
 
 import pytest
@@ -12,7 +13,7 @@ import pytest
 @pytest.fixture(scope="module")
 def seen(drive):
     """What the driver saw after each step."""
-    return drive("fluid.py", "fluid", seconds=300)
+    return drive("fluid.py", "fluid", seconds=300, smooth="FLUID_ALL" in os.environ)
 
 
 def test_the_window_is_drawn_as_before(seen):

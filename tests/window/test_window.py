@@ -14,7 +14,7 @@ OUT = Path(__file__).resolve().parents[2] / "out" / "window"
 @pytest.fixture(scope="module")
 def seen(drive):
     """What the driver saw after each step."""
-    return drive("driver.py", "window")
+    return drive("driver.py", "window", smooth=True)
 
 
 def test_the_tab_opens(seen):
