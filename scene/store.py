@@ -113,7 +113,10 @@ def load(mesh: bpy.types.Mesh) -> Stored:
 
 
 def last(mesh: bpy.types.Mesh) -> Stored:
-    """The stored result of a mesh that has one, in any mode; the mesh may have been edited since."""
+    """The stored result of a mesh that has one, in any mode; the mesh may have been edited since.
+
+    Raises UnreadableError.
+    """
     result = mesh.reeb_parts
     # While the mesh is edited, it may have other counts; what is read for it stays in proportion to it.
     most = _GROWTH * (len(mesh.vertices) + len(mesh.polygons)) + _SMALL

@@ -80,6 +80,11 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, op
     name : str
         Of the map.
     distortion : Distortion
+
+    Raises
+    ------
+    SceneError
+        The mesh has as many maps as Blender allows.
     """
     mesh = obj.data
     if find(mesh) is None and len(mesh.uv_layers) >= _LAYERS:
