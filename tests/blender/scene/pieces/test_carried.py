@@ -13,6 +13,7 @@ import shapes
 from bulk import read
 from diagonal import some
 from pieces import KEEP, WHOLE, WIDTH, caps_of, elements, pieces_of
+from places import seen_points
 from results import numbers as numbers_of
 from scipy.spatial import cKDTree
 from snapshot import activate, snapshot
@@ -257,13 +258,6 @@ def test_what_is_rare_is_carried_too(obj, style):
             assert {item.value for item in made.attributes["label"].data} <= {
                 item.value for item in obj.data.attributes["label"].data}
             assert all(0 <= entry.weight <= 0.25 for vertex in made.vertices for entry in vertex.groups)
-
-
-def seen_points(obj):
-    """Where the points of what is seen of an object are in the world."""
-    seen = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    matrix = np.array(obj.matrix_world)
-    return read(seen.data.vertices, "co", np.float32, 3) @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 @pytest.mark.parametrize("style", some(WHOLE, {}))

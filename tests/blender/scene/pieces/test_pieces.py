@@ -10,15 +10,9 @@ import pytest
 import shapes
 from bulk import read
 from pieces import KEEP, WHOLE, elements, pieces_of
+from places import world_points
 from results import numbers as numbers_of
 from snapshot import activate, changes, check_undo, snapshot
-
-
-def world_points(obj):
-    bpy.context.view_layer.update()
-    points = read(obj.data.vertices, "co", np.float32, 3)
-    matrix = np.array(obj.matrix_world)
-    return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def test_the_original_is_not_changed(rich):
