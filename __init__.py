@@ -6,7 +6,7 @@ without it.
 """
 
 
-def register():
+def register() -> None:
     """Called by Blender when the extension is switched on."""
     from . import batch, operators, scene, ui, viewport
 
@@ -14,7 +14,7 @@ def register():
         folder.register()
 
 
-def unregister():
+def unregister() -> None:
     """Called by Blender when the extension is switched off; leaves nothing behind."""
     from . import batch, operators, scene, ui, viewport
 

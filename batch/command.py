@@ -31,6 +31,7 @@ from ..core.errors import ReebError
 from ..core.file_names import readable
 from ..core.options import chosen_parameters
 from ..core.parameters import Parameters
+from ..core.progress import said_in_steps
 from ..scene import armature, bridge, export, file_checks, hulls, results, store, targets, uv_map
 from ..scene.compute import Outcome, compute_all
 from ..scene.errors import SceneError, load_core
@@ -187,13 +188,7 @@ def decompose_object(obj: bpy.types.Object | None, parameters: Parameters, optio
 def _computed(obj: bpy.types.Object, parameters: Parameters, options: argparse.Namespace) -> Outcome:
     """The decomposition of one object; nothing is written. Raises what the user should hear."""
     shape = bridge.read_shape(obj, options.hints.upper())
-    last = [-1]
-
-    def progress(stage: str, share: float) -> None:
-        if round(20 * share) > last[0]:  # twenty lines at most
-            last[0] = round(20 * share)
-            say(f"{obj.name}: {stage} {share:.0%}")
-
+    progress = said_in_steps(lambda line: say(f"{obj.name}: {line}"))
     (outcome,) = compute_all([(obj.name, shape)], parameters, progress)
     if outcome.decomposition is None:
         raise SceneError(f"{obj.name}: {outcome.problem}")

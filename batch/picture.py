@@ -21,7 +21,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 from scipy.ndimage import zoom
 
-from ..scene import file_checks, mesh_arrays
+from ..scene import file_checks, mesh_arrays, placing
 from ..scene.temporary import freed, removed
 
 #: Where the camera stands: in front (Blender's front is -Y), to the left and above.
@@ -207,9 +207,7 @@ def _add_floor(points: np.ndarray, extent: float, collection: bpy.types.Collecti
 
 def _points(obj: bpy.types.Object) -> np.ndarray:
     """Vertices of the object in the world, (n, 3)."""
-    points = mesh_arrays.read(obj.data.vertices, "co", np.float32, 3)
-    world = np.array(obj.matrix_world)
-    return points @ world[:3, :3].T + world[:3, 3]
+    return placing.transformed(mesh_arrays.read(obj.data.vertices, "co", np.float32, 3), obj.matrix_world)
 
 
 def _add_camera(scene: bpy.types.Scene, points: np.ndarray, view: Sequence[float], size: tuple[int, int],

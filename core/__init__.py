@@ -2,25 +2,38 @@
 """Mesh decomposition by the Reeb graph of the average geodesic distance (AGD); needs NumPy and SciPy only.
 
 ``decompose`` takes arrays and returns a ``Decomposition``, whose method ``parts`` reads the parts at any level of
-detail. The second column names what can be imported from the package itself, the third what the modules of each stage
-add.
+detail. What can be imported from the package itself is listed in ``_HOME``, below.
 
-=======  ===================================  ====================================================================
-stage    from the package                     from the modules
-=======  ===================================  ====================================================================
-(all)    ``decompose``, ``Parameters``,       ``pipeline``, ``parameters``, ``errors``, ``sentence``, ``progress``
-         ``PRESETS``, ``VERSION``,            ``metrics``: how far two labelings of one mesh are from each other
-         ``ReebError``, ``MeshError``,
-         ``EmptyMeshError``, ``Cancelled``,
-         ``ParameterError``,
-         ``UnknownParameterError``
-surface  ``TriMesh``, a checked mesh          polygons, repair, coarser copies, curvature, labels on faces
-field                                         geodesic distances; the AGD, normalized and equalized
-graph    ``ReebGraph``, nodes and arcs        level sets, critical points, simplification, contours
-cuts     ``Hierarchy``, order of the merges   the methods of cutting, minimum cuts
-result   ``Decomposition``, ``Parts``         assembly, numbers that last, changes by hand
-uses                                          colors, JSON report, pictures, bones, seams
-=======  ===================================  ====================================================================
+The stages, in the order of the method; each imports those before it only:
+
+- ``surface``: from the caller's arrays to a checked and repaired mesh, and labels on it
+- ``field``: distances along the surface, and their mean, the AGD
+- ``graph``: level sets of the field, and its Reeb graph
+- ``cuts``: the methods of cutting; the finest parts, and the order in which they merge
+- ``result``: the way back to the caller's faces, parts at any detail, numbers that last, changes by hand
+- ``uses``: colors, JSON report, pictures, bones, seams and what else is made of a result
+
+The doors:
+
+- ``pipeline``: runs the stages one after the other
+- ``worker``: does so in a process of its own
+- ``handover``: what that process and the one that asks hand each other
+
+What all of them, and who calls them, may use:
+
+- ``version``: of the product
+- ``parameters``: of a run, and the presets
+- ``options``: of a command, made from the parameters
+- ``errors``: exceptions whose messages the user reads
+- ``sentence``: messages that can be translated
+- ``progress``: how far a run is, and how long its stages take
+- ``steps``: long work bit by bit
+- ``processors``: how many a run keeps busy
+- ``second_thread``: work beside the run, which Blender's extension leaves out
+- ``memory``: what a process of its own tells its allocator, and how a lack of memory shows
+- ``file_names``: such as every file system takes
+- ``atomic_files``: several files that get to their places all or none
+- ``metrics``: how far two labelings of one mesh are from each other
 """
 
 from importlib import import_module

@@ -53,3 +53,19 @@ class Stopwatch:
         yield lambda done: self.progress(name, start + done * (until - start))
         self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - begin
         self.share = until
+
+
+def said_in_steps(say: Callable[[str], object], steps: int = 20) -> Progress:
+    """Make a progress that says how far a run is, in so many lines at most.
+
+    say : callable, given a line such as "cuts 55%". Returns a Progress for one run.
+    """
+    last = -1
+
+    def progress(stage: str, share: float) -> None:
+        nonlocal last
+        if round(steps * share) > last:
+            last = round(steps * share)
+            say(f"{stage} {share:.0%}")
+
+    return progress

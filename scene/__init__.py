@@ -4,7 +4,8 @@
 Reading:
 
 - ``bridge``: the shape of an object as arrays for core
-- ``mesh_arrays``: the arrays of a mesh, and what tells that it was edited
+- ``mesh_arrays``: the arrays of a mesh
+- ``fingerprints``: what tells that a mesh was edited, or moved as a whole
 - ``elements``: the elements of a mesh with all that they carry, some of them taken or others put on
 - ``element_layers``: reads these from a mesh, and makes meshes of them
 - ``mesh_groups``: the vertex groups of a mesh
@@ -93,7 +94,7 @@ What every operator needs:
 
 from __future__ import annotations
 
-from . import compute, defaults, mesh_arrays, part_places, schema, sculpt_undo, store, watch
+from . import compute, defaults, fingerprints, mesh_arrays, part_places, schema, sculpt_undo, store, watch
 from .outputs import vertex_groups
 
 
@@ -109,5 +110,5 @@ def unregister() -> None:
     watch.unregister()
     defaults.unregister()
     schema.unregister()
-    for module in (mesh_arrays, vertex_groups, part_places, compute, store):
+    for module in (fingerprints, mesh_arrays, vertex_groups, part_places, compute, store):
         module.forget()

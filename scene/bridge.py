@@ -17,7 +17,7 @@ from ..core.steps import Steps, finished
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
 from ..core.surface.vectors import cross, lengths
-from . import face_hints, mesh_arrays, modifiers, targets
+from . import face_hints, fingerprints, mesh_arrays, modifiers, targets
 from .half_models import half_plane
 from .mesh_arrays import shown_points
 from .placing import world_matrix
@@ -101,7 +101,7 @@ def reading_shape(obj: bpy.types.Object, hints: str = face_hints.NONE) -> Steps[
             vertices = vertices @ stretch.T
     mirror = half_plane(obj, vertices, stretch)
     yield 0.8
-    digest = mesh_arrays.digest(vertices, triangles, polygon)
+    digest = fingerprints.digest(vertices, triangles, polygon)
     return Shape(vertices, triangles, polygon, stretch, mirror, hint, digest, _notes(obj, len(mirror) > 0))
 
 

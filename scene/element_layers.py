@@ -13,7 +13,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from . import mesh_arrays, mesh_groups
+from . import fingerprints, mesh_arrays, mesh_groups
 from .elements import CORNER, EDGE, FACE, POINT, Elements, Layer, Ragged
 from .temporary import freed, removed
 
@@ -50,7 +50,7 @@ def read(mesh: bpy.types.Mesh, n_groups: int | None = None) -> Elements:
 def contents(mesh: bpy.types.Mesh, n_groups: int) -> str:
     """Changes when something is done to what the elements carry: maps, colors, weights, shape keys, marks ...
 
-    Not when vertices move, which mesh_arrays.fingerprint tells, when elements are selected or hidden, nor when Blender
+    Not when vertices move, which fingerprints.fingerprint tells, when elements are selected or hidden, nor when Blender
     makes a layer that says nothing. Not in Edit Mode. n_groups : how many vertex groups an object of the mesh has.
     """
     digests = []
@@ -59,7 +59,7 @@ def contents(mesh: bpy.types.Mesh, n_groups: int) -> str:
         says = values.count.any() if isinstance(values, Ragged) else values.any()
         if says and name != "position" and not name.startswith(PASSING):
             arrays = (values.count, values.items) if isinstance(values, Ragged) else (_bytes(values),)
-            digests.append((name, layer.kind, layer.domain, mesh_arrays.digest(*arrays)))
+            digests.append((name, layer.kind, layer.domain, fingerprints.digest(*arrays)))
     return str(digests)
 
 

@@ -164,7 +164,7 @@ def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object]) -> tuple
     colors = _colors(obj)
     bodies = []
     for name, piece in pieces.items():
-        points = mesh_arrays.shown_points(piece).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
+        points = placing.transformed(mesh_arrays.shown_points(piece), world)
         triangles = mesh_arrays.triangles(piece.data)[0].astype(np.int64)[:, :: -1 if mirrored else 1]
         bodies.append(ColoredMesh(name, colors.get(name, _PLAIN), points * placing.millimeters(), triangles))
     return tuple(bodies)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import bpy
 import numpy as np
 
-from . import made_objects, mesh_arrays, part_names, placing
+from . import fingerprints, made_objects, mesh_arrays, part_names, placing
 from .pieces import piece_objects
 from .store import Stored
 
@@ -91,4 +91,4 @@ def _former_looks(hull: bpy.types.Object) -> str:
     """What earlier versions kept of such an object; see made_objects.Former."""
     place = np.round(np.array(hull.matrix_basis), 5).tolist()
     return str([hull.name, place, hull.parent is not None, hull.modifiers.keys(), hull.rigid_body is not None,
-                mesh_arrays.fingerprint(hull.data)])
+                fingerprints.fingerprint(hull.data)])

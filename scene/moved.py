@@ -12,7 +12,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from . import bridge, half_models, mesh_arrays, property_updates, redraw, store, targets, transaction
+from . import bridge, fingerprints, half_models, property_updates, redraw, store, targets, transaction
 from .errors import SceneError
 from .graph import graph_follow, graph_objects
 
@@ -31,7 +31,7 @@ def follow(mesh: bpy.types.Mesh) -> bool:
     """Make the result of a mesh that of the mesh where it is now; whether it was moved as a whole. Not in Edit Mode."""
     if any(half_models.mirror_of(obj) is not None for obj in targets.users(mesh)):
         return False
-    motion = mesh_arrays.motion_since(mesh, mesh.reeb_parts.fingerprint)
+    motion = fingerprints.motion_since(mesh, mesh.reeb_parts.fingerprint)
     if motion is None:
         return False
     matrix, offset = motion

@@ -30,7 +30,7 @@ def suggested(obj: bpy.types.Object, stored: Stored) -> dict[int, str]:
     world, mesh = np.array(placing.world_matrix(obj), np.float64), obj.data
     whole = skeleton.whole_model(obj, shape, numbered)
     if whole is None:
-        points = mesh_arrays.shown_points(obj).astype(np.float64) @ world[:3, :3].T + world[:3, 3]
+        points = placing.transformed(mesh_arrays.shown_points(obj), world)
         parts, table, area = numbered.parts, mesh_arrays.corner_table(mesh, points), shape.face_area
         turn = world[:3, :3] @ bridge.unstretch(store.stretch_of(mesh))
     else:  # it has the names of what is seen

@@ -16,7 +16,7 @@ from typing import Any
 
 import bpy
 
-from . import element_layers, mesh_arrays, visibility
+from . import element_layers, fingerprints, visibility
 
 _OURS = "reeb_parts"  # how the names of our custom properties begin
 _DIGEST = "looks "  # how a digest begins; what earlier versions kept is a list as text
@@ -64,7 +64,7 @@ def digest(item: bpy.types.Object) -> str:
     told += [_told(body, "", moving) for body in (item.rigid_body, item.rigid_body_constraint) if body]
     told += [len(_own_collections(item)), item.asset_data is not None, *_animation(item.animation_data)]
     if item.type == "MESH":
-        told += [mesh_arrays.fingerprint(item.data), element_layers.contents(item.data, len(item.vertex_groups))]
+        told += [fingerprints.fingerprint(item.data), element_layers.contents(item.data, len(item.vertex_groups))]
     elif item.type == "ARMATURE":
         told += _bones(item, moving)
     if item.data is not None:

@@ -32,7 +32,7 @@ def object_report(obj: bpy.types.Object, labels: bool = False, check: bool = Fal
     from_result = world.copy()
     from_result[:3, :3] = world[:3, :3] @ bridge.unstretch(stretch)
     vertex, face = mesh_arrays.face_corners(mesh)
-    points = mesh_arrays.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
+    points = placing.transformed(mesh_arrays.shown_points(obj), world)
     boxes = bounding_boxes(numbered.parts.labels[face], points[vertex], numbered.parts.count)
     colors = part_names.number_colors(mesh)[numbered.numbers, :3].astype(np.float64)
     names = [part_names.part_name(mesh, number) for number in numbered.numbers.tolist()]

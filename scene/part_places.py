@@ -44,6 +44,6 @@ def box(obj: bpy.types.Object, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray
     mask : (p,) bool, at least one.
     """
     vertex, face = mesh_arrays.face_corners(obj.data)
-    world = np.array(placing.world_matrix(obj), np.float64)
-    points = mesh_arrays.shown_points(obj)[np.unique(vertex[mask[face]])] @ world[:3, :3].T + world[:3, 3]
+    points = mesh_arrays.shown_points(obj)[np.unique(vertex[mask[face]])]
+    points = placing.transformed(points, placing.world_matrix(obj))
     return points.min(axis=0), points.max(axis=0)

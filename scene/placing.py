@@ -20,6 +20,12 @@ def world_matrix(obj: bpy.types.Object) -> Matrix:
     return (world_matrix(parent) @ obj.matrix_parent_inverse if parent else Matrix()) @ obj.matrix_basis
 
 
+def transformed(points: np.ndarray, matrix: Matrix | np.ndarray) -> np.ndarray:
+    """Points, (n, 3), where a matrix, (4, 4), takes them: (n, 3) float64."""
+    matrix = np.array(matrix, np.float64)
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
+
+
 def put(item: bpy.types.Object, matrix: Matrix) -> None:
     """Put an object whose mesh is ours at a place.
 

@@ -61,8 +61,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
 
     earlier = remove_joints(collection)
     numbered = stored.shown_parts()
-    world = np.array(placing.world_matrix(obj), np.float64)
-    points = mesh_arrays.shown_points(obj) @ world[:3, :3].T + world[:3, 3]
+    points = placing.transformed(mesh_arrays.shown_points(obj), placing.world_matrix(obj))
     table = mesh_arrays.joined_table(obj.data, points)
     hulls = [hull for (hull,) in part_hulls(table, numbered.parts.labels)]
     found = body_joints(table, numbered.parts.labels)
@@ -156,8 +155,7 @@ def _nearest(pieces: list[bpy.types.Object], place: np.ndarray) -> bpy.types.Obj
         return pieces[0]
 
     def distance(piece: bpy.types.Object) -> float:
-        world = np.array(placing.world_matrix(piece))
-        points = mesh_arrays.basis_points(piece.data) @ world[:3, :3].T + world[:3, 3]
+        points = placing.transformed(mesh_arrays.basis_points(piece.data), placing.world_matrix(piece))
         return float(np.linalg.norm(points - place, axis=1).min())
 
     return min(pieces, key=distance)

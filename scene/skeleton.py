@@ -85,7 +85,7 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
     turn = np.array(place.inverted() @ world, np.float64)
     whole, images, area = whole_model(obj, shape, numbered), None, shape.face_area
     if whole is None:
-        table = mesh_arrays.corner_table(mesh, mesh_arrays.shown_points(obj) @ turn[:3, :3].T + turn[:3, 3])
+        table = mesh_arrays.corner_table(mesh, placing.transformed(mesh_arrays.shown_points(obj), turn))
     else:
         rigid, parts, area = turn[:3, :3] @ bridge.unstretch(shape.stretch), whole.parts, np.tile(area, 2)
         table = replace(whole.table, vertices=whole.table.vertices @ rigid.T + turn[:3, 3])

@@ -17,7 +17,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import NumberedParts, Numbering
-from . import mesh_arrays, part_names, property_updates, targets, transaction
+from . import fingerprints, part_names, property_updates, targets, transaction
 from .errors import SceneError, load_core, translated
 
 # The last few results read or computed, by their bytes: undo and redo bring back older ones.
@@ -104,16 +104,19 @@ def load(mesh: bpy.types.Mesh) -> Stored:
     if mesh.is_editmode:
         raise SceneError(rpt_("{name} is being edited. Leave Edit Mode first.").format(name=targets.name_of(mesh)))
     result = mesh.reeb_parts
-    if (mesh_arrays.fingerprint(mesh) != result.fingerprint
+    if (fingerprints.fingerprint(mesh) != result.fingerprint
             or (result.n_vertices, result.n_faces) != (len(mesh.vertices), len(mesh.polygons))):
         raise SceneError(
             rpt_("{name} was edited since it was decomposed. Decompose it again.").format(name=targets.name_of(mesh)))
-    mesh_arrays.keep_shape(result.fingerprint)
+    fingerprints.keep_shape(result.fingerprint)
     return last(mesh)
 
 
 def last(mesh: bpy.types.Mesh) -> Stored:
-    """The stored result of a mesh that has one, in any mode; the mesh may have been edited since."""
+    """The stored result of a mesh that has one, in any mode; the mesh may have been edited since.
+
+    Raises UnreadableError.
+    """
     result = mesh.reeb_parts
     # While the mesh is edited, it may have other counts; what is read for it stays in proportion to it.
     most = _GROWTH * (len(mesh.vertices) + len(mesh.polygons)) + _SMALL
@@ -157,8 +160,8 @@ def save(mesh: bpy.types.Mesh, stored: Stored) -> None:
     _remember(data, stored.decomposition)
     result.data = data
     save_numbers(mesh, stored)
-    result.fingerprint = mesh_arrays.fingerprint(mesh)
-    mesh_arrays.keep_shape(result.fingerprint)
+    result.fingerprint = fingerprints.fingerprint(mesh)
+    fingerprints.keep_shape(result.fingerprint)
     result.n_vertices, result.n_faces = len(mesh.vertices), len(mesh.polygons)
     result.edited = False
     graph = stored.decomposition.graph

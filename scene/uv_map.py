@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.surface.arrays import renumbered
 from ..core.uses.stacking import double_corners
-from . import made_objects, mesh_arrays, store, transaction
+from . import fingerprints, made_objects, mesh_arrays, store, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
 from .selection import nothing_selected
@@ -53,7 +53,7 @@ def remove(mesh: bpy.types.Mesh) -> str:
 
 def _digest(layer: bpy.types.MeshUVLoopLayer) -> str:
     """Differs once a map was changed; Object Mode."""
-    return mesh_arrays.digest(mesh_arrays.read(layer.uv, "vector", np.float32, 2))
+    return fingerprints.digest(mesh_arrays.read(layer.uv, "vector", np.float32, 2))
 
 
 def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, open_parts: bool, method: str,
@@ -80,6 +80,11 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, op
     name : str
         Of the map.
     distortion : Distortion
+
+    Raises
+    ------
+    SceneError
+        The mesh has as many maps as Blender allows.
     """
     mesh = obj.data
     if find(mesh) is None and len(mesh.uv_layers) >= _LAYERS:

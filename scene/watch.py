@@ -12,7 +12,7 @@ import bmesh
 import bpy
 from bpy.app.handlers import persistent
 
-from . import handlers, mesh_arrays, moved, redraw, seen_points, store, transaction
+from . import fingerprints, handlers, moved, redraw, seen_points, store, transaction
 from .graph import graph_follow, graph_objects, graph_visibility
 from .pieces import piece_objects
 from .temporary import removed
@@ -31,7 +31,7 @@ def check(mesh: bpy.types.Mesh) -> None:
     """
     result = mesh.reeb_parts
     if not mesh.is_editmode:
-        edited = mesh_arrays.fingerprint(mesh) != result.fingerprint and not moved.follow(mesh)
+        edited = fingerprints.fingerprint(mesh) != result.fingerprint and not moved.follow(mesh)
     elif mesh.shape_keys or len(bmesh.from_edit_mesh(mesh).verts) > MOST_EDITED:
         return
     else:
@@ -39,7 +39,7 @@ def check(mesh: bpy.types.Mesh) -> None:
         copy = bpy.data.meshes.new("Reeb Parts")
         with removed(bpy.data.meshes, copy):
             bmesh.from_edit_mesh(mesh).to_mesh(copy)
-            edited = mesh_arrays.fingerprint(copy) != result.fingerprint
+            edited = fingerprints.fingerprint(copy) != result.fingerprint
     if result.edited != edited:
         result.edited = edited
         redraw.viewports()

@@ -8,7 +8,13 @@ import bmesh
 import bpy
 import numpy as np
 from bulk import read
+from scipy.spatial import cKDTree
 
+KEEP = {"hide": False, "center": False}  # beside the object, in its place
+WHOLE = {"cut": "FACES"}  # faces stay whole, so that those of the pieces can be compared with those of the object
+# Of types of attributes, what their values are called and how many there are.
+WIDTH = {"FLOAT_VECTOR": ("vector", 3), "FLOAT2": ("vector", 2), "FLOAT_COLOR": ("color", 4),
+         "BYTE_COLOR": ("color", 4), "INT32_2D": ("value", 2), "INT16_2D": ("value", 2)}  # fmt: skip
 KEYS = ("Fat", "Long")
 _INDEX = {"POINT": "vertices", "EDGE": "edges", "FACE": "polygons", "CORNER": "loops"}
 
@@ -84,7 +90,7 @@ def compare(obj, pieces) -> Pieces:
     faces, edge_faces = np.zeros(len(mesh.polygons), np.int64), _edge_faces(mesh)
     area, closed = 0.0, bool((edge_faces == 2)[np.unique(_corners(mesh, "edge_index"))].all())
     for piece in pieces:
-        cap = _caps(piece.data)
+        cap = caps_of(piece.data)
         kept = _kept(piece.data, cap)
         faces += np.bincount(kept["FACE"][1], minlength=len(faces))
         area += read(piece.data.polygons, "area")[kept["FACE"][0]].sum(dtype=np.float64)
@@ -111,7 +117,7 @@ def rims(meshes, size) -> tuple[float, float]:
     angles, total, length = [], 0.0, 0.0
     for mesh in meshes:
         corner_edge = _corners(mesh, "edge_index")
-        cap = np.repeat(_caps(mesh), read(mesh.polygons, "loop_total", np.int32))
+        cap = np.repeat(caps_of(mesh), read(mesh.polygons, "loop_total", np.int32))
         faces, caps = (np.bincount(corner_edge[mask], minlength=len(mesh.edges)) for mask in (~cap, cap))
         ends = read(mesh.edges, "vertices", np.int32, width=2)[(faces == 1) & (caps == 1)]
         points = read(mesh.vertices, "co", width=3).astype(np.float64)
@@ -156,6 +162,32 @@ def closed_volume(mesh) -> float | None:
     if not (_edge_faces(mesh) == 2).all():
         return None
     return _volume(mesh, np.ones(len(mesh.polygons), bool))
+
+
+def elements(mesh, mask):
+    """For each domain, the elements that belong to some faces."""
+    corner = np.repeat(mask, read(mesh.polygons, "loop_total", np.int32))
+    return {
+        "FACE": np.flatnonzero(mask), "CORNER": np.flatnonzero(corner),
+        "POINT": np.unique(read(mesh.loops, "vertex_index", np.int32)[corner]),
+        "EDGE": np.unique(read(mesh.loops, "edge_index", np.int32)[corner]),
+    }  # fmt: skip
+
+
+def borders(mesh):
+    """Edges of one face, by the places of their ends; and how many edges are no proper ones."""
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    found = {frozenset(tuple(round(x, 5) for x in v.co) for v in e.verts) for e in bm.edges if e.is_boundary}
+    bad = sum(not (edge.is_boundary or edge.is_contiguous) for edge in bm.edges)
+    bm.free()
+    return found, bad
+
+
+def same_places(points, others):
+    """Whether points are the same in any order."""
+    return len(points) == len(others) and max(cKDTree(points).query(others)[0].max(),
+                                              cKDTree(others).query(points)[0].max()) < 1e-4
 
 
 class _Sums:
@@ -213,7 +245,7 @@ def _kept(mesh, cap) -> dict:
             for domain, found in here.items()}
 
 
-def _caps(mesh):
+def caps_of(mesh):
     """Which faces are caps, (p,) bool."""
     if "reeb_cap" not in mesh.attributes:
         return np.zeros(len(mesh.polygons), bool)
@@ -250,7 +282,7 @@ def _enclosed(triangles) -> float:
 def _voids(pieces) -> float:
     """The volume between caps: all the caps around a hole through the object are one closed surface."""
     triangles = np.concatenate([
-        read(piece.data.vertices, "co", width=3).astype(np.float64)[_triangles(piece.data, _caps(piece.data))]
+        read(piece.data.vertices, "co", width=3).astype(np.float64)[_triangles(piece.data, caps_of(piece.data))]
         for piece in pieces
     ])
     _, place = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)

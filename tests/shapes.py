@@ -571,3 +571,9 @@ def pipe(n: int = 24, levels: int = 7, inner: float = 0.6, bend: float = 0.0) ->
             c, d = ((ring + 1) % len(profile) * n + j % n for j in (i, i + 1))
             faces += [(a, b, d), (a, d, c)]
     return vertices, np.array(faces)
+
+
+def volume(vertices: np.ndarray, triangles: np.ndarray) -> float:
+    """What a closed surface encloses, wherever it is; less than 0 if it is inside out."""
+    a, b, c = (vertices - vertices.mean(axis=0))[triangles].transpose(1, 0, 2)
+    return float((a * np.cross(b, c)).sum()) / 6

@@ -45,7 +45,6 @@ FUZZ = environments.any_python("fuzz", "numpy", "scipy", PYTEST, HYPOTHESIS)
 OLDEST = Environment("unit-oldest", "3.11", ("numpy==1.24.3", SCIPY, PYTEST, JSONSCHEMA))
 
 
-
 @dataclass(frozen=True)
 class Suite:
     """A folder of tests, or a pattern of files, and where it runs."""
@@ -144,34 +143,41 @@ def _steps(arguments: argparse.Namespace, for_pytest: list[str], scratch: Path) 
         steps += _full_blender(arguments.blender, arguments.gui, scratch, arguments.brief)
     elif not arguments.suites:
         _left_out("the installed extension in a full Blender, no --blender was given")
-    chosen = []
-    for name in arguments.suites or SUITES:
-        if environments.find_python(SUITES[name].environment.python):
-            chosen.append(name)
-        else:
-            _left_out(f"{name} needs Python {SUITES[name].environment.python}, which was not found here")
-    blenders = [name for name in SUITES if name in chosen and SUITES[name].folder == "tests/blender"]
+    chosen = [name for name in arguments.suites or SUITES if _has_python(name)]
+    older = [name for name in SUITES if name in chosen and SUITES[name].folder == "tests/blender"][:-1]
     for name in reversed(chosen):  # the longest first
-        number = blenders.index(name) if name in blenders[:-1] else None
-        words = ["-k", BRIEF_WORDS[name]] if arguments.brief and name in BRIEF_WORDS else []
-        if words:
-            _left_out(f"{name}: all but \"{words[1]}\" (--brief)")
-        work = partial(_pytest, name, number, scratch, [*words, *for_pytest])
-        if arguments.brief:
-            work = partial(work, **_thirds(name))
-        if arguments.fuzz and name in LONG:
-            work = partial(work, REEB_PARTS_FUZZ=str(60 * arguments.fuzz / LONG[name]),
-                           REEB_PARTS_FUZZ_COUNTS=str(scratch / COUNTS))
-        after = ""
-        if name == "package":
-            work = partial(_package, arguments.blender, scratch, for_pytest)
-            if not arguments.blender:
-                _left_out("package: .blend and .fbx, no --blender was given")
-        if name == "documents":
-            after = "build" if arguments.blender else ""
-            work = partial(_documents, arguments.blender, scratch, for_pytest)
-        steps.append(Step(name, work, after))
+        after = "build" if name == "documents" and arguments.blender else ""
+        steps.append(Step(name, _work(name, arguments, for_pytest, scratch, older), after))
     return sorted(steps, key=lambda step: step.alone)
+
+
+def _has_python(name: str) -> bool:
+    """Whether this machine has the Python of a suite; says so if not."""
+    version = SUITES[name].environment.python
+    if environments.find_python(version):
+        return True
+    _left_out(f"{name} needs Python {version}, which was not found here")
+    return False
+
+
+def _work(name: str, arguments: argparse.Namespace, for_pytest: list[str], scratch: Path,
+          older: list[str]) -> Callable[[Path | None], tuple[int, int]]:
+    """What runs a suite. older : the Blenders but the newest, each of which tries a diagonal of its own."""
+    if name == "package":
+        return partial(_package, arguments.blender, scratch, for_pytest)
+    if name == "documents":
+        return partial(_documents, arguments.blender, scratch, for_pytest)
+    words, variables = [], {}
+    if arguments.brief:
+        variables |= _thirds(name)
+        if name in BRIEF_WORDS:
+            words = ["-k", BRIEF_WORDS[name]]
+            _left_out(f"{name}: all but \"{BRIEF_WORDS[name]}\" (--brief)")
+    if arguments.fuzz and name in LONG:
+        variables |= {"REEB_PARTS_FUZZ": str(60 * arguments.fuzz / LONG[name]),
+                      "REEB_PARTS_FUZZ_COUNTS": str(scratch / COUNTS)}
+    diagonal = older.index(name) if name in older else None
+    return partial(_pytest, name, diagonal, scratch, [*words, *for_pytest], **variables)
 
 
 def _run(steps: list[Step], jobs: int, scratch: Path) -> list[Outcome]:
@@ -268,6 +274,8 @@ def _pytest(name: str, diagonal: int | None, scratch: Path, extra: list[str], lo
 
 def _package(blender: str | None, scratch: Path, extra: list[str], log: Path | None) -> tuple[int, int]:
     """Run the tests of the Python package."""
+    if not blender:
+        _left_out("package: .blend and .fbx, no --blender was given")
     return _pytest("package", None, scratch, extra, log, BLENDER=blender or "", BROWSER=_browser() or "")
 
 

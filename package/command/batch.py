@@ -33,10 +33,9 @@ from ..core.sentence import Sentence
 from ..model_files import BY_BLENDER, formats
 from ..output_files import SharedFolder, as_output_error
 from ..outputs import COLORED, LABELS, PARTS
-from .words import print_answer, say
+from .words import INTERRUPTED, print_answer, say
 
 NEEDED = ("distributed", "pyarrow", "tqdm", "psutil")
-INTERRUPTED = 130
 
 
 class MissingPackageError(ReebError):
@@ -138,7 +137,7 @@ class _Batch:
         """Where the results of a model are."""
         return folder_of(self.out, source.name)
 
-    def run(self, alone: bool = True) -> None:
+    def run(self, alone: bool) -> None:
         """Do all models that are not done yet; raises KeyboardInterrupt after Ctrl+C.
 
         alone : bool, whether no other run writes to the same folder. Runs that share one do not go the same way, or

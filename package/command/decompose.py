@@ -20,9 +20,11 @@ from pathlib import Path
 from ..core.file_names import readable, spelled
 from ..core.memory import keep_freed_memory
 from ..core.options import add_parameters, chosen_parameters, named_file, number
+from ..core.progress import said_in_steps
+from ..core.result.decomposition import Decomposition
 from ..core.sentence import Sentence
 from ..meshes import decompose
-from ..model_files import read_model
+from ..model_files import Model, read_model
 from ..output_files import OutputFileError, write_files
 from ..outputs import (
     COLORED,
@@ -88,40 +90,52 @@ def _run(options: argparse.Namespace) -> str:
     keep_freed_memory()
     with _unheard():
         model = read_model(options.model, options.blender)
-    result = decompose(model, parameters=parameters, progress=_Progress())
-    parts = result.parts()
-    files: dict[Path, bytes] = {}
-    places: set[str] = set()
+    result = decompose(model, parameters=parameters, progress=said_in_steps(say))
+    files = _Files()
+    answer = _made(options, model, result, files)
+    write_files(files.data, options.model)
+    return answer.decode()
 
-    def add(path: Path, data: bytes) -> str:
+
+class _Files:
+    """The bytes of each file to write, none of which takes the place of another."""
+
+    def __init__(self) -> None:
+        self.data: dict[Path, bytes] = {}
+        self._places: set[str] = set()
+
+    def add(self, path: Path, data: bytes) -> str:
+        """Add a file; returns its name for the JSON. Raises OutputFileError if there is one in its place."""
         place = os.path.realpath(path)
-        if place in places:
+        if place in self._places:
             raise OutputFileError(
                 Sentence("{path} would be written twice. Give each file a name of its own.", path=path))
-        places.add(place)
-        files[path] = data
+        self._places.add(place)
+        self.data[path] = data
         return readable(path)
 
+
+def _made(options: argparse.Namespace, model: Model, result: Decomposition, files: _Files) -> bytes:
+    """Make the files that the options ask for; returns the JSON, which names them."""
+    parts = result.parts()
     written: dict[str, str | list[str]] = {}
     if options.labels:
-        written["labels"] = add(options.labels, labels_bytes(parts, options.labels.suffix.lower()))
+        written["labels"] = files.add(options.labels, labels_bytes(parts, options.labels.suffix.lower()))
     if options.colored:
-        written["colored"] = add(options.colored, colored_bytes(model, parts, options.colored.suffix.lower()))
+        written["colored"] = files.add(options.colored, colored_bytes(model, parts, options.colored.suffix.lower()))
     if options.picture:
-        data = picture_bytes(model, result, parts, options.picture_size)
-        written["picture"] = add(options.picture, data)
+        written["picture"] = files.add(options.picture, picture_bytes(model, result, parts, options.picture_size))
     if options.parts:
         for note in Rounding.of(model).notes(options.parts_format):
             say(note)
         made = part_files(model, parts, options.parts_format)
-        written["parts"] = [add(options.parts / spelled(name), data) for name, data in made.items()]
+        written["parts"] = [files.add(options.parts / spelled(name), data) for name, data in made.items()]
     if options.json:
         written["json"] = readable(options.json)
     answer = json_bytes(model_document(model, result, parts, files=written))
     if options.json:
-        add(options.json, answer)
-    write_files(files, options.model)
-    return answer.decode()
+        files.add(options.json, answer)
+    return answer
 
 
 @contextmanager
@@ -135,18 +149,6 @@ def _unheard() -> Iterator[None]:
             yield
     finally:
         logging.getLogger().removeHandler(handler)
-
-
-class _Progress:
-    """Says how far a run is, twenty times at most."""
-
-    def __init__(self) -> None:
-        self._last = -1
-
-    def __call__(self, stage: str, share: float) -> None:
-        if round(20 * share) > self._last:
-            self._last = round(20 * share)
-            say(f"{stage} {share:.0%}")
 
 
 def file_of(kinds: tuple[str, ...]) -> Callable[[str], Path]:

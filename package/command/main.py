@@ -12,9 +12,7 @@ from contextlib import suppress
 from types import FrameType
 from typing import Any
 
-from .words import say
-
-INTERRUPTED = 130
+from .words import INTERRUPTED, say
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -10,6 +10,8 @@ from contextlib import suppress
 from ..core.file_names import readable
 from ..core.sentence import Sentence
 
+INTERRUPTED = 130  # the exit status after Ctrl+C
+
 
 def say(text: str) -> None:
     """A line on standard error, if there is one."""

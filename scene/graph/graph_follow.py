@@ -15,7 +15,7 @@ from ...core.surface.arrays import sums_by
 from ...core.uses.motion import rigid_motions
 from .. import bridge, mesh_arrays, redraw, store
 from ..errors import SceneError
-from . import graph_objects
+from . import arc_curves, graph_objects
 
 _RESTS = 1e-6  # a graph that moves less than this share of the model's size stays where it is
 
@@ -77,7 +77,7 @@ def follow(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     decomposition = stored.decomposition
     graph = decomposition.graph
     back = bridge.unstretch(store.stretch_of(obj.data)).T
-    rest = graph_objects.places(graph, back)
+    rest = arc_curves.places(graph, back)
     seen = _seen(context, obj)
     moved = rest
     if seen is not None:

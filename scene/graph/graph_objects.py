@@ -24,13 +24,14 @@ from .. import bridge, made_objects, mesh_arrays, part_names, store, transaction
 from ..made_objects import ROLE
 from ..selection import in_layer
 from ..temporary import remove_object
+from . import arc_curves
 
 SOURCE = "reeb_parts_source"  # on the collection: the decomposed object
 SHOWN_BEFORE = "reeb_parts_shown_before"  # on that of a model that is hidden: 1 if the graph was seen before, else 0
 _DISPLAY = {"minimum": "SPHERE", "saddle": "CUBE", "maximum": "CONE"}
 _WORDS = {"minimum": "middle", "saddle": "joint", "maximum": "tip"}  # behind the name of the part
 _ARCS = "arcs"  # the role of the curve
-_STRETCHES = "stretches"  # on the curve: what its splines are, see ``_stretches``
+_STRETCHES = "stretches"  # on the curve: what its splines are, see ``arc_curves.seen_stretches``
 FOLDED = "folded"  # on a node: the parts that are shown do not need it
 _SIZE, _NOTHING = "reeb_parts_size", 1e-4  # its size when it is not folded, and when it is
 _LOCKS = ("lock_location", "lock_rotation", "lock_scale")
@@ -147,7 +148,7 @@ def draw_graph(context: bpy.types.Context, obj: bpy.types.Object, numbered: Numb
         empty["kind"], empty["value"], empty["part"] = kind, float(graph.node_value[index]), numbers[index]
         empty["node"], empty[FOLDED] = index, False
         _place(empty, "node", obj, collection)
-    curve = _curve(graph, back, _whole(graph, range(graph.n_arcs)))
+    curve = arc_curves.curve(graph, back, arc_curves.whole(graph, range(graph.n_arcs)))
     _place(bpy.data.objects.new("Reeb arcs", curve), _ARCS, obj, collection)
     restyle(obj, style)
     made_objects.hand_on(earlier.gone, [(_stands_for(item), item) for item in collection.objects])
@@ -174,97 +175,29 @@ def _place(item: bpy.types.Object, role: str, obj: bpy.types.Object, collection:
     collection.objects.link(item)
 
 
-def _curve(graph: ReebGraph, back: np.ndarray, stretches: np.ndarray) -> bpy.types.Curve:
-    """A poly spline for each stretch of an arc.
-
-    back : (3, 3) float64, takes the graph's positions to the mesh's. stretches : (s, 3) int64, see ``_stretches``.
-    """
-    curve = bpy.data.curves.new("Reeb arcs", "CURVE")
-    curve.dimensions = "3D"
-    scale = float(np.cbrt(abs(np.linalg.det(back)))) or 1.0
-    lines = _lines(graph, places(graph, back), stretches)
-    for line, (arc, first, last) in zip(lines, stretches.tolist(), strict=True):
-        radius = graph.point_radius[graph.arc_points[arc] : graph.arc_points[arc + 1]] * scale
-        if len(radius):
-            radius = np.concatenate([radius[:1], radius, radius[-1:]])[first : last + 1]
-        spline = curve.splines.new("POLY")
-        spline.points.add(len(line) - 1)
-        spline.points.foreach_set("co", line.ravel())
-        spline.points.foreach_set("radius", radius.astype(np.float32) if len(radius) else np.zeros(2, np.float32))
-    return curve
-
-
-def places(graph: ReebGraph, back: np.ndarray) -> np.ndarray:
-    """Positions of the nodes, then of the center points, (k + r, 3) float64. back : (3, 3), from the graph's space."""
-    return np.concatenate([graph.node_position, graph.point_position]) @ back
-
-
-def _chain(graph: ReebGraph, arc: int) -> np.ndarray:
-    """An arc from its lower node through its center points to its upper node: rows of ``places``, (m,) int64."""
-    low, high = graph.arcs[arc]
-    inner = graph.n_nodes + np.arange(graph.arc_points[arc], graph.arc_points[arc + 1])
-    return np.concatenate([[low], inner, [high]])
-
-
-def _lines(graph: ReebGraph, points: np.ndarray, stretches: np.ndarray) -> Iterator[np.ndarray]:
-    """The points of each stretch of an arc in Blender's four coordinates; points : as of ``places``."""
-    for arc, first, last in stretches.tolist():
-        line = points[_chain(graph, arc)[first : last + 1]]
-        yield np.concatenate([line, np.ones((len(line), 1))], axis=1).astype(np.float32)
-
-
-def _whole(graph: ReebGraph, arcs: Iterable[int]) -> np.ndarray:
-    """Some arcs as stretches from end to end, (s, 3) int64."""
-    counts = np.diff(graph.arc_points)
-    return np.array([(arc, 0, counts[arc] + 1) for arc in arcs], np.int64).reshape(-1, 3)
-
-
-def _stretches(graph: ReebGraph, arcs: Iterable[int], seen: np.ndarray) -> np.ndarray:
-    """The stretches of some arcs that are seen: as far as the overlay draws them, to the last point that is.
-
-    Parameters
-    ----------
-    graph : ReebGraph
-    arcs : of int
-    seen : (k + r,) bool
-        Whether each node and each center point is seen.
-
-    Returns
-    -------
-    stretches : (s, 3) int64
-        The arc, and the first and the last of its points, see ``_chain``.
-    """
-    found = []
-    for arc in arcs:
-        chain = seen[_chain(graph, arc)]
-        drawn = np.concatenate([[False], chain[:-1] & chain[1:], [False]])
-        found += [(arc, first, last) for first, last in np.flatnonzero(drawn[1:] != drawn[:-1]).reshape(-1, 2)]
-    return np.array(found, np.int64).reshape(-1, 3)
-
-
 def _drawn(item: bpy.types.Object, graph: ReebGraph) -> np.ndarray:
     """The stretches that the curve of a graph consists of, (s, 3) int64."""
     if _STRETCHES in item:
         kept = np.array(list(item[_STRETCHES]), np.int64).reshape(-1, 3)
         return kept[kept[:, 0] < graph.n_arcs]
     # An earlier version has told the arcs.
-    return _whole(graph, [arc for arc in item.get("arcs", range(graph.n_arcs)) if arc < graph.n_arcs])
+    return arc_curves.whole(graph, [arc for arc in item.get("arcs", range(graph.n_arcs)) if arc < graph.n_arcs])
 
 
 def shift(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, seen: np.ndarray) -> bool:
     """Show the graph of an object elsewhere than it is; whether anything has changed.
 
-    back : as of ``places``, where the graph is. seen : (k + r, 3) float64, where it is to be seen.
+    back : as of ``arc_curves.places``, where the graph is. seen : (k + r, 3) float64, where it is to be seen.
     """
     nodes, item = list(_items(obj, "node")), arcs(obj)
     if not all(0 <= node.get("node", -1) < graph.n_nodes for node in nodes):
         return False
-    offset = (seen - places(graph, back)).astype(np.float32)
+    offset = (seen - arc_curves.places(graph, back)).astype(np.float32)
     moved = [node for node in nodes if node.delta_location[:] != tuple(offset[node["node"]].tolist())]
     for node in moved:
         node.delta_location = offset[node["node"]]
     if item is not None and (moved or not nodes):
-        for spline, line in zip(item.data.splines, _lines(graph, seen, _drawn(item, graph)), strict=False):
+        for spline, line in zip(item.data.splines, arc_curves.lines(graph, seen, _drawn(item, graph)), strict=False):
             if len(spline.points) == len(line):
                 spline.points.foreach_set("co", line.ravel())
         item.data.update_tag()
@@ -274,9 +207,9 @@ def shift(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, seen: np.nd
 def put_back(obj: bpy.types.Object, graph: ReebGraph, back: np.ndarray, scale: float) -> None:
     """Put the graph of an object where it is in the mesh, which was moved: Blender keeps children where they are.
 
-    back : as of ``places``. scale : how much larger the mesh has become.
+    back : as of ``arc_curves.places``. scale : how much larger the mesh has become.
     """
-    nodes, item, points = list(_items(obj, "node")), arcs(obj), places(graph, back)
+    nodes, item, points = list(_items(obj, "node")), arcs(obj), arc_curves.places(graph, back)
     if not all(0 <= node.get("node", -1) < graph.n_nodes for node in nodes):
         return
     for node in nodes:
@@ -334,7 +267,7 @@ def update_parts(obj: bpy.types.Object, numbered: NumberedParts) -> None:
         node["part"] = numbers[node["node"]]
         node.color = (*linear(colors[node["part"], :3]), 1.0)
         _fold(node, not shown[node["node"]])
-    _show_arcs(obj, graph, _stretches(graph, np.flatnonzero(arcs_shown).tolist(), seen))
+    _show_arcs(obj, graph, arc_curves.seen_stretches(graph, np.flatnonzero(arcs_shown).tolist(), seen))
     update_names(obj)
 
 
@@ -361,7 +294,7 @@ def is_folded(node: bpy.types.Object) -> bool:
 
 
 def _show_arcs(obj: bpy.types.Object, graph: ReebGraph, stretches: np.ndarray) -> None:
-    """Let the curve have some stretches of the arcs, (s, 3) int64: see ``_stretches``."""
+    """Let the curve have some stretches of the arcs, (s, 3) int64: see ``arc_curves.seen_stretches``."""
     item = arcs(obj)
     if item is None or np.array_equal(_drawn(item, graph), stretches):
         return
@@ -371,11 +304,11 @@ def _show_arcs(obj: bpy.types.Object, graph: ReebGraph, stretches: np.ndarray) -
 
 
 def _draw_curve(item: bpy.types.Object, graph: ReebGraph, back: np.ndarray, stretches: np.ndarray) -> None:
-    """Draw the curve of a graph anew. back, stretches : as of ``_curve``."""
+    """Draw the curve of a graph anew. back, stretches : as of ``arc_curves.curve``."""
     transaction.keep(item, "data")
     before = item.data
     name, thickness = before.name, before.bevel_depth
-    curve = _curve(graph, back, stretches)
+    curve = arc_curves.curve(graph, back, stretches)
     curve.bevel_depth = thickness
     item.data = curve
     if before.users == 0:

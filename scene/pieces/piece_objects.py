@@ -14,7 +14,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.steps import Steps
-from .. import bridge, element_layers, made_objects, mesh_arrays, rigid_bodies, store, targets, transaction, visibility
+from .. import bridge, element_layers, fingerprints, made_objects, rigid_bodies, store, targets, transaction, visibility
 from ..errors import SceneError
 from ..graph import graph_visibility
 from ..selection import in_layer
@@ -217,7 +217,7 @@ def former_looks(piece: bpy.types.Object) -> str:
     materials = [slot.material.name if slot.material else "" for slot in piece.material_slots]
     parent = piece.parent.name if piece.parent else ""
     contents = element_layers.contents(piece.data, len(piece.vertex_groups))
-    return str([piece.name, mesh_arrays.fingerprint(piece.data), contents, place, parent, piece.modifiers.keys(),
+    return str([piece.name, fingerprints.fingerprint(piece.data), contents, place, parent, piece.modifiers.keys(),
                 piece.vertex_groups.keys(), materials])
 
 

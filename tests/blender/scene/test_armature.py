@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapes
 from mathutils import Euler
+from places import seen_points
 from results import numbers as numbers_of
 from snapshot import activate, check_undo, snapshot
 
@@ -15,16 +16,6 @@ DEFORM = "DEF-"
 def rig_of(obj):
     (rig,) = [o for o in bpy.data.objects if o.type == "ARMATURE" and "reeb_parts_role" in o]
     return rig
-
-
-def world(obj):
-    """Points as the viewport shows them, in the world."""
-    bpy.context.view_layer.update()
-    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    points = np.zeros(3 * len(evaluated.data.vertices), np.float32)
-    evaluated.data.vertices.foreach_get("co", points)
-    matrix = np.array(obj.matrix_world)
-    return points.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def test_a_bone_for_each_part_in_one_tree(obj):
@@ -59,7 +50,7 @@ def test_a_bone_starts_at_the_cut_and_ends_in_the_tip(make):
     obj.scale, obj.location, obj.rotation_euler = (1, 2, -1), (3, 4, 5), (0.3, 0.5, 0.7)
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.armature()
-    rig, points, numbers = rig_of(obj), world(obj), numbers_of(obj.data)
+    rig, points, numbers = rig_of(obj), seen_points(obj), numbers_of(obj.data)
     assert tuple(rig.scale) == pytest.approx((1, 1, 1))
     for part in obj.data.reeb_parts.parts:
         bone = rig.data.bones[DEFORM + part.name]
@@ -80,14 +71,14 @@ def test_a_bone_starts_at_the_cut_and_ends_in_the_tip(make):
 def test_at_rest_nothing_moves_and_a_turned_bone_moves_its_part(obj):
     obj.location = (1, 2, 3)
     bpy.ops.reeb_parts.decompose()
-    before = world(obj)
+    before = seen_points(obj)
     bpy.ops.reeb_parts.armature(weights="PARTS")
-    assert world(obj) == pytest.approx(before, abs=1e-4)
+    assert seen_points(obj) == pytest.approx(before, abs=1e-4)
     rig = rig_of(obj)
     leaf = next(bone for bone in rig.pose.bones if bone.parent and not bone.children)
     leaf.rotation_mode = "XYZ"
     leaf.rotation_euler = Euler((0.5, 0, 0))
-    moved = np.linalg.norm(world(obj) - before, axis=1) > 1e-4
+    moved = np.linalg.norm(seen_points(obj) - before, axis=1) > 1e-4
     number = next(part.number for part in obj.data.reeb_parts.parts if part.group == leaf.name)
     mine = {v for p in obj.data.polygons if numbers_of(obj.data)[p.index] == number for v in p.vertices}
     assert set(np.flatnonzero(moved).tolist()) <= mine
@@ -126,9 +117,9 @@ def test_bent_by_60_degrees_no_face_is_turned_over(obj, mirrored):
     """Each joint, to four sides, as Blender poses it; the volume stays within a tenth."""
     obj.scale, obj.rotation_euler = (-1 if mirrored else 1, 1, 1), (0.1, 0.2, 0.3)
     bpy.ops.reeb_parts.decompose()
-    before = world(obj)
+    before = seen_points(obj)
     bpy.ops.reeb_parts.armature()
-    assert world(obj) == pytest.approx(before, abs=1e-4)
+    assert seen_points(obj) == pytest.approx(before, abs=1e-4)
     rig, faces = rig_of(obj), np.array([polygon.vertices[:] for polygon in obj.data.polygons])
     bones = [bone for bone in rig.pose.bones if bone.parent]
     assert bones
@@ -136,8 +127,8 @@ def test_bent_by_60_degrees_no_face_is_turned_over(obj, mirrored):
         bone.rotation_mode = "XYZ"
         for turn in ((1, 0, 0), (-1, 0, 0), (0, 0, 1), (0, 0, -1)):
             bone.rotation_euler = Euler(np.radians(60) * np.array(turn, float))
-            after = world(obj)
-            assert abs(volume(after, faces) / volume(before, faces) - 1) < 0.1
+            after = seen_points(obj)
+            assert abs(shapes.volume(after, faces) / shapes.volume(before, faces) - 1) < 0.1
             bend = np.array(rig.matrix_world @ bone.matrix @ bone.bone.matrix_local.inverted()
                             @ rig.matrix_world.inverted())[:3, :3]
             rest = normals(before, faces)
@@ -150,11 +141,6 @@ def test_bent_by_60_degrees_no_face_is_turned_over(obj, mirrored):
 def normals(points, faces):
     a, b, c = points[faces].transpose(1, 0, 2)
     return np.cross(b - a, c - a)
-
-
-def volume(points, faces):
-    a, b, c = (points - points.mean(axis=0))[faces].transpose(1, 0, 2)
-    return (a * np.cross(b, c)).sum() / 6
 
 
 def test_a_group_of_the_user_is_left_alone(obj):
@@ -317,5 +303,5 @@ def test_every_bone_has_vertices_however_small_its_part(obj):
     bones = [group.index for group in obj.vertex_groups if group.name.startswith(DEFORM)]
     assert len(bones) > 2
     assert set(bones) <= used
-    at_rest = world(obj)
+    at_rest = seen_points(obj)
     np.testing.assert_allclose(at_rest, [obj.matrix_world @ v.co for v in obj.data.vertices], atol=1e-5)

@@ -4,6 +4,8 @@
 import bpy
 import numpy as np
 import pytest
+import shapes
+from places import world_points
 from snapshot import activate, snapshot
 from threemf_reader import read_3mf
 
@@ -94,22 +96,14 @@ def test_3mf_is_one_assembly_in_millimeters(obj, tmp_path, mirrored):
     assert [body.name for body in bodies] == [f"Tree {name}" for name, _ in parts]
     assert [body.color for body in bodies] == [
         "#" + "".join(f"{round(255 * value):02X}" for value in color) for _, color in parts]
-    bpy.context.view_layer.update()
-    matrix = np.array(obj.matrix_world)
-    points = np.array([vertex.co for vertex in obj.data.vertices]) @ matrix[:3, :3].T + matrix[:3, 3]
+    points = world_points(obj)
     written = np.concatenate([body.vertices for body in bodies])
     assert np.ptp(written, axis=0) == pytest.approx(10 * np.ptp(points, axis=0), rel=1e-5)
     assert written.min(axis=0) + item == pytest.approx(0, abs=1e-4)
-    volumes = [volume(body.vertices, body.triangles) for body in bodies]
+    volumes = [shapes.volume(body.vertices, body.triangles) for body in bodies]
     assert min(volumes) > 0
     faces = np.array([polygon.vertices[:] for polygon in obj.data.polygons])[:, :: -1 if mirrored else 1]
-    assert sum(volumes) == pytest.approx(1000 * volume(points, faces), rel=2e-3)
-
-
-def volume(vertices, triangles):
-    """What a closed surface holds."""
-    a, b, c = (vertices - vertices.mean(axis=0))[triangles].transpose(1, 0, 2)
-    return (a * np.cross(b, c)).sum() / 6
+    assert sum(volumes) == pytest.approx(1000 * shapes.volume(points, faces), rel=2e-3)
 
 
 def test_closed_files_have_no_border(obj, tmp_path):
@@ -287,7 +281,7 @@ def test_mirrored_objects_are_not_inside_out_in_files(obj, tmp_path, kind, shear
         triangles = np.array([triangle.vertices[:] for triangle in piece.data.loop_triangles])
         # A matrix that mirrors turns faces inside out without a word.
         turned = -1 if piece.matrix_world.determinant() < 0 else 1
-        assert turned * volume(np.array([vertex.co for vertex in piece.data.vertices]), triangles) > 0
+        assert turned * shapes.volume(np.array([vertex.co for vertex in piece.data.vertices]), triangles) > 0
 
 
 @pytest.mark.parametrize("kind", IMPORT)

@@ -4,17 +4,12 @@
 import bpy
 import numpy as np
 import pytest
+from places import world_points
 from snapshot import check_undo, snapshot
 
 
 def hulls_of(obj):
     return [o for o in bpy.data.objects if o.get("reeb_parts_role") == "hull"]
-
-
-def world(obj):
-    points = np.array([vertex.co[:] for vertex in obj.data.vertices])
-    matrix = np.array(obj.matrix_world)
-    return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 @pytest.mark.parametrize("engine", ["UNREAL", "GODOT"])
@@ -28,13 +23,13 @@ def test_a_hull_around_each_part(obj, engine):
              for i, part in enumerate(parts)]
     assert [hull.name for hull in hulls_of(obj)] == sorted(names)
     numbers = np.array([value.value for value in obj.data.attributes["reeb_part"].data])
-    points = world(obj)
+    points = world_points(obj)
     for part, name in zip(parts, names, strict=True):
         hull = bpy.data.objects[name]
         mine = points[sorted({v for p in obj.data.polygons if numbers[p.index] == part.number for v in p.vertices})]
         # Of many corners some are kept: the box differs by little.
-        assert world(hull).min(axis=0) == pytest.approx(mine.min(axis=0), abs=0.05 * np.ptp(mine, axis=0).max())
-        assert world(hull).max(axis=0) == pytest.approx(mine.max(axis=0), abs=0.05 * np.ptp(mine, axis=0).max())
+        assert world_points(hull).min(axis=0) == pytest.approx(mine.min(axis=0), abs=0.05 * np.ptp(mine, axis=0).max())
+        assert world_points(hull).max(axis=0) == pytest.approx(mine.max(axis=0), abs=0.05 * np.ptp(mine, axis=0).max())
         assert hull.hide_render
         assert hull.display_type == "WIRE"
 

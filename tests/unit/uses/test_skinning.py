@@ -246,14 +246,10 @@ def test_every_joint_there_is_bends_by_60_degrees_and_keeps_the_volume(shape, co
     bones, part_bone = limbs(table, labels, found.field)
     found = dense(smooth_weights(table, part_bone[labels], bones), len(bones.head))
 
-    def volume(points):
-        a, b, c = points[faces].transpose(1, 0, 2)
-        return (a * np.cross(b, c)).sum() / 6
-
     for bone in np.flatnonzero(bones.parent >= 0):
         share = found[:, following(bones.parent, bones.order)[bone]].sum(axis=1)
         along = bones.tail[bone] - bones.head[bone]
         assert not turned_over(table, share, bones.head[bone], along, np.pi / 3).any()
         for turn in bends(along, np.pi / 3):
             moved = vertices + share[:, None] * ((vertices - bones.head[bone]) @ (turn - np.eye(3)).T)
-            assert volume(moved) == pytest.approx(volume(vertices), rel=0.1)
+            assert shapes.volume(moved, faces) == pytest.approx(shapes.volume(vertices, faces), rel=0.1)

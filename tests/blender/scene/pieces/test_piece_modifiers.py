@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pieces of objects with modifiers: copied, applied, or named where they shape a piece otherwise."""
+
+import bpy
+import numpy as np
+import pytest
+from bulk import read
+from mathutils import Matrix
+from pieces import KEEP, WHOLE, borders, caps_of, pieces_of, same_places
+from results import numbers as numbers_of
+from snapshot import activate, snapshot
+
+
+def test_modifiers_are_copied_or_not(obj):
+    obj.modifiers.new("Smooth", "SUBSURF")
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert all(piece.modifiers.keys() == ["Smooth"] for piece in pieces_of())
+    bpy.ops.reeb_parts.separate(modifiers=False, **KEEP)
+    assert not any(piece.modifiers for piece in pieces_of())
+
+
+def mirrored(obj, **settings):
+    """Give an object a Mirror modifier in its own plane x = 0 and let it stand aside and turned."""
+    obj.data.transform(Matrix.Translation((6, 0, 0)))
+    obj.location, obj.rotation_euler = (1, 2, 3), (0.1, 0.2, 0.3)
+    modifier = obj.modifiers.new("Mirror", "MIRROR")
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+
+
+def seen_faces(*objects):
+    """The places of the middles of all faces as they are seen."""
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    found = []
+    for obj in objects:
+        mesh = obj.evaluated_get(depsgraph).data
+        matrix = np.array(obj.matrix_world)
+        found.append(read(mesh.polygons, "center", np.float32, 3) @ matrix[:3, :3].T + matrix[:3, 3])
+    return np.concatenate(found)
+
+
+@pytest.mark.parametrize("style", [{}, {"center": False}, {"seen": True}, {"parent": True}])
+def test_with_a_mirror_modifier_pieces_stay_where_they_were(obj, style):
+    """Without a mirror object, the modifier mirrors about the origin, which a piece has to keep then."""
+    mirrored(obj)
+    bpy.ops.reeb_parts.decompose()
+    before = seen_faces(obj)
+    bpy.ops.reeb_parts.separate(**style, **WHOLE)
+    assert same_places(seen_faces(*pieces_of()), before)
+    assert all(bool(piece.modifiers) != style.get("seen", False) for piece in pieces_of())
+
+
+def test_copies_of_an_array_stay_together(obj):
+    """A relative offset is one by the extent of the mesh that the modifier gets, and pieces are smaller."""
+    mirrored(obj, use_axis=(False, True, False))
+    for name, step in (("Row", (1.1, 0.0, 0.1)), ("Column", (0.0, 1.0, 0.5))):
+        array = obj.modifiers.new(name, "ARRAY")
+        array.count, array.relative_offset_displace = 2, step
+    array.use_constant_offset, array.constant_offset_displace = True, (0.3, 0.0, 0.0)
+    seen = seen_faces(obj)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP, **WHOLE)
+    assert same_places(seen_faces(*pieces_of()), seen)
+    assert obj.modifiers["Row"].use_relative_offset
+
+
+@pytest.mark.parametrize(("kind", "settings", "said"), [
+    ("SIMPLE_DEFORM", {}, True), ("CAST", {}, True), ("CAST", {"radius": 1.0}, False), ("CAST", {"size": 1.0}, True),
+    ("CAST", {"size": 1.0, "use_radius_as_size": False}, False), ("BEVEL", {}, False)])
+def test_modifiers_that_work_by_the_extent_are_told(obj, capfd, kind, settings, said):
+    modifier = obj.modifiers.new("Shaper", kind)
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert ("effect of Shaper depends on the extent" in capfd.readouterr().out) == said
+    activate(obj)
+    bpy.ops.reeb_parts.separate(**KEEP, seen=True)
+    assert "depends on the extent" not in capfd.readouterr().out
+
+
+def bound(obj, kind):
+    """A modifier of a kind, bound or with indices, that does something to an object."""
+    modifier = obj.modifiers.new("Holder", kind)
+    if kind in ("SURFACE_DEFORM", "MESH_DEFORM"):
+        bpy.ops.mesh.primitive_cube_add(size=30)
+        cage = bpy.context.object
+        setattr(modifier, "target" if kind == "SURFACE_DEFORM" else "object", cage)
+        if kind == "MESH_DEFORM":
+            modifier.precision = 2  # of eight, each twice as fine as the one before: to bind takes seconds
+        activate(obj)
+        getattr(bpy.ops.object, "surfacedeform_bind" if kind == "SURFACE_DEFORM" else "meshdeform_bind")(
+            modifier="Holder")
+        assert modifier.is_bound
+    elif kind == "HOOK":
+        modifier.object = bpy.data.objects.new("Hand", None)
+        modifier.vertex_indices_set([0, 1, 2])
+    elif kind == "BOOLEAN":
+        bpy.ops.mesh.primitive_cube_add(size=1)
+        modifier.object = bpy.context.object
+    activate(obj)
+
+
+@pytest.mark.parametrize(("kind", "style", "said"), [
+    ("SURFACE_DEFORM", {}, True), ("MESH_DEFORM", {}, True), ("HOOK", {}, True), ("BOOLEAN", {"caps": False}, True),
+    ("BOOLEAN", {"caps": True}, False), ("REMESH", {"caps": False}, True), ("HOOK", {"seen": True}, False)])
+def test_modifiers_that_are_made_for_the_whole_are_told(obj, capfd, kind, style, said):
+    bound(obj, kind)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP, **style)
+    assert ("effect of Holder is made for all of Tree" in capfd.readouterr().out) == said
+
+
+@pytest.mark.parametrize(("kind", "settings", "said"), [
+    ("DISPLACE", {}, True), ("DISPLACE", {"direction": "X"}, False), ("DISPLACE", {"strength": 0.0}, False),
+    ("SHRINKWRAP", {"offset": 0.3}, True), ("SHRINKWRAP", {}, False),
+    ("SHRINKWRAP", {"wrap_method": "PROJECT"}, True)])
+def test_modifiers_that_move_along_normals_are_told(obj, capfd, kind, settings, said):
+    """Where a piece was cut off normals are others, and cracks open."""
+    modifier = obj.modifiers.new("Holder", kind)
+    if kind == "SHRINKWRAP":
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=3)
+        modifier.target = bpy.context.object
+        activate(obj)
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.separate(**KEEP)
+    assert ("effect of Holder is made for all of Tree" in capfd.readouterr().out) == said
+
+
+def test_about_another_object_pieces_have_origins_of_their_own(obj):
+    empty = bpy.data.objects.new("Plane", None)
+    bpy.context.scene.collection.objects.link(empty)
+    empty.location.x = -0.123
+    mirrored(obj, mirror_object=empty)
+    bpy.ops.reeb_parts.decompose()
+    before = seen_faces(obj)
+    bpy.ops.reeb_parts.separate(**WHOLE)
+    assert same_places(seen_faces(*pieces_of()), before)
+    assert len({tuple(piece.location) for piece in pieces_of()}) == len(pieces_of())
+
+
+@pytest.mark.parametrize("materials", [False, True])
+def test_what_is_seen_is_cut_with_all_that_modifiers_make(obj, materials):
+    """Subdivision makes four faces of a quad, three of a triangle; each stays in the part of its face."""
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    bpy.ops.reeb_parts.decompose(materials=materials)
+    before, stored = seen_faces(obj), snapshot()["meshes"]["Tree"]
+    bpy.ops.reeb_parts.separate(seen=True, caps=True, hide=False, **WHOLE)
+    assert snapshot()["meshes"]["Tree"] == stored
+    corners = read(obj.data.polygons, "loop_total", np.int32)
+    expected = np.bincount(numbers_of(obj.data), corners)[1:].astype(int).tolist()
+    assert [int((caps_of(piece.data) == 0).sum()) for piece in pieces_of()] == expected
+    assert [len(piece.data.materials) for piece in pieces_of()] == [int(materials)] * len(pieces_of())
+    assert not any(a.name.startswith(("reeb", "Reeb")) and a.name != "reeb_cap"
+                   for piece in pieces_of() for a in piece.data.attributes)
+    assert not any(piece.vertex_groups for piece in pieces_of())
+    bpy.ops.reeb_parts.separate(seen=True, hide=False, **WHOLE)
+    assert same_places(seen_faces(*pieces_of()), before)
+
+
+def test_walls_that_a_modifier_makes_are_closed_between_their_rims(obj):
+    """Each cut goes through the outer and the inner side; with the first cap made, the others ended in an error."""
+    obj.modifiers.new("Solidify", "SOLIDIFY").thickness = 0.05
+    bpy.ops.reeb_parts.decompose()
+    assert bpy.ops.reeb_parts.separate(seen=True, caps=True, hide=False, **WHOLE) == {"FINISHED"}
+    assert [borders(piece.data) for piece in pieces_of()] == [(set(), 0)] * len(pieces_of())
+
+
+def test_faces_of_no_part_are_refused_and_nothing_written(obj):
+    obj.modifiers.new("Remesh", "REMESH").voxel_size = 0.5
+    bpy.ops.reeb_parts.decompose()
+    before = snapshot()
+    with pytest.raises(RuntimeError, match="belong to no part"):
+        bpy.ops.reeb_parts.separate(seen=True)
+    assert snapshot() == before
