@@ -19,6 +19,7 @@ from ..errors import SceneError
 from ..graph import graph_visibility
 from ..selection import in_layer
 from ..store import Stored
+from ..surroundings import Surroundings
 from ..temporary import remove_object
 from . import piece_checks
 
@@ -60,18 +61,27 @@ def is_of(item: bpy.types.Object, numbers: Collection[int]) -> bool:
 
 def original(piece: bpy.types.Object) -> bpy.types.Object | None:
     """The object that a piece was separated from, or None if it is gone."""
-    for collection in piece.users_collection:
-        obj = collection.get(COLLECTION_OF)
-        if isinstance(obj, str):
-            obj = bpy.data.objects.get((obj, None))
-        if obj is not None and obj.users_scene and collection_of(obj) == collection and NUMBER in piece:
+    for collection in piece.users_collection if NUMBER in piece else ():
+        obj = _source(collection)
+        if obj is not None:
             return obj
     return None
 
 
 def originals(objects: Iterable[bpy.types.Object]) -> list[bpy.types.Object]:
     """The objects that the pieces among some objects were separated from, each once."""
-    return list(dict.fromkeys(found for found in map(original, objects) if found is not None))
+    source = {piece: found for collection in reversed(bpy.data.collections[:])
+              if COLLECTION_OF in collection and (found := _source(collection)) is not None
+              for piece in collection.objects if NUMBER in piece}
+    return list(dict.fromkeys(source[obj] for obj in objects if obj in source))
+
+
+def _source(collection: bpy.types.Collection) -> bpy.types.Object | None:
+    """The object whose pieces a collection holds, or None: none are, or it is gone."""
+    obj = collection.get(COLLECTION_OF)
+    if isinstance(obj, str):
+        obj = bpy.data.objects.get((obj, None))
+    return obj if obj is not None and obj.users_scene and collection_of(obj) == collection else None
 
 
 def left_behind() -> Iterator[bpy.types.Collection]:
@@ -144,11 +154,13 @@ def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     pieces: dict[int, list[bpy.types.Object]] = {}
     for piece in piece_objects(obj):
         pieces.setdefault(piece[NUMBER], []).append(piece)
-    untouched = [piece for some in pieces.values() for piece in some if made_objects.is_as_made(piece, former_looks)]
+    around = Surroundings.now()
+    untouched = [piece for some in pieces.values() for piece in some
+                 if made_objects.is_as_made(piece, former_looks, around)]
     joined = rigid_bodies.make(context, obj, stored, pieces, make_collection(context, obj), kind)
     for piece in untouched:  # that they are bodies now is no work of the user's
         transaction.keep_keys(piece, made_objects.MADE)
-        made_objects.mark(piece)
+    made_objects.mark(untouched)
     return joined
 
 
@@ -196,10 +208,10 @@ def removing_earlier(obj: bpy.types.Object, numbers: list[int], coming: Collecti
     every = len(numbers) == len(obj.data.reeb_parts.parts)
     there = [piece for piece in (*piece_objects(obj), *dowels(obj)) if every or is_of(piece, numbers)]
     needed = made_objects.needed(there, stands_for, coming)
-    gone = []
+    gone, around = [], Surroundings.now()
     for index, piece in enumerate(there):
         yield index / len(there)
-        if piece not in needed and made_objects.is_untouched(piece, former_looks):
+        if piece not in needed and made_objects.is_untouched(piece, former_looks, around):
             gone.append((stands_for(piece), piece))
         else:
             made_objects.hand_over(piece, NUMBER, FACES, made_objects.MADE, DOWEL)
@@ -227,13 +239,13 @@ def show_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     They are in the same place, where both at once would be speckled.
     """
     show_pieces(context, obj, False)
-    visibility.show(context, obj, is_rendered(context, obj))
+    visibility.show(context, {obj: is_rendered(context, obj)})
     graph_visibility.show(context, obj)
 
 
 def hide_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Hide the object that pieces come from, with its graph, in the viewport and in renders."""
-    visibility.hide(context, obj, is_rendered(context, obj))
+    visibility.hide(context, {obj: is_rendered(context, obj)})
     graph_visibility.hide(context, obj)
 
 
@@ -258,5 +270,5 @@ def hides_pieces(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
 
 def show_pieces(context: bpy.types.Context, obj: bpy.types.Object, shown: bool) -> None:
     """Show the pieces and dowels of an object, or hide them, in renders, too."""
-    for piece in (*piece_objects(obj), *dowels(obj)):
-        (visibility.show if shown else visibility.hide)(context, piece, visibility.is_rendered(piece))
+    rendered = {piece: visibility.is_rendered(piece) for piece in (*piece_objects(obj), *dowels(obj))}
+    (visibility.show if shown else visibility.hide)(context, rendered)

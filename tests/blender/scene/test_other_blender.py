@@ -16,7 +16,9 @@ MADE = "reeb_parts_looks"
 @pytest.fixture
 def digest(package):
     """The function that tells objects which somebody has worked on from those that are as they were made."""
-    return importlib.import_module(f"{package}.scene.object_digest").digest
+    load = importlib.import_module
+    around = load(f"{package}.scene.surroundings").Surroundings
+    return lambda item: load(f"{package}.scene.object_digest").digest(item, around.now())
 
 
 @pytest.fixture
