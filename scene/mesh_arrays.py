@@ -71,7 +71,9 @@ def set_element_values(mesh: bpy.types.Mesh, items: str, key: str, values: np.nd
     elements, values = getattr(mesh, items), np.ascontiguousarray(values, _kind(key))
     if bpy.app.version >= (5, 0) and len(values):
         setattr(elements[0], key, values[0].item())  # which makes the attribute where there is none
-        elements, key = _kept_in(mesh, items, key).data, "value"
+        attribute = _kept_in(mesh, items, key)
+        if attribute is not None:
+            elements, key = attribute.data, "value"
     elements.foreach_set(key, values)
 
 

@@ -63,7 +63,7 @@ def digest(item: bpy.types.Object, around: Surroundings) -> str:
     for name in _PARTS:
         told += _told_each(getattr(item, name), name, moving)
     told += [_told(body, "", moving) for body in (item.rigid_body, item.rigid_body_constraint) if body]
-    told += [len([used for used in around.collections.get(item, ()) if used not in around.physics]), item.asset_data is not None, *_animation(item.animation_data)]
+    told += [around.n_own_collections(item), item.asset_data is not None, *_animation(item.animation_data)]
     if item.type == "MESH":
         told += [mesh_arrays.fingerprint(item.data), element_layers.contents(item.data, len(item.vertex_groups))]
     elif item.type == "ARMATURE":

@@ -37,3 +37,7 @@ class Surroundings:
             for item in collection.objects:
                 found[item].append(collection)
         return cls(found, physics, {item.parent for item in bpy.data.objects if item.parent is not None})
+
+    def n_own_collections(self, item: bpy.types.Object) -> int:
+        """How many collections an object is in, but for those of simulations."""
+        return sum(collection not in self.physics for collection in self.collections.get(item, ()))
