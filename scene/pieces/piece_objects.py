@@ -17,6 +17,7 @@ from ...core.steps import Steps
 from .. import bridge, element_layers, made_objects, mesh_arrays, rigid_bodies, store, targets, transaction, visibility
 from ..errors import SceneError
 from ..graph import graph_visibility
+from ..part_names import fitted, without_number
 from ..selection import in_layer
 from ..store import Stored
 from ..surroundings import Surroundings
@@ -24,6 +25,7 @@ from ..temporary import remove_object
 from . import piece_checks
 
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: the object that the pieces come from; once it was its name
+_PARTS_OF = "Parts of "  # how its name begins
 NUMBER = "reeb_parts_number"  # on a piece: of its part
 FACES = "reeb_parts_faces"  # on a piece: which faces of the original were its part, as a short text
 DOWEL = "reeb_parts_dowel"  # on a loose dowel: the numbers of the two parts that it joins; once it was 1
@@ -190,12 +192,15 @@ def check_pieces(pieces: list[bpy.types.Object], stretch: np.ndarray | None = No
 
 def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Collection:
     """The collection with what is made from an object's parts; made if it is not there."""
-    collection = collection_of(obj)
+    collection, name = collection_of(obj), fitted(_PARTS_OF + obj.name)
     if collection is None:
-        collection = bpy.data.collections.new(f"Parts of {obj.name}")
+        collection = bpy.data.collections.new(name)
         collection[COLLECTION_OF] = obj
         transaction.keep_group(obj, "reeb_parts_made")
         obj.reeb_parts_made.pieces = collection
+    elif collection.name.startswith(_PARTS_OF) and name not in (collection.name, without_number(collection.name)):
+        transaction.keep(collection, "name")
+        collection.name = name  # the object was renamed
     visibility.include(context, collection)
     return collection
 

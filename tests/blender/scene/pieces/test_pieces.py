@@ -560,7 +560,14 @@ def test_pieces_know_an_original_that_was_renamed(obj):
     counts = len(bpy.data.objects), len(bpy.data.collections)
     bpy.ops.reeb_parts.separate()
     assert (len(bpy.data.objects), len(bpy.data.collections)) == counts
-    assert [piece.name for piece in pieces_of()] == [f"Renamed Part {number:02}" for number in (1, 2, 3)]
+    collection = obj.reeb_parts_made.pieces
+    assert [piece.name for piece in collection.objects] == [f"Renamed Part {number:02}" for number in (1, 2, 3)]
+    assert collection.name == "Parts of Renamed"
+    bpy.ops.reeb_parts.show_original()
+    collection.name = "Mine"
+    obj.name = "Again"
+    bpy.ops.reeb_parts.show_pieces()
+    assert collection.name == "Mine"
 
 
 def test_pieces_of_a_file_that_knew_the_name_alone(obj):
