@@ -268,6 +268,12 @@ def instances(obj: bpy.types.Object) -> list[bpy.types.Object]:
             and other.instance_collection is not None and obj in other.instance_collection.all_objects[:]]
 
 
+def other_scenes(obj: bpy.types.Object) -> list[bpy.types.Scene]:
+    """Scenes that an object is in and its pieces are not: they render it only if it is rendered where these are."""
+    collection = collection_of(obj)
+    return [scene for scene in obj.users_scene if collection not in scene.collection.children_recursive]
+
+
 def hides_pieces(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     """Whether a piece of an object is hidden in the viewport."""
     return any(piece.hide_get(view_layer=context.view_layer) for piece in piece_objects(obj))

@@ -533,6 +533,22 @@ def test_instances_that_lack_the_original_in_renders_are_named(obj, capfd):
         bpy.ops.reeb_parts.separate(hide=hide)
         said = capfd.readouterr().out
         assert ("Tree is missing from renders of instances of its collection: Instance" in said) == hide
+
+
+def test_other_scenes_that_lack_the_original_in_renders_are_named(obj, capfd):
+    """It is hidden in renders as such, and its pieces are in the scene of the window alone."""
+    other = bpy.data.scenes.new("Shot 2")
+    other.collection.objects.link(obj)
+    bpy.ops.reeb_parts.decompose()
+    for hide, linked in ((False, False), (True, False), (True, True)):
+        if linked:
+            other.collection.children.link(bpy.data.collections["Parts of Tree"])
+        bpy.context.view_layer.objects.active = obj
+        obj.hide_set(False)
+        capfd.readouterr()
+        bpy.ops.reeb_parts.separate(hide=hide)
+        said = capfd.readouterr().out
+        assert ("Tree is missing from renders of other scenes: Shot 2" in said) == (hide and not linked)
         activate(obj)
 
 
