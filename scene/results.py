@@ -151,5 +151,5 @@ def clear(obj: bpy.types.Object) -> str:
     armature.remove_weights(obj.data)
     staying = uv_map.remove(obj.data)
     outputs.remove_outputs(obj)
-    obj.data.property_unset("reeb_parts")
+    transaction.unset_group(obj.data, "reeb_parts")
     return staying
