@@ -94,6 +94,9 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
             words = rpt_("{name} is missing from renders of instances of its collection: {names}")
             self.report({"WARNING"}, words.format(
                 name=obj.name, names=", ".join(instance.name for instance in instances)))
+        if self.hide and (scenes := piece_objects.other_scenes(obj)):
+            self.report({"WARNING"}, rpt_("{name} is missing from renders of other scenes: {names}").format(
+                name=obj.name, names=", ".join(scene.name for scene in scenes)))
         if separated.n_apart:
             self.report({"WARNING"}, rpt_(
                 "{n} border {n:vertex lies on another one but cannot be joined with it|vertices lie on others but "

@@ -64,6 +64,7 @@ What is made of parts:
 - ``hidden``: parts that vanish from it
 - ``made_objects``: what we made, replaced by the next run unless the user has worked on it
 - ``object_digest``: tells whether somebody has worked on an object
+- ``surroundings``: what many objects are in, and what hangs on them
 - ``export``: parts as files
 - ``run_files``: files put in place all or none
 - ``file_checks``: whether a file is all there

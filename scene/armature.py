@@ -66,9 +66,10 @@ def remove_weights(mesh: bpy.types.Mesh) -> None:
     """Remove the vertex groups that hold our weights."""
     transaction.keep_mesh(mesh)
     transaction.keep_keys(mesh, WEIGHTS)
-    obj = targets.users(mesh)[0]
-    for name in _weight_groups(mesh):
-        outputs.vertex_groups.remove_one(obj, name)
+    names = _weight_groups(mesh)
+    for obj in targets.users(mesh)[:1] if names else ():
+        for name in names:
+            outputs.vertex_groups.remove_one(obj, name)
     if WEIGHTS in mesh:
         del mesh[WEIGHTS]
 
@@ -126,7 +127,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     rig[made_objects.ROLE] = role
     collection.objects.link(rig)
     _add_bones(context, rig, found.bones, groups)
-    made_objects.mark(rig)
+    made_objects.mark([rig])
     if own_groups:
         _write_weights(obj, groups, found.of_mesh(_weights(context, obj, rig, groups, found, weights)))
     if deform:

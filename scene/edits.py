@@ -75,7 +75,8 @@ def merged(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int], into: int) 
 def merged_into_neighbors(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int]) -> Stored:
     """The result with parts merged into the neighbors beyond their least salient cuts, as all of them are now.
 
-    Of parts that are each other's nearest the largest takes the others. numbers : of parts.
+    Of parts that are each other's nearest the largest takes the others. Where the user has given the neighbor no name,
+    but has named the largest part of all that become one, that is which stays. numbers : of parts.
     """
     from ..core.result.mirrored_edits import twin_numbers
 
@@ -88,13 +89,14 @@ def merged_into_neighbors(mesh: bpy.types.Mesh, stored: Stored, numbers: list[in
         twin = twin_numbers(numbered)
         into |= {twin[part]: twin[other] for part, other in into.items() if part in twin and other in twin}
     size = dict(zip(numbered.numbers.tolist(), numbered.parts.share.tolist(), strict=True))
-    known = sorted({*into, *into.values()})
+    known, named = sorted({*into, *into.values()}), part_names.kept_names(mesh)
     ends = np.searchsorted(known, np.array(list(into.items())))
     _, group = components(len(known), *ends.T)
     for index in range(int(group.max()) + 1):
         members = [number for number, place in zip(known, group.tolist(), strict=True) if place == index]
         ends_here = [number for number in members if number not in into] or members
-        stored = merged(mesh, stored, members, max(ends_here, key=lambda number: size[number]))
+        end, largest = (max(some, key=lambda number: size[number]) for some in (ends_here, members))
+        stored = merged(mesh, stored, members, largest if largest in named and end not in named else end)
     return stored
 
 

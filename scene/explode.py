@@ -41,8 +41,7 @@ def changed(made: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 def forget(obj: bpy.types.Object) -> None:
     """Take the modifier away and forget what was made of the object; pieces are the user's from now on."""
     modifiers.remove_nodes(obj, OURS)
-    transaction.keep_group(obj, "reeb_parts_made")
-    obj.property_unset("reeb_parts_made")
+    transaction.unset_group(obj, "reeb_parts_made")
 
 
 def _ensure(obj: bpy.types.Object) -> None:

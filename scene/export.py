@@ -108,8 +108,9 @@ def _parts(obj: bpy.types.Object, wanted: Iterable[int] | None, close: bool,
     numbers = sorted(set(face_numbers.tolist()) if wanted is None else wanted)
     stretch = None if cut == "FACES" else bridge.world_stretch(obj)
     meshes = piece_meshes(obj.data, face_numbers, numbers, close, stretch, cut == "PLANAR").meshes
+    names = part_names.all_names(obj.data)
     return {name: _stand_in(name, meshes[number], obj) for number in numbers
-            for name in [part_names.piece_name(obj, number)]}
+            for name in [part_names.with_object(obj, names[number])]}
 
 
 def _stand_in(name: str, mesh: bpy.types.Mesh, source: bpy.types.Object) -> bpy.types.Object:
@@ -173,12 +174,12 @@ def _bodies(obj: bpy.types.Object, pieces: dict[str, bpy.types.Object]) -> tuple
 def _colors(obj: bpy.types.Object) -> dict[str, tuple[float, ...]]:
     """The color, sRGB, of each part and of each piece of an object, by the name that it has as an object."""
     listed = {part.number: part.color[:] for part in obj.data.reeb_parts.parts}
-    colors = {}
+    names, colors = part_names.all_names(obj.data), {}
     for piece in piece_objects.piece_objects(obj):
         # Parts that are not shown now are not in the list; pieces of them have the color that these had.
         own = Color(piece.color[:3]).from_scene_linear_to_srgb()[:]
         colors[piece.name] = listed.get(piece[piece_objects.NUMBER], own)
-    return colors | {part_names.piece_name(obj, number): color for number, color in listed.items()}
+    return colors | {part_names.with_object(obj, names[number]): color for number, color in listed.items()}
 
 
 def write_assemblies(files: RunFiles, objects: Iterable[bpy.types.Object], path: Path,

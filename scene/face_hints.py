@@ -23,7 +23,7 @@ def read(mesh: bpy.types.Mesh, kind: str) -> np.ndarray:
         return np.empty(0, np.int64)
     if kind == MATERIALS:
         return materials.own_slots(mesh).astype(np.int64)
-    marked = seams.own(mesh) if kind == SEAMS else mesh_arrays.read(mesh.edges, "use_edge_sharp", bool)
+    marked = seams.own(mesh) if kind == SEAMS else mesh_arrays.element_values(mesh, "edges", "use_edge_sharp")
     table = mesh_arrays.corner_table(mesh)
     pairs, edge = table.face_pairs()
     return components(table.n_faces, *pairs[~marked[edge]].T)[1].astype(np.int64)

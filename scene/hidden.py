@@ -43,9 +43,14 @@ def forget(obj: bpy.types.Object) -> None:
 
 def forget_mesh(mesh: bpy.types.Mesh) -> None:
     """Show the faces of a mesh in Object Mode as they are."""
-    transaction.keep_mesh(mesh)
     for obj in targets.users(mesh):
         forget(obj)
+    forget_faces(mesh)
+
+
+def forget_faces(mesh: bpy.types.Mesh) -> None:
+    """Forget which faces the modifiers leave out, now that there are none."""
+    transaction.keep_mesh(mesh)
     remove_attribute(mesh, ATTRIBUTE)
 
 

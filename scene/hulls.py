@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from . import fingerprints, made_objects, mesh_arrays, part_names, placing
 from .pieces import piece_objects
@@ -51,19 +52,19 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     coming = set(map(str, numbered.numbers.tolist()))
     earlier = made_objects.remove_untouched(collection.objects, "hull", _former_looks, _stands_for, coming)
     found: list[bpy.types.Object] = []
+    names, place_of = part_names.all_names(obj.data), placing.world_matrix(obj)
     for number, several in zip(numbered.numbers.tolist(), hulls, strict=True):
-        part = part_names.piece_name(obj, number)
+        part = part_names.with_object(obj, names[number])
         for place, hull in enumerate(several, 1):
             after = f"_{place:02d}-convcolonly" if len(several) > 1 else "-convcolonly"
             name = _fitting("", part, after) if engine == "GODOT" else _fitting("UCX_", obj.name,
                                                                                 f"_{len(found) + 1:02d}")
             mesh = bpy.data.meshes.new(name)
             mesh.from_pydata(hull.vertices.tolist(), [], hull.triangles.tolist())
-            found.append(_placed(bpy.data.objects.new(name, mesh), obj))
+            found.append(_placed(bpy.data.objects.new(name, mesh), place_of))
             found[-1][PART] = number
             collection.objects.link(found[-1])
-    for hull in found:
-        made_objects.mark(hull)
+    made_objects.mark(found)
     made_objects.hand_on(earlier.gone, [(_stands_for(hull), hull) for hull in found])
     return Made(found, earlier.kept)
 
@@ -78,9 +79,9 @@ def _fitting(before: str, name: str, after: str) -> str:
     return before + name.encode()[: _LONGEST - len(before) - len(after)].decode(errors="ignore") + after
 
 
-def _placed(hull: bpy.types.Object, obj: bpy.types.Object) -> bpy.types.Object:
+def _placed(hull: bpy.types.Object, place: Matrix) -> bpy.types.Object:
     """A hull where its object is, shown as lines and not rendered."""
-    placing.put(hull, placing.world_matrix(obj))
+    placing.put(hull, place)
     hull.display_type = "WIRE"
     hull.hide_render = True
     hull[made_objects.ROLE] = "hull"

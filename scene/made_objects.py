@@ -13,7 +13,9 @@ from typing import NamedTuple
 
 import bpy
 
+from ..core.steps import Steps, finished
 from . import object_digest, transaction
+from .surroundings import Surroundings
 from .temporary import remove_object
 
 #: Custom properties of an object that we made: what it is for, such as "node" or "hull"; what it was like when made.
@@ -37,20 +39,28 @@ class Earlier(NamedTuple):
     kept: int
 
 
-def mark(item: bpy.types.Object) -> None:
-    """Remember what an object is like, now that it is made."""
-    item[MADE] = object_digest.digest(item)
+def mark(items: Collection[bpy.types.Object]) -> None:
+    """Remember what objects are like, now that they are made."""
+    finished(marking(items))
 
 
-def is_as_made(item: bpy.types.Object, former: Former) -> bool:
+def marking(items: Collection[bpy.types.Object]) -> Steps[None]:
+    """What ``mark`` does, in steps."""
+    around = Surroundings.now()
+    for index, item in enumerate(items):
+        yield index / len(items)
+        item[MADE] = object_digest.digest(item, around)
+
+
+def is_as_made(item: bpy.types.Object, former: Former, around: Surroundings) -> bool:
     """Whether an object is still what it was when we made it; not in Edit Mode."""
     known = item.get(MADE)
-    return (object_digest.digest if object_digest.is_digest(known) else former)(item) == known
+    return (object_digest.digest(item, around) if object_digest.is_digest(known) else former(item)) == known
 
 
-def is_untouched(item: bpy.types.Object, former: Former) -> bool:
+def is_untouched(item: bpy.types.Object, former: Former, around: Surroundings) -> bool:
     """Whether the user has not worked on an object that we made, nor is about to, nor hung anything on it."""
-    return not item.children and item.mode in ("OBJECT", "POSE") and is_as_made(item, former)
+    return item not in around.parents and item.mode in ("OBJECT", "POSE") and is_as_made(item, former, around)
 
 
 def hand_over(item: bpy.types.ID, *keys: str) -> None:
@@ -81,7 +91,8 @@ def remove_untouched(objects: Iterable[bpy.types.Object], role: str, former: For
     """
     there = [item for item in objects if item.get(ROLE) == role]
     needs = needed(there, stands_for, coming) if coming is not None else set()
-    gone = [(stands_for(item), item) for item in there if item not in needs and is_untouched(item, former)]
+    around = Surroundings.now()
+    gone = [(stands_for(item), item) for item in there if item not in needs and is_untouched(item, former, around)]
     going = {item for _, item in gone}
     for item in there:
         if item in going:
@@ -125,12 +136,12 @@ def hand_on(gone: Iterable[tuple[str, bpy.types.Object]], new: Iterable[tuple[st
 
 def _users(items: Collection[bpy.types.Object]) -> dict[bpy.types.Object, set[bpy.types.ID | None]]:
     """What refers to each of some objects that anything does but themselves; None stands for a custom property."""
-    found = {}
+    found, around = {}, Surroundings.now()
     # To ask for no object would be to ask for all there is.
     for item, users in bpy.data.user_map(subset=set(items)).items() if items else ():
         others = {user for user in users if user != item and not isinstance(user, _CONTAINERS)
                   and not transaction.is_discarded(user)}
-        if item.users > len(item.users_collection):
+        if item.users > len(around.collections.get(item, ())):
             others.add(None)
         if others:
             found[item] = others

@@ -25,6 +25,15 @@ _VALUES = {  # of an attribute: the name of its values, their type, how many
     "QUATERNION": ("value", np.float32, 4), "FLOAT4X4": ("value", np.float32, 16),
 }  # fmt: skip
 
+_KEPT_IN = {  # the attribute of a property of elements, in Blender 5
+    ("polygons", "hide"): ".hide_poly", ("polygons", "select"): ".select_poly",
+    ("polygons", "material_index"): "material_index",
+    ("edges", "hide"): ".hide_edge", ("edges", "select"): ".select_edge", ("edges", "use_seam"): "uv_seam",
+    ("edges", "use_edge_sharp"): "sharp_edge",
+    ("vertices", "hide"): ".hide_vert", ("vertices", "select"): ".select_vert",
+}  # fmt: skip
+_DOMAINS = {"polygons": "FACE", "edges": "EDGE", "vertices": "POINT"}
+
 _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
 _joined_faces: dict[tuple, CornerTable | None] = {}  # None where nothing has to be joined
 
@@ -35,6 +44,46 @@ def read(items: Any, key: str, kind: DTypeLike, width: int = 1) -> np.ndarray:
     if len(items):
         items.foreach_get(key, values)
     return values if width == 1 else values.reshape(-1, width)
+
+
+def element_values(mesh: bpy.types.Mesh, items: str, key: str) -> np.ndarray:
+    """A property of all polygons, edges or vertices of a mesh that Blender keeps in an attribute; Object Mode.
+
+    items, key : of _KEPT_IN. From the elements themselves, Blender 5 looks for the attribute anew at each of them, past
+    all vertex groups: that takes a hundred times as long where there are hundreds, of parts or of bones.
+    """
+    elements, kind = getattr(mesh, items), _kind(key)
+    if bpy.app.version < (5, 0):
+        return read(elements, key, kind)
+    attribute = _kept_in(mesh, items, key)
+    return np.zeros(len(elements), kind) if attribute is None else read(attribute.data, "value", kind)
+
+
+def set_element_values(mesh: bpy.types.Mesh, items: str, key: str, values: np.ndarray) -> None:
+    """Set what ``element_values`` gives, (k,)."""
+    elements, values = getattr(mesh, items), np.ascontiguousarray(values, _kind(key))
+    if bpy.app.version >= (5, 0) and len(values):
+        setattr(elements[0], key, values[0].item())  # which makes the attribute where there is none
+        attribute = _kept_in(mesh, items, key)
+        if attribute is not None:
+            elements, key = attribute.data, "value"
+    elements.foreach_set(key, values)
+
+
+def _kept_in(mesh: bpy.types.Mesh, items: str, key: str) -> bpy.types.Attribute | None:
+    """The attribute that holds a property of elements; without one, all have the default.
+
+    One of that name on other elements, or of another type, is somebody's own, and Blender does not look at it.
+    """
+    attribute = mesh.attributes.get(_KEPT_IN[items, key]) if len(getattr(mesh, items)) else None
+    kind = "INT" if key == "material_index" else "BOOLEAN"
+    if attribute is None or (attribute.domain, attribute.data_type) != (_DOMAINS[items], kind):
+        return None
+    return attribute
+
+
+def _kind(key: str) -> DTypeLike:
+    return np.int32 if key == "material_index" else bool
 
 
 def attribute_values(attribute: bpy.types.Attribute) -> np.ndarray:

@@ -17,6 +17,7 @@ from typing import Any
 import bpy
 
 from . import element_layers, fingerprints, visibility
+from .surroundings import Surroundings
 
 _OURS = "reeb_parts"  # how the names of our custom properties begin
 _DIGEST = "looks "  # how a digest begins; what earlier versions kept is a list as text
@@ -55,14 +56,14 @@ _FROM_THE_START: dict[str, Any] = dict.fromkeys(_ON, 1) | {
 }  # fmt: skip
 
 
-def digest(item: bpy.types.Object) -> str:
+def digest(item: bpy.types.Object, around: Surroundings) -> str:
     """A text of some 40 letters that differs once somebody has worked on an object; not in Edit Mode."""
     moving = set(_moving_paths(item.animation_data))
     told: list[Any] = [_told(item, "", moving)]
     for name in _PARTS:
         told += _told_each(getattr(item, name), name, moving)
     told += [_told(body, "", moving) for body in (item.rigid_body, item.rigid_body_constraint) if body]
-    told += [len(_own_collections(item)), item.asset_data is not None, *_animation(item.animation_data)]
+    told += [around.n_own_collections(item), item.asset_data is not None, *_animation(item.animation_data)]
     if item.type == "MESH":
         told += [fingerprints.fingerprint(item.data), element_layers.contents(item.data, len(item.vertex_groups))]
     elif item.type == "ARMATURE":
@@ -156,13 +157,6 @@ def _custom(struct: bpy.types.bpy_struct) -> list[tuple[str, str]]:
         return []
     return [(key, repr(_plain(value))) for key, value in items
             if not key.startswith(_OURS) and not hasattr(value, "to_dict") and key not in struct.bl_rna.properties]
-
-
-def _own_collections(item: bpy.types.Object) -> list[bpy.types.Collection]:
-    """The collections that an object is in, but for those of simulations."""
-    worlds = [scene.rigidbody_world for scene in bpy.data.scenes if scene.rigidbody_world]
-    physics = [used for world in worlds for used in (world.collection, world.constraints)]
-    return [collection for collection in item.users_collection if collection not in physics]
 
 
 def _animation(data: bpy.types.AnimData | None) -> list[Any]:

@@ -172,13 +172,8 @@ def without_side(name: str) -> str:
     return re.sub(r"\.[LR](?=(\.\d{3,})?$)", "", name)
 
 
-def piece_name(obj: bpy.types.Object, number: int) -> str:
-    """The name of a part as an object or a file of its own: with the object's name before it."""
-    return with_object(obj, part_name(obj.data, number))
-
-
 def with_object(obj: bpy.types.Object, name: str) -> str:
-    """A name with the object's before it, unless it is there."""
+    """The name of a part as an object or a file of its own: with the object's before it, unless it is there."""
     return name if name.startswith(f"{obj.name} ") else f"{obj.name} {name}"
 
 

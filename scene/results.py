@@ -144,11 +144,12 @@ def clear(obj: bpy.types.Object) -> str:
     orphan_outputs.remove(obj)
     for user in targets.users(obj.data):
         explode.forget(user)
+        hidden.forget(user)
         armature.remove_modifier(user)
         graph_objects.remove(user)
-    hidden.forget_mesh(obj.data)
+    hidden.forget_faces(obj.data)
     armature.remove_weights(obj.data)
     staying = uv_map.remove(obj.data)
     outputs.remove_outputs(obj)
-    obj.data.property_unset("reeb_parts")
+    transaction.unset_group(obj.data, "reeb_parts")
     return staying

@@ -70,6 +70,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     _add_bodies(site, bodies, np.array([abs(hull.volume) for hull in hulls]))
     joints = [*_joints_at_cuts(site, bodies, found, kind), *_joints_within_parts(site, bodies)]
     apart = _joints_that_hold_nothing(site, bodies, overlapping(hulls), found.pairs)
+    made_objects.mark([*joints, *apart])
     made_objects.hand_on(earlier.gone, [(joint.name, joint) for joint in (*joints, *apart)])
     return RigidBodies([piece for some in bodies for piece in some], joints)
 
@@ -182,7 +183,6 @@ def _joint(site: _Site, kind: str, ends: tuple[bpy.types.Object, bpy.types.Objec
     holds.disable_collisions = True
     holds.use_override_solver_iterations, holds.solver_iterations = True, _ITERATIONS
     joint[made_objects.ROLE] = "joint"
-    made_objects.mark(joint)
     return joint
 
 

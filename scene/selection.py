@@ -14,7 +14,7 @@ from . import mesh_arrays, transaction
 
 def selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     """Whether each face is selected, (p,) bool; Object Mode."""
-    return mesh_arrays.read(mesh.polygons, "select", bool)
+    return mesh_arrays.element_values(mesh, "polygons", "select")
 
 
 def select_faces(mesh: bpy.types.Mesh, mask: np.ndarray, mode: str = "SET") -> None:
@@ -32,7 +32,7 @@ def select_faces(mesh: bpy.types.Mesh, mask: np.ndarray, mode: str = "SET") -> N
 
 def hidden_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     """Whether each face is hidden, (p,) bool; Object Mode."""
-    return mesh_arrays.read(mesh.polygons, "hide", bool)
+    return mesh_arrays.element_values(mesh, "polygons", "hide")
 
 
 def hides_faces(mesh: bpy.types.Mesh) -> bool:
@@ -59,8 +59,8 @@ def _touched(mesh: bpy.types.Mesh, mask: np.ndarray) -> tuple[np.ndarray, np.nda
 
 def _set_flags(mesh: bpy.types.Mesh, flag: str, faces: np.ndarray, edges: np.ndarray, vertices: np.ndarray) -> None:
     transaction.keep_mesh(mesh)
-    for items, values in ((mesh.edges, edges), (mesh.vertices, vertices), (mesh.polygons, faces)):
-        items.foreach_set(flag, values)
+    for items, values in (("edges", edges), ("vertices", vertices), ("polygons", faces)):
+        mesh_arrays.set_element_values(mesh, items, flag, values)
     mesh.update()
 
 
@@ -72,8 +72,9 @@ def select_objects(context: bpy.types.Context, objects: list[bpy.types.Object],
     """
     for other in list(context.view_layer.objects.selected):
         other.select_set(False)
+    there = set(context.view_layer.objects)
     for obj in objects:
-        if in_layer(context.view_layer, obj):
+        if obj in there:
             obj.select_set(True)
     if active is not None and in_layer(context.view_layer, active):
         context.view_layer.objects.active = active

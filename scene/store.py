@@ -155,6 +155,7 @@ def _damaged() -> UnreadableError:
 def save(mesh: bpy.types.Mesh, stored: Stored) -> None:
     """Keep a result with its mesh; Object Mode."""
     transaction.keep_result(mesh)
+    transaction.drop_former_group(mesh, "reeb_parts")
     result = mesh.reeb_parts
     data = stored.decomposition.to_bytes()
     _remember(data, stored.decomposition)

@@ -73,6 +73,23 @@ def keep_group(block: bpy.types.ID, name: str) -> None:
         _open[0].keep_group(block, name)
 
 
+def unset_group(block: bpy.types.ID, name: str) -> None:
+    """Unset a property group of a data block, which has nothing of it then."""
+    keep_group(block, name)
+    block.property_unset(name)
+    drop_former_group(block, name)
+
+
+def drop_former_group(block: bpy.types.ID, name: str) -> None:
+    """Remove what Blender 4 had written of a property group.
+
+    Blender 5 copies it to where it keeps such groups, and leaves it among the custom properties of the user: there it
+    doubles the file, and Blender 4.5 takes it for the group if there is no other, be that out of date or cleared.
+    """
+    if bpy.app.version >= (5, 0) and name in block:
+        at_end(block.pop, name, None)
+
+
 def keep(struct: bpy.types.bpy_struct, *names: str) -> None:
     """Some properties of Blender's will change."""
     if _open:

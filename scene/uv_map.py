@@ -96,7 +96,7 @@ def unwrap(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, op
     double = double_corners(table, ~_left_out(table, image))
     low, high = table.edge_labels(_of_faces_below(table, stored.face_numbers, double))
     seams = low < high
-    by_hand = mesh_arrays.read(mesh.edges, "use_seam", bool)
+    by_hand = mesh_arrays.element_values(mesh, "edges", "use_seam")
     seams[table.corner_edge[by_hand[mesh_arrays.corner_edges(mesh)]]] = True
     if open_parts:
         seams |= _unfolding_seams(table, seams, _left_out(table, double))
@@ -179,7 +179,7 @@ def _unwrapped(context: bpy.types.Context, table: CornerTable, seams: np.ndarray
     with removed(bpy.data.meshes, mesh), removed(bpy.data.objects, twin):
         seam = np.zeros(len(mesh.edges), bool)
         seam[mesh_arrays.corner_edges(mesh)] = seams[table.corner_edge]
-        mesh.edges.foreach_set("use_seam", seam)
+        mesh_arrays.set_element_values(mesh, "edges", "use_seam", seam)
         for items in (mesh.vertices, mesh.edges, mesh.polygons):
             items.foreach_set("select", np.ones(len(items), bool))
         mesh.polygons.foreach_set("hide", _left_out(table, image))

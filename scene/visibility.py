@@ -3,27 +3,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import partial
 
 import bpy
 
 from . import transaction
-from .selection import in_layer
 
 _UNKNOWN = -1  # see schema.ReebPartsMade.rendered
 
 
-def hide(context: bpy.types.Context, obj: bpy.types.Object, rendered: bool) -> None:
-    """Hide an object, and remember whether it is rendered when it is shown again."""
-    _set_hidden(context, obj, True)
-    _set_rendered(obj, False, int(rendered))
+def hide(context: bpy.types.Context, rendered: dict[bpy.types.Object, bool]) -> None:
+    """Hide objects, and remember of each whether it is rendered when it is shown again."""
+    _set_hidden(context, rendered, True)
+    for obj, is_seen in rendered.items():
+        _set_rendered(obj, False, int(is_seen))
 
 
-def show(context: bpy.types.Context, obj: bpy.types.Object, rendered: bool) -> None:
-    """Show an object, in renders as well if it is rendered."""
-    _set_hidden(context, obj, False)
-    _set_rendered(obj, rendered, _UNKNOWN)
+def show(context: bpy.types.Context, rendered: dict[bpy.types.Object, bool]) -> None:
+    """Show objects, in renders as well those that are rendered."""
+    _set_hidden(context, rendered, False)
+    for obj, is_seen in rendered.items():
+        _set_rendered(obj, is_seen, _UNKNOWN)
 
 
 def is_rendered(obj: bpy.types.Object) -> bool:
@@ -78,9 +79,11 @@ def _set_rendered(obj: bpy.types.Object, rendered: bool, before: int) -> None:
         obj.hide_render = not rendered
 
 
-def _set_hidden(context: bpy.types.Context, obj: bpy.types.Object, hidden: bool) -> None:
-    """Hide an object in all view layers of the scene that have it: in each it lies where others of ours do."""
+def _set_hidden(context: bpy.types.Context, objects: Collection[bpy.types.Object], hidden: bool) -> None:
+    """Hide objects in all view layers of the scene that have them: in each they lie where others of ours do."""
     for layer in context.scene.view_layers:
-        if in_layer(layer, obj) and obj.hide_get(view_layer=layer) != hidden:
-            transaction.on_failure(partial(obj.hide_set, not hidden, view_layer=layer))
-            obj.hide_set(hidden, view_layer=layer)
+        there = set(layer.objects)
+        for obj in objects:
+            if obj in there and obj.hide_get(view_layer=layer) != hidden:
+                transaction.on_failure(partial(obj.hide_set, not hidden, view_layer=layer))
+                obj.hide_set(hidden, view_layer=layer)

@@ -236,7 +236,7 @@ def _unmove(item: bpy.types.Object) -> None:
 
 def hidden_parts(mesh: bpy.types.Mesh, face_numbers: np.ndarray) -> list[int]:
     """Numbers of the parts of which every face is hidden. face_numbers : (p,) int64, the part of each face."""
-    hidden = mesh_arrays.read(mesh.polygons, "hide", bool)
+    hidden = mesh_arrays.element_values(mesh, "polygons", "hide")
     if len(hidden) != len(face_numbers) or not hidden.any():
         return []
     return np.setdiff1d(face_numbers[hidden], face_numbers[~hidden]).tolist()

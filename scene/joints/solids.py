@@ -44,7 +44,7 @@ def with_solids(context: bpy.types.Context, mesh: bpy.types.Mesh, tools: list[tu
 
     to_mesh : (3, 3), from the world to the mesh. patient : whether the solver is to expect crossings and holes.
     """
-    material = Counter(mesh_arrays.read(mesh.polygons, "material_index", np.int32)[caps.is_cap(mesh)].tolist())
+    material = Counter(mesh_arrays.element_values(mesh, "polygons", "material_index")[caps.is_cap(mesh)].tolist())
     index = material.most_common(1)[0][0] if material else 0
     base = bpy.data.objects.new("Reeb Parts", mesh)
     solids = [(bpy.data.objects.new("Reeb Parts", _tool(mesh, found, to_mesh, index)), operation)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from .. import mesh_arrays, transaction
-from .kept_aside import PREFIX, add_attribute, bring_back, find_attribute, keep_aside, remove_attribute
+from .kept_aside import PREFIX, add_attribute, find_attribute, keep_aside, remove_attribute, taken_out
 
 NAME = ".sculpt_face_set"
 _KEPT = f"{PREFIX}_face_set"
@@ -23,7 +23,7 @@ def add(obj: bpy.types.Object) -> None:
         return
     result.had_face_sets = NAME in mesh.attributes
     if result.had_face_sets:
-        keep_aside(mesh, mesh.attributes[NAME].data, "value", _KEPT, "INT", "FACE")
+        keep_aside(mesh, mesh_arrays.attribute_values(mesh.attributes[NAME]), _KEPT, "INT", "FACE")
     else:
         add_attribute(mesh, "", NAME, "INT", "FACE")
     result.has_face_sets = True
@@ -36,7 +36,8 @@ def remove(obj: bpy.types.Object) -> None:
     result = mesh.reeb_parts
     if result.has_face_sets:
         if result.had_face_sets and _KEPT in mesh.attributes:
-            bring_back(mesh, lambda: mesh.attributes[NAME].data, "value", _KEPT)
+            values = taken_out(mesh, _KEPT)
+            mesh.attributes[NAME].data.foreach_set("value", values)
         else:
             remove_attribute(mesh, NAME)
     result.has_face_sets = result.had_face_sets = False

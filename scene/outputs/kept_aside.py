@@ -6,8 +6,6 @@ The names of hidden attributes start with a dot: Blender does not show them and 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import bpy
 import numpy as np
 
@@ -44,10 +42,8 @@ def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:
             mesh.attributes.active = mesh.attributes[kept]
 
 
-def keep_aside(mesh: bpy.types.Mesh, items: bpy.types.bpy_prop_collection, key: str, name: str, kind: str,
-               domain: str) -> None:
+def keep_aside(mesh: bpy.types.Mesh, values: np.ndarray, name: str, kind: str, domain: str) -> None:
     """Copy a value of each element into a hidden attribute."""
-    values = mesh_arrays.read(items, key, bool if kind == "BOOLEAN" else np.int32)
     remove_attribute(mesh, name)
     name = add_attribute(mesh, "", name, kind, domain)
     mesh.attributes[name].data.foreach_set("value", values)
@@ -59,9 +55,8 @@ def is_kept(mesh: bpy.types.Mesh, name: str, flag: str) -> bool:
     return name in mesh.attributes and mesh.is_property_set("reeb_parts") and getattr(mesh.reeb_parts, flag)
 
 
-def bring_back(mesh: bpy.types.Mesh, items: Callable[[], bpy.types.bpy_prop_collection], key: str, name: str) -> None:
-    """Copy a hidden attribute back to where it came from, and remove it."""
-    attribute = mesh.attributes[name]
-    values = mesh_arrays.read(attribute.data, "value", bool if attribute.data_type == "BOOLEAN" else np.int32)
-    items().foreach_set(key, values)
+def taken_out(mesh: bpy.types.Mesh, name: str) -> np.ndarray:
+    """The values that a hidden attribute keeps, to go back to where they came from; it is removed."""
+    values = mesh_arrays.attribute_values(mesh.attributes[name])
     remove_attribute(mesh, name)
+    return values

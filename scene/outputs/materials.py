@@ -11,7 +11,7 @@ import numpy as np
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
 from .. import mesh_arrays, part_names, transaction
-from .kept_aside import PREFIX, bring_back, is_kept, keep_aside, remove_attribute
+from .kept_aside import PREFIX, is_kept, keep_aside, remove_attribute, taken_out
 
 _MATERIAL_INDEX = "material_index"
 _KEPT = f"{PREFIX}_material"
@@ -22,7 +22,7 @@ def own_slots(mesh: bpy.types.Mesh) -> np.ndarray:
     """The material slot of each face, (p,) int32, as the user has it."""
     if is_kept(mesh, _KEPT, "has_materials"):
         return mesh_arrays.attribute_values(mesh.attributes[_KEPT])
-    return mesh_arrays.read(mesh.polygons, _MATERIAL_INDEX, np.int32)
+    return mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX)
 
 
 def add(obj: bpy.types.Object) -> None:
@@ -32,7 +32,7 @@ def add(obj: bpy.types.Object) -> None:
     result = mesh.reeb_parts
     if not result.has_materials:
         result.had_material_index = _MATERIAL_INDEX in mesh.attributes
-        keep_aside(mesh, mesh.polygons, "material_index", _KEPT, "INT", "FACE")
+        keep_aside(mesh, mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX), _KEPT, "INT", "FACE")
         result.has_materials = True
 
 
@@ -44,7 +44,7 @@ def remove(obj: bpy.types.Object) -> None:
     for part in result.parts:
         remove_one(mesh, part.material)
     if result.has_materials and _KEPT in mesh.attributes:
-        bring_back(mesh, lambda: mesh.polygons, "material_index", _KEPT)
+        mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, taken_out(mesh, _KEPT))
         if not result.had_material_index:
             remove_attribute(mesh, _MATERIAL_INDEX)
     result.has_materials = result.had_material_index = False
@@ -58,13 +58,14 @@ def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
     """
     marked = [material for material in mesh.materials if material is not None and _OURS in material]
     if _KEPT in mesh.attributes and marked:
-        now, before = (mesh_arrays.read(mesh.polygons, _MATERIAL_INDEX, np.int32),
+        now, before = (mesh_arrays.element_values(mesh, "polygons", _MATERIAL_INDEX),
                        mesh_arrays.read(mesh.attributes[_KEPT].data, "value", np.int32))
         used = set(now[~ours].tolist())
         free = [index for index, material in enumerate(mesh.materials) if material not in marked]
         own = np.array([index for index in free if index not in used] or free or [0], np.int32)
         gone = np.isin(now, [index for index, material in enumerate(mesh.materials) if material in marked])
-        mesh.polygons.foreach_set(_MATERIAL_INDEX, np.where(gone, own[np.clip(before, 0, len(own) - 1)], now))
+        slots = np.where(gone, own[np.clip(before, 0, len(own) - 1)], now)
+        mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, slots)
         for material in marked:
             remove_one(mesh, material)
     remove_attribute(mesh, _KEPT)
@@ -96,7 +97,9 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     if not mesh.reeb_parts.has_materials:
         return
     _take_names(mesh)
-    slots = np.zeros(numbered.parts.count, np.int32)
+    slots, places = np.zeros(numbered.parts.count, np.int32), {}
+    for index, material in enumerate(mesh.materials):
+        places.setdefault(material, index)
     for label, part in enumerate(mesh.reeb_parts.parts):
         if part.material is None:
             part.material = bpy.data.materials.new(part.name)
@@ -104,10 +107,11 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
             if bpy.app.version < (5, 0):  # newer ones always do
                 part.material.use_nodes = True
         _color_material(part.material, linear(part.color))
-        if part.material not in mesh.materials[:]:
+        if part.material not in places:
+            places[part.material] = len(mesh.materials)
             mesh.materials.append(part.material)
-        slots[label] = mesh.materials[:].index(part.material)
-    mesh.polygons.foreach_set("material_index", slots[numbered.parts.labels])
+        slots[label] = places[part.material]
+    mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, slots[numbered.parts.labels])
 
 
 def _take_names(mesh: bpy.types.Mesh) -> None:

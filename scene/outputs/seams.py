@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.result.numbering import NumberedParts
 from .. import mesh_arrays, transaction
-from .kept_aside import PREFIX, bring_back, is_kept, keep_aside, remove_attribute
+from .kept_aside import PREFIX, is_kept, keep_aside, remove_attribute, taken_out
 
 _KEPT = f"{PREFIX}_seam"
 
@@ -17,7 +17,7 @@ def own(mesh: bpy.types.Mesh) -> np.ndarray:
     """Which edges are seams of the user, (e,) bool."""
     if is_kept(mesh, _KEPT, "has_seams"):
         return mesh_arrays.attribute_values(mesh.attributes[_KEPT])
-    return mesh_arrays.read(mesh.edges, "use_seam", bool)
+    return mesh_arrays.element_values(mesh, "edges", "use_seam")
 
 
 def add(obj: bpy.types.Object) -> None:
@@ -27,7 +27,7 @@ def add(obj: bpy.types.Object) -> None:
     result = mesh.reeb_parts
     if not is_kept(mesh, _KEPT, "has_seams"):
         result.had_seams = _seam_name(mesh) is not None
-        keep_aside(mesh, mesh.edges, "use_seam", _KEPT, "BOOLEAN", "EDGE")
+        keep_aside(mesh, mesh_arrays.element_values(mesh, "edges", "use_seam"), _KEPT, "BOOLEAN", "EDGE")
         result.has_seams = True
 
 
@@ -37,7 +37,7 @@ def remove(obj: bpy.types.Object) -> None:
     mesh = obj.data
     result = mesh.reeb_parts
     if result.has_seams and _KEPT in mesh.attributes:
-        bring_back(mesh, lambda: mesh.edges, "use_seam", _KEPT)
+        mesh_arrays.set_element_values(mesh, "edges", "use_seam", taken_out(mesh, _KEPT))
         if not result.had_seams and (name := _seam_name(mesh)):
             remove_attribute(mesh, name)
     result.has_seams = result.had_seams = False
@@ -47,11 +47,11 @@ def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
     """Bring the user's seams back of faces that came with ours from another mesh. ours : (p,) bool."""
     if _KEPT not in mesh.attributes:
         return
-    now, before = (mesh_arrays.read(mesh.edges, "use_seam", bool),
+    now, before = (mesh_arrays.element_values(mesh, "edges", "use_seam"),
                    mesh_arrays.read(mesh.attributes[_KEPT].data, "value", bool))
     there = np.zeros(len(mesh.edges), bool)
     there[mesh_arrays.corner_edges(mesh)[np.repeat(ours, mesh_arrays.face_sizes(mesh))]] = True
-    mesh.edges.foreach_set("use_seam", np.where(there, before, now))
+    mesh_arrays.set_element_values(mesh, "edges", "use_seam", np.where(there, before, now))
     remove_attribute(mesh, _KEPT)
 
 
@@ -65,4 +65,5 @@ def write(mesh: bpy.types.Mesh, numbered: NumberedParts) -> None:
     if not is_kept(mesh, _KEPT, "has_seams"):
         return
     seams = mesh_arrays.read(mesh.attributes[_KEPT].data, "value", bool)
-    mesh.edges.foreach_set("use_seam", seams | mesh_arrays.cut_edges(mesh, numbered.face_numbers))
+    seams |= mesh_arrays.cut_edges(mesh, numbered.face_numbers)
+    mesh_arrays.set_element_values(mesh, "edges", "use_seam", seams)

@@ -119,7 +119,8 @@ def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | N
     parts = {part.number: part for part in obj.data.reeb_parts.parts}
     bones = bones_that_move(targets.users(obj.data))
     _take_names(obj, bones)
-    fresh = [number for number, part in parts.items() if part.group not in obj.vertex_groups]
+    groups = {group.name: group for group in obj.vertex_groups}  # to look a name up there goes through all of them
+    fresh = [number for number, part in parts.items() if part.group not in groups]
     after = numbered.candidate_numbers
     made = grains(obj.data, numbered.candidates)
     come, gone = made.changes(np.zeros_like(after) if before is None else before, after)
@@ -130,9 +131,10 @@ def write(obj: bpy.types.Object, numbered: NumberedParts, before: np.ndarray | N
     active = obj.vertex_groups.active_index
     for number in sorted(parts):
         part = parts[number]
-        if part.group not in obj.vertex_groups:
-            part.group = obj.vertex_groups.new(name=part_names.distinct(part.name, bones)).name
-        group = obj.vertex_groups[part.group]
+        group = groups.get(part.group)
+        if group is None:
+            group = obj.vertex_groups.new(name=part_names.distinct(part.name, bones))
+            part.group = group.name
         if number in gone:
             group.remove(gone[number].tolist())
         if number in come:
@@ -176,7 +178,8 @@ def bones_that_move(objects: list[bpy.types.Object]) -> set[str]:
 
 def _take_names(obj: bpy.types.Object, bones: Container[str]) -> None:
     """Give the groups that are there the names of their parts, which may have been those of each other."""
-    wrong = [part for part in obj.data.reeb_parts.parts if part.group != part.name and part.group in obj.vertex_groups]
+    there = set(obj.vertex_groups.keys())
+    wrong = [part for part in obj.data.reeb_parts.parts if part.group != part.name and part.group in there]
     for part in wrong:
         group = obj.vertex_groups[part.group]
         group.name = "\1Reeb Parts"  # no name is in the way of another one

@@ -59,9 +59,9 @@ def own_material(meshes: list[bpy.types.Mesh]) -> None:
         if not len(mesh.materials):
             mesh.materials.append(None)  # the slot of all other faces, which have no material
         mesh.materials.append(material)
-        slots = mesh_arrays.read(mesh.polygons, "material_index", np.int32)
+        slots = mesh_arrays.element_values(mesh, "polygons", "material_index")
         slots[cap] = len(mesh.materials) - 1
-        mesh.polygons.foreach_set("material_index", slots)
+        mesh_arrays.set_element_values(mesh, "polygons", "material_index", slots)
 
 
 def _material() -> bpy.types.Material:

@@ -17,12 +17,15 @@ from ...core.steps import Steps
 from .. import bridge, element_layers, fingerprints, made_objects, rigid_bodies, store, targets, transaction, visibility
 from ..errors import SceneError
 from ..graph import graph_visibility
+from ..part_names import fitted, without_number
 from ..selection import in_layer
 from ..store import Stored
+from ..surroundings import Surroundings
 from ..temporary import remove_object
 from . import piece_checks
 
 COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: the object that the pieces come from; once it was its name
+_PARTS_OF = "Parts of "  # how its name begins
 NUMBER = "reeb_parts_number"  # on a piece: of its part
 FACES = "reeb_parts_faces"  # on a piece: which faces of the original were its part, as a short text
 DOWEL = "reeb_parts_dowel"  # on a loose dowel: the numbers of the two parts that it joins; once it was 1
@@ -60,18 +63,27 @@ def is_of(item: bpy.types.Object, numbers: Collection[int]) -> bool:
 
 def original(piece: bpy.types.Object) -> bpy.types.Object | None:
     """The object that a piece was separated from, or None if it is gone."""
-    for collection in piece.users_collection:
-        obj = collection.get(COLLECTION_OF)
-        if isinstance(obj, str):
-            obj = bpy.data.objects.get((obj, None))
-        if obj is not None and obj.users_scene and collection_of(obj) == collection and NUMBER in piece:
+    for collection in piece.users_collection if NUMBER in piece else ():
+        obj = _source(collection)
+        if obj is not None:
             return obj
     return None
 
 
 def originals(objects: Iterable[bpy.types.Object]) -> list[bpy.types.Object]:
     """The objects that the pieces among some objects were separated from, each once."""
-    return list(dict.fromkeys(found for found in map(original, objects) if found is not None))
+    source = {piece: found for collection in reversed(bpy.data.collections[:])
+              if COLLECTION_OF in collection and (found := _source(collection)) is not None
+              for piece in collection.objects if NUMBER in piece}
+    return list(dict.fromkeys(source[obj] for obj in objects if obj in source))
+
+
+def _source(collection: bpy.types.Collection) -> bpy.types.Object | None:
+    """The object whose pieces a collection holds, or None: none are, or it is gone."""
+    obj = collection.get(COLLECTION_OF)
+    if isinstance(obj, str):
+        obj = bpy.data.objects.get((obj, None))
+    return obj if obj is not None and obj.users_scene and collection_of(obj) == collection else None
 
 
 def left_behind() -> Iterator[bpy.types.Collection]:
@@ -144,11 +156,13 @@ def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     pieces: dict[int, list[bpy.types.Object]] = {}
     for piece in piece_objects(obj):
         pieces.setdefault(piece[NUMBER], []).append(piece)
-    untouched = [piece for some in pieces.values() for piece in some if made_objects.is_as_made(piece, former_looks)]
+    around = Surroundings.now()
+    untouched = [piece for some in pieces.values() for piece in some
+                 if made_objects.is_as_made(piece, former_looks, around)]
     joined = rigid_bodies.make(context, obj, stored, pieces, make_collection(context, obj), kind)
     for piece in untouched:  # that they are bodies now is no work of the user's
         transaction.keep_keys(piece, made_objects.MADE)
-        made_objects.mark(piece)
+    made_objects.mark(untouched)
     return joined
 
 
@@ -178,12 +192,15 @@ def check_pieces(pieces: list[bpy.types.Object], stretch: np.ndarray | None = No
 
 def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Collection:
     """The collection with what is made from an object's parts; made if it is not there."""
-    collection = collection_of(obj)
+    collection, name = collection_of(obj), fitted(_PARTS_OF + obj.name)
     if collection is None:
-        collection = bpy.data.collections.new(f"Parts of {obj.name}")
+        collection = bpy.data.collections.new(name)
         collection[COLLECTION_OF] = obj
         transaction.keep_group(obj, "reeb_parts_made")
         obj.reeb_parts_made.pieces = collection
+    elif collection.name.startswith(_PARTS_OF) and name not in (collection.name, without_number(collection.name)):
+        transaction.keep(collection, "name")
+        collection.name = name  # the object was renamed
     visibility.include(context, collection)
     return collection
 
@@ -196,10 +213,10 @@ def removing_earlier(obj: bpy.types.Object, numbers: list[int], coming: Collecti
     every = len(numbers) == len(obj.data.reeb_parts.parts)
     there = [piece for piece in (*piece_objects(obj), *dowels(obj)) if every or is_of(piece, numbers)]
     needed = made_objects.needed(there, stands_for, coming)
-    gone = []
+    gone, around = [], Surroundings.now()
     for index, piece in enumerate(there):
         yield index / len(there)
-        if piece not in needed and made_objects.is_untouched(piece, former_looks):
+        if piece not in needed and made_objects.is_untouched(piece, former_looks, around):
             gone.append((stands_for(piece), piece))
         else:
             made_objects.hand_over(piece, NUMBER, FACES, made_objects.MADE, DOWEL)
@@ -227,13 +244,13 @@ def show_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     They are in the same place, where both at once would be speckled.
     """
     show_pieces(context, obj, False)
-    visibility.show(context, obj, is_rendered(context, obj))
+    visibility.show(context, {obj: is_rendered(context, obj)})
     graph_visibility.show(context, obj)
 
 
 def hide_original(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     """Hide the object that pieces come from, with its graph, in the viewport and in renders."""
-    visibility.hide(context, obj, is_rendered(context, obj))
+    visibility.hide(context, {obj: is_rendered(context, obj)})
     graph_visibility.hide(context, obj)
 
 
@@ -251,6 +268,12 @@ def instances(obj: bpy.types.Object) -> list[bpy.types.Object]:
             and other.instance_collection is not None and obj in other.instance_collection.all_objects[:]]
 
 
+def other_scenes(obj: bpy.types.Object) -> list[bpy.types.Scene]:
+    """Scenes that an object is in and its pieces are not: they render it only if it is rendered where these are."""
+    collection = collection_of(obj)
+    return [scene for scene in obj.users_scene if collection not in scene.collection.children_recursive]
+
+
 def hides_pieces(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
     """Whether a piece of an object is hidden in the viewport."""
     return any(piece.hide_get(view_layer=context.view_layer) for piece in piece_objects(obj))
@@ -258,5 +281,5 @@ def hides_pieces(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
 
 def show_pieces(context: bpy.types.Context, obj: bpy.types.Object, shown: bool) -> None:
     """Show the pieces and dowels of an object, or hide them, in renders, too."""
-    for piece in (*piece_objects(obj), *dowels(obj)):
-        (visibility.show if shown else visibility.hide)(context, piece, visibility.is_rendered(piece))
+    rendered = {piece: visibility.is_rendered(piece) for piece in (*piece_objects(obj), *dowels(obj))}
+    (visibility.show if shown else visibility.hide)(context, rendered)

@@ -11,6 +11,7 @@ from bmesh.types import BMesh
 from ...core.surface.orientation import against_neighbors
 from .. import made_objects, mesh_arrays, mesh_groups, transaction
 from ..matrix_layers import as_bmesh
+from ..surroundings import Surroundings
 from . import cap_looks, caps, piece_checks, piece_objects
 from .piece_checks import Check
 
@@ -45,7 +46,7 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
         else:
             bpy.data.meshes.remove(candidate)
     if mesh != old:
-        ours = made_objects.is_as_made(piece, piece_objects.former_looks)
+        ours = made_objects.is_as_made(piece, piece_objects.former_looks, Surroundings.now())
         transaction.keep(piece, "data")
         piece.data = mesh
         name = old.name
@@ -53,7 +54,7 @@ def repair(piece: bpy.types.Object, stretch: np.ndarray) -> tuple[Check, Check]:
         mesh.name = name
         if ours:
             transaction.keep_keys(piece, made_objects.MADE)
-            made_objects.mark(piece)
+            made_objects.mark([piece])
     piece_checks.keep(piece, found[0])
     return before, found[0]
 

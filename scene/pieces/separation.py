@@ -210,9 +210,7 @@ def _finishing(run: _Run, pieces: list[bpy.types.Object], loose: list[bpy.types.
                earlier: made_objects.Earlier) -> Steps[None]:
     """Remember what the new objects are like, have them take the places of earlier ones, and check closed pieces."""
     new = [*pieces, *loose]
-    for index, item in enumerate(new):
-        yield 0.5 * index / len(new)
-        made_objects.mark(item)
+    yield from stretched(made_objects.marking(new), 0.0, 0.5)
     made_objects.hand_on(earlier.gone, [(stands_for(item), item) for item in new])
     for index, piece in enumerate(pieces if closes_holes(run.style) else ()):
         yield 0.5 + 0.5 * index / len(pieces)

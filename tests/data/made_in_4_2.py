@@ -26,8 +26,7 @@ with tempfile.TemporaryDirectory() as folder:
     package = checkout.enable(Path(folder))
     bpy.ops.wm.read_homefile(use_empty=True)
     made_objects = importlib.import_module(f"{package}.scene.made_objects")
-    for item in one_of_each.add_one_of_each():
-        made_objects.mark(item)
+    made_objects.mark(one_of_each.add_one_of_each())
     vertices, faces = shapes.tube_tree(step=0.25)
     mesh = bpy.data.meshes.new("Tree")
     mesh.from_pydata([tuple(v) for v in vertices], [], [tuple(map(int, f)) for f in faces])

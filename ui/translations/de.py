@@ -968,6 +968,8 @@ TEXTS = {
         "durchdringen} sich: {names}",
     "{n} of {total} {total:part|parts} {n:has|have} faces that look inwards: {names}":
         "{n} von {total} {total:Teil|Teilen} {n:hat|haben} Flächen, die nach innen blicken: {names}",
+    "{name} is missing from renders of other scenes: {names}":
+        "{name} fehlt beim Rendern in anderen Szenen: {names}",
     "{name} is missing from renders of instances of its collection: {names}":
         "{name} fehlt beim Rendern in Instanzen der eigenen Sammlung: {names}",
     "{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or cross themselves} as the model does "

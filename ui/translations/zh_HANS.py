@@ -861,6 +861,8 @@ TEXTS = {
         "{total} 个部件中有 {n} 个未封闭或自相交：{names}",
     "{n} of {total} {total:part|parts} {n:has|have} faces that look inwards: {names}":
         "{total} 个部件中有 {n} 个含有朝内的面：{names}",
+    "{name} is missing from renders of other scenes: {names}":
+        "渲染其他场景时不再包含 {name}：{names}",
     "{name} is missing from renders of instances of its collection: {names}":
         "渲染其集合的实例时不再包含 {name}：{names}",
     "{n} of {total} {total:part|parts} {n:is open or crosses itself|are open or cross themselves} as the model does "

@@ -95,6 +95,20 @@ def test_merge_into_neighbour(obj, result):
     check(obj)
 
 
+@pytest.mark.parametrize(("chosen", "named", "left"), [
+    (0, (0,), 0), (1, (1,), 0), (0, (0, 1), 1), (0, (), 1), (1, (0,), 0)])
+def test_a_name_of_the_larger_part_outlives_a_neighbor_without_one(obj, result, chosen, named, left):
+    """A limb that is joined to a scrap beside it stays the limb; a button does not give its name to the coat."""
+    result.by_number, result.n_parts = True, 2
+    both = sorted(result.parts, key=lambda p: -p.share)
+    words = [f"named {index}" if index in named else p.name for index, p in enumerate(both)]
+    for p, word in zip(both, words, strict=True):
+        p.name = word
+    choose(result, both[chosen].number)
+    bpy.ops.reeb_parts.merge_neighbour()
+    assert [p.name for p in result.parts] == [words[left]]
+
+
 def test_parts_that_are_nearest_to_each_other_merge_and_take_no_third(obj, result):
     bpy.context.scene.reeb_parts.symmetry = False
     result.detail = 0.75

@@ -16,7 +16,9 @@ MADE = "reeb_parts_looks"
 @pytest.fixture
 def digest(package):
     """The function that tells objects which somebody has worked on from those that are as they were made."""
-    return importlib.import_module(f"{package}.scene.object_digest").digest
+    load = importlib.import_module
+    around = load(f"{package}.scene.surroundings").Surroundings
+    return lambda item: load(f"{package}.scene.object_digest").digest(item, around.now())
 
 
 @pytest.fixture
@@ -71,3 +73,16 @@ def test_pressed_again_all_of_it_is_replaced(marked):
     bpy.ops.reeb_parts.decompose(detail=0.9)
     bpy.ops.reeb_parts.decompose(detail=0.5)
     assert count() == before
+
+
+@pytest.mark.parametrize("button", ["clear", "decompose"])
+def test_nothing_is_left_of_what_blender_4_had_stored(marked, button):
+    """Blender 5 leaves a copy among the custom properties, which Blender 4.5 takes for the parts after Clear."""
+    tree = bpy.data.objects["Tree"]
+    activate(tree)
+    getattr(bpy.ops.reeb_parts, button)()
+    if button == "clear":
+        assert [key for block in (tree, tree.data) for key in block.keys() if key.startswith("reeb")] == []  # noqa: SIM118
+    elif bpy.app.version >= (5, 0):
+        assert "reeb_parts" not in tree.data
+        assert tree.data.reeb_parts.parts

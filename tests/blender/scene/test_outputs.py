@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seams, face sets and materials after the fact: the same as if decompose had been asked for them."""
 
+import importlib
+import time
+
 import bpy
+import numpy as np
 import pytest
 from snapshot import check_undo, snapshot
 
@@ -10,6 +14,12 @@ OPERATORS = {"seams": "seams", "face_sets": "face_sets", "materials": "materials
 
 def run(name, **options):
     return getattr(bpy.ops.reeb_parts, name)(**options)
+
+
+@pytest.fixture
+def scene_module(package):
+    """A function that gives a module of the extension's scene by its name."""
+    return lambda name: importlib.import_module(f"{package}.scene.{name}")
 
 
 @pytest.fixture
@@ -147,6 +157,24 @@ def test_a_group_deleted_by_hand_comes_back_and_leaves_no_vertex_in_another(obj,
         for part in result.parts:
             faces = [f for f in obj.data.polygons if numbers[f.index] == part.number]
             assert members(obj, part.group) == {v: 1.0 for f in faces for v in f.vertices}
+
+
+def test_many_vertex_groups_do_not_slow_down_what_is_read_and_written_of_faces_and_edges(obj, scene_module):
+    """Blender 5 looks through all of them at each face and edge, if it is asked for one by one."""
+    arrays, mesh = scene_module("mesh_arrays"), obj.data
+    for index in range(3000):
+        obj.vertex_groups.new(name=f"Bone {index}")
+    keys = {"polygons": ("hide", "select", "material_index"), "edges": ("hide", "select", "use_seam", "use_edge_sharp"),
+            "vertices": ("hide", "select")}
+    rng, began = np.random.default_rng(0), time.process_time()
+    for items, key in ((items, key) for items, some in keys.items() for key in some):
+        assert not arrays.element_values(mesh, items, key).any() or key == "select"
+        wanted = rng.integers(0, 2, len(getattr(mesh, items))).astype(arrays.element_values(mesh, items, key).dtype)
+        arrays.set_element_values(mesh, items, key, wanted)
+        assert (arrays.element_values(mesh, items, key) == wanted).all()
+        for index in (0, 1, 77):
+            assert getattr(getattr(mesh, items)[index], key) == wanted[index], key
+    assert time.process_time() - began < 0.2  # 3 s where Blender looks for each
 
 
 def test_a_part_has_its_own_material_not_a_linked_one_of_its_name(obj, tmp_path):

@@ -218,6 +218,22 @@ def test_instances_that_lack_the_original_in_renders_are_named(obj, capfd):
         activate(obj)
 
 
+def test_other_scenes_that_lack_the_original_in_renders_are_named(obj, capfd):
+    """It is hidden in renders as such, and its pieces are in the scene of the window alone."""
+    other = bpy.data.scenes.new("Shot 2")
+    other.collection.objects.link(obj)
+    bpy.ops.reeb_parts.decompose()
+    for hide, linked in ((False, False), (True, False), (True, True)):
+        if linked:
+            other.collection.children.link(bpy.data.collections["Parts of Tree"])
+        bpy.context.view_layer.objects.active = obj
+        obj.hide_set(False)
+        capfd.readouterr()
+        bpy.ops.reeb_parts.separate(hide=hide)
+        said = capfd.readouterr().out
+        assert ("Tree is missing from renders of other scenes: Shot 2" in said) == (hide and not linked)
+
+
 def test_showing_the_original_is_undone(obj):
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.separate()
@@ -242,7 +258,14 @@ def test_pieces_know_an_original_that_was_renamed(obj):
     counts = len(bpy.data.objects), len(bpy.data.collections)
     bpy.ops.reeb_parts.separate()
     assert (len(bpy.data.objects), len(bpy.data.collections)) == counts
-    assert [piece.name for piece in pieces_of()] == [f"Renamed Part {number:02}" for number in (1, 2, 3)]
+    collection = obj.reeb_parts_made.pieces
+    assert [piece.name for piece in collection.objects] == [f"Renamed Part {number:02}" for number in (1, 2, 3)]
+    assert collection.name == "Parts of Renamed"
+    bpy.ops.reeb_parts.show_original()
+    collection.name = "Mine"
+    obj.name = "Again"
+    bpy.ops.reeb_parts.show_pieces()
+    assert collection.name == "Mine"
 
 
 def test_pieces_of_a_file_that_knew_the_name_alone(obj):
