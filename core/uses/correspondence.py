@@ -22,7 +22,7 @@ from ..field.agd import spread_base_vertices
 from ..field.geodesic import GeodesicSolver
 from ..sentence import Sentence
 from ..surface.arguments import whole_numbers
-from ..surface.arrays import inverse, sums_by
+from ..surface.arrays import inverse, sums_by, underflow_is_zero
 from ..surface.coarsening import Pyramid
 from ..surface.copies import find_copies
 from ..surface.labels import majority
@@ -76,6 +76,7 @@ class Samples:
     face_area: np.ndarray
 
 
+@underflow_is_zero
 def sample_surface(
     vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], polygon: ArrayLike | None = None
 ) -> Samples:
@@ -142,6 +143,7 @@ def _profiles(distances: np.ndarray, weight: np.ndarray) -> np.ndarray:
     return np.stack([np.interp(QUANTILES, share[i], rows[i]) for i in range(len(rows))])
 
 
+@underflow_is_zero
 def correspond(source: Samples, target: Samples) -> np.ndarray:
     """Find which samples of one surface are which of another.
 
@@ -191,6 +193,7 @@ def _balanced(plan: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.nda
     return plan / plan.sum()
 
 
+@underflow_is_zero
 def carried_labels(
     source: Samples, source_labels: ArrayLike, target: Samples, target_labels: ArrayLike
 ) -> tuple[np.ndarray, np.ndarray]:
