@@ -14,7 +14,8 @@ from .ties import TIE, ranks
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, DTypeLike
 
-_Given, _Result = ParamSpec("_Given"), TypeVar("_Result")
+_Given = ParamSpec("_Given")
+_Result = TypeVar("_Result")
 
 _MIX = 0x9E3779B97F4A7C1, 0x2545F4914F6CDD1D, 0x5851F42D4C957F2D  # odd factors that mix the bits of three coordinates
 
