@@ -65,9 +65,9 @@ def test_faces_that_are_there_twice_are_one_place(figure):
 
 
 def test_labels_of_another_surface_are_refused(figure):
-    """An IndexError, or, of labels below 0, the wrong part."""
+    """An IndexError, a lack of memory for labels such as colors or, of labels below 0, the wrong part."""
     _, labels, samples = figure
-    for wrong in (labels[:-1], labels - 1, labels + 0.5, labels[None]):
+    for wrong in (labels[:-1], labels - 1, labels + 0.5, labels[None], labels + 0xFF0000):
         for pair in ((wrong, labels), (labels, wrong)):
             with pytest.raises(ParameterError, match=f"Labels must be {len(labels)} whole numbers from 0"):
                 carried_labels(samples, pair[0], samples, pair[1])
