@@ -25,6 +25,7 @@ from .result.decomposition import Decomposition
 from .result.half import of_half
 from .result.mirrors import Mirror, find_mirrors
 from .surface.arguments import hints_of
+from .surface.arrays import underflow_is_zero
 from .surface.coarsening import Pyramid
 from .surface.copies import find_copies
 from .surface.halves import completed, plane_of
@@ -45,6 +46,7 @@ except ModuleNotFoundError:  # as in Blender's extension: what is to be done mea
 MESH_SHARE, PARTS_SHARE = 0.14, 0.9
 
 
+@underflow_is_zero
 def decompose(
     vertices: ArrayLike,
     faces: ArrayLike | Sequence[Sequence[int]],

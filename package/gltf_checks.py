@@ -43,6 +43,8 @@ def unread(header: dict[str, Any]) -> str:
     for extension in (*_MESHOPT, _INSTANCING):
         if extension in used:
             return extension
+    if header.get("meshes") and not any(scene.get("nodes") for scene in header.get("scenes", ())):
+        return "meshes that are in no scene"
     for primitive in _primitives(header):
         if primitive.get("mode") == _FAN:
             return "triangle fans"

@@ -11,6 +11,7 @@ import subprocess
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib.resources import as_file, files
 from pathlib import Path
 
 import numpy as np
@@ -276,8 +277,8 @@ def _read_by_blender(path: Path, blender: str | Path | None,
     if blender is None:
         raise NoReaderError(Sentence("{path} can be read by Blender only. Say where it is with --blender, in "
                                      "Python with blender=.", path=path))
-    script = Path(__file__).with_name("blender_export.py")
-    with tempfile.TemporaryDirectory(prefix=HIDDEN, dir=temporary) as folder:
+    exporter = files(__package__) / "blender_export.py"
+    with tempfile.TemporaryDirectory(prefix=HIDDEN, dir=temporary) as folder, as_file(exporter) as script:
         out = Path(folder) / "model.npz"
         command = [str(blender), "--background", "--factory-startup", "--python-exit-code", "1", "--python",
                    str(script), "--", str(path.resolve()), str(out)]

@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 
-from .polygons_in_files import MARK, cut_polygons, places
+from .polygons_in_files import cut_polygons, places, plain_text
 
 _COMMENT = re.compile(rb"#[^\n]*")
 # A line that goes on in the next one.
@@ -37,7 +37,7 @@ def parse_obj(text: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         Something that should be a number is none, a vertex has less than three, or a face has a vertex that is not
         there.
     """
-    text = text.removeprefix(MARK).replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    text = plain_text(text).replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     # Comments go first: a backslash at the end of one, as in the name of a folder, does not take the next line away.
     text = _CONTINUED.sub(b" ", _COMMENT.sub(b"", text))
     # A weight or a color may follow a position.

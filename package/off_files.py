@@ -10,7 +10,7 @@ import re
 
 import numpy as np
 
-from .polygons_in_files import MARK, cut_polygons, places
+from .polygons_in_files import cut_polygons, places, plain_text
 
 # Letters before the word tell what follows the position of a vertex; with 4 and n it has other than three coordinates.
 _HEAD = re.compile(rb"\s*(?:ST)?C?N?(4?n?)OFF\b|\s*(4?n?)OFF(?=\d)|(?=\s*\d)", re.IGNORECASE)
@@ -37,7 +37,7 @@ def parse_off(text: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     ValueError
         It is none, ends before its last face, or a face has a vertex that is not there.
     """
-    head = _HEAD.match(_COMMENT.sub(b"", text.removeprefix(MARK)))
+    head = _HEAD.match(_COMMENT.sub(b"", plain_text(text)))
     if head is None or head[1] or head[2] or re.match(rb"[ \t]*BINARY", head.string[head.end():]):
         raise ValueError("it does not begin as an .off of words in three dimensions")
     counts = _COUNTS.match(head.string, head.end())

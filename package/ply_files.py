@@ -54,10 +54,12 @@ def read_ply(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         The file cannot be read.
     """
     data = _data(path)
-    if "vertex" not in data or "face" not in data:
+    if "vertex" not in data:
         return np.empty((0, 3)), np.empty((0, 3), np.int64), np.empty(0, np.int64)
     vertices = np.stack([data["vertex"][axis] for axis in "xyz"], axis=1).astype(np.float64)
-    return cut_polygons(vertices, *_corners(data["face"]))
+    corner, sizes = _corners(data["face"]) if "face" in data else (np.empty(0, np.int64), np.empty(0, np.int64))
+    triangles = _of_strips(data["tristrips"]) if "tristrips" in data else np.empty((0, 3), np.int64)
+    return cut_polygons(vertices, np.append(corner, triangles), np.append(sizes, np.full(len(triangles), 3)))
 
 
 def _data(path: Path) -> PlyData:
@@ -102,16 +104,37 @@ def _with_ascii(path: Path, header: bytes) -> Iterator[IO[bytes]]:
         yield copy
 
 
+def _of_strips(strips: PlyElement) -> np.ndarray:
+    """Triangles of strips, (m, 3): every three vertices that follow each other, every second time turned around.
+
+    -1 ends a strip within a row, as the 3D scans of Stanford have it; a vertex that comes twice joins two strips.
+    """
+    corner, sizes = _rows(strips)
+    place = np.arange(len(corner))
+    begins = np.zeros(len(corner), bool)
+    begins[(np.cumsum(sizes) - sizes)[sizes > 0]] = True
+    begins[1:] |= corner[:-1] == -1
+    in_strip = place - np.maximum.accumulate(np.where(begins, place, 0))
+    last = np.flatnonzero((in_strip >= 2) & (corner != -1))
+    turned = in_strip[last] % 2
+    triangles = np.stack([corner[last - 2 + turned], corner[last - 1 - turned], corner[last]], axis=1)
+    return triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+
+
 def _corners(face: PlyElement) -> tuple[np.ndarray, np.ndarray]:
     """Vertex of each corner of all polygons, (c,), and how many corners each polygon has, (p,), 3 or more."""
+    corner, sizes = _rows(face)
+    is_polygon = sizes > 2
+    return corner[np.repeat(is_polygon, sizes)], sizes[is_polygon]
+
+
+def _rows(element: PlyElement) -> tuple[np.ndarray, np.ndarray]:
+    """All vertices that an element lists, (c,) int64, and how many there are in each of its rows, (p,)."""
     from plyfile import PlyListProperty
 
-    lists = [entry.name for entry in face.properties if isinstance(entry, PlyListProperty)]
+    lists = [entry.name for entry in element.properties if isinstance(entry, PlyListProperty)]
     name = next((name for name in (*_CORNERS, *lists) if name in lists), None)
-    rows = face[name] if name and len(face) else np.empty((0, 3), np.int64)
+    rows = element[name] if name and len(element) else np.empty((0, 3), np.int64)
     if rows.ndim == 2:
-        corner, sizes = rows.ravel(), np.full(len(rows), rows.shape[1])
-    else:
-        corner, sizes = np.concatenate(rows), np.array([len(row) for row in rows])
-    is_polygon = sizes > 2
-    return corner[np.repeat(is_polygon, sizes)].astype(np.int64), sizes[is_polygon]
+        return rows.ravel().astype(np.int64), np.full(len(rows), rows.shape[1])
+    return np.concatenate(rows).astype(np.int64), np.array([len(row) for row in rows])

@@ -1,13 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the readers of files of polygons, .obj, .off and .ply, have in common."""
+"""What the readers of .obj, .off and .ply have in common, and those of lists."""
 
 from __future__ import annotations
+
+from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 
 import numpy as np
 
 from .core.surface.ears import triangulated
 
-MARK = b"\xef\xbb\xbf"  # some editors begin files in UTF-8 with it
+
+def plain_text(data: bytes) -> bytes:
+    """The bytes of a text, without the mark with which some editors begin it; in UTF-8 if it is in UTF-16.
+
+    PowerShell writes UTF-16 where the output of a program is sent to a file.
+    """
+    if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+        data = data.decode("utf-16", errors="replace").encode()
+    return data.removeprefix(BOM_UTF8)
 
 
 def places(rows: list[bytes]) -> np.ndarray:

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import io
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +15,9 @@ from ..errors import ReebError
 from ..sentence import Sentence
 from ..surface.arrays import frozen
 from ..surface.ties import on_grid
+
+if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
 
 ROWS = 8  # number of rows evaluated at once; their intermediate arrays fit into the processor's cache
 
@@ -44,12 +49,13 @@ class BoostedTrees:
     names: tuple[str, ...]
 
     @classmethod
-    def read(cls, path: Path, names: tuple[str, ...]) -> BoostedTrees:
+    def read(cls, path: Traversable, names: tuple[str, ...]) -> BoostedTrees:
         """Read an .npz file that ``write`` made.
 
         Parameters
         ----------
-        path : Path
+        path : Path or Traversable
+            What ``importlib.resources`` finds may lie in a zip file.
         names : tuple of str
             Name of the feature in each column of the rows that are to be judged.
 
@@ -64,7 +70,7 @@ class BoostedTrees:
         OSError
             The file cannot be read.
         """
-        with np.load(path, allow_pickle=False) as stored:
+        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as stored:
             trained_on = tuple(stored["names"].tolist())
             if trained_on != names:
                 raise ReebError(_other_features(path.name, trained_on, names))

@@ -43,17 +43,12 @@ _UNKNOWN_TO_0_1_0: dict[str, np.ndarray] = {
 class DamagedError(ReebError):
     """A stored result cannot be read, or its numbers do not fit each other."""
 
-    def __init__(self) -> None:
-        super().__init__(Sentence("The stored parts are damaged. Decompose again."))
+    def __init__(self, message: str = Sentence("The stored parts are damaged. Decompose again.")) -> None:
+        super().__init__(message)
 
 
 class NewerError(ReebError):
     """A stored result was written by a version that knows more than this one."""
-
-    def __init__(self, version: object) -> None:
-        super().__init__(Sentence(
-            "The stored parts were written by Reeb Parts {version}, which is newer than this one. Install that "
-            "version, or decompose again.", version=str(version)[:20]))
 
 
 class StoredResult(NamedTuple):
@@ -112,7 +107,7 @@ def _parameters(values: dict, version: str) -> Parameters:
     try:
         return Parameters(**{"pieces": SEPARATE, "symmetry": False} | present_names(values)[0])
     except ParameterError as error:  # one that this version does not know, or a value that it does not
-        raise (NewerError(version) if is_newer(version, VERSION) else DamagedError()) from error
+        raise (_newer(version) if is_newer(version, VERSION) else DamagedError()) from error
 
 
 def _read_archive(data: bytes, names: tuple[str, ...], counts: tuple[int, int] | None) -> dict[str, np.ndarray]:
@@ -203,7 +198,7 @@ def _read_head(array: np.ndarray | None) -> dict[str, Any]:
             raise DamagedError
         if layout != FORMAT:
             if is_newer(version, VERSION):
-                raise NewerError(version)
+                raise _newer(version)
             raise ReebError(Sentence("The stored parts were written by another version. Decompose again."))
         texts = all(isinstance(note, str) for note in head["notes"])
         times = all(isinstance(time, (int, float)) for time in head["seconds"].values())
@@ -212,6 +207,12 @@ def _read_head(array: np.ndarray | None) -> dict[str, Any]:
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise DamagedError from error
     return head
+
+
+def _newer(version: str) -> NewerError:
+    """The error that says which version wrote a result."""
+    return NewerError(Sentence("The stored parts were written by Reeb Parts {version}, which is newer than this one. "
+                               "Install that version, or decompose again.", version=version[:20]))
 
 
 def is_newer(version: str, than: str) -> bool:

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from functools import wraps
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 import numpy as np
 
@@ -12,7 +14,24 @@ from .ties import TIE, ranks
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, DTypeLike
 
+_Given = ParamSpec("_Given")
+_Result = TypeVar("_Result")
+
 _MIX = 0x9E3779B97F4A7C1, 0x2545F4914F6CDD1D, 0x5851F42D4C957F2D  # odd factors that mix the bits of three coordinates
+
+
+def underflow_is_zero(function: Callable[_Given, _Result]) -> Callable[_Given, _Result]:
+    """Decorator of what scripts call: what is too small to be a number is 0, also where they have NumPy raise there.
+
+    Weights that fall with a distance become 0. What else NumPy can raise at does not happen.
+    """
+
+    @wraps(function)
+    def quiet(*args: _Given.args, **kwargs: _Given.kwargs) -> _Result:
+        with np.errstate(under="ignore"):
+            return function(*args, **kwargs)
+
+    return quiet
 
 
 def frozen(array: ArrayLike, dtype: DTypeLike) -> np.ndarray:

@@ -22,7 +22,7 @@ from ..field.agd import spread_base_vertices
 from ..field.geodesic import GeodesicSolver
 from ..sentence import Sentence
 from ..surface.arguments import whole_numbers
-from ..surface.arrays import inverse, sums_by
+from ..surface.arrays import inverse, underflow_is_zero
 from ..surface.coarsening import Pyramid
 from ..surface.copies import find_copies
 from ..surface.labels import majority
@@ -76,6 +76,7 @@ class Samples:
     face_area: np.ndarray
 
 
+@underflow_is_zero
 def sample_surface(
     vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], polygon: ArrayLike | None = None
 ) -> Samples:
@@ -142,6 +143,7 @@ def _profiles(distances: np.ndarray, weight: np.ndarray) -> np.ndarray:
     return np.stack([np.interp(QUANTILES, share[i], rows[i]) for i in range(len(rows))])
 
 
+@underflow_is_zero
 def correspond(source: Samples, target: Samples) -> np.ndarray:
     """Find which samples of one surface are which of another.
 
@@ -191,6 +193,7 @@ def _balanced(plan: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.nda
     return plan / plan.sum()
 
 
+@underflow_is_zero
 def carried_labels(
     source: Samples, source_labels: ArrayLike, target: Samples, target_labels: ArrayLike
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -231,7 +234,8 @@ def carried_labels(
 def _checked(samples: Samples, labels: ArrayLike) -> np.ndarray:
     """Labels of the faces of a surface as (p,) int64; raises ParameterError if they are none."""
     found, count = whole_numbers(labels), len(samples.face_sample)
-    if found is None or found.shape != (count,) or (found < 0).any():
+    # More labels than faces are not all in use, and tables of them would fill all memory.
+    if found is None or found.shape != (count,) or not ((found >= 0) & (found < count)).all():
         raise ParameterError(Sentence("Labels must be {n} whole numbers from 0, one for each face.", n=count), "labels")
     return found
 
@@ -239,6 +243,7 @@ def _checked(samples: Samples, labels: ArrayLike) -> np.ndarray:
 def _of_samples(samples: Samples, labels: np.ndarray, count: int) -> np.ndarray:
     """Share of the area of each sample that has each label, (k, n labels)."""
     kept = samples.face_sample >= 0
-    one = np.eye(int(labels.max()) + 1)[labels[kept]] * samples.face_area[kept, None]
-    share = sums_by(samples.face_sample[kept], one, count)
+    n_labels = int(labels.max()) + 1
+    place = samples.face_sample[kept] * n_labels + labels[kept]
+    share = np.bincount(place, samples.face_area[kept], count * n_labels).reshape(count, n_labels)
     return share / np.maximum(share.sum(axis=1, keepdims=True), 1e-300)

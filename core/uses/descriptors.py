@@ -19,7 +19,7 @@ from ..errors import MeshError
 from ..graph.critical import MAXIMUM
 from ..result.decomposition import Parts
 from ..sentence import Sentence
-from ..surface.arrays import sums_by
+from ..surface.arrays import sums_by, underflow_is_zero
 from ..surface.copies import find_copies
 from ..surface.mesh import TriMesh
 from ..surface.ordering import sorted_by_place
@@ -158,6 +158,7 @@ def _quantiles(values: np.ndarray, weight: np.ndarray, group: np.ndarray, count:
     return found
 
 
+@underflow_is_zero
 def part_descriptors(
     vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], parts: Parts, polygon: ArrayLike | None = None
 ) -> np.ndarray:

@@ -67,7 +67,7 @@ class ModelProcess:
         if not status:
             return self._answer
         self.close()
-        with suppress(OSError):  # such as a full disk: it is open then, and will be tried again
+        with suppress(OSError):  # such as a full disk: it will be tried again
             settings = Settings.from_dict(job["settings"]).digest
             write_record(job, failure(job["name"], status, reason, settings, digest_of(Path(job["path"]))))
         return {"status": status, "reason": reason, "seconds": round(time.monotonic() - start, 4)}

@@ -14,7 +14,7 @@ from pathlib import Path
 from ..core.errors import ReebError
 from ..core.file_names import kind_of, readable, spelled
 from ..core.sentence import Sentence
-from ..polygons_in_files import MARK
+from ..polygons_in_files import plain_text
 from .records import RECORD, read_record
 
 
@@ -135,7 +135,7 @@ def read_list(path: Path) -> list[str]:
     Names are the bytes of the list, which need not be UTF-8 where the system allows others.
     """
     try:
-        lines = [os.fsdecode(line.strip()) for line in path.read_bytes().removeprefix(MARK).splitlines()]
+        lines = [os.fsdecode(line.strip()) for line in plain_text(path.read_bytes()).splitlines()]
     except OSError as error:
         raise SourceError(Sentence("{path} could not be read: {reason}", path=path,
                                    reason=error.strerror or error)) from error

@@ -24,7 +24,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from ..batch.records import CRASH, DONE, Settings, failure, is_done, record_of, write_record
+from ..batch.records import CRASH, DONE, OPEN, Settings, failure, is_done, record_of, write_record
 from ..batch.sources import Source, find_sources, folder_of, read_list
 from ..core.errors import ReebError
 from ..core.file_names import readable
@@ -126,6 +126,7 @@ class _Batch:
         self.settings = Settings(parameters, options.json, _suffix(options.labels), _suffix(options.colored),
                                  options.parts or "", options.thumbnail)
         self.kept = 0
+        self.failed: dict[str, tuple[str, str]] = {}  # status and reason, by the name of the model
 
     def _unread(self, error: OSError) -> None:
         """Say that nobody can look into a folder; one that is gone by now has no models."""
@@ -179,6 +180,7 @@ class _Batch:
                         answer = self._lost(job, answer)
                     if answer["status"] != DONE:
                         failed[answer["status"]] += 1
+                        self.failed[job["name"]] = answer["status"], answer["reason"]
                         progress.set_postfix(failed, refresh=False)
                         tqdm.write(f"reeb-parts: {job['name']}: {answer['status']}: {answer['reason']}",
                                    file=sys.stderr)
@@ -215,7 +217,7 @@ class _Batch:
     def _lost(self, job: dict[str, Any], error: BaseException) -> dict[str, Any]:
         """Record a model whose workers ended one after the other."""
         reason = f"The workers that had it ended: {error}"
-        with suppress(OSError):  # such as a full disk: it is open then, and will be tried again
+        with suppress(OSError):  # such as a full disk: it will be tried again
             write_record(job, failure(job["name"], CRASH, reason, self.settings.digest))
         return {"status": CRASH, "reason": reason}
 
@@ -226,7 +228,7 @@ class _Batch:
 
         def rows() -> Iterator[tuple[dict[str, Any], Path, Path]]:
             for source in self.sources:
-                record = record_of(source.name, self.folder(source), self.settings.digest)
+                record = self._record(source)
                 statuses[record["status"]] += 1
                 yield record, source.path, self.folder(source)
 
@@ -237,6 +239,14 @@ class _Batch:
         return {"models": counted, "kept": self.kept, "files": {
             "models": readable(models), "parts": readable(parts), "page": readable(page),
             "folders": readable(self.out / "models")}}
+
+
+    def _record(self, source: Source) -> dict[str, Any]:
+        """The record of a model; where it could not be written, as on a full disk, one of what its worker has said."""
+        record = record_of(source.name, self.folder(source), self.settings.digest)
+        if record["status"] == OPEN and source.name in self.failed:
+            return failure(source.name, *self.failed[source.name], self.settings.digest)
+        return record
 
 
 def _models(count: int) -> str:

@@ -404,6 +404,21 @@ def test_results_that_cannot_be_written_are_no_crash(models):
     assert answer["reason"] == "/proc/none/tree.ply could not be written: No such file or directory"
 
 
+def test_what_could_not_be_written_is_no_model_that_was_not_reached(models, tmp_path, monkeypatch, capsys):
+    """Where the record cannot be written either, tables and answer had "open", standard error the truth."""
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "models").write_text("a file in the place of the folder")
+    monkeypatch.setattr(cluster, "spread", lambda client, function, jobs: ((job, do_model(job)) for job in jobs))
+    monkeypatch.setattr(cluster, "connected", lambda *_: nullcontext(SimpleNamespace(dashboard_link="")))
+    parser = argparse.ArgumentParser()
+    command.add_options(parser)
+    status = command.run(parser.parse_args([str(models / "tree.ply"), "--out", str(tmp_path / "out")]))
+    assert (status, json.loads(capsys.readouterr().out)["models"]) == (1, {"error": 1})
+    (row,) = rows(tmp_path / "out" / "models.parquet")
+    assert row["status"] == "error"
+    assert "tree.ply could not be written: " in row["reason"]
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="the program is one of Unix")
 def test_what_says_nothing_is_named_with_its_status(tmp_path):
     (tmp_path / "model.blend").write_bytes(b"BLENDER")

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import reeb_parts
 import trimesh
+from reeb_parts.batch.sources import read_list
 
 WORDS = "Modell von Jürg, gelöscht ä".encode("latin-1")
 
@@ -54,6 +55,20 @@ def test_names_and_comments_in_any_encoding(kind, make, tree, tmp_path):
     found, expected = (reeb_parts.read_model(tmp_path / f"{name}.{kind}") for name in ("words", "plain"))
     assert np.allclose(found.vertices[found.faces], expected.vertices[expected.faces], atol=1e-5)
     assert (found.polygon == expected.polygon).all()
+
+
+@pytest.mark.parametrize(("kind", "make"), [("obj", obj), ("off", off)])
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_texts_in_utf16_are_read(kind, make, encoding, tree, tmp_path):
+    """As PowerShell writes what a program says: there was no mesh in such an .obj."""
+    text = make(trimesh.Trimesh(*tree, process=False)).decode("latin-1")
+    (tmp_path / f"model.{kind}").write_bytes(f"\ufeff{text}".encode(encoding))
+    assert (reeb_parts.read_model(tmp_path / f"model.{kind}").faces == tree[1]).all()
+
+
+def test_a_list_in_utf16_is_read(tmp_path):
+    (tmp_path / "list.txt").write_text("größe.obj\r\n\r\n# more\r\n", encoding="utf-16", newline="")
+    assert read_list(tmp_path / "list.txt") == ["größe.obj"]
 
 
 def test_a_file_that_was_cut_off_is_no_lack_of_a_package(tree, tmp_path):

@@ -61,7 +61,12 @@ def meshopt(header):
     return "EXT_meshopt_compression"
 
 
-@pytest.mark.parametrize("change", [sparse, normalized, fan, draco, instances, meshopt])
+def unplaced(header):
+    header["scenes"] = [{}]
+    return "meshes that are in no scene"
+
+
+@pytest.mark.parametrize("change", [sparse, normalized, fan, draco, instances, meshopt, unplaced])
 def test_what_is_not_read_is_named(change, header, tmp_path, monkeypatch):
     """Sparse and compressed positions were zeros, normalized ones thousands of times too large; fans were missing."""
     monkeypatch.setitem(sys.modules, "DracoPy", None)  # as where it is not installed

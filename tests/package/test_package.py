@@ -2,6 +2,7 @@
 """The installed package: what is in it, and what it takes."""
 
 import gc
+import os
 import re
 import subprocess
 import sys
@@ -37,6 +38,16 @@ def test_the_wheel_has_all_of_core_and_of_the_package_and_nothing_of_blender(whe
 def test_it_has_the_version_of_core(wheel):
     assert reeb_parts.__version__ == VERSION
     assert wheel.name == f"reeb_parts-{VERSION}-py3-none-any.whl"
+
+
+def test_it_runs_from_the_wheel_as_it_is(wheel, tmp_path):
+    """As Python runs a module, out of a zip; two boxes that touch need every model that ships but that of sheets."""
+    boxes = trimesh.util.concatenate([trimesh.creation.box(), trimesh.creation.box().apply_translation([0.9, 0.3, 1])])
+    boxes.export(tmp_path / "boxes.obj")
+    done = subprocess.run([sys.executable, "-m", "reeb_parts", "decompose", "boxes.obj"], cwd=tmp_path, check=False,
+                          capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(wheel)})
+    assert done.returncode == 0, done.stderr
+    assert '"faces": 24' in done.stdout
 
 
 def test_it_has_every_name_of_core():

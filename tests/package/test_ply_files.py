@@ -73,6 +73,18 @@ def test_faces_of_one_size_keep_vertices_and_order(kind, size, after, tmp_path):
     assert [set(row) <= set(face) for row, face in zip(first.tolist(), faces, strict=True)] == [True] * 6
 
 
+@pytest.mark.parametrize("rows", [
+    [[0, 1, 2, 3, -1, 4, 5, 6, -1, 7, 8]], [[0, 1, 2, 3], [4, 5, 6]], [[0, 1, 2, 3, 3, 4, 4, 5, 6]]])
+@pytest.mark.parametrize("kind", KINDS)
+def test_strips_of_triangles_are_triangles(kind, rows, tmp_path):
+    """As scans have them, ended by -1, by the row or by vertices that come twice: there was said to be no mesh."""
+    path = written(tmp_path / "strips.ply", kind, rows)
+    path.write_bytes(path.read_bytes().replace(b"element face", b"element tristrips"))
+    model = reeb_parts.read_model(path)
+    assert model.faces.tolist() == [[0, 1, 2], [2, 1, 3], [4, 5, 6]]
+    assert model.polygon.tolist() == [0, 1, 2]
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_lists_of_two_vertices_are_no_faces(kind, tmp_path):
     model = reeb_parts.read_model(written(tmp_path / "house.ply", kind, [[0, 1], *FACES, [2, 3]]))

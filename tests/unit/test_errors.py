@@ -1,10 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Errors carry the indices of what is wrong."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
-from core.errors import Cancelled, DisconnectedMeshError, EmptyMeshError, MeshError, ParameterError, ReebError
+from core.errors import (
+    Cancelled,
+    DisconnectedMeshError,
+    EmptyMeshError,
+    MeshError,
+    ParameterError,
+    ReebError,
+    UnknownParameterError,
+)
+from core.result.stored import DamagedError, NewerError
+from core.sentence import Sentence
 
 
 @pytest.mark.parametrize("kind", [MeshError, EmptyMeshError, DisconnectedMeshError])
@@ -29,3 +42,15 @@ def test_cancelled_is_a_reeb_error_with_a_sentence():
     assert isinstance(Cancelled(), ReebError)
     assert not isinstance(Cancelled(), ValueError)
     assert str(Cancelled()) == "Cancelled."
+
+
+@pytest.mark.parametrize("kind", [
+    ReebError, Cancelled, ParameterError, UnknownParameterError, MeshError, EmptyMeshError, DisconnectedMeshError,
+    DamagedError, NewerError])
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda error: pickle.loads(pickle.dumps(error))])
+def test_every_error_gets_from_one_process_to_another(kind, again):
+    """A pool of processes waits for ever for an error that it cannot unpickle."""
+    error = again(kind(Sentence("{n} wrong.", n=2)))
+    assert type(error) is kind
+    assert str(error) == "2 wrong."
+    assert error.args[0].values == {"n": 2}

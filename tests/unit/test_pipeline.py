@@ -13,6 +13,7 @@ from core import PRESETS, Cancelled, EmptyMeshError, MeshError, Parameters, TriM
 from core.surface.components import components
 from core.surface.labels import disagreement
 from core.uses.colors import part_colors
+from core.uses.descriptors import part_descriptors
 
 PAPER = "Berretti 2009"
 #: Parameters of cuts that each method heeds besides the smoothing.
@@ -245,6 +246,14 @@ def test_input_is_not_changed(preset):
     decompose(vertices, faces, parameters=preset)
     np.testing.assert_array_equal(vertices, before[0])
     np.testing.assert_array_equal(faces, before[1])
+
+
+def test_callers_may_have_numpy_raise():
+    """Weights of what is far away underflow, and become 0; as in carried_labels, see there."""
+    vertices, faces = shapes.together(shapes.box(), shapes.moved(shapes.box(), (0, 0, 1.02)))
+    with np.errstate(all="raise"):
+        result = decompose(vertices, faces)
+        part_descriptors(vertices, faces, result.parts())
 
 
 def test_single_precision_is_enough(preset):

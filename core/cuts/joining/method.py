@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
+from importlib.resources import files
 
 import numpy as np
 
@@ -249,6 +249,6 @@ def join_model() -> JoinModel:
 
     Returns a JoinModel. Raises ReebError if a file was trained on other features.
     """
-    folder = Path(__file__).parent
+    folder = files(__package__)
     return JoinModel(BoostedTrees.read(folder / "join_model.npz", FEATURES),
                      BoostedTrees.read(folder / "distant_model.npz", DISTANT_FEATURES))

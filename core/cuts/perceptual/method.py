@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
+from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
@@ -350,10 +350,10 @@ def cut_model() -> BoostedTrees:
 
     Returns a BoostedTrees over the columns FEATURES. Raises ReebError if the file was trained on other features.
     """
-    return BoostedTrees.read(Path(__file__).parent / "cut_model.npz", FEATURES)
+    return BoostedTrees.read(files(__package__) / "cut_model.npz", FEATURES)
 
 
 @cache
 def sheet_model() -> BoostedTrees:
     """Read the model that judges cuts of inflated sheets: as ``cut_model``, and learned from flat figures, too."""
-    return BoostedTrees.read(Path(__file__).parent / "sheet_model.npz", FEATURES)
+    return BoostedTrees.read(files(__package__) / "sheet_model.npz", FEATURES)

@@ -65,9 +65,9 @@ def test_faces_that_are_there_twice_are_one_place(figure):
 
 
 def test_labels_of_another_surface_are_refused(figure):
-    """An IndexError, or, of labels below 0, the wrong part."""
+    """An IndexError, a lack of memory for labels such as colors or, of labels below 0, the wrong part."""
     _, labels, samples = figure
-    for wrong in (labels[:-1], labels - 1, labels + 0.5, labels[None]):
+    for wrong in (labels[:-1], labels - 1, labels + 0.5, labels[None], labels + 0xFF0000):
         for pair in ((wrong, labels), (labels, wrong)):
             with pytest.raises(ParameterError, match=f"Labels must be {len(labels)} whole numbers from 0"):
                 carried_labels(samples, pair[0], samples, pair[1])
@@ -95,7 +95,8 @@ def test_pieces_and_polygons_and_flat_faces_are_no_trouble():
     two = shapes.two_spheres()
     samples = sample_surface(*two)
     left = (two.vertices[two.faces].mean(axis=1)[:, 0] > two.vertices[:, 0].mean()).astype(int)
-    label, _ = carried_labels(samples, left, samples, left)
+    with np.errstate(all="raise"):  # as callers may have it: what nearly nothing goes to underflows
+        label, _ = carried_labels(samples, left, samples, left)
     assert label.tolist() == [0, 1]
     flat = shapes.with_flat_faces(shapes.icosphere(2))
     samples = sample_surface(*flat)
