@@ -60,14 +60,21 @@ def element_values(mesh: bpy.types.Mesh, items: str, key: str) -> np.ndarray:
 
 
 def set_element_values(mesh: bpy.types.Mesh, items: str, key: str, values: np.ndarray) -> None:
-    """Set what ``element_values`` gives, (k,)."""
+    """Set what ``element_values`` gives, (k,).
+
+    Where an attribute of that name is somebody's own, nothing is set; Blender 5.0 would crash, which makes such ones
+    of edges itself.
+    """
     elements, values = getattr(mesh, items), np.ascontiguousarray(values, _kind(key))
-    if bpy.app.version >= (5, 0) and len(values):
-        setattr(elements[0], key, values[0].item())  # which makes the attribute where there is none
+    if bpy.app.version < (5, 0):
+        elements.foreach_set(key, values)
+    elif len(values):
+        name = _KEPT_IN[items, key]
+        if name not in mesh.attributes:
+            mesh.attributes.new(name, *_type_and_domain(items, key))
         attribute = _kept_in(mesh, items, key)
         if attribute is not None:
-            elements, key = attribute.data, "value"
-    elements.foreach_set(key, values)
+            attribute.data.foreach_set("value", values)
 
 
 def _kept_in(mesh: bpy.types.Mesh, items: str, key: str) -> bpy.types.Attribute | None:
@@ -76,10 +83,13 @@ def _kept_in(mesh: bpy.types.Mesh, items: str, key: str) -> bpy.types.Attribute 
     One of that name on other elements, or of another type, is somebody's own, and Blender does not look at it.
     """
     attribute = mesh.attributes.get(_KEPT_IN[items, key]) if len(getattr(mesh, items)) else None
-    kind = "INT" if key == "material_index" else "BOOLEAN"
-    if attribute is None or (attribute.domain, attribute.data_type) != (_DOMAINS[items], kind):
+    if attribute is None or (attribute.data_type, attribute.domain) != _type_and_domain(items, key):
         return None
     return attribute
+
+
+def _type_and_domain(items: str, key: str) -> tuple[str, str]:
+    return "INT" if key == "material_index" else "BOOLEAN", _DOMAINS[items]
 
 
 def _kind(key: str) -> DTypeLike:

@@ -180,8 +180,8 @@ def _unwrapped(context: bpy.types.Context, table: CornerTable, seams: np.ndarray
         seam = np.zeros(len(mesh.edges), bool)
         seam[mesh_arrays.corner_edges(mesh)] = seams[table.corner_edge]
         mesh_arrays.set_element_values(mesh, "edges", "use_seam", seam)
-        for items in (mesh.vertices, mesh.edges, mesh.polygons):
-            items.foreach_set("select", np.ones(len(items), bool))
+        for items in ("vertices", "edges", "polygons"):
+            mesh_arrays.set_element_values(mesh, items, "select", np.ones(len(getattr(mesh, items)), bool))
         mesh.polygons.foreach_set("hide", _left_out(table, image))
         mesh.uv_layers.new(name=UV_MAP)
         context.scene.collection.objects.link(twin)
