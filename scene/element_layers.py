@@ -23,6 +23,9 @@ SPECIAL = KEY, WEIGHTS, SKIN, FREESTYLE = "shape key", "weights", "skin", "Frees
 # Of attributes, the beginnings of names that say what is selected, hidden or pinned, which is no work.
 PASSING = (".select_", ".hide_", ".uv_select", ".vs.", ".es.", ".pn.")
 _TOPOLOGY = {".edge_verts", ".corner_vert", ".corner_edge"}
+# Attributes that are read in other ways.
+_OTHERWISE = _TOPOLOGY if bpy.app.version < (5, 3, 0) else {
+    *_TOPOLOGY, "skin_modifier_radius", "skin_modifier_root", "skin_modifier_loose"}
 _ITEMS = {POINT: "vertices", EDGE: "edges", FACE: "polygons", CORNER: "loops"}
 _WEIGHT = np.dtype([("group", np.int32), ("weight", np.float32)])
 _SKIN = (("radius", np.float32, 2), ("use_root", bool, 1), ("use_loose", bool, 1))
@@ -31,7 +34,7 @@ _SKIN = (("radius", np.float32, 2), ("use_root", bool, 1), ("use_loose", bool, 1
 def read(mesh: bpy.types.Mesh, n_groups: int | None = None) -> Elements:
     """The elements of a mesh in Object Mode, with all that they carry. n_groups : of vertex groups, where known."""
     layers = {a.name: Layer(a.data_type, a.domain, mesh_arrays.attribute_values(a))
-              for a in mesh.attributes if a.name not in _TOPOLOGY}
+              for a in mesh.attributes if a.name not in _OTHERWISE}
     for index, key in enumerate(mesh.shape_keys.key_blocks if mesh.shape_keys else ()):
         layers[f"\0{KEY} {index}"] = Layer(KEY, POINT, mesh_arrays.read(key.data, "co", np.float32, 3))
     for layer in mesh.skin_vertices:
@@ -78,7 +81,7 @@ def made(elements: Elements, like: bpy.types.Mesh) -> bpy.types.Mesh:
         mesh.polygons.foreach_set("loop_start", np.cumsum(elements.count, dtype=np.int32) - elements.count)
         mesh.attributes[".corner_vert"].data.foreach_set("value", elements.corner_vertex)
         mesh.attributes[".corner_edge"].data.foreach_set("value", elements.corner_edge)
-    for attribute in [a.name for a in mesh.attributes if a.name not in {*_TOPOLOGY, *elements.layers}]:
+    for attribute in [a.name for a in mesh.attributes if a.name not in {*_OTHERWISE, *elements.layers}]:
         mesh.attributes.remove(mesh.attributes[attribute])
     _set_layers(mesh, elements)
     mesh_arrays.set_active(mesh, like)

@@ -37,7 +37,7 @@ _ITEMS = {"targets", "curves", "points"}  # what there are several of, deeper in
 _NAMED = bpy.types.ID, bpy.types.Bone, bpy.types.PoseBone, bpy.types.BoneCollection  # told by name where pointed at
 _DEEPEST = 5
 
-# Settings whose default is another in some Blenders from 4.2 to 5.2, or wrong there, or that some lack, with what they
+# Settings whose default is another in some Blenders from 4.2 to 5.3, or wrong there, or that some lack, with what they
 # are from the start. One of these names that means something else elsewhere is told there in every Blender alike.
 _ON = {
     "visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission", "visible_volume_scatter",
@@ -53,6 +53,23 @@ _FROM_THE_START: dict[str, Any] = dict.fromkeys(_ON, 1) | {
     "data_types_loops": [], "data_types_polys": [], "rotation_range": "NX", "up_axis": "UP_Y",
     "display_type": "ARMATURE_DEFINED", "edge_weight": "bevel_weight_edge", "vertex_weight": "bevel_weight_vert",
     "read_data": ["ATTRIBUTES", "COLOR", "POLY", "UV", "VERT"],
+}  # fmt: skip
+# Blender 5.3 tells the true defaults of constraints and bones. What all Blenders before it told, most of it nothing, is
+# what counts, also for names that mean something else elsewhere.
+_NOTHING = {
+    "bbone_x", "bbone_z", "bulge", "bulge_max", "bulge_min", "influence", "orient_weight",
+    *(f"ik_{bound}_{axis}" for bound in ("min", "max") for axis in "xyz"),
+    *(f"{side}_{bound}_{axis}_scale" for side in ("from", "to") for bound in ("min", "max") for axis in "xyz"),
+    "use_active_clip", "use_location", "use_original_scale", "use_stretch", "use_tail",
+    "KinematicConstraint.weight", "KinematicConstraint.iterations", "MaintainVolumeConstraint.volume",
+    *(f"Copy{what}Constraint.use_{axis}" for what in ("Location", "Rotation", "Scale") for axis in "xyz"),
+}  # fmt: skip
+_FROM_THE_START |= dict.fromkeys(_NOTHING, 0) | {
+    "transform_channel": "ROTATION_X", "floor_location": "FLOOR_X", "lock_axis": "LOCK_X", "free_axis": "SAMEVOL_X",
+    "project_axis": "POS_X", "project_axis_space": "WORLD", "y_scale_mode": "NONE", "keep_axis": "PLANE_X",
+    "map_to_y_from": "X", "map_to_z_from": "X", "Object.track_axis": "POS_X", "TrackToConstraint.track_axis": "TRACK_X",
+    "DampedTrackConstraint.track_axis": "TRACK_X", "LockedTrackConstraint.track_axis": "TRACK_X",
+    "FollowPathConstraint.forward_axis": "FORWARD_X",
 }  # fmt: skip
 
 
@@ -91,7 +108,7 @@ def _told(struct: bpy.types.bpy_struct, path: str, moving: set[str], depth: int 
                 found.append((name, told))
         elif not prop.is_readonly:
             value = _plain(_value(struct, name))
-            if value != _default(prop):
+            if value != _default(struct, prop):
                 found.append((name, value))
     return [*found, *_custom(struct)]
 
@@ -140,10 +157,11 @@ def _plain(value: Any) -> Any:
     return [number for row in value for number in (row if hasattr(row, "__iter__") else [row])]
 
 
-def _default(prop: bpy.types.Property) -> Any:
+def _default(struct: bpy.types.bpy_struct, prop: bpy.types.Property) -> Any:
     """The default of a property, in such types: the same in every Blender, since files go from one to the other."""
-    if prop.identifier in _FROM_THE_START:
-        return _FROM_THE_START[prop.identifier]
+    for name in (prop.identifier, f"{struct.bl_rna.identifier}.{prop.identifier}"):
+        if name in _FROM_THE_START:
+            return _FROM_THE_START[name]
     if getattr(prop, "is_array", False):
         return list(prop.default_array)
     return sorted(prop.default_flag) if getattr(prop, "is_enum_flag", False) else prop.default

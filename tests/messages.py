@@ -42,7 +42,7 @@ def registered_messages(package) -> set:
             found |= {(rna.translation_context, rna.name), ("*", rna.description)}
         elif issubclass(cls, (bpy.types.Panel, bpy.types.Menu)):
             found |= {(rna.translation_context, cls.bl_label), ("*", getattr(cls, "bl_category", ""))}
-        for prop in _own_properties(rna):
+        for prop in _own_properties(cls, rna):
             found |= _property_messages(prop)
     return {(context, text) for context, text in found if text}
 
@@ -54,11 +54,13 @@ def _classes(package) -> list:
             if cls.__module__.startswith(package) and cls.is_registered]
 
 
-def _own_properties(rna) -> list:
+def _own_properties(cls, rna) -> list:
     """Properties that are not those of every class of this sort."""
     common = {prop.identifier: prop.description for prop in rna.base.properties} if rna.base else {}
-    return [prop for prop in rna.properties
-            if prop.identifier != "rna_type" and common.get(prop.identifier) != prop.description]
+    # Blender 5.3 describes the name of every group in two ways.
+    return [prop for prop in rna.properties if prop.identifier != "rna_type"
+            and common.get(prop.identifier) != prop.description
+            and not prop.description.startswith("Unique name used in the code and scripting")]
 
 
 def _property_messages(prop) -> set:

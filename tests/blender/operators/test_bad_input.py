@@ -159,7 +159,9 @@ def test_overridden_data(obj, tmp_path):
     bpy.ops.wm.read_homefile(use_empty=True)
     with bpy.data.libraries.load(path, link=True) as (_, to):
         to.objects = ["Tree"]
-    override = bpy.data.objects["Tree"].override_create()
+    (linked,) = to.objects
+    bpy.context.scene.collection.objects.link(linked)
+    override = linked.override_create()
     bpy.context.scene.collection.objects.link(override)
     bpy.context.view_layer.objects.active = override
     refused("override")
