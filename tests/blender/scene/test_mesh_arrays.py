@@ -24,3 +24,17 @@ def test_quads_and_larger_faces_are_divided_as_blender_divides_them(package, fla
     triangles, face = module.triangles(mesh)
     assert np.array_equal(triangles, read(mesh.loop_triangles, "vertices", np.int32, 3))
     assert np.array_equal(face, read(mesh.loop_triangles, "polygon_index", np.int32))
+
+
+def test_an_attribute_that_only_has_the_name_of_a_setting_is_left_alone(package):
+    module = importlib.import_module(f"{package}.scene.mesh_arrays")
+    mesh = bpy.data.meshes.new("Face")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    mine = mesh.attributes.new("material_index", "FLOAT", "POINT")
+    if mine is None:  # Blender 4 makes none
+        assert bpy.app.version < (5, 0)
+        return
+    mine.data.foreach_set("value", np.array([0.25, 0.5, 0.75], np.float32))
+    module.set_element_values(mesh, "polygons", "material_index", np.array([1]))
+    assert module.element_values(mesh, "polygons", "material_index").tolist() == [0]
+    assert read(mesh.attributes["material_index"].data, "value").tolist() == [0.25, 0.5, 0.75]
