@@ -25,14 +25,17 @@ _VALUES = {  # of an attribute: the name of its values, their type, how many
     "QUATERNION": ("value", np.float32, 4), "FLOAT4X4": ("value", np.float32, 16),
 }  # fmt: skip
 
-_KEPT_IN = {  # the attribute of a property of elements, in Blender 5
-    ("polygons", "hide"): ".hide_poly", ("polygons", "select"): ".select_poly",
-    ("polygons", "material_index"): "material_index",
-    ("edges", "hide"): ".hide_edge", ("edges", "select"): ".select_edge", ("edges", "use_seam"): "uv_seam",
-    ("edges", "use_edge_sharp"): "sharp_edge",
-    ("vertices", "hide"): ".hide_vert", ("vertices", "select"): ".select_vert",
+_KEPT_IN = {  # where Blender 5 keeps a property of elements: name, type and domain of the attribute
+    ("polygons", "hide"): (".hide_poly", "BOOLEAN", "FACE"),
+    ("polygons", "select"): (".select_poly", "BOOLEAN", "FACE"),
+    ("polygons", "material_index"): ("material_index", "INT", "FACE"),
+    ("edges", "hide"): (".hide_edge", "BOOLEAN", "EDGE"),
+    ("edges", "select"): (".select_edge", "BOOLEAN", "EDGE"),
+    ("edges", "use_seam"): ("uv_seam", "BOOLEAN", "EDGE"),
+    ("edges", "use_edge_sharp"): ("sharp_edge", "BOOLEAN", "EDGE"),
+    ("vertices", "hide"): (".hide_vert", "BOOLEAN", "POINT"),
+    ("vertices", "select"): (".select_vert", "BOOLEAN", "POINT"),
 }  # fmt: skip
-_DOMAINS = {"polygons": "FACE", "edges": "EDGE", "vertices": "POINT"}
 
 _face_corners: dict[tuple, tuple[np.ndarray, np.ndarray]] = {}
 _joined_faces: dict[tuple, CornerTable | None] = {}  # None where nothing has to be joined
@@ -52,11 +55,11 @@ def element_values(mesh: bpy.types.Mesh, items: str, key: str) -> np.ndarray:
     items, key : of _KEPT_IN. From the elements themselves, Blender 5 looks for the attribute anew at each of them, past
     all vertex groups: that takes a hundred times as long where there are hundreds, of parts or of bones.
     """
-    elements, kind = getattr(mesh, items), _kind(key)
+    elements, kind = getattr(mesh, items), _VALUES[_KEPT_IN[items, key][1]][1]
     if bpy.app.version < (5, 0):
         return read(elements, key, kind)
     attribute = _kept_in(mesh, items, key)
-    return np.zeros(len(elements), kind) if attribute is None else read(attribute.data, "value", kind)
+    return np.zeros(len(elements), kind) if attribute is None else attribute_values(attribute)
 
 
 def set_element_values(mesh: bpy.types.Mesh, items: str, key: str, values: np.ndarray) -> None:
@@ -65,16 +68,16 @@ def set_element_values(mesh: bpy.types.Mesh, items: str, key: str, values: np.nd
     Where an attribute of that name is somebody's own, nothing is set; Blender 5.0 would crash, which makes such ones
     of edges itself.
     """
-    elements, values = getattr(mesh, items), np.ascontiguousarray(values, _kind(key))
+    name, kind, domain = _KEPT_IN[items, key]
+    values = np.ascontiguousarray(values, _VALUES[kind][1])
     if bpy.app.version < (5, 0):
-        elements.foreach_set(key, values)
+        getattr(mesh, items).foreach_set(key, values)
     elif len(values):
-        name = _KEPT_IN[items, key]
         if name not in mesh.attributes:
-            mesh.attributes.new(name, *_type_and_domain(items, key))
+            mesh.attributes.new(name, kind, domain)
         attribute = _kept_in(mesh, items, key)
         if attribute is not None:
-            attribute.data.foreach_set("value", values)
+            set_attribute_values(attribute, values)
 
 
 def _kept_in(mesh: bpy.types.Mesh, items: str, key: str) -> bpy.types.Attribute | None:
@@ -82,18 +85,9 @@ def _kept_in(mesh: bpy.types.Mesh, items: str, key: str) -> bpy.types.Attribute 
 
     One of that name on other elements, or of another type, is somebody's own, and Blender does not look at it.
     """
-    attribute = mesh.attributes.get(_KEPT_IN[items, key]) if len(getattr(mesh, items)) else None
-    if attribute is None or (attribute.data_type, attribute.domain) != _type_and_domain(items, key):
-        return None
-    return attribute
-
-
-def _type_and_domain(items: str, key: str) -> tuple[str, str]:
-    return "INT" if key == "material_index" else "BOOLEAN", _DOMAINS[items]
-
-
-def _kind(key: str) -> DTypeLike:
-    return np.int32 if key == "material_index" else bool
+    name, kind, domain = _KEPT_IN[items, key]
+    attribute = mesh.attributes.get(name) if len(getattr(mesh, items)) else None
+    return attribute if attribute and (attribute.data_type, attribute.domain) == (kind, domain) else None
 
 
 def attribute_values(attribute: bpy.types.Attribute) -> np.ndarray:

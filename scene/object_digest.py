@@ -97,7 +97,7 @@ def is_digest(text: object) -> bool:
 
 def _told(struct: bpy.types.bpy_struct, path: str, moving: set[str], depth: int = 0) -> list[tuple[str, Any]]:
     """Names and values of what differs from its default. path : of the struct, as in animations."""
-    found = []
+    found, kind = [], struct.bl_rna.identifier
     for prop in struct.bl_rna.properties:
         name = prop.identifier
         if name in _PASSING or path + name in moving:
@@ -108,7 +108,7 @@ def _told(struct: bpy.types.bpy_struct, path: str, moving: set[str], depth: int 
                 found.append((name, told))
         elif not prop.is_readonly:
             value = _plain(_value(struct, name))
-            if value != _default(struct, prop):
+            if value != _default(kind, prop):
                 found.append((name, value))
     return [*found, *_custom(struct)]
 
@@ -157,9 +157,12 @@ def _plain(value: Any) -> Any:
     return [number for row in value for number in (row if hasattr(row, "__iter__") else [row])]
 
 
-def _default(struct: bpy.types.bpy_struct, prop: bpy.types.Property) -> Any:
-    """The default of a property, in such types: the same in every Blender, since files go from one to the other."""
-    for name in (prop.identifier, f"{struct.bl_rna.identifier}.{prop.identifier}"):
+def _default(kind: str, prop: bpy.types.Property) -> Any:
+    """The default of a property, in such types: the same in every Blender, since files go from one to the other.
+
+    kind : which struct has it, as ``Object``.
+    """
+    for name in (prop.identifier, f"{kind}.{prop.identifier}"):
         if name in _FROM_THE_START:
             return _FROM_THE_START[name]
     if getattr(prop, "is_array", False):

@@ -182,7 +182,7 @@ def _unwrapped(context: bpy.types.Context, table: CornerTable, seams: np.ndarray
         mesh_arrays.set_element_values(mesh, "edges", "use_seam", seam)
         for items in ("vertices", "edges", "polygons"):
             mesh_arrays.set_element_values(mesh, items, "select", np.ones(len(getattr(mesh, items)), bool))
-        mesh.polygons.foreach_set("hide", _left_out(table, image))
+        mesh_arrays.set_element_values(mesh, "polygons", "hide", _left_out(table, image))
         mesh.uv_layers.new(name=UV_MAP)
         context.scene.collection.objects.link(twin)
         with nothing_selected(context.view_layer):

@@ -21,7 +21,7 @@ def drive():
     """Runs a driver; what it has seen after each step."""
 
     def run(driver, folder, size="1280x800", seconds=180, smooth=False) -> dict:
-        # smooth : drawn as a person sees it, for pictures; four times as long.
+        # smooth : drawn as a person sees it, for pictures; takes twice as long.
         out = OUT / folder
         shutil.rmtree(out, ignore_errors=True)
         out.mkdir(parents=True)
