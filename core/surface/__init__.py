@@ -22,6 +22,7 @@ The working copy, and what is measured on it:
 - ``contact``: where the pieces of a surface touch
 - ``reach``: triangles that rays and other triangles can meet
 - ``coarsening``: coarser copies of a dense mesh
+- ``denoising``: the noise of a surface, as of a scan, and the surface without it
 - ``curvature``: how a surface bends
 - ``balls``: the largest balls that touch a surface from one side
 - ``sheets``: flat pieces, under which there is no solid, inflated

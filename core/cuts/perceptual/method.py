@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
@@ -16,6 +16,7 @@ from ...graph.level_sets import LevelSets, cut_at_levels
 from ...parameters import Parameters
 from ...surface.coarsening import Coarsening, Pyramid, coarsen
 from ...surface.curvature import MAX_CURVATURE
+from ...surface.denoising import denoised
 from ...surface.labels import FaceGraph, connect, fill_unlabeled, majority
 from ...surface.mesh import TriMesh
 from ...surface.sheets import Inflated, inflated, sheet_faces
@@ -114,8 +115,15 @@ def _merge(
     return Hierarchy.of(label.max() + 1, merges, salience_of(share, share_at_half)), curvature
 
 
+def _without_noise(sets: LevelSets) -> LevelSets:
+    """The same level sets of a surface without its noise; what is measured of both is that surface's."""
+    mesh = denoised(sets.mesh)
+    return sets if mesh is sets.mesh else replace(sets, mesh=mesh)
+
+
 def _cut_at_levels(sets: LevelSets, field: ScalarField, judges: Judges) -> tuple[np.ndarray, Hierarchy]:
     """Candidate of each face, (m,) int64, with cuts on level sets, and the hierarchy over the candidates."""
+    sets = _without_noise(sets)
     label = level_set_patches(sets)
     solid = inflate(sets, field)
     if solid is None:
@@ -130,6 +138,7 @@ def _cut_in_creases(
 
     Sheets, which have no creases, are cut as if they were inflated.
     """
+    sets = _without_noise(sets)
     solid = inflate(sets, field)
     if solid is None:
         return _cut_solid(sets, field, band_ratio, judges.solid, SHARE_AT_HALF, progress)
