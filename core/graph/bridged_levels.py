@@ -157,7 +157,7 @@ def _forest(cells: np.ndarray, weight: np.ndarray) -> np.ndarray:
 
     # Distinct ranks, so that the tree does not depend on how ties are broken.
     rank = np.empty(len(cells))
-    rank[np.lexsort((np.arange(len(cells)), -weight))] = np.arange(1, len(cells) + 1)
+    rank[np.argsort(-weight, kind="stable")] = np.arange(1, len(cells) + 1)
     n_parts = int(cells.max(initial=-1)) + 1
     tree = minimum_spanning_tree(
         coo_array((rank, tuple(cells.T.astype(np.int32))), shape=(n_parts, n_parts)).tocsr())

@@ -243,7 +243,7 @@ def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
     touching, length = graph.boundaries(part)
     # From here on components move as a whole, and there are few of them.
     while True:
-        order = np.lexsort((np.arange(len(name)), -area, name))
+        order = np.lexsort((-area, name))
         largest = np.append(True, name[order][1:] != name[order][:-1])
         stray = np.ones(len(name), bool)
         stray[order[largest]] = False
@@ -313,7 +313,7 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int, loss: Loss | No
             gain[willing] -= loss(faces[willing], label[willing], best[willing])
         gain[gain <= least] = 0.0
         # Of two neighbors that both gain, the one that gains more changes; of equal ones that of the higher index.
-        rank = inverse(np.lexsort((np.arange(len(label)), gain)))
+        rank = inverse(np.argsort(gain, kind="stable"))
         beaten = np.zeros(len(label), bool)
         beaten[a[(gain[b] > 0) & (rank[b] > rank[a])]] = True
         flip = (gain > 0) & ~beaten
