@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..surface.labels import FaceGraph
+from ..surface.labels import FaceGraph, vote_weights
 from ..surface.ties import rounded
 from .hierarchy import LAST, Hierarchy
 from .symmetric_cells import Cells
@@ -108,7 +108,7 @@ class _Clusters:
 
     def __init__(self, cells: Cells, touching: np.ndarray, mean: np.ndarray) -> None:
         every = range(len(cells.area))
-        self.area, self.image = (cells.area + 1e-12 * cells.area.sum()).tolist(), cells.image.tolist()
+        self.area, self.image = vote_weights(cells.area).tolist(), cells.image.tolist()
         self.mean, self.of = mean.copy(), np.arange(len(cells.area))
         self.touching = [set(np.flatnonzero(row).tolist()) - {k} for k, row in enumerate(touching)]
         self.subgroups, self.composition = _Subgroups(cells.group), cells.group.composition.tolist()

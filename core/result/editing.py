@@ -16,7 +16,7 @@ from ..cuts.hierarchy import Dendrogram, Hierarchy
 from ..graph.critical import SADDLE
 from ..surface.components import components
 from ..surface.corners import CornerTable
-from ..surface.labels import FaceGraph, label_boundaries, majority, spread
+from ..surface.labels import FaceGraph, label_boundaries, majority, spread, vote_weights
 from ..surface.pairs import both_ways, symmetric_matrix
 from .contour_cut import contours
 from .decomposition import Decomposition
@@ -397,8 +397,7 @@ def _vertex_halves(
     former = decomposition.vertex_candidates
     votes = decomposition.candidates[face] == former[vertex]
     vertex, face = vertex[votes], face[votes]
-    # Faces without an area vote as well, after all others.
-    winner = majority(vertex, candidates[face], area[face] + 1e-12 * area.sum(), len(former))
+    winner = majority(vertex, candidates[face], vote_weights(area)[face], len(former))
     return np.where(winner >= 0, winner, former)
 
 

@@ -18,6 +18,11 @@ from .pairs import both_ways, distinct_pairs
 Loss = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 
 
+def vote_weights(area: np.ndarray) -> np.ndarray:
+    """Weights of votes by area, (n,) float64: what has none votes after all others. area : (n,) float64."""
+    return area + LEAST_WEIGHT * area.sum()
+
+
 def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners: int) -> np.ndarray:
     """Let weighted votes decide which label each owner gets.
 
@@ -172,7 +177,7 @@ class FaceGraph:
     @cached_property
     def weight(self) -> np.ndarray:
         """(n_faces,) float64, weight of the vote of each face: its area; faces without one vote after all others."""
-        return self.area + LEAST_WEIGHT * self.area.sum()
+        return vote_weights(self.area)
 
     def regions(self, label: np.ndarray) -> tuple[int, np.ndarray]:
         """How many connected regions of one label there are, and which each face is in, (n_faces,) int64."""
