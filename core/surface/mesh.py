@@ -47,6 +47,14 @@ def check_corners(triangles: np.ndarray, n_vertices: int, polygon: np.ndarray | 
     )
 
 
+def next_side(side: np.ndarray) -> np.ndarray:
+    """The side that follows each one in its face; sides, and the corners where they begin, are 3 times the face + 0..2.
+
+    side : int64 of any shape. Returns int64 of this shape.
+    """
+    return side - side % 3 + (side + 1) % 3
+
+
 @dataclass(frozen=True, eq=False)
 class TriMesh:
     """A triangle mesh, checked when it is made and never changed; tables are computed when first asked for.
@@ -318,3 +326,13 @@ class EdgeTable:
             pair_edge=frozen(edge_sorted[1:][together][distinct], np.int64),
             pair_sides=frozen(taken(sides, distinct), np.int64),
         )
+
+    def opposite_sides(self, chosen: np.ndarray) -> np.ndarray:
+        """The side of the other face of a pair at each side of a face, (3 m,) int64; -1 at sides of no chosen pair.
+
+        chosen : (p,) bool, pairs at edges of two faces.
+        """
+        opposite = np.full(self.face_edges.size, -1)
+        first, second = self.pair_sides[chosen].T
+        opposite[first], opposite[second] = second, first
+        return opposite
