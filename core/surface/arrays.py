@@ -18,6 +18,8 @@ _Given = ParamSpec("_Given")
 _Result = TypeVar("_Result")
 
 _MIX = 0x9E3779B97F4A7C1, 0x2545F4914F6CDD1D, 0x5851F42D4C957F2D  # odd factors that mix the bits of three coordinates
+#: 2**64 over the golden ratio, made odd: products with it wrap around, and differ in all bits where numbers differ.
+GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
 def underflow_is_zero(function: Callable[_Given, _Result]) -> Callable[_Given, _Result]:

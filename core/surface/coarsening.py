@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import first_of_rows, inverse, stable_order, sums_by, taken
+from .arrays import GOLDEN, first_of_rows, inverse, stable_order, sums_by, taken
 from .mesh import TriMesh
 from .ordering import rank_by_place
 from .pairs import both_ways
@@ -23,7 +23,6 @@ SLIM = 3.0  # ratio of two lengths of links from which on cells grow along the s
 MOST_RISE = 4.0  # upper bound of what a value rises within a cell, in units of its largest rise to a neighbor
 MOST_LEFT = 0.9  # share of the vertices above which a coarse copy has too many; about 0.25 of them are usual
 SMOOTHING_STEPS = 3  # rounds in which ``prolong`` averages neighbors, to close the seams between cells
-_MIX = np.uint64(0x9E3779B97F4A7C15)  # 2**64 over the golden ratio, made odd: the multiplier of the hash splitmix64
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,9 +226,10 @@ def _near(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray,
 
 def _priority(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """The whole numbers below n, (n,) int64, in an order that looks random: that of a hash of each point's rank."""
-    mixed = (rank_by_place(points, weight).astype(np.uint64) + np.uint64(1)) * _MIX
+    # After the hash splitmix64, with one factor for all of its steps.
+    mixed = (rank_by_place(points, weight).astype(np.uint64) + np.uint64(1)) * GOLDEN
     for shift in (30, 27, 31):
-        mixed = (mixed ^ (mixed >> np.uint64(shift))) * _MIX
+        mixed = (mixed ^ (mixed >> np.uint64(shift))) * GOLDEN
     return inverse(np.argsort(mixed, kind="stable"))
 
 
