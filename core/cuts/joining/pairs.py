@@ -145,8 +145,7 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: Salience, agd: np.nda
         **{f"small_{n}": shape[n][small] for n in PART}, **{f"large_{n}": shape[n][large] for n in PART},
     }
     features = np.stack([columns[n] for n in FEATURES], axis=1).astype(float)
-    shapes = PartShapes(shape["piece"], area, np.exp(shape["log_piece_area"]), shape["center"], shape["extents"],
-                        shape["agd"])
+    shapes = PartShapes(shape["piece"], area, shape["piece_area"], shape["center"], shape["extents"], shape["agd"])
     return PartPairs(near.parts, features, same, cut, gap, points.face[nearest], shapes)
 
 
@@ -293,14 +292,14 @@ def _part_shapes(
     alike = cKDTree(logs[some]).query_ball_point(logs, np.nextafter(ALIKE, 0), p=np.inf, return_length=True) - some
     part_piece = np.zeros(count, np.int64)
     part_piece[label] = mesh.face_components[1]
-    piece_area = np.bincount(part_piece, area)
+    piece_area = np.bincount(part_piece, area)[part_piece]
     touched = np.bincount(mine, weight * touching, count) / area
     return {
-        "piece": part_piece, "center": center, "axes": axes[:, :, ::-1], "extents": extents, "log_area": np.log(area),
-        "space": np.cumsum(np.insert(~equal, 0, False, axis=1), axis=1),
+        "piece": part_piece, "piece_area": piece_area, "center": center, "axes": axes[:, :, ::-1], "extents": extents,
+        "space": np.cumsum(np.insert(~equal, 0, False, axis=1), axis=1), "log_area": np.log(area),
         "extent_1": extents[:, 0] / np.sqrt(area), "extent_2": extents[:, 1] / np.maximum(extents[:, 0], 1e-6),
         "extent_3": extents[:, 2] / np.maximum(extents[:, 0], 1e-6), "repeats": alike.astype(float), "agd": mean,
-        "agd_deviation": deviation, "touched": touched, "log_piece_area": np.log(piece_area[part_piece]),
+        "agd_deviation": deviation, "touched": touched, "log_piece_area": np.log(piece_area),
         "parts_of_piece": np.bincount(part_piece)[part_piece].astype(float),
         "flatness": extents[:, 2] / np.sqrt(area),
     }
