@@ -244,8 +244,8 @@ def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.nda
     width = np.full(given.n_polygons, np.inf)
     before = np.bincount(given.polygon, minlength=given.n_polygons)
     for r in results:
-        triangles = np.bincount(r.component.polygon, minlength=given.n_polygons)
-        width[triangles > before] = WIDTH * np.sqrt(r.component.mesh.area)
+        polygon, triangles = np.unique(r.component.polygon, return_counts=True)
+        width[polygon[triangles > before[polygon]]] = WIDTH * np.sqrt(r.component.mesh.area)
     return width
 
 

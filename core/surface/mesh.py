@@ -309,8 +309,9 @@ class EdgeTable:
         order = stable_order(key)
         key = key[order]
         together = key[1:] == key[:-1]
-        first_of_edge = np.flatnonzero(np.append(True, ~together)[: len(key)])
-        edge_sorted = np.cumsum(np.append(True, ~together)[: len(key)]) - 1
+        begins = np.append(True, ~together)[: len(key)]
+        first_of_edge = np.flatnonzero(begins)
+        edge_sorted = np.cumsum(begins) - 1
         edge = np.empty(len(key), np.int64)
         edge[order] = edge_sorted
         unique = key[first_of_edge]
