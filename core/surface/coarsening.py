@@ -153,6 +153,16 @@ class Pyramid:
             mesh = chosen[-1].mesh
         return chosen
 
+    def after(self, steps: list[Coarsening]) -> tuple[TriMesh, np.ndarray, np.ndarray | None]:
+        """The mesh that some steps lead to, as paths are searched on it.
+
+        steps : as ``until`` returns them. Returns the mesh, the area that each vertex stands for, (n,) float64, and
+        pairs of vertices between which distances run besides its edges, (l, 2) int64 or None.
+        """
+        if not steps:
+            return self.mesh, self.mesh.vertex_area, self.bridges
+        return steps[-1].mesh, steps[-1].area, steps[-1].links
+
 
 def prolong(mesh: TriMesh, coarsening: Coarsening, values: np.ndarray) -> np.ndarray:
     """Bring a smooth field from the coarse vertices to the fine ones.
