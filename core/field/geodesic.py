@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from ..errors import DisconnectedMeshError
 from ..sentence import Sentence
-from ..surface.arrays import stable_order, taken
+from ..surface.arrays import run_starts, stable_order, taken
 from ..surface.mesh import ON_A_LINE, TriMesh
 from ..surface.pairs import symmetric_matrix
 from ..surface.vectors import lengths, row_products
@@ -85,7 +85,7 @@ def _shortest_of(rows: np.ndarray, columns: np.ndarray, length: np.ndarray, n: i
     key = np.minimum(rows, columns) * n + np.maximum(rows, columns)
     order = stable_order(key)
     key = key[order]
-    first = np.flatnonzero(np.append(True, key[1:] != key[:-1])[: len(key)])
+    first = run_starts(key)
     low, high = np.divmod(key[first], n)
     apart = low != high
     shortest = np.minimum.reduceat(length[order], first)

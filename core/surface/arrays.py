@@ -108,6 +108,18 @@ def _packed_order(keys: np.ndarray, width: int) -> np.ndarray:
     return order
 
 
+def begins_run(values: np.ndarray) -> np.ndarray:
+    """Whether each of some values, (n,), is another than the one before, (n,) bool; true for the first."""
+    begins = np.ones(len(values), bool)
+    np.not_equal(values[1:], values[:-1], out=begins[1:])
+    return begins
+
+
+def run_starts(values: np.ndarray) -> np.ndarray:
+    """Where runs of equal values, (n,), begin: (r,) int64, rising, from 0."""
+    return np.flatnonzero(begins_run(values))
+
+
 def inverse(order: np.ndarray) -> np.ndarray:
     """Place of each element in an order, (n,) int64. order : (n,) int64, the element at each place."""
     place = np.empty(len(order), np.int64)
@@ -256,7 +268,7 @@ def renumbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return _few_names(flat, least, most - least + 1, np.shape(labels))
     order = stable_order(flat)
     values = flat[order]
-    new = np.append(True, values[1:] != values[:-1])[: len(values)]
+    new = begins_run(values)
     index = np.empty(len(flat), np.int64)
     index[order] = np.cumsum(new) - 1
     return values[new], index.reshape(np.shape(labels))
@@ -292,8 +304,7 @@ def first_of_rows(rows: np.ndarray, width: int) -> np.ndarray:
         keys = keys * width + column
         size *= width
     order = stable_order(keys)
-    keys = keys[order]
-    return order[np.append(True, keys[1:] != keys[:-1])[: len(keys)]]
+    return order[begins_run(keys[order])]
 
 
 def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import GOLDEN, first_of_rows, inverse, stable_order, sums_by, taken
+from .arrays import GOLDEN, first_of_rows, inverse, run_starts, stable_order, sums_by, taken
 from .mesh import TriMesh
 from .ordering import rank_by_place
 from .pairs import both_ways
@@ -89,7 +89,7 @@ def coarsen(
     near = np.flatnonzero(seed[b] & ~seed[a])
     a, b = a[near], b[near]
     length = lengths(taken(mesh.vertices, a) - taken(mesh.vertices, b))
-    start = np.flatnonzero(np.append(True, a[1:] != a[:-1])[: len(a)])
+    start = run_starts(a)
     least = np.minimum.reduceat(length, start) if len(start) else length
     nearest = np.flatnonzero(length <= np.repeat((1 + TIE) * least, np.diff(np.append(start, len(a)))))[::-1]
     owner[a[nearest]] = name[b[nearest]]  # NumPy keeps what is written last: the first of those equally near

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import GOLDEN, frozen, hashed_rows, inverse, stable_order
+from .arrays import GOLDEN, begins_run, frozen, hashed_rows, inverse, stable_order
 from .components import components
 from .mesh import TriMesh
 from .polygons import MIN_FACES, PolygonMesh
@@ -116,7 +116,7 @@ def find_copies(given: PolygonMesh) -> Copies | None:
 def _first_kept(place: np.ndarray, kept: np.ndarray) -> np.ndarray:
     """The first vertex at the place of each, (n,) int64, those that are kept before others; place, kept : (n,)."""
     order = np.lexsort((~kept, place))
-    new = np.append(True, place[order][1:] != place[order][:-1])
+    new = begins_run(place[order])
     first = np.empty(len(place), np.int64)
     first[order] = order[new][np.cumsum(new) - 1]
     return first

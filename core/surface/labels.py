@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import inverse, last_of_each, sums_by
+from .arrays import begins_run, inverse, last_of_each, sums_by
 from .components import components
 from .mesh import LEAST_WEIGHT, TriMesh
 from .pairs import both_ways, distinct_pairs
@@ -249,7 +249,7 @@ def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
     # From here on components move as a whole, and there are few of them.
     while True:
         order = np.lexsort((-area, name))
-        largest = np.append(True, name[order][1:] != name[order][:-1])
+        largest = begins_run(name[order])
         stray = np.ones(len(name), bool)
         stray[order[largest]] = False
         goal = _goal_of_strays(touching, length, area, stray)

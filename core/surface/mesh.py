@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import MeshError
 from ..sentence import Sentence
-from .arrays import frozen, renumbered, stable_order, taken
+from .arrays import begins_run, frozen, renumbered, stable_order, taken
 from .components import components
 from .vectors import cross, lengths, row_products
 
@@ -308,8 +308,8 @@ class EdgeTable:
         key = (np.minimum(start, end) * np.int64(n_vertices) + np.maximum(start, end)).ravel()
         order = stable_order(key)
         key = key[order]
-        together = key[1:] == key[:-1]
-        begins = np.append(True, ~together)[: len(key)]
+        begins = begins_run(key)
+        together = ~begins[1:]
         first_of_edge = np.flatnonzero(begins)
         edge_sorted = np.cumsum(begins) - 1
         edge = np.empty(len(key), np.int64)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import last_of_each, sums_by
+from ...surface.arrays import last_of_each, run_starts, sums_by
 from ...surface.contact import NEAR, SurfacePoints, diameter, near_pairs
 from ...surface.mesh import TriMesh
 from ...surface.ordering import EQUAL
@@ -210,7 +210,7 @@ class _Nearness:
         most = max(LEAST_NEAR, MOST_PAIRS // count)
         gap, part = rounded(self.nearest()[1]), self.parts.T.ravel()
         order = np.lexsort((np.tile(gap, 2), part))
-        start = np.flatnonzero(np.diff(part[order], prepend=-1))
+        start = run_starts(part[order])
         of_each = np.diff(start, append=len(part))
         farthest = order[start + np.minimum(of_each, min(most, MOST_NEAR)) - 1] % len(gap)
         rank = np.arange(len(part)) - np.repeat(start, of_each)

@@ -14,6 +14,7 @@ from core.surface.arrays import (
     ranges,
     renumbered,
     rounded_order,
+    run_starts,
     stable_order,
     taken,
 )
@@ -32,6 +33,11 @@ def test_ranges_are_listed_one_after_the_other():
     assert row.tolist() == [0, 0, 2, 3, 3, 3]
     assert number.tolist() == [5, 6, 7, 2, 3, 4]
     assert not len(ranges(np.empty(0, np.int32), np.empty(0, np.int32)))
+
+
+@pytest.mark.parametrize(("values", "starts"), [([], []), ([4], [0]), ([2, 2, 0, 0, 0, 2, 5], [0, 2, 5, 6])])
+def test_runs_begin_where_the_value_is_another(values, starts):
+    assert run_starts(np.array(values, np.uint8)).tolist() == starts
 
 
 @pytest.mark.parametrize(("low", "high"), [
