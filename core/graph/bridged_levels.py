@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import expanded, last_of_each, ranges
+from ..surface.arrays import expanded, last_of_each, place_among, ranges
 from ..surface.components import components
 from ..surface.pairs import distinct_pairs
 
@@ -213,7 +213,6 @@ def _side_by_side(pairs: np.ndarray, contour_pieces: np.ndarray) -> tuple[np.nda
     upper = contour_pieces[contours, 1]
     # ``pairs`` is in order, and every pair in it once: a pair above is looked up by its place among both.
     known, place = distinct_pairs(*np.concatenate([pairs, upper]).T)
-    at = np.full(len(known), -1)
-    at[place[:len(pairs)]] = np.arange(len(pairs))
+    at = place_among(place[:len(pairs)], len(known))
     above = at[place[len(pairs):]]
     return contours[above >= 0], np.stack([below, above], axis=1)[above >= 0]

@@ -127,6 +127,13 @@ def inverse(order: np.ndarray) -> np.ndarray:
     return place
 
 
+def place_among(chosen: np.ndarray, count: int) -> np.ndarray:
+    """Place among some chosen elements, (k,) int64, of each element 0..count-1: (count,) int64; -1 for all others."""
+    place = np.full(count, -1)
+    place[chosen] = np.arange(len(chosen))
+    return place
+
+
 def sums_by(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
     """Sum the rows of an array by group.
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import GOLDEN, first_of_rows, inverse, run_starts, stable_order, sums_by, taken
+from .arrays import GOLDEN, first_of_rows, inverse, place_among, run_starts, stable_order, sums_by, taken
 from .mesh import TriMesh
 from .ordering import rank_by_place
 from .pairs import both_ways
@@ -84,7 +84,7 @@ def coarsen(
     a, b = _near(mesh.vertices, a[order], b[order])
     kept = np.zeros(mesh.n_vertices, bool) if kept is None else kept
     seed = _seeds(a, b, _priority(mesh.vertices, vertex_area), kept)
-    name = np.where(seed, np.cumsum(seed) - 1, -1)
+    name = place_among(np.flatnonzero(seed), len(seed))
     owner = name.copy()
     near = np.flatnonzero(seed[b] & ~seed[a])
     a, b = a[near], b[near]

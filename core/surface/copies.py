@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import GOLDEN, begins_run, frozen, hashed_rows, inverse, stable_order
+from .arrays import GOLDEN, begins_run, frozen, hashed_rows, inverse, place_among, stable_order
 from .components import components
 from .mesh import TriMesh
 from .polygons import MIN_FACES, PolygonMesh
@@ -50,8 +50,7 @@ class Copies:
 
     def without(self, given: PolygonMesh) -> PolygonMesh:
         """The mesh in which they were found, without copies: k polygons and m vertices."""
-        number = np.full(given.n_polygons, -1)
-        number[self.polygon] = np.arange(len(self.polygon))
+        number = place_among(self.polygon, given.n_polygons)
         kept = number[given.polygon] >= 0
         triangles = TriMesh(given.triangles.vertices[self.vertex], self.home[given.triangles.faces[kept]])
         return replace(given, triangles=triangles, polygon=frozen(number[given.polygon[kept]], np.int64),

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from .arrays import inverse, place_among
 from .components import components
 from .mesh import TriMesh, next_side
 
@@ -51,13 +52,10 @@ class HalfEdges:
         while len(turns := np.flatnonzero(inside[following] & ~inside)):
             following[turns] = next_side(opposite[following[turns]])
         kept = np.flatnonzero(~inside)
-        number = np.full(len(side) + 1, -1)
-        number[kept] = np.arange(len(kept))
+        number = place_among(kept, len(side) + 1)  # the last one stands for none
         following = number[following[kept]]
-        before = np.empty(len(kept), np.int64)
-        before[following] = np.arange(len(kept))
         start = mesh.faces.ravel()[kept]
-        return cls(start, start[following], of_side[kept], following, before, number[opposite[kept]],
+        return cls(start, start[following], of_side[kept], following, inverse(following), number[opposite[kept]],
                    mesh.edge_length[mesh.edges.face_edges.ravel()[kept]])
 
     @property

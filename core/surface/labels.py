@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import begins_run, inverse, last_of_each, sums_by
+from .arrays import begins_run, inverse, last_of_each, place_among, sums_by
 from .components import components
 from .mesh import LEAST_WEIGHT, TriMesh
 from .pairs import both_ways, distinct_pairs
@@ -303,8 +303,7 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int, loss: Loss | No
     first, second = graph.pairs.T
     zone = _around_boundaries(graph, label, rounds)
     faces = np.flatnonzero(zone)
-    place = np.empty(graph.n_faces, np.int64)
-    place[faces] = np.arange(len(faces))
+    place = place_among(faces, graph.n_faces)
     inside = np.flatnonzero(zone[first] & zone[second])
     a, b = both_ways(place[graph.pairs[inside]]).T
     length = np.tile(graph.length[inside], 2)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..sentence import Sentence
-from .arrays import frozen, inverse, renumbered, stable_order, taken
+from .arrays import frozen, inverse, place_among, renumbered, stable_order, taken
 from .borders import joined_borders
 from .components import components
 from .contact import Bridges, bridges
@@ -333,9 +333,7 @@ def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
         return mesh, np.arange(mesh.n_vertices)
     # Of all other vertices all corners are one fan.
     loose = np.flatnonzero(unsure[corner_vertex])
-    place = np.full(len(corner_vertex), -1)
-    place[loose] = np.arange(len(loose))
-    a, b = place[_joined_corners(mesh)].T
+    a, b = place_among(loose, len(corner_vertex))[_joined_corners(mesh)].T
     kept = a >= 0
     count, fan = components(len(loose), a[kept], b[kept])
     own = np.empty(count, np.int64)
