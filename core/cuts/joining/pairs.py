@@ -26,6 +26,10 @@ RADII = (0.004, 0.012, NEAR)  # within which surfaces are counted as touching, i
 # in 8 of 362 ordinary models a few pairs are more, and the parts of one of these change.
 LEAST_NEAR, MOST_NEAR, MOST_PAIRS = 8, 48, 20_000
 ALIKE = 0.1  # how much the logarithms of area and extents of parts that repeat each other may differ
+# Lengths in units of the diameter: what is added to extents before their logarithms are taken, as those of a sheet are
+# 0 but for rounding, and before they divide; and how much farther than the nearest points others may be in a contact.
+THIN, SPREAD, SLACK = 0.003, 0.01, 1e-3
+FARTHEST = 5.0  # standard deviations of a part that a point may be outside of it; farther is as far
 MOST_ALIKE = 10_000  # parts among which a part's repeats are counted; of more, as in heaps of loose faces, every few
 
 #: Of one part; of a pair first the smaller.
@@ -158,7 +162,7 @@ def cut_between(salience: Salience, first: np.ndarray, second: np.ndarray, same_
 
 def unlikeness(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """How much the extents of parts, (e, 3) each, differ: (e,) float64, the largest difference of their logarithms."""
-    return np.abs(np.log(first + 0.003) - np.log(second + 0.003)).max(axis=1)
+    return np.abs(np.log(first + THIN) - np.log(second + THIN)).max(axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,7 +260,7 @@ def _contact_columns(
     """
     row, count, position = near.row, len(near.parts), near.points.position
     point, other = near.ends.T
-    contact = near.distance <= np.maximum(RADII[1], gap[row] + 1e-3)
+    contact = near.distance <= np.maximum(RADII[1], gap[row] + SLACK)
     weight = near.points.area[point] * contact + 1e-300
     total = np.bincount(row, weight, count)
     middle = sums_by(row, weight[:, None] * position[point], count) / total[:, None]
@@ -287,7 +291,7 @@ def _part_shapes(
     mean = np.bincount(mine, weight * level, count) / area
     square = np.bincount(mine, weight * level**2, count) / area
     deviation = square_roots(square - mean**2, square)
-    logs = np.column_stack([0.5 * np.log(area), np.log(extents + 0.003)])
+    logs = np.column_stack([0.5 * np.log(area), np.log(extents + THIN)])
     some = np.arange(count) % (count // MOST_ALIKE + 1) == 0
     alike = cKDTree(logs[some]).query_ball_point(logs, np.nextafter(ALIKE, 0), p=np.inf, return_length=True) - some
     part_piece = np.zeros(count, np.int64)
@@ -306,7 +310,7 @@ def _part_shapes(
 
 
 def _inside(shape: dict[str, np.ndarray], one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """How far out the middle of a part lies in the spread of another, in its standard deviations, at most 5.
+    """How far out the middle of a part lies in the spread of another, in its standard deviations, at most FARTHEST.
 
     Along the axis where this is most. Around the axis of a solid of revolution any turn of the others would do: one of
     them then points at that middle.
@@ -315,4 +319,4 @@ def _inside(shape: dict[str, np.ndarray], one: np.ndarray, other: np.ndarray) ->
     along = np.einsum("ni,nij->nj", offset, shape["axes"][other])
     space = shape["space"][other]
     along = np.sqrt((along[:, :, None] ** 2 * (space[:, :, None] == space[:, None, :])).sum(axis=1))
-    return np.minimum((along / (shape["extents"][other] + 0.01)).max(axis=1), 5.0)
+    return np.minimum((along / (shape["extents"][other] + SPREAD)).max(axis=1), FARTHEST)
