@@ -15,8 +15,8 @@ from ..core.file_names import kind_of, readable
 from ..scene.errors import SceneError
 from ..scene.run_files import reason
 from .messages import problem
-from .options import MODELS, UNITS, WITHOUT_UNIT
 
+#: What imports models, by the suffixes of those that can be read besides scenes.
 IMPORTERS = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
     ".ply": lambda path: bpy.ops.wm.ply_import(filepath=path),
@@ -25,6 +25,10 @@ IMPORTERS = {
     ".gltf": lambda path: bpy.ops.import_scene.gltf(filepath=path),
     ".fbx": lambda path: bpy.ops.import_scene.fbx(filepath=path),
 }
+#: Those whose lengths are in no unit.
+WITHOUT_UNIT = (".obj", ".ply", ".stl")
+#: Lengths of units in meters, with what Blender calls them.
+UNITS = {"m": (1.0, "METERS"), "cm": (0.01, "CENTIMETERS"), "mm": (0.001, "MILLIMETERS")}
 
 
 def find_objects(options: argparse.Namespace) -> tuple[list, list[dict], dict]:
@@ -45,7 +49,7 @@ def find_objects(options: argparse.Namespace) -> tuple[list, list[dict], dict]:
 def _open(models: list[Path], unit: str | None) -> tuple[list, list[dict], dict]:
     """Open a scene, or import models into an empty one; the meshes of models and, of several, problems and sources."""
     if len(models) == 1:
-        _check_model(models[0], (".blend", *MODELS))
+        _check_model(models[0], (".blend", *IMPORTERS))
     is_scene = len(models) == 1 and models[0].suffix.lower() == ".blend"
     if unit:
         _check_unit([] if is_scene else models)
@@ -122,7 +126,7 @@ def _check_model(path: Path, kinds: tuple[str, ...]) -> None:
 
 def _imported(path: Path) -> list:
     """Import a model into the scene; returns its meshes. Raises SceneError."""
-    _check_model(path, MODELS)
+    _check_model(path, tuple(IMPORTERS))
     before = set(bpy.context.scene.objects)
     try:
         IMPORTERS[path.suffix.lower()](str(path.resolve()))

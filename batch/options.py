@@ -8,14 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from ..core.options import add_parameters, dashed, limits_of, named_file, number
+from ..scene.export import KINDS
 from ..scene.settings import SEPARATE, HintProperties, JointProperties, OutputProperties, OverlayProperties
+from .models import IMPORTERS, UNITS, WITHOUT_UNIT
 
-#: Lengths of units in meters, with what Blender calls them.
-UNITS = {"m": (1.0, "METERS"), "cm": (0.01, "CENTIMETERS"), "mm": (0.001, "MILLIMETERS")}
-#: Models whose lengths are in no unit.
-WITHOUT_UNIT = (".obj", ".ply", ".stl")
-#: Models that can be read besides scenes, see models.IMPORTERS.
-MODELS = (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
 PIXELS = number(16, 8192, int)
 
 
@@ -26,8 +22,8 @@ def parser(description: str | None) -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     made.add_argument("models", nargs="*", type=Path, metavar="MODEL",
-                      help=f"a scene (.blend), or one or several models ({', '.join(MODELS)}); without it, the scene "
-                      "that Blender has open")
+                      help=f"a scene (.blend), or one or several models ({', '.join(IMPORTERS)}); without it, the "
+                      "scene that Blender has open")
     made.add_argument("--object", action="append", default=[], metavar="NAME",
                       help="object to decompose, can be given several times; the active object of a scene "
                       "and every mesh of a model file without")
@@ -52,7 +48,7 @@ def _add_files(files: argparse._ArgumentGroup) -> None:
     files.add_argument("--check", action="store_true",
                        help="also say of each part in the JSON whether its piece, with holes closed, is sound")
     files.add_argument("--parts", type=Path, metavar="DIR", help="a file for each part, in a folder")
-    files.add_argument("--parts-format", choices=("obj", "ply", "stl", "glb", "3mf"), default="obj",
+    files.add_argument("--parts-format", choices=[kind for kind, _, _ in KINDS], default="obj",
                        help="format of those files (default: %(default)s)")
     files.add_argument("--threemf", type=Path, metavar="OUT.3mf",
                        help="all parts, closed, for slicers: one assembly for each object, with names and colors")

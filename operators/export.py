@@ -9,7 +9,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.sentence import Count
 from ..scene import moved, store, targets
 from ..scene.errors import SceneError
-from ..scene.export import export_parts
+from ..scene.export import KINDS, export_parts
 from ..scene.modes import object_mode
 from ..scene.part_list import wanted_numbers
 from ..scene.reporting import ReportingOperator
@@ -33,11 +33,7 @@ class REEB_PARTS_OT_export(ReportingOperator, bpy.types.Operator, WhichPropertie
     )
     filter_folder: bpy.props.BoolProperty(default=True, options={"HIDDEN", "SKIP_SAVE"})
     format: bpy.props.EnumProperty(
-        name="Format", default="obj",
-        items=[("obj", "OBJ", "Wavefront, with materials"), ("ply", "PLY", "Stanford, with colors"),
-               ("stl", "STL", "For 3D printing"), ("glb", "glTF Binary", "With materials and textures"),
-               ("3mf", "3MF", "For slicers: all parts of an object as one assembly, with names and colors")],
-        description="Kind of the files",
+        name="Format", default="obj", items=KINDS, description="Kind of the files",
     )
     one_file: bpy.props.BoolProperty(
         name="One File", default=False,

@@ -29,6 +29,13 @@ EXPORTERS = {
     "glb": lambda path: bpy.ops.export_scene.gltf(filepath=path, use_selection=True, use_active_scene=True,
                                                   export_format="GLB"),
 }
+#: Kinds of files that parts are written as, as items of a property: those of EXPORTERS, and ours. Each has a check in
+#: ``file_checks``.
+KINDS = (
+    ("obj", "OBJ", "Wavefront, with materials"), ("ply", "PLY", "Stanford, with colors"),
+    ("stl", "STL", "For 3D printing"), ("glb", "glTF Binary", "With materials and textures"),
+    ("3mf", "3MF", "For slicers: all parts of an object as one assembly, with names and colors"),
+)
 # The color of a dowel.
 _PLAIN = (0.8, 0.8, 0.8)
 
@@ -47,7 +54,7 @@ def export_parts(files: RunFiles, objects: Iterable[tuple[bpy.types.Object, Iter
     folder : Path
         Made if it is not there.
     kind : str
-        Of EXPORTERS, or "3mf".
+        Of KINDS.
     close : bool
         Close the holes that the cuts leave.
     one_file : bool

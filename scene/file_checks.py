@@ -98,7 +98,7 @@ class Counts(NamedTuple):
 
 
 def model(meshes: list[bpy.types.Mesh], kind: str) -> Callable[[Path], bool]:
-    """The function for a file that holds some meshes. kind : obj, ply, stl, glb or 3mf."""
+    """The function for a file that holds some meshes. kind : of export.KINDS."""
     counts = Counts(*(sum(len(getattr(mesh, items)) for mesh in meshes) for items in ("vertices", "polygons", "loops")))
     return lambda path: {"obj": _obj, "ply": _ply, "stl": _stl, "glb": _glb, "3mf": _3mf}[kind](path, counts)
 

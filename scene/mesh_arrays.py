@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from numpy.typing import DTypeLike
 
-from ..core.surface.arrays import renumbered
+from ..core.surface.arrays import renumbered, run_starts
 from ..core.surface.corners import CornerTable
 from ..core.surface.vectors import cross, lengths
 
@@ -189,7 +189,7 @@ def corner_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> Corn
 def mesh_of(table: CornerTable, name: str) -> bpy.types.Mesh:
     """A new mesh of the faces of a table, for the caller to remove; its edges have numbers of their own."""
     mesh = bpy.data.meshes.new(name)
-    starts = np.flatnonzero(np.diff(table.corner_face, prepend=-1))
+    starts = run_starts(table.corner_face)
     faces = [corners.tolist() for corners in np.split(table.corner_vertex, starts)[1:]]
     mesh.from_pydata(table.vertices.tolist(), [], faces)
     return mesh

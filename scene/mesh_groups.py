@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
+from ..core.surface.arrays import begins_run
 from . import matrix_layers
 from .temporary import removed
 
@@ -73,7 +74,7 @@ def give_weights(groups: Sequence[bpy.types.VertexGroup], vertex: np.ndarray, gr
     """
     order = np.lexsort((vertex, weight, group))
     vertex, group, weight = vertex[order], group[order], weight[order]
-    first = np.flatnonzero(np.append(True, (group[1:] != group[:-1]) | (weight[1:] != weight[:-1]))[: len(group)])
+    first = np.flatnonzero(begins_run(group) | begins_run(weight))
     for start, some in zip(first.tolist(), np.split(vertex, first)[1:], strict=True):
         groups[group[start]].add(some.tolist(), float(weight[start]), "REPLACE")
 

@@ -14,7 +14,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 
 from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
 from ..core.uses.colors import LABELS, PALETTES
-from . import reactions
+from . import face_hints, reactions
 from .errors import translated
 from .graph import graph_objects
 from .settled import Settled, reaction
@@ -100,11 +100,8 @@ class HintProperties:
     """What is read of the mesh besides its shape."""
 
     hints: EnumProperty(
-        name="Hints", default="NONE",
-        items=[("NONE", "None", "The shape alone decides"),
-               ("MATERIALS", "Materials", "Where the material changes"),
-               ("SEAMS", "Seams", "Along UV seams"),
-               ("SHARP", "Sharp Edges", "Along edges that are marked sharp")],
+        name="Hints", default=face_hints.NONE,
+        items=[(kind, label, text) for kind, (label, text, _) in face_hints.KINDS.items()],
         description="What you have marked on the mesh yourself that parts should follow, besides its shape",
     )
 

@@ -7,6 +7,7 @@ import bpy
 
 from ..core.parameters import heeded
 from ..scene import store
+from ..scene.settings import OUTPUTS
 from .fitting import Room
 from .panel import ReebPanel, SubPanel, draw_settings, facts
 
@@ -66,8 +67,7 @@ class REEB_PARTS_PT_boundaries(SettingsPanel, bpy.types.Panel):
 
 class REEB_PARTS_PT_output(SettingsPanel, bpy.types.Panel):
     bl_label = "Output"
-    names = ("vertex_groups", "face_attribute", "colors", "palette", "face_sets", "materials", "seams", "field",
-             "graph")
+    names = OUTPUTS
 
 
 class REEB_PARTS_PT_overlay(SettingsPanel, bpy.types.Panel):

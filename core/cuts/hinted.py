@@ -19,7 +19,7 @@ from ..surface.pairs import both_ways
 from ..surface.ties import on_grid
 from .face_candidates import FaceCandidates
 from .hierarchy import LAST, Hierarchy
-from .joining.linkage import average_linkage
+from .joining.linkage import JudgedPairs, average_linkage
 
 # What it adds to the log-odds that two candidates belong together if their hints are the same, and takes from them if
 # they differ.
@@ -59,8 +59,8 @@ def hinted_candidates(candidates: FaceCandidates, hint: np.ndarray) -> FaceCandi
     salience = salience.clip(np.where(other, LEAST_SALIENCE, ROUNDING), 1.0 - ROUNDING)
     score = on_grid(np.log(1.0 / salience - 1.0)) + np.where(other, -OTHER_HINT, SAME_HINT)
     weight = np.sqrt(area[pairs].min(axis=1) / area.sum()) + 1e-9
-    merges, joined, _ = average_linkage(len(area), pairs, score, weight)
-    hierarchy = Hierarchy.of(len(area), merges, np.minimum(1.0 / (1.0 + np.exp(joined)), LAST))
+    linked = average_linkage(len(area), JudgedPairs(pairs, score, weight, np.ones(len(pairs), bool)))
+    hierarchy = Hierarchy.of(len(area), linked.merges, np.minimum(1.0 / (1.0 + np.exp(linked.scores)), LAST))
     return replace(candidates, label=cell, hierarchy=hierarchy)
 
 

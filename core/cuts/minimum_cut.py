@@ -15,6 +15,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, dijkstra, maximum_flow
 
+from ..surface.arrays import place_among
 from ..surface.labels import label_boundaries, spread
 from ..surface.mesh import TriMesh
 from ..surface.pairs import both_ways, symmetric_matrix
@@ -167,8 +168,7 @@ def _cut_anew(
     if not ((part[held] == first).any() and (part[held] == second).any()):
         return part
     faces, inner = np.flatnonzero(band), np.flatnonzero(band[a] & band[b])
-    place = np.full(len(part), -1)
-    place[faces] = np.arange(len(faces))
+    place = place_among(faces, len(part))
     far = np.maximum(distance[a[inner]], distance[b[inner]]) / half_width
     side = _minimum_cut(place[a[inner]], place[b[inner]], movable.cost[inner] * (1 + far**2), place[held],
                         part[held] == first, len(faces))

@@ -117,10 +117,11 @@ def _best(
     best, least = None, np.inf
     for wedge in wedges:
         made = mirroring.led_by(wedge, np.zeros(len(wedge), bool))
-        if mirroring.error(made) >= worst - 1e-9:
-            continue
-        made = _without_crumbs(made, wedge, mirroring)
         error = mirroring.error(made)
+        if error >= worst - 1e-9:
+            continue
+        if (cleaned := _without_crumbs(made, wedge, mirroring)) is not made:
+            made, error = cleaned, mirroring.error(cleaned)
         if error < least - 1e-9:
             best, least = made, error
     return best

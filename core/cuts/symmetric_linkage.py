@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..surface.labels import FaceGraph
+from ..surface.labels import FaceGraph, vote_weights
 from ..surface.ties import rounded
 from .hierarchy import LAST, Hierarchy
 from .symmetric_cells import Cells
@@ -108,7 +108,7 @@ class _Clusters:
 
     def __init__(self, cells: Cells, touching: np.ndarray, mean: np.ndarray) -> None:
         every = range(len(cells.area))
-        self.area, self.image = (cells.area + 1e-12 * cells.area.sum()).tolist(), cells.image.tolist()
+        self.area, self.image = vote_weights(cells.area).tolist(), cells.image.tolist()
         self.mean, self.of = mean.copy(), np.arange(len(cells.area))
         self.touching = [set(np.flatnonzero(row).tolist()) - {k} for k, row in enumerate(touching)]
         self.subgroups, self.composition = _Subgroups(cells.group), cells.group.composition.tolist()
@@ -141,9 +141,10 @@ class _Clusters:
         return None
 
     def cost(self, a: int, b: int) -> float:
-        """What a cluster costs to merge with another: the mean over all pairs of cells.
+        """What two clusters cost to merge: the mean over all pairs of cells.
 
         A cluster that is its own image takes in another together with that one's image, which may be far from it.
+        The lower one comes first, so that sums run in one order.
         """
         mean = self.mean.item(a, b)
         both, copies, its_copies = self.subgroups.joined(self.stabilizer[a], self.stabilizer[b])
@@ -174,10 +175,10 @@ class _Clusters:
             self.stabilizer[k] = self.subgroups.generated(own)
             self.from_image[k] = [self.mean.item(k, other) if other >= 0 else np.nan for other in image]
             self.spread[k] = {}
-        pairs = [pair for k in clusters for other in self.touching[k] for pair in ((k, other), (other, k))]
+        pairs = sorted({(min(k, other), max(k, other)) for k in clusters for other in self.touching[k]})
         costs = [self.cost(a, b) for a, b in pairs]
         for (a, b), cost, about in zip(pairs, costs, rounded(np.array(costs)).tolist(), strict=True):
-            self.costs[a][b] = about, b, cost
+            self.costs[a][b], self.costs[b][a] = (about, b, cost), (about, a, cost)
 
     def merge_(self, a: int, b: int, strength: float) -> None:
         """Let cluster b become part of cluster a, which is to be measured anew; the means are weighted by area."""

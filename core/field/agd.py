@@ -219,14 +219,11 @@ def coarse_agd(
     Paths are searched on at most FIELD_VERTICES vertices; the other work is O(n).
     """
     steps = pyramid.until(lambda mesh: mesh.n_vertices <= FIELD_VERTICES)
-    meshes = [pyramid.mesh, *(step.mesh for step in steps)]
-    coarsest, area, links = meshes[-1], pyramid.mesh.vertex_area, pyramid.bridges
-    if steps:
-        area, links = steps[-1].area, steps[-1].links
+    coarsest, area, links = pyramid.after(steps)
     base = spread_base_vertices(coarsest, GeodesicSolver(coarsest, links), area, radius, progress)
     agd = average_geodesic_distance(base)
-    for fine, step in zip(reversed(meshes[:-1]), reversed(steps), strict=True):
-        agd = prolong(fine, step, agd)
+    for k in reversed(range(len(steps))):
+        agd = prolong(pyramid.after(steps[:k])[0], steps[k], agd)
     return agd
 
 

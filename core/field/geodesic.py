@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from ..errors import DisconnectedMeshError
 from ..sentence import Sentence
-from ..surface.arrays import taken
+from ..surface.arrays import run_starts, stable_order, taken
 from ..surface.mesh import ON_A_LINE, TriMesh
 from ..surface.pairs import symmetric_matrix
 from ..surface.vectors import lengths, row_products
@@ -82,13 +82,14 @@ def _path_graph(mesh: TriMesh, links: np.ndarray) -> csr_array:
 
 def _shortest_of(rows: np.ndarray, columns: np.ndarray, length: np.ndarray, n: int) -> csr_array:
     """Symmetric (n, n) matrix with the shortest of the lengths that are given for each pair, in either direction."""
-    low, high = np.minimum(rows, columns), np.maximum(rows, columns)
-    order = np.lexsort((length, high, low))
-    low, high, length = low[order], high[order], length[order]
-    first = np.ones(len(low), bool)
-    first[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
-    first &= low != high
-    return symmetric_matrix(taken(np.stack([low, high], axis=1), first), length[first], n)
+    key = np.minimum(rows, columns) * n + np.maximum(rows, columns)
+    order = stable_order(key)
+    key = key[order]
+    first = run_starts(key)
+    low, high = np.divmod(key[first], n)
+    apart = low != high
+    shortest = np.minimum.reduceat(length[order], first)
+    return symmetric_matrix(np.stack([low[apart], high[apart]], axis=1), shortest[apart], n)
 
 
 def _unfolded_lines(mesh: TriMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

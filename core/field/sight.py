@@ -77,7 +77,7 @@ def lines_in_sight(mesh: TriMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     -----
     Windows of a vertex do not overlap, and all are wide: O(m) of them in each of at most CHAIN steps.
     """
-    across = _across(mesh)
+    across = mesh.edges.opposite_sides(mesh.edges.n_faces[mesh.edges.pair_edge] == 2)
     windows = _first_windows(mesh, across)
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))]
     for step in range(CHAIN):
@@ -95,17 +95,11 @@ def lines_in_sight(mesh: TriMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return source, target, length
 
 
-def _across(mesh: TriMesh) -> np.ndarray:
-    """The side of the other face at each side of a face, (3 m,) int64; -1 where an edge has not two faces."""
-    across = np.full(3 * mesh.n_faces, -1)
-    two = mesh.edges.n_faces[mesh.edges.pair_edge] == 2
-    a, b = mesh.edges.pair_sides[two].T
-    across[a], across[b] = b, a
-    return across
-
-
 def _first_windows(mesh: TriMesh, across: np.ndarray) -> _Windows:
-    """What each vertex sees through the opposite sides of its needles."""
+    """What each vertex sees through the opposite sides of its needles.
+
+    across : (3 m,) int64, the side of the other face at each side of a face; -1 where an edge has not two faces.
+    """
     source, begin, end = (np.roll(mesh.faces, -k, axis=1).ravel() for k in range(3))
     origin = taken(mesh.vertices, source)
     right, left = (taken(mesh.vertices, to) - origin for to in (begin, end))

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import expanded, last_of_each, ranges
+from ..surface.arrays import expanded, last_of_each, place_among, ranges
 from ..surface.components import components
 from ..surface.pairs import distinct_pairs
 
@@ -157,7 +157,7 @@ def _forest(cells: np.ndarray, weight: np.ndarray) -> np.ndarray:
 
     # Distinct ranks, so that the tree does not depend on how ties are broken.
     rank = np.empty(len(cells))
-    rank[np.lexsort((np.arange(len(cells)), -weight))] = np.arange(1, len(cells) + 1)
+    rank[np.argsort(-weight, kind="stable")] = np.arange(1, len(cells) + 1)
     n_parts = int(cells.max(initial=-1)) + 1
     tree = minimum_spanning_tree(
         coo_array((rank, tuple(cells.T.astype(np.int32))), shape=(n_parts, n_parts)).tocsr())
@@ -213,7 +213,6 @@ def _side_by_side(pairs: np.ndarray, contour_pieces: np.ndarray) -> tuple[np.nda
     upper = contour_pieces[contours, 1]
     # ``pairs`` is in order, and every pair in it once: a pair above is looked up by its place among both.
     known, place = distinct_pairs(*np.concatenate([pairs, upper]).T)
-    at = np.full(len(known), -1)
-    at[place[:len(pairs)]] = np.arange(len(pairs))
+    at = place_among(place[:len(pairs)], len(known))
     above = at[place[len(pairs):]]
     return contours[above >= 0], np.stack([below, above], axis=1)[above >= 0]

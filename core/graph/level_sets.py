@@ -239,10 +239,15 @@ def cut_at_levels(
     slab = np.searchsorted(levels, values, side="right")
     a, b, c = (slab.take(corner) for corner in mesh.faces.T)
     lowest, highest = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-    element_face, element_slab = expanded(lowest, highest - lowest + 1)
-    segment_face, segment_level = expanded(lowest, highest - lowest)
-    first = np.cumsum(highest - lowest + 1) - (highest - lowest + 1) - lowest
-    n_pieces, element_piece, n_contours, segment_contour = _connected(mesh, slab, lowest, highest, first)
+    n_levels = highest - lowest  # of each face, which has one element more
+    element_face, element_slab = expanded(lowest, n_levels + 1)
+    segment_face, segment_level = expanded(lowest, n_levels)
+    first_segment = np.cumsum(n_levels) - n_levels - lowest
+    first = first_segment + np.arange(mesh.n_faces)
+    ends = [slab.take(end.take(mesh.edges.pair_edge)) for end in mesh.edges.vertices.T]
+    low, across = np.minimum(*ends), np.abs(ends[0] - ends[1])
+    n_pieces, element_piece = _joined(mesh.edges.pairs, low, across + 1, first, len(element_face))
+    n_contours, segment_contour = _joined(mesh.edges.pairs, low, across, first_segment, len(segment_face))
     lower = first[segment_face] + segment_level
     contour_pieces = np.empty((n_contours, 2), np.int64)
     contour_pieces[segment_contour, 0] = element_piece[lower]
@@ -265,30 +270,25 @@ def cut_at_levels(
                      contour_pieces)
 
 
-def _connected(
-    mesh: TriMesh, slab: np.ndarray, lowest: np.ndarray, highest: np.ndarray, first: np.ndarray
-) -> tuple[int, np.ndarray, int, np.ndarray]:
-    """Number of slab pieces, that of each element, (E,), number of contours and contour of each segment, (S,).
+def _joined(
+    pairs: np.ndarray, low: np.ndarray, count: np.ndarray, first: np.ndarray, total: int
+) -> tuple[int, np.ndarray]:
+    """How many connected sets of elements, or of segments, there are, and that of each, (total,) int64.
 
-    slab : (n,), of each vertex. lowest, highest : (m,), slabs of each face. first : (m,), the element of each face in
-    slab 0, if it had one there.
+    pairs : (p, 2), faces that share an edge. low, count : (p,), the lowest slab, or level, that meets this edge, and
+    how many do. first : (m,), the element, or segment, of each face in slab, or at level, 0, if it had one there.
     """
-    pairs = mesh.edges.pairs
-    a, b = (slab.take(end.take(mesh.edges.pair_edge)) for end in mesh.edges.vertices.T)
-    low, high = np.minimum(a, b), np.maximum(a, b)
-    n_elements, n_segments = int((highest - lowest + 1).sum()), int((highest - lowest).sum())
-    pair, at = expanded(low, high - low + 1)
-    n_pieces, piece = components(n_elements, first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
-    first = first - np.arange(len(first))  # a face has one segment less than elements
-    pair, at = expanded(low, high - low)
-    n_contours, contour = components(n_segments, first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
-    return n_pieces, piece, n_contours, contour
+    pair, at = expanded(low, count)
+    return components(total, first[pairs[pair, 0]] + at, first[pairs[pair, 1]] + at)
 
 
 def _bridges_between(
     bridges: np.ndarray, loose_part: np.ndarray, lowest: np.ndarray, highest: np.ndarray, first: np.ndarray
 ) -> FaceBridges:
-    """Elements that bridges between faces, (l, 2), link. loose_part : (m,); the others as in ``_connected``."""
+    """Elements that bridges between faces, (l, 2), link. loose_part : (m,). lowest, highest, first : (m,).
+
+    These are the lowest and highest slab of each face, and its element in slab 0, if it had one there.
+    """
     swap = loose_part[bridges[:, 0]] > loose_part[bridges[:, 1]]
     bridges = np.where(swap[:, None], bridges[:, ::-1], bridges)
     low, high = lowest[bridges].max(axis=1), highest[bridges].min(axis=1)

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..surface.arrays import last_of_each, sums_by
+from ..surface.arrays import last_of_each, place_among, sums_by
 from ..surface.components import components
 from .critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from .level_sets import LevelSets
@@ -187,8 +187,7 @@ def reeb_topology(sets: LevelSets) -> ReebTopology:
     above[lower] = np.arange(sets.n_contours)
     n_arcs, contour_arc = components(sets.n_contours, below[regular], above[regular])
 
-    piece_node = np.full(sets.n_pieces, -1)
-    piece_node[~regular] = np.arange((~regular).sum())
+    piece_node = place_among(np.flatnonzero(~regular), sets.n_pieces)
     piece_arc = np.full(sets.n_pieces, -1)
     piece_arc[regular] = contour_arc[below[regular]]
     arcs = np.empty((n_arcs, 2), np.int64)

@@ -11,6 +11,7 @@ import heapq
 import numpy as np
 
 from ..field.agd import ScalarField
+from ..surface.arrays import place_among
 from ..surface.components import roots
 from .level_sets import LevelSets
 from .reeb import ReebTopology
@@ -220,9 +221,9 @@ class _WorkGraph:
         root = roots(np.array(self.parent, np.int64))
         owner = root[self.piece_owner]
         keeps = root == np.arange(len(root))
-        node_id = np.where(keeps[:n], np.cumsum(keeps[:n]) - 1, -1)
+        node_id = place_among(np.flatnonzero(keeps[:n]), n)
         kept_arcs = np.array([arc is not None for arc in self.arcs], bool)
-        arc_id = np.where(kept_arcs, np.cumsum(kept_arcs) - 1, -1)
+        arc_id = place_among(np.flatnonzero(kept_arcs), len(kept_arcs))
         at_node = owner < n
         arcs = [arc for arc in self.arcs if arc is not None]
         contour_arc = self.topology.contour_arc

@@ -24,6 +24,7 @@ from ..surface.arrays import is_last_of_each, last_of_each, sums_by
 from ..surface.components import components
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.mesh import LEAST_WEIGHT
+from ..surface.nearest import nearest_before
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh
 from .component_results import ComponentResult, FoundCandidates
@@ -243,8 +244,8 @@ def _refined_width(given: PolygonMesh, results: list[ComponentResult]) -> np.nda
     width = np.full(given.n_polygons, np.inf)
     before = np.bincount(given.polygon, minlength=given.n_polygons)
     for r in results:
-        triangles = np.bincount(r.component.polygon, minlength=given.n_polygons)
-        width[triangles > before] = WIDTH * np.sqrt(r.component.mesh.area)
+        polygon, triangles = np.unique(r.component.polygon, return_counts=True)
+        width[polygon[triangles > before[polygon]]] = WIDTH * np.sqrt(r.component.mesh.area)
     return width
 
 
@@ -285,15 +286,11 @@ def _contacts(working: WorkingMesh, results: list[ComponentResult], graph: FaceG
     center /= np.where(area > 0, area, 1.0)[:, None]
     order = np.argsort(-area, kind="stable")
     order = order[area[order] > 0]  # without those of faces that the copy lacks
-    links = []
-    for place, mine in enumerate(order[1:].tolist(), start=1):
-        larger = order[:place]
-        other = larger[np.linalg.norm(center[larger] - center[mine], axis=1).argmin()]
-        links.append((mine, int(other)))
+    links = np.stack([order[1:], order[nearest_before(center[order])[1:]]], axis=1)
     # A face of each body: the nearest to its middle.
     offset = np.linalg.norm(mesh.face_centroids - center[face_body], axis=1)
     face = last_of_each(face_body, -offset, count=joined)
-    return np.concatenate([pairs, working.polygon[face[np.array(links, np.int64).reshape(-1, 2)]]])
+    return np.concatenate([pairs, working.polygon[face[links]]])
 
 
 def _vertex_field(

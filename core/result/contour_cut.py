@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..parameters import Parameters
-from ..surface.arrays import renumbered, sums_by
+from ..surface.arrays import place_among, renumbered, sums_by
 from ..surface.components import components
 from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, connect, straighten
@@ -156,8 +156,7 @@ def contour_sides(
     piece = components(graph.n_faces, *graph.pairs[inside[graph.pairs].all(axis=1)].T)[1]
     inside = inside & np.isin(piece, piece[inside & crossed])
     ids = np.flatnonzero(inside)
-    place = np.full(graph.n_faces, -1)
-    place[ids] = np.arange(len(ids))
+    place = place_among(ids, graph.n_faces)
     within = inside[graph.pairs].all(axis=1)
     part = FaceGraph(len(ids), place[graph.pairs[within]], graph.length[within], graph.area[ids])
     above, crossed = above[ids], crossed[ids]

@@ -18,7 +18,7 @@ from ..sentence import Sentence
 from ..surface.arguments import whole_numbers
 from ..surface.arrays import inverse, renumbered, sums_by
 from ..surface.copies import Copies
-from ..surface.labels import FaceGraph, majority
+from ..surface.labels import FaceGraph, majority, vote_weights
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
 from ..surface.pairs import distinct_pairs
@@ -90,8 +90,7 @@ class Parts:
         """(count,) int64, part that is the mirror image of each part, itself where it is its own; -1 for none."""
         d = self.decomposition
         image = np.where(d.candidate_twin >= 0, self.candidate_part[d.candidate_twin], -1)
-        weight = d.candidate_area + 1e-12 * d.candidate_area.sum()
-        twin = majority(self.candidate_part, image + 1, weight, self.count) - 1
+        twin = majority(self.candidate_part, image + 1, vote_weights(d.candidate_area), self.count) - 1
         return np.where(twin[np.maximum(twin, 0)] == np.arange(self.count), twin, -1)
 
     @cached_property

@@ -14,9 +14,10 @@ from scipy.sparse.csgraph import dijkstra
 
 from ..cuts.hierarchy import Dendrogram, Hierarchy
 from ..graph.critical import SADDLE
+from ..surface.arrays import inverse, renumbered
 from ..surface.components import components
 from ..surface.corners import CornerTable
-from ..surface.labels import FaceGraph, label_boundaries, majority, spread
+from ..surface.labels import FaceGraph, label_boundaries, majority, spread, vote_weights
 from ..surface.pairs import both_ways, symmetric_matrix
 from .contour_cut import contours
 from .decomposition import Decomposition
@@ -37,15 +38,12 @@ def components_of(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
     piece : (c,) int64
         Component of each candidate: 0 for the component of most area, 1 for the next ...; -1 outside the mask.
     """
-    pairs = _inside(decomposition, mask)
-    _, label = components(decomposition.n_candidates, *pairs.T)
-    label = np.where(mask, label, -1)
-    found = np.unique(label[mask])
-    area = np.array([decomposition.candidate_area[label == piece].sum() for piece in found])
-    result = np.full(len(mask), -1, np.int64)
-    for place, index in enumerate(np.argsort(-area, kind="stable")):
-        result[label == found[index]] = place
-    return result
+    _, label = components(decomposition.n_candidates, *_inside(decomposition, mask).T)
+    _, label = renumbered(label[mask])
+    area = np.bincount(label, decomposition.candidate_area[mask])
+    piece = np.full(len(mask), -1, np.int64)
+    piece[mask] = inverse(np.argsort(-area, kind="stable"))[label]
+    return piece
 
 
 def best_split(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray | None:
@@ -397,8 +395,7 @@ def _vertex_halves(
     former = decomposition.vertex_candidates
     votes = decomposition.candidates[face] == former[vertex]
     vertex, face = vertex[votes], face[votes]
-    # Faces without an area vote as well, after all others.
-    winner = majority(vertex, candidates[face], area[face] + 1e-12 * area.sum(), len(former))
+    winner = majority(vertex, candidates[face], vote_weights(area)[face], len(former))
     return np.where(winner >= 0, winner, former)
 
 

@@ -11,8 +11,7 @@ import numpy as np
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.settling import settle
 from ..sentence import Sentence
-from ..surface.labels import connect, majority
-from ..surface.mesh import LEAST_WEIGHT
+from ..surface.labels import connect, majority, vote_weights
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh, repair
 from .assemble import face_graph_of, tables_of
@@ -43,7 +42,7 @@ def of_half(whole: Decomposition, given: PolygonMesh) -> Decomposition:
     tables = tables_of(given, working, candidates)
     # Where the nodes of either side lie: most of a candidate of the whole is, mirrored back, in one of the half.
     area = np.tile(graph.area, 2)
-    home = majority(whole.candidates, np.tile(label, 2), area + LEAST_WEIGHT * area.sum(), whole.n_candidates)
+    home = majority(whole.candidates, np.tile(label, 2), vote_weights(area), whole.n_candidates)
     nothing = np.empty(0, np.int64)
     found = whole.asked(replace(whole.parameters, n_parts=0)).scaled(-given.exponent)
     return replace(

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..surface.arrays import stable_order, sums_by
+from ..surface.arrays import place_among, stable_order, sums_by
 from ..surface.pairs import both_ways, distinct_pairs
 from ..surface.ties import TIE, first_largest, ranks
 from .decomposition import Decomposition, Parts, default_name
@@ -58,9 +58,7 @@ class NumberGraph:
             return self
         every = np.union1d(self.numbers, numbers)
         place = np.searchsorted(every, self.numbers)
-        index = np.full(len(every), -1)
-        index[place] = np.arange(len(place))
-        return NumberGraph(every, place[self.pairs], self, index)
+        return NumberGraph(every, place[self.pairs], self, place_among(place, len(every)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..cuts.hierarchy import Hierarchy
-from ..surface.arrays import sums_by
+from ..surface.arrays import run_starts, sums_by
 from ..surface.pairs import distinct_pairs
 
 # A refined face leaves the part that has most of it only if this shortens the boundary by more than the area lost,
@@ -61,7 +61,7 @@ class FaceVotes:
         tree, (face, place), weight = self._tree, self._cells.T, self._weight
         winner = np.full(self.n_faces, -1)
         while len(face):
-            first = np.flatnonzero(np.diff(face, prepend=-1))
+            first = run_starts(face)
             count = np.diff(np.append(first, len(face)))
             # What brings the outermost two candidates together brings all together that lie between them.
             low, high = tree.order[place[first]], tree.order[place[first + count - 1]]

@@ -18,6 +18,8 @@ _Given = ParamSpec("_Given")
 _Result = TypeVar("_Result")
 
 _MIX = 0x9E3779B97F4A7C1, 0x2545F4914F6CDD1D, 0x5851F42D4C957F2D  # odd factors that mix the bits of three coordinates
+#: 2**64 over the golden ratio, made odd: products with it wrap around, and differ in all bits where numbers differ.
+GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
 def underflow_is_zero(function: Callable[_Given, _Result]) -> Callable[_Given, _Result]:
@@ -106,10 +108,29 @@ def _packed_order(keys: np.ndarray, width: int) -> np.ndarray:
     return order
 
 
+def begins_run(values: np.ndarray) -> np.ndarray:
+    """Whether each of some values, (n,), is another than the one before, (n,) bool; true for the first."""
+    begins = np.ones(len(values), bool)
+    np.not_equal(values[1:], values[:-1], out=begins[1:])
+    return begins
+
+
+def run_starts(values: np.ndarray) -> np.ndarray:
+    """Where runs of equal values, (n,), begin: (r,) int64, rising, from 0."""
+    return np.flatnonzero(begins_run(values))
+
+
 def inverse(order: np.ndarray) -> np.ndarray:
     """Place of each element in an order, (n,) int64. order : (n,) int64, the element at each place."""
     place = np.empty(len(order), np.int64)
     place[order] = np.arange(len(order))
+    return place
+
+
+def place_among(chosen: np.ndarray, count: int) -> np.ndarray:
+    """Place among some chosen elements, (k,) int64, of each element 0..count-1: (count,) int64; -1 for all others."""
+    place = np.full(count, -1)
+    place[chosen] = np.arange(len(chosen))
     return place
 
 
@@ -254,7 +275,7 @@ def renumbered(labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return _few_names(flat, least, most - least + 1, np.shape(labels))
     order = stable_order(flat)
     values = flat[order]
-    new = np.append(True, values[1:] != values[:-1])[: len(values)]
+    new = begins_run(values)
     index = np.empty(len(flat), np.int64)
     index[order] = np.cumsum(new) - 1
     return values[new], index.reshape(np.shape(labels))
@@ -290,8 +311,7 @@ def first_of_rows(rows: np.ndarray, width: int) -> np.ndarray:
         keys = keys * width + column
         size *= width
     order = stable_order(keys)
-    keys = keys[order]
-    return order[np.append(True, keys[1:] != keys[:-1])[: len(keys)]]
+    return order[begins_run(keys[order])]
 
 
 def last_of_each(group: np.ndarray, *keys: np.ndarray, count: int) -> np.ndarray:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import first_of_rows, inverse, stable_order, sums_by, taken
+from .arrays import GOLDEN, first_of_rows, inverse, place_among, run_starts, stable_order, sums_by, taken
 from .mesh import TriMesh
 from .ordering import rank_by_place
 from .pairs import both_ways
@@ -23,7 +23,6 @@ SLIM = 3.0  # ratio of two lengths of links from which on cells grow along the s
 MOST_RISE = 4.0  # upper bound of what a value rises within a cell, in units of its largest rise to a neighbor
 MOST_LEFT = 0.9  # share of the vertices above which a coarse copy has too many; about 0.25 of them are usual
 SMOOTHING_STEPS = 3  # rounds in which ``prolong`` averages neighbors, to close the seams between cells
-_MIX = np.uint64(0x9E3779B97F4A7C15)  # 2**64 over the golden ratio, made odd: the multiplier of the hash splitmix64
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,12 +84,12 @@ def coarsen(
     a, b = _near(mesh.vertices, a[order], b[order])
     kept = np.zeros(mesh.n_vertices, bool) if kept is None else kept
     seed = _seeds(a, b, _priority(mesh.vertices, vertex_area), kept)
-    name = np.where(seed, np.cumsum(seed) - 1, -1)
+    name = place_among(np.flatnonzero(seed), len(seed))
     owner = name.copy()
     near = np.flatnonzero(seed[b] & ~seed[a])
     a, b = a[near], b[near]
     length = lengths(taken(mesh.vertices, a) - taken(mesh.vertices, b))
-    start = np.flatnonzero(np.append(True, a[1:] != a[:-1])[: len(a)])
+    start = run_starts(a)
     least = np.minimum.reduceat(length, start) if len(start) else length
     nearest = np.flatnonzero(length <= np.repeat((1 + TIE) * least, np.diff(np.append(start, len(a)))))[::-1]
     owner[a[nearest]] = name[b[nearest]]  # NumPy keeps what is written last: the first of those equally near
@@ -153,6 +152,16 @@ class Pyramid:
             chosen.append(self._steps[len(chosen)])
             mesh = chosen[-1].mesh
         return chosen
+
+    def after(self, steps: list[Coarsening]) -> tuple[TriMesh, np.ndarray, np.ndarray | None]:
+        """The mesh that some steps lead to, as paths are searched on it.
+
+        steps : as ``until`` returns them. Returns the mesh, the area that each vertex stands for, (n,) float64, and
+        pairs of vertices between which distances run besides its edges, (l, 2) int64 or None.
+        """
+        if not steps:
+            return self.mesh, self.mesh.vertex_area, self.bridges
+        return steps[-1].mesh, steps[-1].area, steps[-1].links
 
 
 def prolong(mesh: TriMesh, coarsening: Coarsening, values: np.ndarray) -> np.ndarray:
@@ -227,9 +236,10 @@ def _near(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray,
 
 def _priority(points: np.ndarray, weight: np.ndarray) -> np.ndarray:
     """The whole numbers below n, (n,) int64, in an order that looks random: that of a hash of each point's rank."""
-    mixed = (rank_by_place(points, weight).astype(np.uint64) + np.uint64(1)) * _MIX
+    # After the hash splitmix64, with one factor for all of its steps.
+    mixed = (rank_by_place(points, weight).astype(np.uint64) + np.uint64(1)) * GOLDEN
     for shift in (30, 27, 31):
-        mixed = (mixed ^ (mixed >> np.uint64(shift))) * _MIX
+        mixed = (mixed ^ (mixed >> np.uint64(shift))) * GOLDEN
     return inverse(np.argsort(mixed, kind="stable"))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import inverse
+from .arrays import inverse, place_among
 
 MANY_ELEMENTS = 5_000  # number of elements from which on it is faster to divide the search for components into rounds
 FEW_ELEMENTS = 600  # number of elements and pairs up to which a search in Python takes less time than a call of SciPy
@@ -38,9 +38,7 @@ def components(n: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     goal[np.maximum(a, b)] = np.minimum(a, b)
     goal = roots(goal)
     lowest = np.flatnonzero(goal == np.arange(n))
-    place = np.empty(n, np.int64)
-    place[lowest] = np.arange(len(lowest))
-    place = place[goal]
+    place = place_among(lowest, n)[goal]
     a, b = place[a], place[b]
     apart = np.flatnonzero(a != b)
     # Of a mesh, whose faces are sorted by place, one in sixteen is left.

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import frozen, hashed_rows, inverse, stable_order
+from .arrays import GOLDEN, begins_run, frozen, hashed_rows, inverse, place_among, stable_order
 from .components import components
 from .mesh import TriMesh
 from .polygons import MIN_FACES, PolygonMesh
@@ -20,7 +20,6 @@ from .polygons import MIN_FACES, PolygonMesh
 # Share of the area of a piece above which what is copied of it is its other side. Of less these are walls that touching
 # solids, such as the boards of a cupboard, have in common: without its wall a solid would be open.
 MOST = 0.9
-_MIX = np.uint64(0x9E3779B97F4A7C15)  # an odd factor that mixes the bits of a number
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +50,7 @@ class Copies:
 
     def without(self, given: PolygonMesh) -> PolygonMesh:
         """The mesh in which they were found, without copies: k polygons and m vertices."""
-        number = np.full(given.n_polygons, -1)
-        number[self.polygon] = np.arange(len(self.polygon))
+        number = place_among(self.polygon, given.n_polygons)
         kept = number[given.polygon] >= 0
         triangles = TriMesh(given.triangles.vertices[self.vertex], self.home[given.triangles.faces[kept]])
         return replace(given, triangles=triangles, polygon=frozen(number[given.polygon[kept]], np.int64),
@@ -117,7 +115,7 @@ def find_copies(given: PolygonMesh) -> Copies | None:
 def _first_kept(place: np.ndarray, kept: np.ndarray) -> np.ndarray:
     """The first vertex at the place of each, (n,) int64, those that are kept before others; place, kept : (n,)."""
     order = np.lexsort((~kept, place))
-    new = np.append(True, place[order][1:] != place[order][:-1])
+    new = begins_run(place[order])
     first = np.empty(len(place), np.int64)
     first[order] = order[new][np.cumsum(new) - 1]
     return first
@@ -146,7 +144,7 @@ def _outlines(given: PolygonMesh, place: np.ndarray) -> np.ndarray:
     place : (n,) uint64, a number for where each vertex is. Each side of a triangle counts with a sign for its
     direction, so that sides within a polygon cancel out, however it is cut into triangles.
     """
-    other = (place ^ place >> np.uint64(32)) * _MIX
+    other = (place ^ place >> np.uint64(32)) * GOLDEN
     corners = given.triangles.faces.T
     total = np.zeros(given.triangles.n_faces, np.uint64)
     for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import renumbered, stable_order, sums_by
+from .arrays import begins_run, renumbered, stable_order, sums_by
 from .borders import joined_borders
 from .pairs import distinct_pairs
 from .vectors import cross, lengths
@@ -144,7 +144,7 @@ class CornerTable:
         face : (t,) int64
             Face of each triangle, rising.
         """
-        new = np.append(True, np.diff(self.corner_face) != 0)[: len(self.corner_face)]
+        new = begins_run(self.corner_face)
         start = np.flatnonzero(new)[np.cumsum(new) - 1]
         middle = np.flatnonzero(~new & ~np.append(new[1:], True)[: len(new)])
         corners = np.stack([start[middle], middle, middle + 1], axis=1)
@@ -191,7 +191,7 @@ class CornerTable:
 
 def next_of_owner(owner: np.ndarray) -> np.ndarray:
     """Index of the next element of the same owner, in a circle, (c,) int64; the elements of an owner are in a row."""
-    new = np.append(True, np.diff(owner) != 0)[: len(owner)]
+    new = begins_run(owner)
     following = np.arange(1, len(new) + 1)
     following[np.append(new[1:], True)[: len(new)]] = np.flatnonzero(new)
     return following

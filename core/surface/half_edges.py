@@ -8,8 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
+from .arrays import inverse, place_among
 from .components import components
-from .mesh import TriMesh
+from .mesh import TriMesh, next_side
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,26 +43,19 @@ class HalfEdges:
     def of(cls, mesh: TriMesh, polygon: np.ndarray) -> HalfEdges:
         """Make the half-edges of polygons from their triangles; polygon : (m,) int64, that of each triangle."""
         side = np.arange(3 * mesh.n_faces)
-        following = side - side % 3 + (side + 1) % 3
-        opposite = np.full(len(side), -1)
-        plain = (mesh.edges.n_faces[mesh.edges.pair_edge] == 2) & ~mesh.same_way
-        first, second = mesh.edges.pair_sides[plain].T
-        opposite[first], opposite[second] = second, first
+        following = next_side(side)
+        opposite = mesh.edges.opposite_sides((mesh.edges.n_faces[mesh.edges.pair_edge] == 2) & ~mesh.same_way)
         of_side = np.repeat(polygon, 3)
         inside = (opposite >= 0) & (of_side[opposite] == of_side)
         # Round the end of a side, across the diagonals that meet there, to the next side of the polygon. The way begins
         # at a side that is no diagonal, and ends at one.
         while len(turns := np.flatnonzero(inside[following] & ~inside)):
-            across = opposite[following[turns]]
-            following[turns] = across - across % 3 + (across + 1) % 3
+            following[turns] = next_side(opposite[following[turns]])
         kept = np.flatnonzero(~inside)
-        number = np.full(len(side) + 1, -1)
-        number[kept] = np.arange(len(kept))
+        number = place_among(kept, len(side) + 1)  # the last one stands for none
         following = number[following[kept]]
-        before = np.empty(len(kept), np.int64)
-        before[following] = np.arange(len(kept))
         start = mesh.faces.ravel()[kept]
-        return cls(start, start[following], of_side[kept], following, before, number[opposite[kept]],
+        return cls(start, start[following], of_side[kept], following, inverse(following), number[opposite[kept]],
                    mesh.edge_length[mesh.edges.face_edges.ravel()[kept]])
 
     @property

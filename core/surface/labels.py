@@ -9,13 +9,18 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import inverse, last_of_each, sums_by
+from .arrays import begins_run, inverse, last_of_each, place_among, sums_by
 from .components import components
 from .mesh import LEAST_WEIGHT, TriMesh
 from .pairs import both_ways, distinct_pairs
 
 #: What it costs faces to change label: called with faces, their labels and the new labels.
 Loss = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+
+
+def vote_weights(area: np.ndarray) -> np.ndarray:
+    """Weights of votes by area, (n,) float64: what has none votes after all others. area : (n,) float64."""
+    return area + LEAST_WEIGHT * area.sum()
 
 
 def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners: int) -> np.ndarray:
@@ -172,7 +177,7 @@ class FaceGraph:
     @cached_property
     def weight(self) -> np.ndarray:
         """(n_faces,) float64, weight of the vote of each face: its area; faces without one vote after all others."""
-        return self.area + LEAST_WEIGHT * self.area.sum()
+        return vote_weights(self.area)
 
     def regions(self, label: np.ndarray) -> tuple[int, np.ndarray]:
         """How many connected regions of one label there are, and which each face is in, (n_faces,) int64."""
@@ -243,8 +248,8 @@ def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
     touching, length = graph.boundaries(part)
     # From here on components move as a whole, and there are few of them.
     while True:
-        order = np.lexsort((np.arange(len(name)), -area, name))
-        largest = np.append(True, name[order][1:] != name[order][:-1])
+        order = np.lexsort((-area, name))
+        largest = begins_run(name[order])
         stray = np.ones(len(name), bool)
         stray[order[largest]] = False
         goal = _goal_of_strays(touching, length, area, stray)
@@ -298,8 +303,7 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int, loss: Loss | No
     first, second = graph.pairs.T
     zone = _around_boundaries(graph, label, rounds)
     faces = np.flatnonzero(zone)
-    place = np.empty(graph.n_faces, np.int64)
-    place[faces] = np.arange(len(faces))
+    place = place_among(faces, graph.n_faces)
     inside = np.flatnonzero(zone[first] & zone[second])
     a, b = both_ways(place[graph.pairs[inside]]).T
     length = np.tile(graph.length[inside], 2)
@@ -313,7 +317,7 @@ def straighten(graph: FaceGraph, label: np.ndarray, rounds: int, loss: Loss | No
             gain[willing] -= loss(faces[willing], label[willing], best[willing])
         gain[gain <= least] = 0.0
         # Of two neighbors that both gain, the one that gains more changes; of equal ones that of the higher index.
-        rank = inverse(np.lexsort((np.arange(len(label)), gain)))
+        rank = inverse(np.argsort(gain, kind="stable"))
         beaten = np.zeros(len(label), bool)
         beaten[a[(gain[b] > 0) & (rank[b] > rank[a])]] = True
         flip = (gain > 0) & ~beaten

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import MeshError
 from ..sentence import Sentence
-from .arrays import frozen, renumbered, stable_order, taken
+from .arrays import begins_run, frozen, renumbered, stable_order, taken
 from .components import components
 from .vectors import cross, lengths, row_products
 
@@ -45,6 +45,14 @@ def check_corners(triangles: np.ndarray, n_vertices: int, polygon: np.ndarray | 
             n=len(bad), total=total, first=int(bad[0]), n_vertices=n_vertices),
         faces=bad,
     )
+
+
+def next_side(side: np.ndarray) -> np.ndarray:
+    """The side that follows each one in its face; sides, and the corners where they begin, are 3 times the face + 0..2.
+
+    side : int64 of any shape. Returns int64 of this shape.
+    """
+    return side - side % 3 + (side + 1) % 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -300,9 +308,10 @@ class EdgeTable:
         key = (np.minimum(start, end) * np.int64(n_vertices) + np.maximum(start, end)).ravel()
         order = stable_order(key)
         key = key[order]
-        together = key[1:] == key[:-1]
-        first_of_edge = np.flatnonzero(np.append(True, ~together)[: len(key)])
-        edge_sorted = np.cumsum(np.append(True, ~together)[: len(key)]) - 1
+        begins = begins_run(key)
+        together = ~begins[1:]
+        first_of_edge = np.flatnonzero(begins)
+        edge_sorted = np.cumsum(begins) - 1
         edge = np.empty(len(key), np.int64)
         edge[order] = edge_sorted
         unique = key[first_of_edge]
@@ -318,3 +327,13 @@ class EdgeTable:
             pair_edge=frozen(edge_sorted[1:][together][distinct], np.int64),
             pair_sides=frozen(taken(sides, distinct), np.int64),
         )
+
+    def opposite_sides(self, chosen: np.ndarray) -> np.ndarray:
+        """The side of the other face of a pair at each side of a face, (3 m,) int64; -1 at sides of no chosen pair.
+
+        chosen : (p,) bool, pairs at edges of two faces.
+        """
+        opposite = np.full(self.face_edges.size, -1)
+        first, second = self.pair_sides[chosen].T
+        opposite[first], opposite[second] = second, first
+        return opposite

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..sentence import Sentence
-from .arrays import frozen, inverse, renumbered, stable_order, taken
+from .arrays import frozen, inverse, place_among, renumbered, stable_order, taken
 from .borders import joined_borders
 from .components import components
 from .contact import Bridges, bridges
-from .mesh import TriMesh
+from .mesh import TriMesh, next_side
 from .ordering import Ordering
 from .orientation import turn_outwards
 from .pairs import distinct_pairs
@@ -333,9 +333,7 @@ def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
         return mesh, np.arange(mesh.n_vertices)
     # Of all other vertices all corners are one fan.
     loose = np.flatnonzero(unsure[corner_vertex])
-    place = np.full(len(corner_vertex), -1)
-    place[loose] = np.arange(len(loose))
-    a, b = place[_joined_corners(mesh)].T
+    a, b = place_among(loose, len(corner_vertex))[_joined_corners(mesh)].T
     kept = a >= 0
     count, fan = components(len(loose), a[kept], b[kept])
     own = np.empty(count, np.int64)
@@ -353,15 +351,10 @@ def _separate_fans(mesh: TriMesh) -> tuple[TriMesh, np.ndarray]:
 def _joined_corners(mesh: TriMesh) -> np.ndarray:
     """Corners at one vertex, of two faces that touch there along an edge, (2p, 2) int64: 3 times the face + corner."""
     sides = mesh.edges.pair_sides
-    begin, end = sides, _next_corner(sides)
+    begin, end = sides, next_side(sides)
     same_way = mesh.same_way
     return np.concatenate([np.stack([begin[:, 0], np.where(same_way, begin[:, 1], end[:, 1])], axis=1),
                            np.stack([end[:, 0], np.where(same_way, end[:, 1], begin[:, 1])], axis=1)])
-
-
-def _next_corner(corner: np.ndarray) -> np.ndarray:
-    """The corner that follows each one in its face; corners are 3 times the face + 0, 1 or 2."""
-    return corner - corner % 3 + (corner + 1) % 3
 
 
 def _has_one_fan(mesh: TriMesh) -> np.ndarray:
@@ -376,8 +369,8 @@ def _has_one_fan(mesh: TriMesh) -> np.ndarray:
     known[mesh.edges.vertices[mesh.edges.n_faces > 2]] = False
     first, second = mesh.edges.pair_sides.T
     following = np.full(len(corner_vertex), -1)
-    following[first] = _next_corner(second)
-    following[second] = _next_corner(first)
+    following[first] = next_side(second)
+    following[second] = next_side(first)
     begins = np.ones(len(corner_vertex), bool)  # a corner at a border, where a walk has to begin
     begins[following[following >= 0]] = False
     begins = np.flatnonzero(begins)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import sums_by
+from .arrays import GOLDEN, sums_by
 from .components import components
 from .half_edges import HalfEdges
 from .mesh import TriMesh
@@ -119,7 +119,7 @@ def _mixed(*values: np.ndarray) -> np.ndarray:
     """A color of several whole numbers in their order, (h,) uint64."""
     color = np.zeros(len(values[0]), np.uint64)
     for value in values:
-        color = (color ^ value.astype(np.uint64)) * np.uint64(0x9E3779B97F4A7C15)
+        color = (color ^ value.astype(np.uint64)) * GOLDEN
         color ^= color >> np.uint64(29)
     return color
 

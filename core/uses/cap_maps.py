@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import renumbered, stable_order, sums_by
+from ..surface.arrays import renumbered, run_starts, stable_order, sums_by
 from ..surface.components import components
 from ..surface.corners import next_of_owner
 from ..surface.vectors import cross, unit
@@ -37,7 +37,7 @@ def cap_map(points: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarr
     faces, face = renumbered(corner_face)
     ahead = next_of_owner(face)
     here, there = points[corner_vertex], points[corner_vertex[ahead]]
-    first = np.flatnonzero(np.append(True, face[1:] != face[:-1]))
+    first = run_starts(face)
     origin = here[first][face]
     area = sums_by(face, 0.5 * cross(here - origin, there - origin), len(faces))
     island = _islands(corner_vertex, corner_vertex[ahead], face, area)[face]

@@ -146,7 +146,7 @@ def chosen_colors(
             chosen[part] = wanted[part]
         else:
             # Differences above 0.25 are clear to the eye and count as equal.
-            rank = np.lexsort((np.arange(len(palette)), -np.minimum(room, 0.25), used + 99 * (room == 0)))
+            rank = np.lexsort((-np.minimum(room, 0.25), used + 99 * (room == 0)))
             chosen[part] = rank[0]
             if not room.any():
                 _make_room(part, around, chosen, len(palette))

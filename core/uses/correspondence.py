@@ -109,9 +109,7 @@ def sample_surface(
     body = Component.of(working, np.arange(working.mesh.n_faces))
     pyramid = Pyramid(body.mesh, body.bridges.vertices)
     steps = pyramid.until(lambda mesh: mesh.n_vertices <= VERTICES)
-    mesh, area, links = body.mesh, body.mesh.vertex_area, pyramid.bridges
-    if steps:
-        mesh, area, links = steps[-1].mesh, steps[-1].area, steps[-1].links
+    mesh, area, links = pyramid.after(steps)
     unit = np.sqrt(area.sum())
     base = spread_base_vertices(mesh, GeodesicSolver(mesh, links), area, np.sqrt(SPACING) * unit)
     owner = base.distances.argmin(axis=0)

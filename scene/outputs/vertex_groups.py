@@ -13,6 +13,7 @@ import bpy
 import numpy as np
 
 from ...core.result.numbering import NumberedParts
+from ...core.surface.arrays import run_starts
 from .. import made_objects, mesh_arrays, part_names, targets, transaction
 
 
@@ -80,7 +81,7 @@ class Grains:
                 inside = self.inner[self.bounds[index] : self.bounds[index + 1]]
                 lists.setdefault(int(numbers[index]), []).append(inside)
             number, there = np.divmod(np.setdiff1d(mine, others, assume_unique=True), max(width, 1))
-            start = np.flatnonzero(np.diff(number, prepend=-1))
+            start = run_starts(number)
             for first, vertices in zip(number[start].tolist(), np.split(there, start)[1:], strict=True):
                 lists.setdefault(first, []).append(vertices)
             found.append({number: np.concatenate(there) for number, there in lists.items() if number > 0})

@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from ...core.surface.arrays import run_starts
 from ...core.surface.corners import next_of_owner
 from ...core.uses.cap_maps import cap_map
 from .. import mesh_arrays
@@ -45,7 +46,7 @@ def _area(places: np.ndarray, face: np.ndarray) -> float:
     """The area of faces in a map, without sign. places : (c, 2); face : (c,), rising."""
     if not len(face):
         return 0.0
-    first = np.flatnonzero(np.append(True, face[1:] != face[:-1]))
+    first = run_starts(face)
     x, y = (places - np.repeat(places[first], np.diff(np.append(first, len(face))), axis=0)).T
     ahead = next_of_owner(face)
     return float(np.abs(np.add.reduceat(x * y[ahead] - y * x[ahead], first)).sum() / 2)

@@ -17,6 +17,7 @@ import numpy as np
 from bmesh.types import BMesh, BMFace, BMVert
 
 from ...core.steps import Steps, stretched
+from ...core.surface.arrays import run_starts
 from .. import element_layers, mesh_groups
 from ..elements import FACE, Elements, Layer, Selection
 from ..matrix_layers import as_bmesh
@@ -147,7 +148,7 @@ def divide(bm: BMesh, cuts: CleanCuts) -> None:
         items.ensure_lookup_table()
     n = len(bm.verts)
     points = {}
-    first = np.flatnonzero(np.append(True, cuts.face[1:] != cuts.face[:-1]))
+    first = run_starts(cuts.face)
     # All are looked up first: to split edges may change the tables.
     faces = [bm.faces[i] for i in cuts.face[first].tolist()]
     edges = [bm.edges[i] for i in cuts.edge.tolist()]

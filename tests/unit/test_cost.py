@@ -209,6 +209,11 @@ def test_where_nearly_every_two_meet_more_cost_in_proportion(make):
     assert cost(make(FACES), 3 * TIMES) <= 3 * TIMES
 
 
+def test_pieces_apart_cost_in_proportion():
+    """Each piece hangs on the nearest larger one, for which it was compared with them all."""
+    assert cost(tetrahedra(3 * FACES // 2), TIMES, pieces="separate") <= TIMES
+
+
 @pytest.mark.parametrize("make", [crossing, welded, pages])
 def test_where_all_meet_memory_is_bounded(make):
     """In bytes; the libraries need 0.1 GB beside."""

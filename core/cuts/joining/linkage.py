@@ -6,6 +6,8 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,39 +18,68 @@ NONE = math.inf, -1  # in place of a near pair
 Edge = tuple[float, int, int, float, float, tuple[float, int]]
 
 
+@dataclass(frozen=True, eq=False)
+class JudgedPairs:
+    """Pairs of members of which it was judged how surely they belong together.
+
+    Attributes
+    ----------
+    members : (e, 2) int64
+        Each pair once.
+    score : (e,) float64
+        How surely they belong together; log-odds, whose means tell a sure pair from many unsure ones.
+    weight : (e,) float64
+        What each pair counts, above 0.
+    near : (e,) bool
+        Pairs that can join groups. The others have their say in the mean, but two groups without a near pair between
+        them stay apart.
+    """
+
+    members: np.ndarray
+    score: np.ndarray
+    weight: np.ndarray
+    near: np.ndarray
+
+
+class Linkage(NamedTuple):
+    """The order in which groups of members join.
+
+    Attributes
+    ----------
+    merges : (s, 2) int64
+        A member of each of the two groups that join, in order.
+    scores : (s,) float64
+        Of the groups when they joined. It may rise from one merge to the next.
+    rows : (s,) int64
+        A near pair between the two groups: of the highest score.
+    """
+
+    merges: np.ndarray
+    scores: np.ndarray
+    rows: np.ndarray
+
+
 def average_linkage(
-    count: int, pairs: np.ndarray, score: np.ndarray, weight: np.ndarray, size: np.ndarray | None = None,
-    ease: float = 0.0, near: np.ndarray | None = None,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    count: int, pairs: JudgedPairs, size: np.ndarray | None = None, ease: float = 0.0
+) -> Linkage:
     """Join groups, the best first; the score of two groups is the weighted mean of their pairs' scores.
 
     Parameters
     ----------
     count : int
         Of members; at first each is a group.
-    pairs : (e, 2) int64
-        Members that were compared, each pair once.
-    score : (e,) float64
-        How surely they belong together; log-odds, whose means tell a sure pair from many unsure ones.
-    weight : (e,) float64
-        What each pair counts, above 0.
+    pairs : JudgedPairs
+        Of these.
     size : (count,) float64, optional
         Of each member, above 0. Groups have the sum.
     ease : float
         How much more easily small groups join: this, times the logarithm of the size of the smaller, is taken from the
         score of two groups, where that size is below 1.
-    near : (e,) bool, optional
-        Pairs that can join groups. The others have their say in the mean, but two groups without a near pair between
-        them stay apart. Without it all pairs are near.
 
     Returns
     -------
-    merges : (s, 2) int64
-        A member of each of the two groups that join, in order; until no near pair is left apart.
-    scores : (s,) float64
-        Of the groups when they joined. It may rise from one merge to the next.
-    rows : (s,) int64
-        A near pair between the two groups: of the highest score.
+    linkage : Linkage
+        Until no near pair is left apart.
 
     Notes
     -----
@@ -57,9 +88,9 @@ def average_linkage(
     which each is near some ten.
     """
     groups = _Groups([1.0] * count if size is None else size.tolist(), ease)
-    joins = [True] * len(pairs) if near is None else near.tolist()
-    for row, ((a, b), s, w) in enumerate(zip(pairs.tolist(), score.tolist(), weight.tolist(), strict=True)):
-        groups.link_(a, b, s * w, w, (-s, row) if joins[row] else NONE)
+    columns = (column.tolist() for column in (pairs.members, pairs.score, pairs.weight, pairs.near))
+    for row, ((a, b), s, w, joins) in enumerate(zip(*columns, strict=True)):
+        groups.link_(a, b, s * w, w, (-s, row) if joins else NONE)
     groups.search_(range(count))
     merges, scores, rows = [], [], []
     while (edge := groups.pop_()) is not None:
@@ -67,7 +98,7 @@ def average_linkage(
         scores.append(-edge[0])
         rows.append(edge[5][1])
         groups.merge_(*edge[1:3])
-    return np.reshape(merges, (-1, 2)).astype(np.int64), np.array(scores, float), np.array(rows, np.int64)
+    return Linkage(np.reshape(merges, (-1, 2)).astype(np.int64), np.array(scores, float), np.array(rows, np.int64))
 
 
 class _Groups:

@@ -10,7 +10,7 @@ largest parts, those far from each other included. Average linkage on the log-od
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from importlib.resources import files
 
 import numpy as np
@@ -24,9 +24,9 @@ from ..boosted_trees import BoostedTrees
 from ..hierarchy import LAST, Hierarchy
 from .distant import FEATURES as DISTANT_FEATURES
 from .distant import DistantPairs, distant_pairs
-from .linkage import average_linkage
+from .linkage import JudgedPairs, Linkage, average_linkage
 from .pairs import FEATURES, PartPairs, part_pairs
-from .repetition import Linkage, evenly_linked, piece_kinds
+from .repetition import evenly_linked, piece_kinds
 
 # Cuts within a piece of less salience than this are not judged anew: FINE where a salience is the share of people who
 # would cut there, FINE_MEASURED in the methods that measure how deep or how narrow a cut is.
@@ -143,17 +143,17 @@ def join_parts(parts: FineParts, model: JoinModel | None = None) -> tuple[Hierar
     model = model or join_model()
     pairs = parts.pairs
     odds = near_odds(parts, model.near)
-    asked = pairs.parts, odds, _pair_weight(parts, pairs.parts), np.ones(len(odds), bool)
+    judged = _near_pairs(parts, odds)
     if model.distant and len((distant := compare_distant(parts, odds)).parts):
-        asked = _with_distant(parts, odds, distant, model.distant)
-    merges, score, rows = _evenly_linked(parts, *asked)
-    strength = np.interp(1 / (1 + np.exp(-score)), [0.0, SHARE_AT_HALF, 1.0], [1.0, 0.5, parts.fine])
+        judged = _with_distant(parts, odds, distant, model.distant)
+    linked = evenly_linked(partial(_linked, parts), judged, pairs.shapes.piece, parts.kind)
+    strength = np.interp(1 / (1 + np.exp(-linked.scores)), [0.0, SHARE_AT_HALF, 1.0], [1.0, 0.5, parts.fine])
     touching = (pairs.gap <= TOUCH) & ~pairs.same_piece
-    contacts = pairs.faces[np.union1d(rows, np.flatnonzero(touching))]
+    contacts = pairs.faces[np.union1d(linked.rows, np.flatnonzero(touching))]
     hierarchy = parts.hierarchy
     kept = hierarchy.salience < parts.fine
     extended = Hierarchy.of(
-        hierarchy.n_candidates, np.concatenate([hierarchy.merges[kept], parts.candidate[merges]]),
+        hierarchy.n_candidates, np.concatenate([hierarchy.merges[kept], parts.candidate[linked.merges]]),
         np.concatenate([hierarchy.salience[kept], np.minimum(strength, LAST)]))
     return extended, contacts
 
@@ -191,14 +191,20 @@ def compare_distant(parts: FineParts, odds: np.ndarray) -> DistantPairs:
     -------
     pairs : DistantPairs
     """
-    merges, score, _ = _linked(parts, parts.pairs.parts, odds, _pair_weight(parts, parts.pairs.parts))
-    return distant_pairs(parts.pairs, parts.salience, odds, merges, score)
+    linked = _linked(parts, _near_pairs(parts, odds))
+    return distant_pairs(parts.pairs, parts.salience, odds, linked.merges, linked.scores)
+
+
+def _near_pairs(parts: FineParts, odds: np.ndarray) -> JudgedPairs:
+    """The pairs that come near each other, with log-odds, (e,) float64, that the two are one."""
+    near = parts.pairs.parts
+    return JudgedPairs(near, odds, _pair_weight(parts, near), np.ones(len(near), bool))
 
 
 def _with_distant(
     parts: FineParts, odds: np.ndarray, distant: DistantPairs, model: BoostedTrees
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Pairs, log-odds, weights, and which pairs are near: those that are, first, and all others of the largest parts.
+) -> JudgedPairs:
+    """The pairs that come near each other, first, and all others of the largest parts.
 
     A pair that is both has one row, with the weighted mean of what both models say.
     """
@@ -211,23 +217,13 @@ def _with_distant(
     total = np.bincount(row, weight)
     mean = np.bincount(row, weight * judged) / total
     order = np.argsort(first)  # the near pairs keep their places
-    return pairs[first[order]], on_grid(mean[order]), total[order], first[order] < len(near)
+    return JudgedPairs(pairs[first[order]], on_grid(mean[order]), total[order], first[order] < len(near))
 
 
-def _evenly_linked(
-    parts: FineParts, pairs: np.ndarray, odds: np.ndarray, weight: np.ndarray, near: np.ndarray
-) -> Linkage:
-    """Average linkage in which groups of pieces that repeat each other join others alike; see ``evenly_linked``."""
-    return evenly_linked(lambda odds: _linked(parts, pairs, odds, weight, near), pairs, odds, parts.pairs.shapes.piece,
-                         parts.kind)
-
-
-def _linked(
-    parts: FineParts, pairs: np.ndarray, odds: np.ndarray, weight: np.ndarray, near: np.ndarray | None = None
-) -> Linkage:
+def _linked(parts: FineParts, pairs: JudgedPairs) -> Linkage:
     """Average linkage in which small parts join more easily; see ``average_linkage``."""
     size = np.maximum(on_grid(parts.pairs.shapes.area / LARGE), 1e-9)
-    return average_linkage(len(parts.candidate), pairs, odds, weight, size, EASE, near)
+    return average_linkage(len(parts.candidate), pairs, size, EASE)
 
 
 def _pair_weight(parts: FineParts, pairs: np.ndarray) -> np.ndarray:

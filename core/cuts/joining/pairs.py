@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import last_of_each, sums_by
+from ...surface.arrays import last_of_each, run_starts, sums_by
 from ...surface.contact import NEAR, SurfacePoints, diameter, near_pairs
 from ...surface.mesh import TriMesh
 from ...surface.ordering import EQUAL
@@ -26,6 +26,10 @@ RADII = (0.004, 0.012, NEAR)  # within which surfaces are counted as touching, i
 # in 8 of 362 ordinary models a few pairs are more, and the parts of one of these change.
 LEAST_NEAR, MOST_NEAR, MOST_PAIRS = 8, 48, 20_000
 ALIKE = 0.1  # how much the logarithms of area and extents of parts that repeat each other may differ
+# Lengths in units of the diameter: what is added to extents before their logarithms are taken, as those of a sheet are
+# 0 but for rounding, and before they divide; and how much farther than the nearest points others may be in a contact.
+THIN, SPREAD, SLACK = 0.003, 0.01, 1e-3
+FARTHEST = 5.0  # standard deviations of a part that a point may be outside of it; farther is as far
 MOST_ALIKE = 10_000  # parts among which a part's repeats are counted; of more, as in heaps of loose faces, every few
 
 #: Of one part; of a pair first the smaller.
@@ -145,8 +149,7 @@ def part_pairs(mesh: TriMesh, label: np.ndarray, salience: Salience, agd: np.nda
         **{f"small_{n}": shape[n][small] for n in PART}, **{f"large_{n}": shape[n][large] for n in PART},
     }
     features = np.stack([columns[n] for n in FEATURES], axis=1).astype(float)
-    shapes = PartShapes(shape["piece"], area, np.exp(shape["log_piece_area"]), shape["center"], shape["extents"],
-                        shape["agd"])
+    shapes = PartShapes(shape["piece"], area, shape["piece_area"], shape["center"], shape["extents"], shape["agd"])
     return PartPairs(near.parts, features, same, cut, gap, points.face[nearest], shapes)
 
 
@@ -159,7 +162,7 @@ def cut_between(salience: Salience, first: np.ndarray, second: np.ndarray, same_
 
 def unlikeness(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """How much the extents of parts, (e, 3) each, differ: (e,) float64, the largest difference of their logarithms."""
-    return np.abs(np.log(first + 0.003) - np.log(second + 0.003)).max(axis=1)
+    return np.abs(np.log(first + THIN) - np.log(second + THIN)).max(axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,7 +214,7 @@ class _Nearness:
         most = max(LEAST_NEAR, MOST_PAIRS // count)
         gap, part = rounded(self.nearest()[1]), self.parts.T.ravel()
         order = np.lexsort((np.tile(gap, 2), part))
-        start = np.flatnonzero(np.diff(part[order], prepend=-1))
+        start = run_starts(part[order])
         of_each = np.diff(start, append=len(part))
         farthest = order[start + np.minimum(of_each, min(most, MOST_NEAR)) - 1] % len(gap)
         rank = np.arange(len(part)) - np.repeat(start, of_each)
@@ -257,7 +260,7 @@ def _contact_columns(
     """
     row, count, position = near.row, len(near.parts), near.points.position
     point, other = near.ends.T
-    contact = near.distance <= np.maximum(RADII[1], gap[row] + 1e-3)
+    contact = near.distance <= np.maximum(RADII[1], gap[row] + SLACK)
     weight = near.points.area[point] * contact + 1e-300
     total = np.bincount(row, weight, count)
     middle = sums_by(row, weight[:, None] * position[point], count) / total[:, None]
@@ -288,26 +291,26 @@ def _part_shapes(
     mean = np.bincount(mine, weight * level, count) / area
     square = np.bincount(mine, weight * level**2, count) / area
     deviation = square_roots(square - mean**2, square)
-    logs = np.column_stack([0.5 * np.log(area), np.log(extents + 0.003)])
+    logs = np.column_stack([0.5 * np.log(area), np.log(extents + THIN)])
     some = np.arange(count) % (count // MOST_ALIKE + 1) == 0
     alike = cKDTree(logs[some]).query_ball_point(logs, np.nextafter(ALIKE, 0), p=np.inf, return_length=True) - some
     part_piece = np.zeros(count, np.int64)
     part_piece[label] = mesh.face_components[1]
-    piece_area = np.bincount(part_piece, area)
+    piece_area = np.bincount(part_piece, area)[part_piece]
     touched = np.bincount(mine, weight * touching, count) / area
     return {
-        "piece": part_piece, "center": center, "axes": axes[:, :, ::-1], "extents": extents, "log_area": np.log(area),
-        "space": np.cumsum(np.insert(~equal, 0, False, axis=1), axis=1),
+        "piece": part_piece, "piece_area": piece_area, "center": center, "axes": axes[:, :, ::-1], "extents": extents,
+        "space": np.cumsum(np.insert(~equal, 0, False, axis=1), axis=1), "log_area": np.log(area),
         "extent_1": extents[:, 0] / np.sqrt(area), "extent_2": extents[:, 1] / np.maximum(extents[:, 0], 1e-6),
         "extent_3": extents[:, 2] / np.maximum(extents[:, 0], 1e-6), "repeats": alike.astype(float), "agd": mean,
-        "agd_deviation": deviation, "touched": touched, "log_piece_area": np.log(piece_area[part_piece]),
+        "agd_deviation": deviation, "touched": touched, "log_piece_area": np.log(piece_area),
         "parts_of_piece": np.bincount(part_piece)[part_piece].astype(float),
         "flatness": extents[:, 2] / np.sqrt(area),
     }
 
 
 def _inside(shape: dict[str, np.ndarray], one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """How far out the middle of a part lies in the spread of another, in its standard deviations, at most 5.
+    """How far out the middle of a part lies in the spread of another, in its standard deviations, at most FARTHEST.
 
     Along the axis where this is most. Around the axis of a solid of revolution any turn of the others would do: one of
     them then points at that middle.
@@ -316,4 +319,4 @@ def _inside(shape: dict[str, np.ndarray], one: np.ndarray, other: np.ndarray) ->
     along = np.einsum("ni,nij->nj", offset, shape["axes"][other])
     space = shape["space"][other]
     along = np.sqrt((along[:, :, None] ** 2 * (space[:, :, None] == space[:, None, :])).sum(axis=1))
-    return np.minimum((along / (shape["extents"][other] + 0.01)).max(axis=1), 5.0)
+    return np.minimum((along / (shape["extents"][other] + SPREAD)).max(axis=1), FARTHEST)

@@ -8,7 +8,7 @@ others are. Whoever sees one wheel as a part sees all of them so.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.cluster.hierarchy import DisjointSet
@@ -19,15 +19,13 @@ from ...surface.components import components
 from ...surface.mesh import TriMesh
 from ...surface.ties import on_grid, rounded
 from ...surface.vectors import second_moments_of_each
+from .linkage import JudgedPairs, Linkage
 
 #: Pieces repeat each other if the logarithms of their size and extents are in the same cells of this width, or in cells
 #: that touch.
 CELL = 0.03
 THIN = 0.003  # added to extents, in units of the size, as those of a sheet are 0 but for rounding
 ROUNDS = 3  # of linkage at most: what was made even may join elsewhere
-
-#: Merges (s, 2) of parts, their scores (s,), and rows of pairs (s,), see linkage.average_linkage.
-Linkage = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def piece_kinds(mesh: TriMesh) -> np.ndarray:
@@ -57,7 +55,7 @@ def piece_kinds(mesh: TriMesh) -> np.ndarray:
 
 
 def evenly_linked(
-    link: Callable[[np.ndarray], Linkage], pairs: np.ndarray, odds: np.ndarray, piece: np.ndarray, kind: np.ndarray
+    link: Callable[[JudgedPairs], Linkage], pairs: JudgedPairs, piece: np.ndarray, kind: np.ndarray
 ) -> Linkage:
     """Link parts so that of groups that repeat each other, a tire or a tire with its rim, all go on alone or none.
 
@@ -67,11 +65,9 @@ def evenly_linked(
     Parameters
     ----------
     link : callable
-        Average linkage of the pairs with given log-odds.
-    pairs : (e, 2) int64
-        Of parts.
-    odds : (e,) float64
-        Log-odds that the two are one part.
+        Average linkage of judged pairs of parts.
+    pairs : JudgedPairs
+        Of parts; scores are log-odds that the two are one.
     piece : (c,) int64
         Piece of each part.
     kind : (p,) int64
@@ -81,20 +77,21 @@ def evenly_linked(
     -------
     linked : Linkage
     """
-    linked = link(odds)
+    linked = link(pairs)
     if len(kind) == 0 or np.bincount(kind).max() < 2:
         return linked
     token, mine = _tokens(piece, kind), kind[piece]
-    others = mine[pairs[:, 0]] != mine[pairs[:, 1]]
+    others = mine[pairs.members[:, 0]] != mine[pairs.members[:, 1]]
     for _ in range(ROUNDS):
         groups = _Groups.of(linked, token, mine)
         shift = groups.shifts()
         if not shift.any():
             break
-        within = groups.innermost(np.flatnonzero(shift))[pairs]
+        within = groups.innermost(np.flatnonzero(shift))[pairs.members]
         by = np.append(shift, 0.0)[within].sum(axis=1)  # -1, in none of these groups, is the last
-        odds = on_grid(np.where(others & (within[:, 0] != within[:, 1]), odds + by, odds))
-        linked = link(odds)
+        moved = others & (within[:, 0] != within[:, 1])
+        pairs = replace(pairs, score=on_grid(np.where(moved, pairs.score + by, pairs.score)))
+        linked = link(pairs)
     return linked
 
 
@@ -139,12 +136,11 @@ class _Groups:
     @classmethod
     def of(cls, linked: Linkage, token: np.ndarray, kind: np.ndarray) -> _Groups:
         """The groups of a linkage of parts; token, kind : (c,), of each part, and of the piece that it lies in."""
-        merges, score, _ = linked
-        count, made = len(token), len(merges)
+        count, made = len(token), len(linked.merges)
         joined = DisjointSet(range(count))
         newest = list(range(count))  # the group of each representative
         both = np.empty((made, 2), np.int64)
-        for k, (a, b) in enumerate(merges.tolist()):
+        for k, (a, b) in enumerate(linked.merges.tolist()):
             both[k] = newest[joined[a]], newest[joined[b]]
             joined.merge(a, b)
             newest[joined[a]] = count + k
@@ -154,7 +150,7 @@ class _Groups:
             kinds.append(kinds[a] if kinds[a] == kinds[b] else -1)
         joins, above = np.full(count + made, np.nan), np.full(count + made, -1)
         # A merge counts where the threshold is below the scores of all before it.
-        joins[both] = np.minimum.accumulate(score)[:, None]
+        joins[both] = np.minimum.accumulate(linked.scores)[:, None]
         above[both] = count + np.arange(made)[:, None]
         for k in np.flatnonzero(np.array(kinds[count:]) >= 0)[::-1]:
             joins[both[k]] = joins[count + k]

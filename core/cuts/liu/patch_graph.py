@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import renumbered, sums_by
+from ...surface.arrays import place_among, renumbered, sums_by
 from ...surface.components import components
 from ...surface.curvature import curvature_across
 from ...surface.labels import label_boundaries
@@ -63,9 +63,7 @@ class PatchGraph:
 
     def within(self, chosen: np.ndarray) -> PatchGraph:
         """Copy some patches, given in rising order as (j,) int64, and the borders between them."""
-        place = np.full(len(self.area), -1)
-        place[chosen] = np.arange(len(chosen))
-        pairs = place[self.pairs]
+        pairs = place_among(chosen, len(self.area))[self.pairs]
         kept = (pairs >= 0).all(axis=1)
         return PatchGraph(self.area[chosen], pairs[kept], self.length[kept], self.way[kept], self.crease[kept])
 

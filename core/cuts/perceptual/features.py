@@ -39,6 +39,8 @@ FEATURES = (*CUT, *(f"small_{s}" for s in SHAPE), *(f"large_{s}" for s in SHAPE)
 # Columns of REGION whose standard deviation is a feature: those of the squares, and of what they are squares of.
 SQUARE = [REGION.log_thickness_square, REGION.log_clearance_square, REGION.log_contour_square, REGION.level_square]
 SQUARE_OF = [REGION.log_thickness, REGION.log_clearance, REGION.log_contour, REGION.level]
+# Least volume over area that a region counts with, in units of the square root of the area of the surface.
+LEAST_VOLUME = 0.003
 # Largest difference, in the unit of each feature, at which two regions count as siblings.
 SIBLING = {"log_area": 0.4, "log_thickness": 0.3, "level": 0.15}
 
@@ -99,7 +101,7 @@ def region_shape(
         "agd": mean[:, c.agd],
         "volume": volume / (area * size),
         "angle_defect": sums[:, c.angle_defect] / (2 * np.pi),
-        "hollowness": np.exp(thickness) * area / np.maximum(volume, 0.003 * area),
+        "hollowness": np.exp(thickness) * area / np.maximum(volume, LEAST_VOLUME * area),
     }, SHAPE)
 
 

@@ -20,6 +20,8 @@ from ...surface.vectors import row_products, weighted_sum
 from .thickness import LARGEST_BALL, thickness
 
 THICKNESS_BINS = 8  # number of bins of the histogram of the logarithm of the thickness
+THINNEST = 0.02  # thickness at which the first of these bins begins, in units of LARGEST_BALL, at which the last ends
+SHORTEST, LONGEST = 0.01, 20.0  # bounds of the length of contours, in units of the square root of the area
 
 
 class Columns:
@@ -134,12 +136,12 @@ def _contour_length(sets: LevelSets) -> np.ndarray:
     area = sets.element_weight
     of_face = (np.bincount(sets.element_face, area * length[sets.element_piece], sets.mesh.n_faces)
                / np.bincount(sets.element_face, area, sets.mesh.n_faces))
-    return np.clip(of_face / np.sqrt(sets.mesh.area), 0.01, 20.0)
+    return np.clip(of_face / np.sqrt(sets.mesh.area), SHORTEST, LONGEST)
 
 
 def _bins(log_thickness: np.ndarray) -> np.ndarray:
     """1 in the bin into which the logarithm of each thickness falls, 0 in the others: (m, THICKNESS_BINS)."""
-    low, width = np.log(0.02), -np.log(0.02) / THICKNESS_BINS
+    low, width = np.log(THINNEST), -np.log(THINNEST) / THICKNESS_BINS
     bin_ = ((log_thickness - low) / width).astype(np.int64).clip(0, THICKNESS_BINS - 1)
     return np.eye(THICKNESS_BINS)[bin_]
 

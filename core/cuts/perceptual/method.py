@@ -28,7 +28,7 @@ from ..patches import concave_patches
 from .features import FEATURES
 from .level_set_patches import level_set_patches
 from .measures import BORDER, surface_measures
-from .merging import Judge, RegionAdjacencyGraph, merge_all_
+from .merging import RegionAdjacencyGraph, merge_all_
 
 # Share of people who separate two regions, 0..1, from which on their cut stays at detail 0.5: of solids, and of sheets,
 # where what was learned from says it is certain.
@@ -75,7 +75,8 @@ def perceptual_candidates(
         A model that ships with the package was trained on other features.
     """
     progress = progress or (lambda share: None)
-    judges = Judges(judge_by(model or cut_model()), judge_by(model or sheet_model()))
+    judges = Judges(CutJudge(model or cut_model(), SHARE_AT_HALF),
+                    CutJudge(model or sheet_model(), SHEET_SHARE_AT_HALF))
     if parameters.follow_level_sets:
         label, hierarchy = _cut_at_levels(sets, field, judges)
     elif sets.mesh.n_faces > MAX_FACES:
@@ -85,34 +86,54 @@ def perceptual_candidates(
     return Candidates(label[sets.element_face], hierarchy)
 
 
+@dataclass(frozen=True, eq=False)
+class CutJudge:
+    """Judges cuts by a model: a ``merging.Judge``.
+
+    Attributes
+    ----------
+    model : BoostedTrees
+        Over the columns FEATURES; estimates the share of people who would separate the regions on both sides of a cut.
+    share_at_half : float
+        The share at which a cut has salience 0.5.
+    """
+
+    model: BoostedTrees
+    share_at_half: float
+
+    def __call__(self, graph: RegionAdjacencyGraph, borders: np.ndarray) -> np.ndarray:
+        """The share of people for each of some borders, (k,) int64: (k,) float64, 0..1."""
+        return self.model.predict(in_steps(graph.features_(borders)))
+
+
 class Judges(NamedTuple):
     """Who judges cuts.
 
     Attributes
     ----------
-    solid : callable
+    solid : CutJudge
         Judges cuts of solids, which are closed surfaces.
-    sheet : callable
+    sheet : CutJudge
         Judges cuts of sheets that were inflated.
     """
 
-    solid: Judge
-    sheet: Judge
+    solid: CutJudge
+    sheet: CutJudge
 
 
 def _merge(
-    sets: LevelSets, field: ScalarField, label: np.ndarray, judge: Judge, share_at_half: float
+    sets: LevelSets, field: ScalarField, label: np.ndarray, judge: CutJudge
 ) -> tuple[Hierarchy, np.ndarray]:
     """Hierarchy over patches, and curvature across each pair of faces, (p,), times the square root of the area.
 
-    label : (m,) int64, patch of each face. share_at_half : see ``salience_of``.
+    label : (m,) int64, patch of each face.
     """
     measures = surface_measures(sets, field)
     graph = RegionAdjacencyGraph(sets.mesh, measures, label)
     merges, share = merge_all_(graph, judge)
     length, curvature = measures.pair[:, [BORDER.length, BORDER.curvature.start]].T
     curvature = np.divide(curvature, length, out=np.zeros_like(length), where=length > 0)
-    return Hierarchy.of(label.max() + 1, merges, salience_of(share, share_at_half)), curvature
+    return Hierarchy.of(label.max() + 1, merges, salience_of(share, judge.share_at_half)), curvature
 
 
 def _without_noise(sets: LevelSets) -> LevelSets:
@@ -127,8 +148,8 @@ def _cut_at_levels(sets: LevelSets, field: ScalarField, judges: Judges) -> tuple
     label = level_set_patches(sets)
     solid = inflate(sets, field)
     if solid is None:
-        return label, _merge(sets, field, label, judges.solid, SHARE_AT_HALF)[0]
-    return label, _merge(solid.sets, solid.field, label[solid.shape.face_source], judges.sheet, SHEET_SHARE_AT_HALF)[0]
+        return label, _merge(sets, field, label, judges.solid)[0]
+    return label, _merge(solid.sets, solid.field, label[solid.shape.face_source], judges.sheet)[0]
 
 
 def _cut_in_creases(
@@ -141,8 +162,8 @@ def _cut_in_creases(
     sets = _without_noise(sets)
     solid = inflate(sets, field)
     if solid is None:
-        return _cut_solid(sets, field, band_ratio, judges.solid, SHARE_AT_HALF, progress)
-    label, hierarchy = _cut_solid(solid.sets, solid.field, band_ratio, judges.sheet, SHEET_SHARE_AT_HALF, progress)
+        return _cut_solid(sets, field, band_ratio, judges.solid, progress)
+    label, hierarchy = _cut_solid(solid.sets, solid.field, band_ratio, judges.sheet, progress)
     return solid.shape.on_front(label, sets.mesh.n_faces), hierarchy
 
 
@@ -191,13 +212,12 @@ def inflate(sets: LevelSets, field: ScalarField) -> InflatedComponent | None:
 
 
 def _cut_solid(
-    sets: LevelSets, field: ScalarField, band_ratio: float, judge: Judge, share_at_half: float,
-    progress: Callable[[float], None],
+    sets: LevelSets, field: ScalarField, band_ratio: float, judge: CutJudge, progress: Callable[[float], None]
 ) -> tuple[np.ndarray, Hierarchy]:
     """What ``_cut_in_creases`` returns, of a component without sheets."""
     label = concave_patches(sets.mesh)
     progress(0.2)
-    hierarchy, curvature = _merge(sets, field, label, judge, share_at_half)
+    hierarchy, curvature = _merge(sets, field, label, judge)
     progress(0.7)
     return move_cuts(MovableCuts(sets.mesh, curvature, band_ratio), label, hierarchy), hierarchy
 
@@ -334,15 +354,6 @@ def _restrict(field: ScalarField, owner: np.ndarray, weight: np.ndarray, n: int)
     total = np.bincount(owner, weight, n)
     return ScalarField(*(np.bincount(owner, weight * f, n) / total
                          for f in (field.values, field.normalized, field.agd)))
-
-
-def judge_by(model: BoostedTrees) -> Judge:
-    """Make a judge of borders from a model.
-
-    model : BoostedTrees. Returns a callable that estimates, for each border, the share of people who would separate the
-    regions on both sides, 0..1.
-    """
-    return lambda graph, borders: model.predict(in_steps(graph.features_(borders)))
 
 
 def salience_of(share: np.ndarray, share_at_half: float = SHARE_AT_HALF) -> np.ndarray:

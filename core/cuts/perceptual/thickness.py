@@ -19,6 +19,10 @@ LARGEST_BALL = 0.2  # radius at which balls begin to shrink, in units of the squ
 N_SURFACE = 12_000  # upper bound of the number of points that represent the surface
 N_PROBES = 2_500  # upper bound of the number of faces measured; a face gets the mean of the three nearest of them
 AMONG = 6  # upper bound of their number, as several may be equally near
+# How much a turned normal counts where the nearest probe is searched, in units of the square root of the area: the two
+# sides of a wall that is thinner than that have probes of their own.
+TURNED = 0.05
+SMALLEST = 1e-3  # lower bound of a radius, in units of LARGEST_BALL, as its logarithm is taken
 
 
 def thickness(mesh: TriMesh, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -43,7 +47,7 @@ def thickness(mesh: TriMesh, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     probe = spread_evenly(mesh.face_area, order, N_PROBES)
     tree = search_tree(surface)
     # The nearest probe is searched by position and normal, so that it is on the same side of a thin wall.
-    place = np.hstack([center, 0.05 * normal])
+    place = np.hstack([center, TURNED * normal])
     near, counts = _nearest(search_tree(place[probe]), place)
     share = counts / counts.sum(axis=1, keepdims=True)
     return tuple(
@@ -62,4 +66,4 @@ def _nearest(tree: cKDTree, place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _radius(tree: cKDTree, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
     """Radius of the ball, (k,), that touches each point, with its center in the given direction and no point within."""
-    return np.maximum(ball_radius(tree, point, direction, LARGEST_BALL), 1e-3 * LARGEST_BALL)
+    return np.maximum(ball_radius(tree, point, direction, LARGEST_BALL), SMALLEST * LARGEST_BALL)

@@ -133,7 +133,7 @@ def _torn(band: Band, division: Division) -> np.ndarray:
     name[after] = label
     # Of each part as many of the largest as there were before are what is left of it; others are torn off.
     size = np.bincount(after, minlength=count)
-    order = np.lexsort((np.arange(count), -size, name))
+    order = np.lexsort((-size, name))
     first = np.searchsorted(name[order], name[order])
     off = np.zeros(count, bool)
     off[order] = np.arange(count) - first >= n_before[name[order]]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...surface.arrays import place_among
 from ...surface.vectors import unit
 from .band import Band
 from .turning import turning
@@ -79,8 +80,7 @@ def _sharp(band: Band) -> np.ndarray:
 
 def are_between(band: Band, pins: Pins, top: np.ndarray) -> np.ndarray:
     """Whether all neighbors of each pinned vertex are in one of its two parts, (k,) bool."""
-    place = np.full(len(band.vertices), -1)
-    place[pins.vertex] = np.arange(len(pins.vertex))
+    place = place_among(pins.vertex, len(band.vertices))
     start, end = np.concatenate([band.table.edges, band.table.edges[:, ::-1]]).T
     start, end = start[place[start] >= 0], end[place[start] >= 0]
     strange = (pins.pair[place[start]] != top[end][:, None]).all(axis=1)

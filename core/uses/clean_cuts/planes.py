@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...surface.arrays import sums_by
+from ...surface.arrays import place_among, sums_by
 from ...surface.components import components
 from .band import Band
 
@@ -87,8 +87,7 @@ def planes_of(band: Band, top: np.ndarray, share: np.ndarray, steps: int, bent: 
 def _curves(band: Band, crossed: np.ndarray) -> np.ndarray:
     """Number of the curve that each of some crossed edges is on, 0..; curves go on across faces."""
     table = band.table
-    place = np.full(len(band.edges), -1)
-    place[crossed] = np.arange(len(crossed))
+    place = place_among(crossed, len(band.edges))
     corner = np.flatnonzero(place[table.corner_edge] >= 0)
     point, face = place[table.corner_edge[corner]], table.corner_face[corner]
     same = face[1:] == face[:-1]

@@ -11,9 +11,11 @@ from core.surface.arrays import (
     first_of_rows,
     is_last_of_each,
     last_of_each,
+    place_among,
     ranges,
     renumbered,
     rounded_order,
+    run_starts,
     stable_order,
     taken,
 )
@@ -32,6 +34,15 @@ def test_ranges_are_listed_one_after_the_other():
     assert row.tolist() == [0, 0, 2, 3, 3, 3]
     assert number.tolist() == [5, 6, 7, 2, 3, 4]
     assert not len(ranges(np.empty(0, np.int32), np.empty(0, np.int32)))
+
+
+@pytest.mark.parametrize(("values", "starts"), [([], []), ([4], [0]), ([2, 2, 0, 0, 0, 2, 5], [0, 2, 5, 6])])
+def test_runs_begin_where_the_value_is_another(values, starts):
+    assert run_starts(np.array(values, np.uint8)).tolist() == starts
+
+
+def test_what_is_not_chosen_has_no_place():
+    assert place_among(np.array([4, 0, 2]), 6).tolist() == [1, -1, 2, -1, 0, -1]
 
 
 @pytest.mark.parametrize(("low", "high"), [

@@ -4,13 +4,21 @@
 import numpy as np
 import pytest
 
-from core.cuts.joining.linkage import average_linkage
+from core.cuts.joining.linkage import JudgedPairs, average_linkage
 from core.surface.components import components
+
+
+def judged(pairs, score, weight=None, near=None):
+    """Pairs that all count alike, and all are near, unless it is said."""
+    one = np.ones(len(pairs))
+    return JudgedPairs(np.array(pairs), np.array(score, float), np.array(one if weight is None else weight),
+                       np.array(one if near is None else near, bool))
 
 
 def test_four_members_by_hand():
     pairs = np.array([(0, 1), (1, 2), (0, 2), (2, 3)])
-    merges, scores, rows = average_linkage(4, pairs, np.array([3.0, 2.0, -1.0, 1.0]), np.array([1.0, 1.0, 3.0, 2.0]))
+    merges, scores, rows = average_linkage(
+        4, judged(pairs, [3.0, 2.0, -1.0, 1.0], [1.0, 1.0, 3.0, 2.0]))
     # 0 and 1 first; then 2 and 3, because {0, 1} and 2 score (2 - 3) / 4.
     assert [set(m) for m in merges.tolist()] == [{0, 1}, {2, 3}, {0, 2}]
     assert scores.tolist() == [3.0, 1.0, -0.25]
@@ -19,7 +27,7 @@ def test_four_members_by_hand():
 
 def test_small_groups_join_more_easily():
     pairs, score, size = np.array([(0, 1), (1, 2), (2, 3)]), np.array([1.0, 0.8, 1.5]), np.exp([-2.0, -2.0, 0.0, 1.0])
-    merges, scores, _ = average_linkage(4, pairs, score, np.ones(3), size, 0.5)
+    merges, scores, _ = average_linkage(4, judged(pairs, score), size, 0.5)
     # Half of the logarithm of the smaller, which is -2, is taken from the score of 0 and 1; 2 and 3 are large, and
     # {0, 1} is twice as large as either.
     assert [set(m) for m in merges.tolist()] == [{0, 1}, {2, 3}, {0, 2}]
@@ -27,17 +35,17 @@ def test_small_groups_join_more_easily():
 
 
 def test_what_was_not_compared_stays_apart():
-    merges, scores, rows = average_linkage(4, np.array([(0, 3)]), np.array([-9.0]), np.ones(1))
+    merges, scores, rows = average_linkage(4, judged([(0, 3)], [-9.0]))
     assert merges.tolist() == [[0, 3]]
     assert (scores.tolist(), rows.tolist()) == ([-9.0], [0])
-    nothing = average_linkage(3, np.empty((0, 2), int), np.empty(0), np.empty(0))
+    nothing = average_linkage(3, judged(np.empty((0, 2), int), []))
     assert [x.shape for x in nothing] == [(0, 2), (0,), (0,)]
 
 
 def test_far_pairs_count_and_join_nothing():
     # Both arms, 0 and 2, are as much of the shoulder, 1, as could be; that they are not one part is said of them alone.
     pairs, score = np.array([(0, 1), (1, 2), (0, 2), (2, 3)]), np.array([2.0, 2.0, -9.0, 5.0])
-    merges, scores, rows = average_linkage(4, pairs, score, np.ones(4), near=np.array([True, True, False, False]))
+    merges, scores, rows = average_linkage(4, judged(pairs, score, near=[True, True, False, False]))
     assert [set(m) for m in merges.tolist()] == [{0, 1}, {0, 2}]
     assert scores.tolist() == [2.0, -3.5]
     assert rows.tolist() == [0, 1]
@@ -53,7 +61,7 @@ def test_every_merge_joins_two_groups_with_the_mean_of_their_pairs(seed, ease, s
     score, weight = rng.normal(size=len(pairs)), 0.1 + rng.random(len(pairs))
     size = 0.1 + rng.random(25)
     near = rng.random(len(pairs)) < share_near
-    merges, scores, rows = average_linkage(25, pairs, score, weight, size, ease, near)
+    merges, scores, rows = average_linkage(25, judged(pairs, score, weight, near), size, ease)
     group = np.arange(25)
     for (a, b), found, row in zip(merges.tolist(), scores, rows, strict=True):
         a, b = group[[a, b]]

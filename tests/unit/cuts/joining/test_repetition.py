@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pieces that repeat each other: which do, and that all of them are parts of their own, or none."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 import shapes
 
-from core.cuts.joining.linkage import average_linkage
+from core.cuts.joining.linkage import JudgedPairs, average_linkage
 from core.cuts.joining.repetition import evenly_linked, piece_kinds
 from core.surface.mesh import TriMesh
 
@@ -38,10 +40,8 @@ def test_thousands_of_one_shape_take_no_table_of_pairs():
 
 def linked(odds, piece, kind, pairs):
     """Groups at a score of 0, as sets of parts."""
-    def link(odds):
-        return average_linkage(len(piece), pairs, odds, np.ones(len(pairs)))
-
-    merges, score, _ = evenly_linked(link, pairs, np.array(odds), np.array(piece), np.array(kind))
+    judged = JudgedPairs(pairs, np.array(odds), np.ones(len(pairs)), np.ones(len(pairs), bool))
+    merges, score, _ = evenly_linked(partial(average_linkage, len(piece)), judged, np.array(piece), np.array(kind))
     group = np.arange(len(piece))
     for a, b in merges[np.minimum.accumulate(score) > 0]:
         group[group == group[b]] = group[a]
