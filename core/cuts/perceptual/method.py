@@ -137,7 +137,7 @@ def _merge(
 
 
 def _without_noise(sets: LevelSets) -> LevelSets:
-    """The same level sets of a surface without its noise; what is measured of both is that surface's."""
+    """The level sets with a mesh that has no noise, on which normals, curvature and thickness are measured."""
     mesh = denoised(sets.mesh)
     return sets if mesh is sets.mesh else replace(sets, mesh=mesh)
 
