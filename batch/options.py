@@ -9,13 +9,10 @@ from typing import Any
 
 from ..core.options import add_parameters, dashed, limits_of, named_file, number
 from ..scene.settings import SEPARATE, HintProperties, JointProperties, OutputProperties, OverlayProperties
+from .importers import MODELS, WITHOUT_UNIT
 
 #: Lengths of units in meters, with what Blender calls them.
 UNITS = {"m": (1.0, "METERS"), "cm": (0.01, "CENTIMETERS"), "mm": (0.001, "MILLIMETERS")}
-#: Models whose lengths are in no unit.
-WITHOUT_UNIT = (".obj", ".ply", ".stl")
-#: Models that can be read besides scenes, see models.IMPORTERS.
-MODELS = (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx")
 PIXELS = number(16, 8192, int)
 
 
