@@ -51,7 +51,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the results")
     parser.add_argument("--root", type=Path, metavar="DIR", help="folder below which models have their names; the "
                         "innermost one that holds all of them without")
-    parser.add_argument("--blender", metavar="PATH", help="the Blender that reads .blend and .fbx")
+    parser.add_argument("--blender", metavar="PATH", help="the Blender that reads " + ", ".join(BY_BLENDER))
     files = parser.add_argument_group("files for each model")
     files.add_argument("--json", action=argparse.BooleanOptionalAction, default=True, help="the JSON document")
     files.add_argument("--labels", choices=_kinds(LABELS), default="npy",

@@ -231,7 +231,8 @@ def test_other_bytes_parameters_or_missing_files_are_not_done(batch, models, tmp
 
 @pytest.mark.parametrize(("suffix", "blender", "words"), [
     ("fbx", None, "Say where it is with --blender"), ("blend", "/none", "could not be started: No such file"),
-    ("xyz_", None, "is none of"),
+    ("xyz_", None, "is none of"), ("usdz", None, "Say where it is with --blender"),
+    ("abc", None, "Say where it is with --blender"),
 ])  # fmt: skip
 def test_what_lacked_a_reader_is_tried_again(suffix, blender, words, tmp_path):
     model = tmp_path / f"model.{suffix}"
@@ -240,6 +241,19 @@ def test_what_lacked_a_reader_is_tried_again(suffix, blender, words, tmp_path):
     assert answer["status"] == "reader"
     assert words in answer["reason"]
     assert not is_done(model, tmp_path / "out", Settings(Parameters()))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no signals end processes there")
+def test_a_blender_that_crashes_costs_one_model(tmp_path):
+    """As at damage within a file of Alembic; what it said last is about lines of its own."""
+    blender = tmp_path / "blender"
+    blender.write_text("#!/bin/sh\necho 'terminate called' >&2\nkill -SEGV $$\n")
+    blender.chmod(0o755)
+    (tmp_path / "model.abc").write_bytes(b"Ogawa")
+    answer = do_model(job(tmp_path / "model.abc", tmp_path / "out") | {"blender": str(blender)})
+    assert answer["status"] == "crash"
+    assert answer["reason"] == f"{tmp_path}/model.abc could not be read, as {blender} crashed: Segmentation fault"
+    assert not is_done(tmp_path / "model.abc", tmp_path / "out", Settings(Parameters()))
 
 
 def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tmp_path):
