@@ -77,6 +77,9 @@ class Model:
     polygon: np.ndarray
     up: str = "y"
 
+    def __repr__(self) -> str:
+        return f"<Model {self.name}: {len(self.vertices)} vertices, {len(self.faces)} triangles, {self.up} up>"
+
 
 def formats() -> tuple[str, ...]:
     """Suffixes of the files that can be read without Blender, with their dots."""
