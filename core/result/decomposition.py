@@ -243,8 +243,9 @@ class Decomposition:
     junction_length: np.ndarray = attribute(default_factory=lambda: np.empty(0))
 
     def __repr__(self) -> str:
+        graph = self.graph
         return (f"<Decomposition by {self.parameters.method}: {self.n_faces} faces, {self.parts().count} parts, "
-                f"{self.graph!r}>")
+                f"{graph.n_nodes} nodes, {graph.n_arcs} arcs, {graph.n_loops} loops>")
 
     @property
     def n_faces(self) -> int:

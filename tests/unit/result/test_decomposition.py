@@ -60,8 +60,9 @@ def test_each_is_a_line_in_a_notebook(tree):
     """All arrays of a result were 39,000 characters."""
     assert repr(row().parts(n_parts=3)) == "<Parts: 3 of 7 faces>"
     assert repr(row().hierarchy) == "<Hierarchy: 4 candidates, 3 merges>"
-    assert repr(row()) == "<Decomposition by perceptual: 7 faces, 2 parts, <ReebGraph: 0 nodes, 0 arcs, 0 loops>>"
+    assert repr(row()) == "<Decomposition by perceptual: 7 faces, 2 parts, 0 nodes, 0 arcs, 0 loops>"
     assert repr(TriMesh(*shapes.octahedron())) == "<TriMesh: 6 vertices, 8 faces>"
+    assert repr(tree.graph) == f"<ReebGraph: {tree.graph.n_nodes} nodes, {tree.graph.n_arcs} arcs, 0 loops>"
     assert len(repr(tree)) < 120
 
 
