@@ -794,8 +794,34 @@ def test_places_without_models_are_refused(places, root, words, models, tmp_path
         find_sources(places, (".ply",), tmp_path, root and models / root)
 
 
-def test_a_folder_where_nobody_can_look_is_named_and_no_success(tree, tmp_path, monkeypatch, capsys):
-    """Its models were missing, and the exit status 0."""
+def test_what_is_gone_of_a_list_costs_only_itself(tree, tmp_path, capsys):
+    """A batch of a whole archive was refused for one model that somebody had removed since. What is done stays."""
+    model = save(tree, tmp_path / "in" / "tree.ply")
+    do_model(job(model, tmp_path / "out" / "models" / "tree.ply"))
+    gone = [str(tmp_path / name) for name in ("in/gone.ply", "none/gone.obj", "x" * 300 + ".ply")]
+    (tmp_path / "list.txt").write_text("\n".join([*gone, str(model)]))
+    parser = argparse.ArgumentParser()
+    command.add_options(parser)
+
+    def run():
+        return command.run(parser.parse_args(["--list", str(tmp_path / "list.txt"), "--out", str(tmp_path / "out")]))
+
+    status, said = run(), capsys.readouterr()
+    answer = json.loads(said.out)
+    assert (status, answer["models"], answer["unread"]) == (1, {"done": 1}, gone)
+    assert f"3 of 4 in the list cannot be found (first: {gone[0]})." in said.err
+    model.unlink()  # as where the disk with all of them is not there
+    with pytest.raises(SourceError, match="no model"):
+        run()
+    assert (tmp_path / "out" / "models" / "tree.ply" / "labels.npy").is_file()
+    (tmp_path / "list.txt").write_text("no folder")
+    with pytest.raises(SourceError, match="no file and no folder"):
+        run()
+
+
+@pytest.mark.parametrize("patterns", [[""], ["**/*.ply"], ["*.ply", "*/*.ply"]])
+def test_a_folder_where_nobody_can_look_is_named_and_no_success(patterns, tree, tmp_path, monkeypatch, capsys):
+    """Its models were missing, and the exit status 0; where a pattern led to it, for longer."""
     model, secret = save(tree, tmp_path / "in" / "tree.ply"), tmp_path / "in" / "secret"
     secret.mkdir()
     do_model(job(model, tmp_path / "out" / "models" / "tree.ply"))
@@ -809,7 +835,8 @@ def test_a_folder_where_nobody_can_look_is_named_and_no_success(tree, tmp_path, 
     monkeypatch.setattr(os, "scandir", refuse)
     parser = argparse.ArgumentParser()
     command.add_options(parser)
-    status = command.run(parser.parse_args([str(tmp_path / "in"), "--out", str(tmp_path / "out")]))
+    places = [str(tmp_path / "in" / pattern) for pattern in patterns]
+    status = command.run(parser.parse_args([*places, "--out", str(tmp_path / "out")]))
     said = capsys.readouterr()
     answer = json.loads(said.out)
     assert (status, answer["models"], answer["unread"]) == (1, {"done": 1}, [str(secret)])
