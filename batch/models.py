@@ -14,19 +14,9 @@ import bpy
 from ..core.file_names import kind_of, readable
 from ..scene.errors import SceneError
 from ..scene.run_files import reason
+from .importers import IMPORTERS, WITHOUT_UNIT, import_model
 from .messages import problem
 
-#: What imports models, by the suffixes of those that can be read besides scenes.
-IMPORTERS = {
-    ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
-    ".ply": lambda path: bpy.ops.wm.ply_import(filepath=path),
-    ".stl": lambda path: bpy.ops.wm.stl_import(filepath=path),
-    ".glb": lambda path: bpy.ops.import_scene.gltf(filepath=path),
-    ".gltf": lambda path: bpy.ops.import_scene.gltf(filepath=path),
-    ".fbx": lambda path: bpy.ops.import_scene.fbx(filepath=path),
-}
-#: Those whose lengths are in no unit.
-WITHOUT_UNIT = (".obj", ".ply", ".stl")
 #: Lengths of units in meters, with what Blender calls them.
 UNITS = {"m": (1.0, "METERS"), "cm": (0.01, "CENTIMETERS"), "mm": (0.001, "MILLIMETERS")}
 
@@ -127,22 +117,10 @@ def _check_model(path: Path, kinds: tuple[str, ...]) -> None:
 def _imported(path: Path) -> list:
     """Import a model into the scene; returns its meshes. Raises SceneError."""
     _check_model(path, tuple(IMPORTERS))
-    before = set(bpy.context.scene.objects)
     try:
-        IMPORTERS[path.suffix.lower()](str(path.resolve()))
-    except RuntimeError as error:
+        meshes = import_model(path)
+    except RuntimeError as error:  # what Blender's own operators report
         raise SceneError(f"{path} could not be read: {reason(error)}") from error
-    bones = _leave_out_bones()
-    meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH" and obj not in before and obj not in bones]
     if not meshes:
         raise SceneError(f"There is no mesh in {path}.")
     return meshes
-
-
-def _leave_out_bones() -> set[bpy.types.Object]:
-    """Exclude what is no part of a model, but how Blender's importer of glTF shows bones; these objects."""
-    layers = [layer for layer in bpy.context.view_layer.layer_collection.children
-              if layer.name.startswith("glTF_not_exported")]
-    for layer in layers:
-        layer.exclude = True
-    return {obj for layer in layers for obj in layer.collection.objects}

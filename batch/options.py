@@ -10,7 +10,8 @@ from typing import Any
 from ..core.options import add_parameters, dashed, limits_of, named_file, number
 from ..scene.export import KINDS
 from ..scene.settings import SEPARATE, HintProperties, JointProperties, OutputProperties, OverlayProperties
-from .models import IMPORTERS, UNITS, WITHOUT_UNIT
+from .importers import IMPORTERS, WITHOUT_UNIT
+from .models import UNITS
 
 PIXELS = number(16, 8192, int)
 

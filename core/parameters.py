@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import wraps
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from .sentence import Sentence
 PERCEPTUAL, BERRETTI, LAVOUE, LIU = "perceptual", "berretti", "lavoue", "liu"
 TOGETHER, SEPARATE = "together", "separate"
 PIECES = (TOGETHER, SEPARATE)
+_Class = TypeVar("_Class")
 
 
 @dataclass(frozen=True)
@@ -98,15 +99,15 @@ def _shown(value: object) -> str:
     return text if len(text) <= 60 else f"{text[:50]}..."
 
 
-def _with_old_names(cls: type) -> type:
+def _with_old_names(cls: type[_Class]) -> type[_Class]:
     """Class decorator: the class also takes names of version 0.1.0, with a DeprecationWarning for each."""
-    made = cls.__init__  # type: ignore[misc]  # it is that of the class given, whatever inherits from it
+    made = cls.__init__  # it is that of the class given, whatever inherits from it
 
     @wraps(made)
     def init(self: Any, *args: Any, **values: Any) -> None:
         made(self, *args, **_with_warnings(values))
 
-    cls.__init__ = init  # type: ignore[misc]
+    cls.__init__ = init  # type: ignore[method-assign]
     return cls
 
 

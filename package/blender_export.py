@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run by a Blender: all meshes of a .blend or .fbx file as arrays in one file of NumPy.
+"""Run by a Blender: all meshes of a .blend, .fbx, USD or Alembic file as arrays in one file of NumPy.
 
     blender --background --factory-startup --python blender_export.py -- MODEL OUT.npz
 
 Meshes are those of the objects themselves, in the mix of their shape keys, without their modifiers, in the places that
-the scene gives them, once more for each instance of a collection. What Reeb Parts has made of a
-model that is there - pieces, dowels, hulls - is that model a second time, and left out.
+the scene gives them, once more for each instance of a collection, and of USD for each instance of a point. What Reeb
+Parts has made of a model that is there - pieces, dowels, hulls - is that model a second time, and left out.
 """
 
 import sys
@@ -17,6 +17,10 @@ import numpy as np
 #: Custom properties by which Reeb Parts knows what it made, as in its scene/: on hulls and all that helps; on pieces
 #: and dowels; on collections of these, the object that they come from, or its name.
 ROLE, PIECES, PIECES_OF = "reeb_parts_role", ("reeb_parts_number", "reeb_parts_dowel"), "reeb_parts_pieces_of"
+
+
+class NoImporterError(Exception):
+    """What reads such files is not in this Blender."""
 
 
 def _include_all(layer: bpy.types.LayerCollection) -> None:
@@ -43,13 +47,25 @@ def _is_made_of_another(obj: bpy.types.Object) -> bool:
         source in there.keys() if isinstance(source, str) else source in there.values() for source in sources)
 
 
-def _placed() -> list[tuple[bpy.types.Object, np.ndarray]]:
-    """Objects with meshes, and their places as matrices, (4, 4): those of the scene, then those of instances."""
-    found = [(obj, np.array(obj.matrix_world)) for obj in bpy.context.scene.objects]
+def _placed(prototypes: set[bpy.types.Object]) -> list[tuple[bpy.types.Object, np.ndarray]]:
+    """Objects with meshes, and their places as matrices, (4, 4): those of the scene, then those of instances.
+
+    prototypes : what is seen through instances alone, also those that nodes make of points.
+    """
+    found = [(obj, np.array(obj.matrix_world)) for obj in bpy.context.scene.objects if obj not in prototypes]
     for instance in bpy.context.evaluated_depsgraph_get().object_instances:
-        if instance.is_instance and instance.parent.instance_type == "COLLECTION":
+        if instance.is_instance and (
+                instance.parent.instance_type == "COLLECTION" or instance.object.original in prototypes):
             found.append((instance.object.original, np.array(instance.matrix_world)))
     return [(obj, matrix) for obj, matrix in found if obj.type == "MESH" and not _is_made_of_another(obj)]
+
+
+def _mend_corners(mesh: bpy.types.Mesh) -> None:
+    """Drop faces with corners that do not exist, at which Blender would crash; not all its importers do."""
+    corner = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corner)
+    if (corner.view(np.uint32) >= len(mesh.vertices)).any():
+        mesh.validate()
 
 
 def _points(obj: bpy.types.Object) -> np.ndarray:
@@ -64,30 +80,51 @@ def _points(obj: bpy.types.Object) -> np.ndarray:
     return place.reshape(-1, 3)
 
 
+def _opened(path: str) -> set[bpy.types.Object]:
+    """Open a scene or import a model; what of it is seen through instances alone."""
+    kind = Path(path).suffix.lower()
+    if kind == ".blend":
+        bpy.ops.wm.open_mainfile(filepath=path, load_ui=False, use_scripts=False)
+    else:
+        bpy.ops.wm.read_homefile(use_empty=True)
+    if kind == ".fbx":
+        bpy.ops.import_scene.fbx(filepath=path)
+    if kind in (".blend", ".fbx"):
+        _include_all(bpy.context.view_layer.layer_collection)
+        return set()
+    if not (bpy.app.build_options.alembic if kind == ".abc" else bpy.app.build_options.usd):
+        raise NoImporterError(f"this Blender was built without an importer of {kind}")
+    importer = bpy.ops.wm.alembic_import if kind == ".abc" else bpy.ops.wm.usd_import
+    if importer(filepath=path) != {"FINISHED"}:  # that of Alembic says why in the console alone
+        raise RuntimeError(f"it is damaged, or no {kind}")
+    if kind != ".abc":
+        bpy.context.scene.frame_set(0)  # the time of which meshes are read; places would be those of frame 1
+    # What instances show lies in collections that are hidden.
+    return {obj for obj in bpy.context.scene.objects if not obj.visible_get()}
+
+
 def export(path: str, out: str) -> None:
     """Read the model and write vertices (n, 3), triangles (m, 3) and the polygon (m,) of each triangle.
 
-    What is raised is written as well, to a file of the same name that ends in .txt.
+    What is raised is written as well, to a file of the same name that ends in .txt, or in .none if another Blender
+    could read the model.
     """
     try:
         _export(path, out)
     except Exception as error:
-        Path(out).with_suffix(".txt").write_text(str(error) or type(error).__name__, encoding="utf-8")
+        said = Path(out).with_suffix(".none" if isinstance(error, NoImporterError) else ".txt")
+        said.write_text(str(error) or type(error).__name__, encoding="utf-8")
         raise
 
 
 def _export(path: str, out: str) -> None:
     """Read and write."""
-    if path.lower().endswith(".blend"):
-        bpy.ops.wm.open_mainfile(filepath=path, load_ui=False, use_scripts=False)
-    else:
-        bpy.ops.wm.read_homefile(use_empty=True)
-        bpy.ops.import_scene.fbx(filepath=path)
-    _include_all(bpy.context.view_layer.layer_collection)
+    prototypes = _opened(path)
     vertices, triangles, polygons = [np.empty((0, 3))], [np.empty((0, 3), np.int64)], [np.empty(0, np.int64)]
     n_vertices = n_polygons = 0
-    for obj, matrix in _placed():
+    for obj, matrix in _placed(prototypes):
         mesh = obj.data
+        _mend_corners(mesh)
         mesh.calc_loop_triangles()
         corner = np.empty(3 * len(mesh.loop_triangles), np.int32)
         polygon = np.empty(len(mesh.loop_triangles), np.int32)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import io
 import os
 import re
+import signal
 import stat
 import subprocess
 import tempfile
@@ -30,7 +31,7 @@ from .off_files import parse_off
 from .ply_files import ASCII, read_ply
 
 #: Files that Blender alone can read, see ``blender_export``.
-BY_BLENDER = (".blend", ".fbx")
+BY_BLENDER = (".blend", ".fbx", ".usd", ".usda", ".usdc", ".usdz", ".abc")
 #: Files in which z is up by custom; y is in all others.
 Z_UP = (".stl", ".ply", ".3mf", *BY_BLENDER)
 ARRAYS = ".npz"  # the arrays ``vertices`` and ``faces``, as NumPy stores them
@@ -47,6 +48,10 @@ class NoReaderError(ModelFileError):
     """What reads files of this kind is not there, though it may be another time."""
 
 
+class CrashedReaderError(ModelFileError):
+    """A Blender that was to read a model ended in the middle of it."""
+
+
 @dataclass(frozen=True, eq=False)
 class Model:
     """A model as it was read from a file: all its meshes, in the places that its scene gives them.
@@ -60,8 +65,8 @@ class Model:
     faces : (m, 3) int64
         Triangles; in the order of the file, polygons cut into triangles.
     polygon : (m,) int64
-        Face of the file to which each triangle belongs; in files other than .obj, .ply, .off, .blend and .fbx,
-        whose readers cut polygons themselves, each triangle is a face.
+        Face of the file to which each triangle belongs; in files other than .obj, .ply, .off, .npz and those that
+        Blender reads, whose readers cut polygons themselves, each triangle is a face.
     up : str
         "y" or "z", the axis that is up in files of its kind.
     """
@@ -71,6 +76,9 @@ class Model:
     faces: np.ndarray
     polygon: np.ndarray
     up: str = "y"
+
+    def __repr__(self) -> str:
+        return f"<Model {self.name}: {len(self.vertices)} vertices, {len(self.faces)} triangles, {self.up} up>"
 
 
 def formats() -> tuple[str, ...]:
@@ -88,7 +96,7 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
     path : str or Path
         A file of a kind in ``formats()``, or one that Blender reads.
     blender : str or Path, optional
-        A Blender, to read .blend and .fbx.
+        A Blender, to read what only it can: ``BY_BLENDER``.
     temporary : str or Path, optional
         Folder for the temporary files of that; the system's own without.
 
@@ -101,7 +109,9 @@ def read_model(path: str | Path, blender: str | Path | None = None, temporary: s
     ModelFileError
         There is no such file, it is damaged, or it has no faces.
     NoReaderError
-        It is of a kind that nothing here reads; of those that Blender reads, without one.
+        It is of a kind that nothing here reads; of those that Blender reads, without one that can.
+    CrashedReaderError
+        The Blender that read it crashed.
     """
     path = Path(path)
     kind = path.suffix.lower()
@@ -290,6 +300,12 @@ def _read_by_blender(path: Path, blender: str | Path | None,
         except OSError as error:
             raise NoReaderError(Sentence("{path} could not be read, as {blender} could not be started: {reason}",
                                          path=path, blender=blender, reason=error.strerror or error)) from error
+        if done.returncode < 0:
+            raise CrashedReaderError(Sentence("{path} could not be read, as {blender} crashed: {reason}", path=path,
+                                              blender=blender, reason=signal.strsignal(-done.returncode)))
+        if (lacks := out.with_suffix(".none")).is_file():
+            raise NoReaderError(Sentence("{path} could not be read: {reason}", path=path,
+                                         reason=lacks.read_text(encoding="utf-8")))
         if done.returncode or not out.is_file():
             raise _unreadable(path, _complaint(out, done, blender))
         try:
@@ -307,7 +323,7 @@ def _complaint(out: Path, done: subprocess.CompletedProcess[str], blender: str |
     if not lines:
         return f"{blender} ended with status {done.returncode} and said nothing"
     # What its operators in Python report ends with the error itself.
-    return lines[-1].removeprefix("Error: ")
+    return lines[-1].removeprefix("Error: ").removesuffix(", see console for detail")
 
 
 def _unreadable(path: Path, reason: str) -> ModelFileError:

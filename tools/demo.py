@@ -2,7 +2,7 @@
 """Set everything up, cut a model into its parts and leave the results in a folder.
 
     ./demo                          on the bundled model, a cow called Spot
-    ./demo MODEL [MODEL ...]        on your own: .obj .ply .stl .glb .fbx, or a .blend scene
+    ./demo MODEL [MODEL ...]        on your own: .obj .ply .stl .glb .fbx .usd .abc, or a .blend scene
 
 For each model, out/ then holds NAME.blend to open in Blender, NAME.json with the parts and the Reeb graph
 as data, and NAME.png, a picture of both.
@@ -19,7 +19,7 @@ from pathlib import Path
 import environments
 from environments import ROOT, fail, say
 
-SUFFIXES = (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx", ".blend")
+SUFFIXES = (".obj", ".ply", ".stl", ".glb", ".gltf", ".fbx", ".usd", ".usda", ".usdc", ".usdz", ".abc", ".blend")
 #: Spot looks the other way than most models do.
 SPOT, SPOT_TURN = ROOT / "models" / "spot.obj", 180.0
 

@@ -275,7 +275,7 @@ def _pytest(name: str, diagonal: int | None, scratch: Path, extra: list[str], lo
 def _package(blender: str | None, scratch: Path, extra: list[str], log: Path | None) -> tuple[int, int]:
     """Run the tests of the Python package."""
     if not blender:
-        _left_out("package: .blend and .fbx, no --blender was given")
+        _left_out("package: files that Blender reads, no --blender was given")
     return _pytest("package", None, scratch, extra, log, BLENDER=blender or "", BROWSER=_browser() or "")
 
 

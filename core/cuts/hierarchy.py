@@ -152,6 +152,9 @@ class Hierarchy:
     merges: np.ndarray
     salience: np.ndarray
 
+    def __repr__(self) -> str:
+        return f"<Hierarchy: {self.n_candidates} candidates, {len(self.merges)} merges>"
+
     @classmethod
     def of(cls, n_candidates: int, merges: ArrayLike, salience: ArrayLike) -> Hierarchy:
         """Make a hierarchy of a sequence of merges.

@@ -62,6 +62,9 @@ class ReebGraph:
     point_value: np.ndarray
     n_components: int
 
+    def __repr__(self) -> str:
+        return f"<ReebGraph: {self.n_nodes} nodes, {self.n_arcs} arcs, {self.n_loops} loops>"
+
     @property
     def n_nodes(self) -> int:
         """Number of nodes, k."""

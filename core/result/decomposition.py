@@ -54,6 +54,9 @@ class Parts:
     decomposition: Decomposition
     candidate_part: np.ndarray
 
+    def __repr__(self) -> str:
+        return f"<Parts: {self.count} of {self.decomposition.n_faces} faces>"
+
     @cached_property
     def labels(self) -> np.ndarray:
         """(p,) int64, part of each face, 0..count-1."""
@@ -237,6 +240,11 @@ class Decomposition:
     links: np.ndarray = attribute(default_factory=lambda: np.empty((0, 2), np.int64))
     junctions: np.ndarray = attribute(default_factory=lambda: np.empty((0, 2), np.int64))
     junction_length: np.ndarray = attribute(default_factory=lambda: np.empty(0))
+
+    def __repr__(self) -> str:
+        graph = self.graph
+        return (f"<Decomposition by {self.parameters.method}: {self.n_faces} faces, {self.parts().count} parts, "
+                f"{graph.n_nodes} nodes, {graph.n_arcs} arcs, {graph.n_loops} loops>")
 
     @property
     def n_faces(self) -> int:

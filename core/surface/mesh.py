@@ -76,6 +76,9 @@ class TriMesh:
     vertices: np.ndarray
     faces: np.ndarray
 
+    def __repr__(self) -> str:
+        return f"<TriMesh: {self.n_vertices} vertices, {self.n_faces} faces>"
+
     def __post_init__(self) -> None:
         """Check the shapes and freeze copies of the arrays."""
         vertices = np.asarray(self.vertices)

@@ -154,7 +154,8 @@ def correspond(source: Samples, target: Samples) -> np.ndarray:
     -------
     plan : (k, l) float64
         Area, as a share of the whole, that goes from each sample of the source to each of the target; rows sum to the
-        weights of the one, columns to those of the other.
+        weights of the one, columns to those of the other as nearly as some rounds come: within 5 % where surfaces
+        are alike, a third for single samples of others.
     """
     profile = PROFILE * ((source.profile[:, None] - target.profile[None]) ** 2).mean(axis=2)
     place = ((source.position[:, None] - target.position[None]) ** 2).sum(axis=2)

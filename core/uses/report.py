@@ -16,6 +16,7 @@ from ..graph.critical import KINDS
 from ..result.decomposition import Decomposition, Parts
 from ..sentence import Sentence
 from ..surface.arguments import numbers as as_numbers
+from ..surface.arguments import whole_numbers
 from ..version import VERSION
 from .colors import part_colors
 
@@ -92,7 +93,7 @@ def report(
     Raises
     ------
     ParameterError
-        ``parts`` are of another result, or one of the others has another shape, or values that are no finite numbers;
+        ``parts`` are of another result, or one of the others has another shape, or values that are no such numbers;
         ``error.name`` says which.
     """
     parts = decomposition.parts() if parts is None else parts
@@ -103,6 +104,9 @@ def report(
         if len(values) != parts.count:
             raise ParameterError(Sentence("There are {n} values for {total} elements: each needs one.",
                                           n=len(values), total=parts.count), given)
+    if whole_numbers(numbers) is None:
+        raise ParameterError(
+            Sentence("Numbers must be {n} whole numbers, one for each part.", n=parts.count), "numbers")
     colors = part_colors(parts.count, parts.cuts) if colors is None else _checked("colors", colors, (parts.count, 3))
     boxes = None if boxes is None else _checked("boxes", boxes, (parts.count, 2, 3))
     transform = np.eye(4) if transform is None else _checked("transform", transform, (4, 4))

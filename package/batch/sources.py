@@ -53,7 +53,7 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     root : Path, optional
         What names begin below; the innermost folder that holds all models without.
     unread : callable(error), optional
-        Told of each folder below a place in which nobody can look.
+        Told of each folder below a place, or on the way of a pattern, in which nobody can look.
 
     Returns
     -------
@@ -82,6 +82,18 @@ def find_sources(places: Iterable[str], kinds: tuple[str, ...], out: Path, root:
     return sources
 
 
+def is_gone(place: str, kinds: tuple[str, ...]) -> bool:
+    """Whether a place is named as a model is, but there is none, or none that anybody can reach.
+
+    place : str. kinds : tuple of str, as ``find_sources`` takes them.
+    """
+    try:
+        there = kind_of(place) or glob.has_magic(place)
+    except OSError:
+        there = False
+    return not there and os.path.splitext(place)[1].lower() in kinds
+
+
 def folder_of(out: Path, name: str) -> Path:
     """Where the results of the model of a name are."""
     return out / "models" / spelled(name)
@@ -94,6 +106,24 @@ def _check_folders(sources: list[Source], out: Path) -> None:
     if lost:
         raise SourceError(Sentence("Results would take the place of {n} {n:model|models} (first: {first}). Choose "
                                    "another folder for --out.", n=len(lost), first=lost[0]))
+
+
+def _look_into(pattern: str, unread: Callable[[OSError], object] | None) -> None:
+    """Tell of folders in which a pattern looks for names, or for one, and nobody can: it would find nothing there."""
+    folder, name = os.path.split(pattern)
+    if unread is None or not glob.has_magic(pattern):
+        return
+    if folder != pattern:
+        _look_into(folder, unread)
+    for found in glob.iglob(os.path.join(folder, ""), recursive=True) if glob.has_magic(folder) else [folder or "."]:
+        try:
+            if glob.has_magic(name):
+                os.scandir(found).close()
+            else:
+                os.stat(os.path.join(found, name))
+        except OSError as error:
+            error.filename = os.path.abspath(found)
+            unread(error)
 
 
 def _paths(place: str, kinds: tuple[str, ...], unread: Callable[[OSError], object] | None) -> Iterator[Path]:
@@ -116,6 +146,7 @@ def _paths(place: str, kinds: tuple[str, ...], unread: Callable[[OSError], objec
     elif stat.S_ISREG(kind):
         yield Path(os.path.abspath(path))
     elif glob.has_magic(place):
+        _look_into(os.path.join(place, "*") if place.endswith("**") else place, unread)
         for found in glob.iglob(place, recursive=True):
             if os.path.isfile(found) and not any(map(_is_of_a_run, Path(os.path.abspath(found)).parents)):
                 yield Path(os.path.abspath(found))

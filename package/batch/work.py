@@ -15,11 +15,12 @@ from ..core.result.decomposition import Decomposition, Parts
 from ..core.sentence import Sentence
 from ..core.uses.descriptors import part_descriptors
 from ..meshes import decompose
-from ..model_files import Model, ModelFileError, NoReaderError, read_model
+from ..model_files import CrashedReaderError, Model, ModelFileError, NoReaderError, read_model
 from ..output_files import OutputFileError, as_output_error
 from ..outputs import colored_bytes, json_bytes, labels_bytes, model_document, part_files, picture_bytes
 from ..rounding import Rounding
 from .records import (
+    CRASH,
     DONE,
     ERROR,
     FORMAT,
@@ -63,6 +64,8 @@ def do_model(job: dict[str, Any]) -> dict[str, Any]:
         raise
     except NoReaderError as error:
         record, files = failure(name, READER, str(error), settings.digest), {}
+    except CrashedReaderError as error:
+        record, files = failure(name, CRASH, str(error), settings.digest), {}
     except ModelFileError as error:
         record, files = failure(name, UNREADABLE, str(error), settings.digest), {}
     except ReebError as error:

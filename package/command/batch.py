@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from ..batch.records import CRASH, DONE, OPEN, Settings, failure, is_done, record_of, write_record
-from ..batch.sources import Source, find_sources, folder_of, read_list
+from ..batch.sources import Source, find_sources, folder_of, is_gone, read_list
 from ..core.errors import ReebError
 from ..core.file_names import readable
 from ..core.options import add_parameters, chosen_parameters, number
@@ -51,7 +51,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the results")
     parser.add_argument("--root", type=Path, metavar="DIR", help="folder below which models have their names; the "
                         "innermost one that holds all of them without")
-    parser.add_argument("--blender", metavar="PATH", help="the Blender that reads .blend and .fbx")
+    parser.add_argument("--blender", metavar="PATH", help="the Blender that reads " + ", ".join(BY_BLENDER))
     files = parser.add_argument_group("files for each model")
     files.add_argument("--json", action=argparse.BooleanOptionalAction, default=True, help="the JSON document")
     files.add_argument("--labels", choices=_kinds(LABELS), default="npy",
@@ -119,14 +119,25 @@ class _Batch:
             say(note)
         self.options = options
         self.out = Path(os.path.abspath(options.out))
-        places = [*options.models, *(place for path in options.list for place in read_list(path))]
+        listed = [place for path in options.list for place in read_list(path)]
         self.unread: list[str] = []
         # Without a Blender, too: that a model could not be read is to be seen in the table.
-        self.sources = find_sources(places, formats() + BY_BLENDER, self.out, options.root, self._unread)
+        kinds = formats() + BY_BLENDER
+        places = [*options.models, *self._there(listed, kinds)]
+        self.sources = find_sources(places, kinds, self.out, options.root, self._unread)
         self.settings = Settings(parameters, options.json, _suffix(options.labels), _suffix(options.colored),
                                  options.parts or "", options.thumbnail)
         self.kept = 0
         self.failed: dict[str, tuple[str, str]] = {}  # status and reason, by the name of the model
+
+    def _there(self, listed: list[str], kinds: tuple[str, ...]) -> list[str]:
+        """The places of lists without the models that have gone, which it names: an archive is not refused for them."""
+        gone = [place for place in listed if is_gone(place, kinds)]
+        known = set(gone)
+        if gone:
+            self.unread += map(readable, gone)
+            say(f"{len(gone)} of {len(listed)} in the list cannot be found (first: {gone[0]}).")
+        return [place for place in listed if place not in known]
 
     def _unread(self, error: OSError) -> None:
         """Say that nobody can look into a folder; one that is gone by now has no models."""

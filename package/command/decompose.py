@@ -24,7 +24,7 @@ from ..core.progress import said_in_steps
 from ..core.result.decomposition import Decomposition
 from ..core.sentence import Sentence
 from ..meshes import decompose
-from ..model_files import Model, read_model
+from ..model_files import BY_BLENDER, Model, read_model
 from ..output_files import OutputFileError, write_files
 from ..outputs import (
     COLORED,
@@ -45,8 +45,8 @@ from .words import print_answer, say
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options to a parser."""
     parser.add_argument("model", type=Path, help="a model: .obj, .ply, .stl, .glb, .gltf, .off, .npz and what else "
-                        "trimesh reads; .blend and .fbx with --blender")
-    parser.add_argument("--blender", metavar="PATH", help="the Blender that reads .blend and .fbx")
+                        "trimesh reads; with --blender " + ", ".join(BY_BLENDER))
+    parser.add_argument("--blender", metavar="PATH", help="the Blender that reads " + ", ".join(BY_BLENDER))
     files = parser.add_argument_group("files to write")
     files.add_argument("--json", type=named_file, metavar="OUT.json",
                        help="the JSON that also goes to standard output")

@@ -231,7 +231,8 @@ def test_other_bytes_parameters_or_missing_files_are_not_done(batch, models, tmp
 
 @pytest.mark.parametrize(("suffix", "blender", "words"), [
     ("fbx", None, "Say where it is with --blender"), ("blend", "/none", "could not be started: No such file"),
-    ("xyz_", None, "is none of"),
+    ("xyz_", None, "is none of"), ("usdz", None, "Say where it is with --blender"),
+    ("abc", None, "Say where it is with --blender"),
 ])  # fmt: skip
 def test_what_lacked_a_reader_is_tried_again(suffix, blender, words, tmp_path):
     model = tmp_path / f"model.{suffix}"
@@ -240,6 +241,19 @@ def test_what_lacked_a_reader_is_tried_again(suffix, blender, words, tmp_path):
     assert answer["status"] == "reader"
     assert words in answer["reason"]
     assert not is_done(model, tmp_path / "out", Settings(Parameters()))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no signals end processes there")
+def test_a_blender_that_crashes_costs_one_model(tmp_path):
+    """As at damage within a file of Alembic; what it said last is about lines of its own."""
+    blender = tmp_path / "blender"
+    blender.write_text("#!/bin/sh\necho 'terminate called' >&2\nkill -SEGV $$\n")
+    blender.chmod(0o755)
+    (tmp_path / "model.abc").write_bytes(b"Ogawa")
+    answer = do_model(job(tmp_path / "model.abc", tmp_path / "out") | {"blender": str(blender)})
+    assert answer["status"] == "crash"
+    assert answer["reason"] == f"{tmp_path}/model.abc could not be read, as {blender} crashed: Segmentation fault"
+    assert not is_done(tmp_path / "model.abc", tmp_path / "out", Settings(Parameters()))
 
 
 def test_what_lacks_a_reader_in_a_folder_is_counted(tree, reeb_parts_command, tmp_path):
@@ -780,8 +794,34 @@ def test_places_without_models_are_refused(places, root, words, models, tmp_path
         find_sources(places, (".ply",), tmp_path, root and models / root)
 
 
-def test_a_folder_where_nobody_can_look_is_named_and_no_success(tree, tmp_path, monkeypatch, capsys):
-    """Its models were missing, and the exit status 0."""
+def test_what_is_gone_of_a_list_costs_only_itself(tree, tmp_path, capsys):
+    """A batch of a whole archive was refused for one model that somebody had removed since. What is done stays."""
+    model = save(tree, tmp_path / "in" / "tree.ply")
+    do_model(job(model, tmp_path / "out" / "models" / "tree.ply"))
+    gone = [str(tmp_path / name) for name in ("in/gone.ply", "none/gone.obj", "x" * 300 + ".ply")]
+    (tmp_path / "list.txt").write_text("\n".join([*gone, str(model)]))
+    parser = argparse.ArgumentParser()
+    command.add_options(parser)
+
+    def run():
+        return command.run(parser.parse_args(["--list", str(tmp_path / "list.txt"), "--out", str(tmp_path / "out")]))
+
+    status, said = run(), capsys.readouterr()
+    answer = json.loads(said.out)
+    assert (status, answer["models"], answer["unread"]) == (1, {"done": 1}, gone)
+    assert f"3 of 4 in the list cannot be found (first: {gone[0]})." in said.err
+    model.unlink()  # as where the disk with all of them is not there
+    with pytest.raises(SourceError, match="no model"):
+        run()
+    assert (tmp_path / "out" / "models" / "tree.ply" / "labels.npy").is_file()
+    (tmp_path / "list.txt").write_text("no folder")
+    with pytest.raises(SourceError, match="no file and no folder"):
+        run()
+
+
+@pytest.mark.parametrize("patterns", [[""], ["**/*.ply"], ["*.ply", "*/*.ply"]])
+def test_a_folder_where_nobody_can_look_is_named_and_no_success(patterns, tree, tmp_path, monkeypatch, capsys):
+    """Its models were missing, and the exit status 0; where a pattern led to it, for longer."""
     model, secret = save(tree, tmp_path / "in" / "tree.ply"), tmp_path / "in" / "secret"
     secret.mkdir()
     do_model(job(model, tmp_path / "out" / "models" / "tree.ply"))
@@ -795,7 +835,8 @@ def test_a_folder_where_nobody_can_look_is_named_and_no_success(tree, tmp_path, 
     monkeypatch.setattr(os, "scandir", refuse)
     parser = argparse.ArgumentParser()
     command.add_options(parser)
-    status = command.run(parser.parse_args([str(tmp_path / "in"), "--out", str(tmp_path / "out")]))
+    places = [str(tmp_path / "in" / pattern) for pattern in patterns]
+    status = command.run(parser.parse_args([*places, "--out", str(tmp_path / "out")]))
     said = capsys.readouterr()
     answer = json.loads(said.out)
     assert (status, answer["models"], answer["unread"]) == (1, {"done": 1}, [str(secret)])

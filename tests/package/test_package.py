@@ -174,6 +174,7 @@ def test_arrays_are_read_as_they_are(tmp_path):
     shape = shapes.tube_tree(step=0.2)
     np.savez(tmp_path / "tree.npz", vertices=shape.vertices, faces=shape.faces)
     model = reeb_parts.read_model(tmp_path / "tree.npz")
+    assert repr(model) == f"<Model tree: {len(shape.vertices)} vertices, {len(shape.faces)} triangles, y up>"
     assert (model.vertices == shape.vertices).all()
     assert (model.faces == shape.faces).all()
 

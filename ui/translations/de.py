@@ -845,6 +845,8 @@ TEXTS = {
         "Kennzahlen müssen {n} ganze Zahlen ab 0 sein, eine für jede Fläche.",
     "Groups must be {n} whole numbers, one for each candidate.":
         "Gruppen müssen {n} ganze Zahlen sein, eine für jeden Kandidaten.",
+    "Numbers must be {n} whole numbers, one for each part.":
+        "Nummern müssen {n} ganze Zahlen sein, eine für jeden Teil.",
     "Polygon numbers must be {n} whole numbers from 0, one per triangle.":
         "Polygonnummern müssen {n} ganze Zahlen ab 0 sein, eine je Dreieck.",
     "{name} must be one of {choices}, not {value}.": "{name} muss eines von {choices} sein, nicht {value}.",

@@ -153,7 +153,8 @@ def test_a_scene_is_given_alone(run, model, tmp_path):
     (tmp_path / "scene.blend").write_bytes(b"")
     ended = run(model, tmp_path / "scene.blend")
     assert ended.status == 1
-    assert ended.answer["problems"][0]["problem"].endswith("is none of .obj, .ply, .stl, .glb, .gltf, .fbx.")
+    assert ended.answer["problems"][0]["problem"].endswith(
+        "is none of .obj, .ply, .stl, .glb, .gltf, .fbx, .usd, .usda, .usdc, .usdz, .abc.")
 
 
 def test_an_object_that_is_not_there_costs_only_itself(run, two, tmp_path):

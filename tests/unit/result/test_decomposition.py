@@ -16,6 +16,7 @@ from core.parameters import Parameters
 from core.pipeline import decompose
 from core.result.decomposition import Decomposition
 from core.surface.labels import FaceGraph
+from core.surface.mesh import TriMesh
 
 
 def row():
@@ -53,6 +54,16 @@ def test_a_row_by_hand():
     assert result.parts(n_parts=4).labels.tolist() == [1, 2, 2, 0, 0, 0, 3]
     assert result.parts(n_parts=1).labels.tolist() == [0] * 7
     assert result.parts(n_parts=9).count == 4
+
+
+def test_each_is_a_line_in_a_notebook(tree):
+    """All arrays of a result were 39,000 characters."""
+    assert repr(row().parts(n_parts=3)) == "<Parts: 3 of 7 faces>"
+    assert repr(row().hierarchy) == "<Hierarchy: 4 candidates, 3 merges>"
+    assert repr(row()) == "<Decomposition by perceptual: 7 faces, 2 parts, 0 nodes, 0 arcs, 0 loops>"
+    assert repr(TriMesh(*shapes.octahedron())) == "<TriMesh: 6 vertices, 8 faces>"
+    assert repr(tree.graph) == f"<ReebGraph: {tree.graph.n_nodes} nodes, {tree.graph.n_arcs} arcs, 0 loops>"
+    assert len(repr(tree)) < 120
 
 
 def test_without_either_the_parameters_decide():

@@ -113,6 +113,14 @@ def test_what_is_not_one_for_each_part_is_refused(result, name, value):
     assert caught.value.name in (name, *more)
 
 
+@pytest.mark.parametrize("number", ["a", 1.5])
+def test_numbers_of_parts_are_whole(result, number):
+    """A ValueError, and a part of number 1."""
+    with pytest.raises(ParameterError, match="one for each part") as caught:
+        report(result, numbers=[number] * result.parts().count)
+    assert caught.value.name == "numbers"
+
+
 def test_parts_of_another_result_are_refused(result):
     other = decompose(*shapes.tube_tree(), Parameters(method="lavoue"))
     for parts in (other.parts(), result.parts().labels):
