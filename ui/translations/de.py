@@ -310,8 +310,10 @@ TEXTS = {
     "Keep cuts on level sets of the distance, as the paper does; off, they follow creases":
         "Schnitte wie im Artikel auf Linien gleichen Abstands belassen; ausgeschaltet folgen sie Falten",
     "Small Loose Part": "Lose Teile ab",
-    "Loose parts with less than this share of the whole area are one part each":
-        "Lose Teile mit weniger als diesem Anteil der ganzen Oberfläche sind je ein einziges Teil",
+    "What touches nothing else, or with Pieces: Separate each loose piece, is one part if its share of the whole "
+    "area is less than this":
+        "Was nichts anderes berührt, oder bei Stücke: Getrennt jedes lose Stück, ist ein einziges Teil, wenn sein Anteil "
+        "an der ganzen Oberfläche kleiner ist",
     # Ausgabe
     "Vertex Groups": "Punktgruppen",
     "A vertex group for each part; vertices on a cut belong to every part that meets there":
