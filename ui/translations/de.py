@@ -312,8 +312,8 @@ TEXTS = {
     "Small Loose Part": "Lose Teile ab",
     "What touches nothing else, or with Pieces: Separate each loose piece, is one part if its share of the whole "
     "area is less than this":
-        "Was nichts anderes berührt, oder bei Stücke: Getrennt jedes lose Stück, ist ein einziges Teil, wenn sein Anteil "
-        "an der ganzen Oberfläche kleiner ist",
+        "Was nichts anderes berührt, oder bei Stücke: Getrennt jedes lose Stück, ist ein einziges Teil, wenn sein "
+        "Anteil an der ganzen Oberfläche kleiner ist",
     # Ausgabe
     "Vertex Groups": "Punktgruppen",
     "A vertex group for each part; vertices on a cut belong to every part that meets there":
