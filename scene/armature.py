@@ -132,6 +132,12 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     return Made(rig, found.n_stiff, earlier.kept)
 
 
+def other_rig(obj: bpy.types.Object) -> bpy.types.Object | None:
+    """An armature of the user's that moves an object, if there is one."""
+    return next((modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE"
+                 and modifier.name != NAME and modifier.show_viewport and modifier.object is not None), None)
+
+
 def check_alone(obj: bpy.types.Object) -> None:
     """Raise SceneError where new weights, which belong to the mesh, would take those of another object's armature."""
     for other in targets.users(obj.data):

@@ -1041,6 +1041,8 @@ TEXTS = {
     "{path} would be written over {other}. Give each file a name of its own.":
         "{path} würde {other} überschreiben. Jede Datei braucht einen eigenen Namen.",
     "{n} {n:file|files} in {folder}": "{n} {n:Datei|Dateien} in {folder}",
+    "{name} is moved by {rig}, too: the new bones lie where it is at rest":
+        "{name} wird auch von {rig} bewegt: Die neuen Knochen liegen dort, wo es in Ruhe ist",
     "{name} has {n} {n:bone|bones}": "{name} hat {n} Knochen",
     "A part needs a name.": "Ein Teil braucht einen Namen.",
     "Rename Part": "Teil umbenennen",

@@ -921,6 +921,8 @@ TEXTS = {
     "{path} would be written over {other}. Give each file a name of its own.":
         "{path} 会覆盖 {other}。请为每个文件指定单独的名称。",
     "{n} {n:file|files} in {folder}": "{folder} 中有 {n} 个文件",
+    "{name} is moved by {rig}, too: the new bones lie where it is at rest":
+        "{name} 还由 {rig} 带动：新骨骼位于其静置形状处",
     "{name} has {n} {n:bone|bones}": "{name} 有 {n} 根骨骼",
     "A part needs a name.": "部件需要一个名称。",
     "Rename Part": "重命名部件",

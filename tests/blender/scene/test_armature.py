@@ -86,6 +86,15 @@ def test_at_rest_nothing_moves_and_a_turned_bone_moves_its_part(obj):
     assert moved.sum() > 0.8 * len(mine)
 
 
+def test_another_armature_of_the_model_is_named(obj, capfd):
+    """Its pose moves the model away from the new bones, and nothing said why they lie beside it."""
+    rig = bpy.data.objects.new("Mine", bpy.data.armatures.new("Mine"))
+    obj.modifiers.new("Armature", "ARMATURE").object = rig
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature()
+    assert "Tree is moved by Mine, too: the new bones lie where it is at rest" in capfd.readouterr().out
+
+
 @pytest.mark.parametrize("weights", ["SMOOTH", "PARTS"])
 def test_pieces_are_posed_as_the_whole(obj, weights):
     """Each has the groups of the bones that move it, and those of the user's, which may be empty."""
