@@ -231,8 +231,8 @@ def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones,
         for child, some in zip(children[bone], taken, strict=True):
             mass[child] = _Shares(own.vertex[some.vertex], left.share[some.vertex] * some.share)
         place[own.vertex] = -1
-    bone = np.repeat(np.arange(len(mass)), [len(some.vertex) for some in mass])
-    return np.concatenate([some.vertex for some in mass]), bone, np.concatenate([some.share for some in mass])
+    mover = np.repeat(np.arange(len(mass)), [len(some.vertex) for some in mass])
+    return np.concatenate([some.vertex for some in mass]), mover, np.concatenate([some.share for some in mass])
 
 
 def _turned(table: CornerTable, weights: Weights, bones: Bones) -> np.ndarray:
