@@ -191,7 +191,8 @@ class Parameters:
                        "hand are made on both sides"})
     loose_part: float = _number_field(
         0.01, 0.0, 1.0, "Small Loose Part",
-        "Loose parts with less than this share of the whole area are one part each")
+        "What touches nothing else, or with Pieces: Separate each loose piece, is one part if its share of the whole "
+        "area is less than this")
 
     def __post_init__(self) -> None:
         """Convert the values; raise ParameterError if one is outside its range or not among its choices."""

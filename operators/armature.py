@@ -37,6 +37,10 @@ class REEB_PARTS_OT_armature(SelectedPartsOperator, bpy.types.Operator):
     def work(self, context: bpy.types.Context, obj: bpy.types.Object, stored: Stored) -> str:
         rig, stiff, kept = armature.make(context, obj, stored, self.deform, self.weights)
         report_kept(self, kept)
+        other = armature.other_rig(obj)
+        if other is not None:
+            message = rpt_("{name} is moved by {rig}, too: the new bones lie where it is at rest")
+            self.report({"WARNING"}, message.format(name=obj.name, rig=other.name))
         if stiff:
             message = rpt_("{n} {n:part moves with the one it hangs|parts move with the ones they hang} on: "
                            "no neck to bend at")

@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from ..core.uses.skinning import Weights
 
 NAME = "Reeb Parts Armature"
-WEIGHTS = "reeb_parts_weights"  # on the mesh: the names of the vertex groups that hold its weights, as JSON
 DEFORM = "DEF-"  # how their names begin, as Rigify's do; after that comes the name of the part
 
 
@@ -65,20 +64,13 @@ def _modifier(obj: bpy.types.Object) -> bpy.types.ArmatureModifier | None:
 def remove_weights(mesh: bpy.types.Mesh) -> None:
     """Remove the vertex groups that hold our weights."""
     transaction.keep_mesh(mesh)
-    transaction.keep_keys(mesh, WEIGHTS)
-    names = _weight_groups(mesh)
+    transaction.keep_keys(mesh, mesh_groups.WEIGHTS)
+    names = mesh_groups.of_weights(mesh)
     for obj in targets.users(mesh)[:1] if names else ():
         for name in names:
             outputs.vertex_groups.remove_one(obj, name)
-    if WEIGHTS in mesh:
-        del mesh[WEIGHTS]
-
-
-def _weight_groups(mesh: bpy.types.Mesh) -> list[str]:
-    try:
-        return [str(name) for name in json.loads(mesh.get(WEIGHTS, "[]"))]
-    except (ValueError, TypeError):  # not written by us
-        return []
+    if mesh_groups.WEIGHTS in mesh:
+        del mesh[mesh_groups.WEIGHTS]
 
 
 def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, deform: bool,
@@ -140,6 +132,12 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     return Made(rig, found.n_stiff, earlier.kept)
 
 
+def other_rig(obj: bpy.types.Object) -> bpy.types.Object | None:
+    """An armature of the user's that moves an object, if there is one."""
+    return next((modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE"
+                 and modifier.name != NAME and modifier.show_viewport and modifier.object is not None), None)
+
+
 def check_alone(obj: bpy.types.Object) -> None:
     """Raise SceneError where new weights, which belong to the mesh, would take those of another object's armature."""
     for other in targets.users(obj.data):
@@ -158,7 +156,7 @@ def _new_groups(obj: bpy.types.Object, found: Skeleton) -> list[str]:
     wanted = _sided_names(obj, found) if found.is_half else [part_names.fitted(DEFORM + name) for name in found.names]
     names = [obj.vertex_groups.new(name=name).name for name in wanted]
     obj.vertex_groups.active_index = max(active, 0)
-    mesh[WEIGHTS] = json.dumps(names)
+    mesh[mesh_groups.WEIGHTS] = json.dumps(names)
     return names
 
 
@@ -186,7 +184,7 @@ def _weights(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.O
     from ..core.uses.skinning import smooth_weights, stiff_weights  # imports SciPy
 
     if kind == "PARTS":
-        return stiff_weights(found.table, found.labels, len(groups))
+        return stiff_weights(found.table, found.labels)
     smooth = smooth_weights(found.table, found.labels, found.bones)
     return smooth if kind == "SMOOTH" else _automatic(context, obj, rig, groups, found, smooth)
 

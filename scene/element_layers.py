@@ -7,6 +7,7 @@ mesh has vertex groups. What is in no array - the displacement of Multires - is 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import nullcontext
 
 import bmesh
@@ -71,8 +72,12 @@ def _bytes(values: np.ndarray) -> np.ndarray:
     return np.array([str(value) for value in values]) if values.dtype == object else values
 
 
-def made(elements: Elements, like: bpy.types.Mesh) -> bpy.types.Mesh:
-    """A new mesh of some elements; all else is as in another mesh, from which what they carry comes."""
+def made(elements: Elements, like: bpy.types.Mesh, groups: Sequence[str] | None = None) -> bpy.types.Mesh:
+    """A new mesh of some elements; all else is as in another mesh, from which what they carry comes.
+
+    groups : the names of the vertex groups that weights are in, where the other mesh lacks some: the new one has those
+    that its vertices are in. Without, all are there.
+    """
     mesh = like.copy()
     _resize(mesh, elements)
     if len(elements.ends):
@@ -83,7 +88,7 @@ def made(elements: Elements, like: bpy.types.Mesh) -> bpy.types.Mesh:
         mesh.attributes[".corner_edge"].data.foreach_set("value", elements.corner_edge)
     for attribute in [a.name for a in mesh.attributes if a.name not in {*_OTHERWISE, *elements.layers}]:
         mesh.attributes.remove(mesh.attributes[attribute])
-    _set_layers(mesh, elements)
+    _set_layers(mesh, elements, groups)
     mesh_arrays.set_active(mesh, like)
     mesh.update()
     return mesh
@@ -108,8 +113,8 @@ def _resize(mesh: bpy.types.Mesh, elements: Elements) -> None:
     mesh.polygons.add(len(elements.count))
 
 
-def _set_layers(mesh: bpy.types.Mesh, elements: Elements) -> None:
-    """Write what the elements carry."""
+def _set_layers(mesh: bpy.types.Mesh, elements: Elements, groups: Sequence[str] | None) -> None:
+    """Write what the elements carry. groups : see ``made``."""
     new = {name: layer for name, layer in elements.layers.items()
            if layer.kind not in SPECIAL and name not in mesh.attributes}
     with mesh_groups.beside(mesh, new) if f"\0{WEIGHTS}" in elements.layers else nullcontext():
@@ -124,7 +129,7 @@ def _set_layers(mesh: bpy.types.Mesh, elements: Elements) -> None:
         elif layer.kind == FREESTYLE:
             getattr(mesh, _ITEMS[layer.domain]).foreach_set("use_freestyle_mark", values)
         elif layer.kind == WEIGHTS:
-            _set_weights(mesh, values)
+            _set_weights(mesh, values, groups)
         else:
             mesh_arrays.set_attribute_values(mesh.attributes[name], values)
 
@@ -142,12 +147,14 @@ def _weights(mesh: bpy.types.Mesh, n_groups: int | None) -> Ragged | None:
     return Ragged(np.fromiter(map(len, lists), np.int64, len(lists)), items)
 
 
-def _set_weights(mesh: bpy.types.Mesh, weights: Ragged) -> None:
-    """Give vertices their weights."""
+def _set_weights(mesh: bpy.types.Mesh, weights: Ragged, names: Sequence[str] | None) -> None:
+    """Give vertices their weights. names : of all groups, see ``made``."""
     vertex = np.repeat(np.arange(len(weights)), weights.count)
     with mesh_groups.twin(mesh) as twin:
+        own = dict(enumerate(twin.vertex_groups)) if names is None else mesh_groups.of_names(
+            twin, names, np.unique(weights.items["group"]).tolist())
+        mesh_groups.give_weights(own, vertex, weights.items["group"], weights.items["weight"])
         groups = list(twin.vertex_groups)
-        mesh_groups.give_weights(groups, vertex, weights.items["group"], weights.items["weight"])
-        if not len(vertex):  # where no vertex has ever had a weight, a shape key works as if it had no group
+        if not len(vertex) and groups:  # where no vertex has ever had a weight, a shape key works as if it had no group
             groups[0].add([0], 0.0, "REPLACE")
             groups[0].remove([0])

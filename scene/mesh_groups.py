@@ -7,7 +7,8 @@ group of its name gets another name, or is lost (seen in 4.2 and 5.2).
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Sequence
+import json
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 import bpy
@@ -18,7 +19,17 @@ from ..core.surface.arrays import begins_run
 from . import matrix_layers
 from .temporary import removed
 
+WEIGHTS = "reeb_parts_weights"  # on a mesh: the names of the groups with the weights of our armature, as JSON
+
 _lent: list[bpy.types.Object] = []  # objects that are given one mesh after the other
+
+
+def of_weights(mesh: bpy.types.Mesh) -> list[str]:
+    """The names of the groups that hold the weights of our armature, if these are others than the parts' groups."""
+    try:
+        return [str(name) for name in json.loads(mesh.get(WEIGHTS, "[]"))]
+    except (ValueError, TypeError):  # not written by us
+        return []
 
 
 @contextmanager
@@ -66,8 +77,41 @@ def beside(mesh: bpy.types.Mesh, names: Container[str]) -> Iterator[None]:
                 obj.vertex_groups[index].name = name
 
 
-def give_weights(groups: Sequence[bpy.types.VertexGroup], vertex: np.ndarray, group: np.ndarray,
-                 weight: np.ndarray) -> None:
+def names_of(mesh: bpy.types.Mesh) -> list[str]:
+    """The names of all groups of a mesh."""
+    with twin(mesh) as obj:
+        return list(obj.vertex_groups.keys())
+
+
+def empty_without(mesh: bpy.types.Mesh, names: Container[str]) -> None:
+    """Take all weights off a mesh, and the groups of some names; at once, where each takes as long as all."""
+    with twin(mesh) as obj:
+        stay = [(group.name, group.lock_weight) for group in obj.vertex_groups if group.name not in names]
+        active = obj.vertex_groups.active
+        active_name = "" if active is None else active.name
+        obj.vertex_groups.clear()
+        for name, locked in stay:
+            obj.vertex_groups.new(name=name).lock_weight = locked
+        if active_name in obj.vertex_groups:
+            obj.vertex_groups.active_index = obj.vertex_groups[active_name].index
+
+
+def of_names(obj: bpy.types.Object, names: Sequence[str], used: Iterable[int]) -> dict[int, bpy.types.VertexGroup]:
+    """Groups of an object, by their places among names; made where they are not there.
+
+    names : of all that there may be. used : the places of those that vertices are in. To these come those of the other
+    side, be they empty, which a Mirror modifier needs.
+    """
+    place = {name: index for index, name in enumerate(names)}
+    wanted = set(used)
+    wanted |= {place[name] for index in wanted if (name := bpy.utils.flip_name(names[index])) in place}
+    there = set(obj.vertex_groups.keys())
+    return {index: obj.vertex_groups[names[index]] if names[index] in there
+            else obj.vertex_groups.new(name=names[index]) for index in sorted(wanted)}
+
+
+def give_weights(groups: Sequence[bpy.types.VertexGroup] | Mapping[int, bpy.types.VertexGroup], vertex: np.ndarray,
+                 group: np.ndarray, weight: np.ndarray) -> None:
     """Give vertices weights, (k,) each: all that have one weight in a group at once, as Blender takes them.
 
     group : (k,) int, places in ``groups``.

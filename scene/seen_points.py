@@ -56,5 +56,21 @@ def seen_points(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray
     return points
 
 
+def seen_corners(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray | None:
+    """Where each corner of each face is seen, (c, 3) float32 in the object's coordinates; not in Edit Mode.
+
+    None if modifiers move nothing, or make other faces and do not just divide those that were moved.
+    """
+    shown = {modifier.type for modifier in _shown(obj)}
+    if not shown:
+        return None
+    mesh, own = obj.evaluated_get(context.evaluated_depsgraph_get()).data, obj.data
+    if (len(mesh.polygons), len(mesh.loops)) == (len(own.polygons), len(own.loops)):
+        return mesh_arrays.basis_points(mesh)[mesh_arrays.corner_vertices(mesh)]
+    if shown & _MOVE and shown <= _MOVE | _DIVIDE:
+        return seen_points(context, obj)[mesh_arrays.corner_vertices(own)]
+    return None
+
+
 def _shown(obj: bpy.types.Object) -> list[bpy.types.Modifier]:
     return [modifier for modifier in obj.modifiers if modifier.show_viewport]

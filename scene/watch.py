@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Notice that a decomposed mesh was edited, so that the panel can say so, or deleted, so that its graph goes, too.
 
+And that all pieces of an object were deleted, so that it is seen again.
+
 A mesh is looked at once it has been left alone for a moment: while it is sculpted, nothing is computed.
 """
 
@@ -106,7 +108,8 @@ def _look() -> float | None:
 
 def _is_untidy() -> bool:
     """Whether anything is left of objects that were deleted."""
-    return any(graph_objects.left_behind()) or any(piece_objects.left_behind())
+    return (any(graph_objects.left_behind()) or any(piece_objects.left_behind())
+            or bool(piece_objects.hidden_for_nothing(bpy.context)))
 
 
 @persistent
@@ -129,12 +132,14 @@ def _hide_graphs() -> None:
 
 
 def _tidy() -> None:
-    """Remove the graphs of objects that were deleted; their pieces stay."""
+    """Remove the graphs of objects that were deleted; their pieces stay. Show objects whose pieces were deleted."""
     with transaction.transaction():
         for obj in list(graph_objects.left_behind()):
             graph_objects.remove(obj)
         for collection in list(piece_objects.left_behind()):
             piece_objects.forget_original(collection)
+        for obj in piece_objects.hidden_for_nothing(bpy.context):
+            piece_objects.show_original(bpy.context, obj)
 
 
 @persistent

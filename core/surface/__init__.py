@@ -9,6 +9,7 @@ Where data enters:
 - ``ears``: how polygons are cut into triangles
 - ``copies``: faces that lie on others with the same corners
 - ``corners``: the caller's polygons, corner by corner
+- ``cut_edges``: the edges between parts, looked at again and again
 - ``half_edges``: the sides of polygons, and which lies across which edge
 
 The working copy, and what is measured on it:

@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components, mini
 
 from ..surface.arrays import sums_by
 from ..surface.corners import CornerTable
+from ..surface.cut_edges import CutEdges
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.pairs import distinct_pairs
 from .groups import touching_groups
@@ -203,12 +204,12 @@ def part_bones(surface: BoneSurface) -> Bones:
 class _Joints:
     """Where parts hold together.
 
-    table, labels : of the parts. pairs : (e, 2), parts that touch. length : (e,), of the cut between them, as nothing
+    table, cuts : of the parts. pairs : (e, 2), parts that touch. length : (e,), of the cut between them, as nothing
     where they touch without one. contacts : the places of the latter, (r, 3), by the two parts.
     """
 
     table: CornerTable
-    labels: np.ndarray
+    cuts: CutEdges
     pairs: np.ndarray
     length: np.ndarray
     contacts: dict[tuple[int, int], np.ndarray]
@@ -228,7 +229,7 @@ class _Joints:
                     contacts.setdefault((low_one, high_one), images.mirror.mirrored(places))
         touching = np.array(list(contacts), np.int64).reshape(-1, 2)
         nothing = 1e-9 * length.min(initial=1.0)
-        return cls(table, labels, np.concatenate([pairs, touching]),
+        return cls(table, CutEdges.of(table, labels), np.concatenate([pairs, touching]),
                    np.append(length, np.full(len(touching), max(nothing, 1e-300))), contacts)
 
     def by_cut(self, parent: np.ndarray) -> np.ndarray:
@@ -239,7 +240,7 @@ class _Joints:
     def place(self, part: int, parent: int, beyond: np.ndarray, otherwise: np.ndarray) -> np.ndarray:
         """Where a part's bone begins, (3,). beyond : (count,) bool, the parts that follow it, itself included."""
         # Of all that divides the two sides, which may be more than one cut: a leg meets belly and rump.
-        border, _, middle = _border(self.table, beyond[self.labels])
+        border, _, middle = _border(self.table, self.cuts, beyond)
         if len(border):
             return middle
         contact = self.contacts.get((min(part, parent), max(part, parent)))
@@ -324,9 +325,9 @@ def _necks(surface: BoneSurface, bones: Bones) -> np.ndarray:
     table, labels, area = surface.table, surface.labels, surface.area
     low, high = table.edge_labels(labels)
     center = table.face_means(table.vertices)
-    beyond, neck = following(bones.parent, bones.order), bones.parent < 0
+    beyond, neck, cuts = following(bones.parent, bones.order), bones.parent < 0, CutEdges.of(table, labels)
     for bone in np.flatnonzero(~neck).tolist():
-        border, length, middle = _border(table, beyond[bone][labels])
+        border, length, middle = _border(table, cuts, beyond[bone])
         if not len(border):  # a piece of its own
             neck[bone] = True
             continue
@@ -339,10 +340,9 @@ def _necks(surface: BoneSurface, bones: Bones) -> np.ndarray:
     return neck
 
 
-def _border(table: CornerTable, inside: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Edges between faces that are inside, (p,) bool, and others, (b,); their lengths; and the middle of all, (3,)."""
-    low, high = table.edge_labels(inside.astype(np.int64))
-    border = np.flatnonzero((low == 0) & (high == 1))
+def _border(table: CornerTable, cuts: CutEdges, inside: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Edges between parts that are inside, (count,) bool, and others, (b,); their lengths; the middle of all, (3,)."""
+    border = cuts.around(inside)
     length = np.maximum(table.edge_length(border), 1e-300)
     return border, length, (length / length.sum()) @ table.vertices[table.edges[border]].mean(axis=1)
 

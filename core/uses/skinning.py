@@ -13,7 +13,8 @@ from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
 from ..surface.corners import CornerTable
-from ..surface.pairs import symmetric_matrix
+from ..surface.cut_edges import CutEdges
+from ..surface.pairs import distinct_pairs, symmetric_matrix
 from ..surface.vectors import lengths
 from .bones import Bones, following
 from .conformal import ConformalFactor, solved
@@ -129,19 +130,44 @@ class _Joint:
         return share / np.maximum(1 - share, 1e-9)
 
 
+@dataclass(frozen=True, eq=False)
+class _Shares:
+    """Vertices, (k,) int64, each once, and a number of each that is not 0, (k,) float64."""
+
+    vertex: np.ndarray
+    share: np.ndarray
+
+    @classmethod
+    def of(cls, every: np.ndarray) -> _Shares:
+        """Those that are not 0 of the numbers of all vertices, (n,)."""
+        vertex = np.flatnonzero(every)
+        return cls(vertex, every[vertex])
+
+    def at(self, place: np.ndarray) -> _Shares:
+        """The same under other numbers of the vertices, (n,) int64; -1 for vertices that are left out."""
+        there = place[self.vertex]
+        return _Shares(there[there >= 0], self.share[there >= 0])
+
+
+_NOWHERE = _Shares(np.empty(0, np.int64), np.empty(0))
+
+
 def _joints(table: CornerTable, labels: np.ndarray, bones: Bones, reach: float) -> list[_Joint]:
     """The joints of all bones. reach : how far the weights change, in radii of a joint."""
     n = len(table.vertices)
     length = np.maximum(table.edge_length(np.arange(len(table.edges))), 1e-12 * np.ptp(table.vertices, axis=0).max())
     graph, beyond = symmetric_matrix(table.edges, length, n), following(bones.parent, bones.order)
+    cuts = CutEdges.of(table, labels)
+    at, own = distinct_pairs(table.corner_vertex, labels[table.corner_face])[0].T
     joints = []
     for bone in np.flatnonzero(bones.parent >= 0).tolist():
-        inside = beyond[bone][labels].astype(np.int64)
-        low, high = table.edge_labels(inside)
-        border = np.unique(table.edges[(low == 0) & (high == 1)])
-        far = reach * np.linalg.norm(table.vertices[border] - bones.head[bone], axis=1).max(initial=0.0)
-        side = np.full(n, -1, np.int8)
-        side[table.corner_vertex[inside[table.corner_face] == 1]] = 1
+        inside, side = beyond[bone], np.full(n, -1, np.int8)
+        side[at[inside[own]]] = 1
+        border = np.unique(table.edges[cuts.around(inside)])
+        if not len(border):  # it hangs on what it does not touch
+            joints.append(_Joint(bone, border, np.empty(0), side, {1: False, -1: False}))
+            continue
+        far = reach * np.linalg.norm(table.vertices[border] - bones.head[bone], axis=1).max()
         side[border] = 0
         distance = dijkstra(graph, directed=False, indices=border, min_only=True, limit=far)
         near = np.flatnonzero(distance < far)
@@ -159,13 +185,13 @@ def _tries(
     laplacian = ConformalFactor.of(table).laplacian
     for reach, fifth in ways:
         joints, stiffness = _joints(table, labels, bones, reach), np.zeros(table.n_faces)
-        odds, stale = np.zeros((len(table.vertices), len(bones.parent))), joints
+        odds, stale = [_NOWHERE] * len(bones.parent), joints
         fewest, since = np.inf, 0
         while since < _PATIENCE:
             stiff = _stiffened(laplacian, table, stiffness)
             for joint in stale:
-                odds[:, joint.bone] = joint.odds(stiff)
-            found = limited(_of_odds(table, labels, bones, odds), fifth)
+                odds[joint.bone] = _Shares.of(joint.odds(stiff))
+            found = _limited(*_of_odds(table, labels, bones, odds), len(table.vertices), fifth)
             turned = _turned(table, found, bones)
             count = int(turned.sum())
             yield found, count
@@ -185,26 +211,37 @@ def _stiffened(laplacian: csr_array, table: CornerTable, stiffness: np.ndarray) 
     return csr_array(laplacian + diags(np.asarray(springs.sum(axis=1)).ravel()) - springs)
 
 
-def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones, odds: np.ndarray) -> np.ndarray:
-    """Share of each vertex that each bone moves, (n, count), where it goes beyond the bone's joint with such odds."""
-    children = [np.flatnonzero(bones.parent == bone) for bone in range(len(bones.parent))]
-    mass = np.zeros(odds.shape)
-    mass[:, bones.parent < 0] = _roots(table, labels, bones)
+def _of_odds(table: CornerTable, labels: np.ndarray, bones: Bones,
+             odds: Sequence[_Shares]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What share of which vertex which bone moves, where it goes beyond the bone's joint with such odds.
+
+    Returns vertices and bones, (k,) int64, and shares, (k,) float64. Most bones move most vertices not at all, and an
+    array of all bones at all vertices would be gigabytes where there are thousands of bones.
+    """
+    children = [np.flatnonzero(bones.parent == bone).tolist() for bone in range(len(bones.parent))]
+    mass, place = _roots(table, labels, bones), np.full(len(table.vertices), -1)
     for bone in bones.order:
-        taken = odds[:, children[bone]]
-        share = mass[:, [bone]] / (1 + taken.sum(axis=1, keepdims=True))
-        mass[:, children[bone]] = share * taken
-        mass[:, bone] = share[:, 0]
-    return mass
+        own = mass[bone]
+        place[own.vertex] = np.arange(len(own.vertex))
+        taken = [odds[child].at(place) for child in children[bone]]
+        total = np.zeros(len(own.vertex))
+        for some in taken:
+            total[some.vertex] += some.share
+        mass[bone] = left = _Shares(own.vertex, own.share / (1 + total))
+        for child, some in zip(children[bone], taken, strict=True):
+            mass[child] = _Shares(own.vertex[some.vertex], left.share[some.vertex] * some.share)
+        place[own.vertex] = -1
+    mover = np.repeat(np.arange(len(mass)), [len(some.vertex) for some in mass])
+    return np.concatenate([some.vertex for some in mass]), mover, np.concatenate([some.share for some in mass])
 
 
 def _turned(table: CornerTable, weights: Weights, bones: Bones) -> np.ndarray:
     """Which faces some bone turns over when it is bent at its joint, (p,) bool."""
-    mass, beyond = weights.of_bones(len(bones.parent)), following(bones.parent, bones.order)
-    turned = np.zeros(table.n_faces, bool)
+    beyond, turned = following(bones.parent, bones.order), np.zeros(table.n_faces, bool)
     for bone in np.flatnonzero(bones.parent >= 0).tolist():
         along = bones.tail[bone] - bones.head[bone]
-        turned |= turned_over(table, mass[:, beyond[bone]].sum(axis=1), bones.head[bone], along, BENT)
+        share = np.where(beyond[bone][weights.bone], weights.weight, 0.0).sum(axis=1)  # 0 where there is no bone
+        turned |= turned_over(table, share, bones.head[bone], along, BENT)
     return turned
 
 
@@ -215,31 +252,48 @@ def limited(mass: np.ndarray, fifth: float = 0.0) -> Weights:
     fifth largest that is taken from each of them; of four that are hardly larger, little less than all. Returns
     Weights.
     """
-    n, count = mass.shape
-    if fifth and count > MOST_BONES:
-        largest = -np.partition(-mass, MOST_BONES, axis=1)[:, [MOST_BONES]]
-        mass = np.maximum(mass - fifth * largest, _LITTLE * mass)
-    bone, weight = np.full((n, MOST_BONES), -1), np.zeros((n, MOST_BONES))
-    few = min(MOST_BONES, count)
-    bone[:, :few] = np.argsort(-mass, axis=1, kind="stable")[:, :few]
-    weight[:, :few] = np.take_along_axis(mass, bone[:, :few], axis=1)
+    vertex, bone = np.nonzero(mass)
+    return _limited(vertex, bone, mass[vertex, bone], len(mass), fifth)
+
+
+def _limited(vertex: np.ndarray, bone: np.ndarray, mass: np.ndarray, n: int, fifth: float) -> Weights:
+    """What ``limited`` returns, of what is not 0; of equal weights it keeps those of the first bones.
+
+    vertex, bone : (k,) int64, no pair twice. mass : (k,) float64. n : how many vertices there are.
+    """
+    if fifth:
+        order, rank = _ranked(vertex, bone, mass)
+        largest = np.zeros(n)
+        at_rank = order[rank == MOST_BONES]
+        largest[vertex[at_rank]] = mass[at_rank]
+        mass = np.maximum(mass - fifth * largest[vertex], _LITTLE * mass)
+    order, rank = _ranked(vertex, bone, mass)
+    order, rank = order[rank < MOST_BONES], rank[rank < MOST_BONES]
+    mover, weight = np.full((n, MOST_BONES), -1), np.zeros((n, MOST_BONES))
+    mover[vertex[order], rank], weight[vertex[order], rank] = bone[order], mass[order]
     weight /= np.maximum(weight.sum(axis=1, keepdims=True), np.finfo(float).tiny)
     # Such multiples add up exactly; what rounding leaves goes to the largest.
     weight = np.round(_STEPS * weight) / _STEPS
-    moved = mass.any(axis=1)
+    moved = mover[:, 0] >= 0
     weight[moved, 0] += 1 - weight[moved].sum(axis=1)
-    bone[weight <= 0] = -1
-    return Weights(bone, weight)
+    mover[weight <= 0] = -1
+    return Weights(mover, weight)
 
 
-def stiff_weights(table: CornerTable, labels: np.ndarray, count: int) -> Weights:
+def _ranked(vertex: np.ndarray, bone: np.ndarray, mass: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The order by vertices, of each the largest first, and the place of each among those of its vertex; (k,) int64."""
+    order = np.lexsort((bone, -mass, vertex))
+    sorted_vertex = vertex[order]
+    return order, np.arange(len(order)) - np.searchsorted(sorted_vertex, sorted_vertex)
+
+
+def stiff_weights(table: CornerTable, labels: np.ndarray) -> Weights:
     """Weights with which each part moves as a whole: a vertex on a cut goes with all that meet there.
 
-    table : CornerTable. labels : (p,) int64, bone of each face, 0..count-1. Returns Weights.
+    table : CornerTable. labels : (p,) int64, bone of each face. Returns Weights.
     """
-    mass = np.zeros((len(table.vertices), count))
-    mass[table.corner_vertex, labels[table.corner_face]] = 1.0
-    return limited(mass)
+    vertex, bone = distinct_pairs(table.corner_vertex, labels[table.corner_face])[0].T
+    return _limited(vertex, bone, np.ones(len(vertex)), len(table.vertices), 0.0)
 
 
 def of_half(weights: Weights, on_plane: np.ndarray, twin: np.ndarray) -> Weights:
@@ -289,6 +343,12 @@ def turned_over(
     turned : (p,) bool
     """
     turned, low, high = np.zeros(table.n_faces, bool), np.full(table.n_faces, np.inf), np.zeros(table.n_faces)
+    changing = share[table.edges[:, 0]] != share[table.edges[:, 1]]
+    if not changing.any():  # most bones move most of a surface not at all, or as a whole
+        return turned
+    near = np.zeros(table.n_faces, bool)
+    near[table.corner_face[changing[table.corner_edge]]] = True
+    table = table.within(near)
     np.minimum.at(low, table.corner_face, share[table.corner_vertex])
     np.maximum.at(high, table.corner_face, share[table.corner_vertex])
     some = _of_area(table.within(high - low > 1e-6))
@@ -322,12 +382,15 @@ def bends(along: np.ndarray, angle: float) -> list[np.ndarray]:
     return list(Rotation.from_rotvec(angle * np.stack([first, second, -first, -second])).as_matrix())
 
 
-def _roots(table: CornerTable, labels: np.ndarray, bones: Bones) -> np.ndarray:
-    """Whether each vertex belongs to each tree of bones, (n, roots) of 0 and 1; of several trees the first."""
+def _roots(table: CornerTable, labels: np.ndarray, bones: Bones) -> list[_Shares]:
+    """The vertices of each tree of bones, whole, at its root, and nothing at the other bones; of several the first."""
     root = np.arange(len(bones.parent))
     for bone in bones.order:
         if bones.parent[bone] >= 0:
             root[bone] = root[bones.parent[bone]]
     of_vertex = np.full(len(table.vertices), len(root))
     np.minimum.at(of_vertex, table.corner_vertex, root[labels[table.corner_face]])
-    return (of_vertex[:, None] == np.flatnonzero(bones.parent < 0)).astype(float)
+    order = np.argsort(of_vertex, kind="stable")
+    first = np.searchsorted(of_vertex[order], np.arange(len(root) + 1))
+    trees = [order[start:end] for start, end in zip(first[:-1].tolist(), first[1:].tolist(), strict=True)]
+    return [_Shares(tree, np.ones(len(tree))) for tree in trees]

@@ -3,7 +3,7 @@
 
 Each node and each point of an arc moves as the candidate part around it does, which is fitted to the evaluated mesh.
 The nodes keep their locations, which are the graph's; a delta of theirs takes them to where they are seen. A mesh whose
-modifiers make other faces than its own has its graph where it was.
+modifiers make other faces than its own has its graph where it was, but for Subdivision beside those that move it.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from ...core.surface.arrays import sums_by
 from ...core.uses.motion import rigid_motions
 from .. import bridge, mesh_arrays, redraw, store
 from ..errors import SceneError
+from ..seen_points import seen_corners
 from . import arc_curves, graph_objects
 
 _RESTS = 1e-6  # a graph that moves less than this share of the model's size stays where it is
@@ -102,12 +103,8 @@ def follow(context: bpy.types.Context, obj: bpy.types.Object) -> None:
 
 def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> np.ndarray | None:
     """The middle of each face as it is seen, (p, 3) float64; None if modifiers leave it, or make other faces."""
-    if not any(modifier.show_viewport for modifier in obj.modifiers):
+    points, own = seen_corners(context, obj), obj.data
+    if points is None:
         return None
-    mesh = obj.evaluated_get(context.evaluated_depsgraph_get()).data
-    own = obj.data
-    if (len(mesh.polygons), len(mesh.loops)) != (len(own.polygons), len(own.loops)):
-        return None
-    points = mesh_arrays.basis_points(mesh).astype(np.float64)[mesh_arrays.corner_vertices(mesh)]
     _, face = mesh_arrays.face_corners(own)
-    return sums_by(face, points, len(own.polygons)) / mesh_arrays.face_sizes(own)[:, None]
+    return sums_by(face, points.astype(np.float64), len(own.polygons)) / mesh_arrays.face_sizes(own)[:, None]

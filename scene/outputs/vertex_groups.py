@@ -169,12 +169,15 @@ def remove(obj: bpy.types.Object) -> None:
     result.has_groups = False
 
 
-def bones_that_move(objects: list[bpy.types.Object]) -> set[str]:
-    """Names of bones of the user's armatures that move some objects: a bone moves what is in a group of its name."""
+def bones_that_move(objects: list[bpy.types.Object], ours: bool = False) -> set[str]:
+    """Names of bones of the user's armatures that move some objects: a bone moves what is in a group of its name.
+
+    ours : whether armatures that we made count, too.
+    """
     rigs = {modifier.object for obj in objects for modifier in obj.modifiers if modifier.type == "ARMATURE"}
     rigs |= {obj.parent for obj in objects if obj.parent_type == "ARMATURE"}
-    return {bone.name for rig in rigs if rig is not None and rig.type == "ARMATURE" and made_objects.ROLE not in rig
-            for bone in rig.data.bones if bone.use_deform}
+    return {bone.name for rig in rigs if rig is not None and rig.type == "ARMATURE"
+            and (ours or made_objects.ROLE not in rig) for bone in rig.data.bones if bone.use_deform}
 
 
 def _take_names(obj: bpy.types.Object, bones: Container[str]) -> None:

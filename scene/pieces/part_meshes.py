@@ -7,7 +7,7 @@ these were asked for.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Container, Iterable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -19,7 +19,7 @@ from ...core.surface.arrays import stable_order
 from ...core.surface.corners import CornerTable, edge_labels
 from ...core.surface.orientation import against_neighbors
 from ...core.surface.pairs import are_among, distinct_pairs
-from .. import element_layers, hidden, mesh_arrays, mesh_groups, outputs, property_updates
+from .. import element_layers, hidden, mesh_arrays, mesh_groups, outputs, property_updates, targets
 from ..elements import CORNER, Elements
 from ..outputs import kept_aside, materials
 from ..temporary import removed
@@ -32,14 +32,15 @@ _NORMAL = "reeb_parts_normal"  # corner attribute: the user's normals, while fac
 
 
 def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
-    """A copy of a mesh without anything of ours but the parts' materials; Object Mode."""
-    copy = mesh.copy()
+    """A copy of a mesh without anything of ours but the parts' materials, and what our armature moves; Object Mode."""
+    copy, moved = mesh.copy(), _moved_groups(mesh)
     result = copy.reeb_parts
     twin = bpy.data.objects.new(copy.name, copy)
     with removed(bpy.data.objects, twin), property_updates.quiet():
         result.has_materials = False
         for part in result.parts:
             part.material = None
+            part.group = "" if part.group in moved else part.group
         outputs.remove_outputs(twin)
         copy.property_unset("reeb_parts")
     for key in [key for key in copy.keys() if key.startswith("reeb_parts")]:  # noqa: SIM118
@@ -49,6 +50,12 @@ def plain_copy(mesh: bpy.types.Mesh) -> bpy.types.Mesh:
     for name in [a.name for a in copy.attributes if a.name.startswith(ours)]:
         copy.attributes.remove(copy.attributes[name])
     return copy
+
+
+def _moved_groups(mesh: bpy.types.Mesh) -> set[str]:
+    """The names of our vertex groups by which an armature moves a mesh."""
+    bones = outputs.vertex_groups.bones_that_move(targets.users(mesh), ours=True)
+    return {part.group for part in mesh.reeb_parts.parts if part.group in bones} | set(mesh_groups.of_weights(mesh))
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,14 +129,15 @@ def making_pieces(mesh: bpy.types.Mesh, face_numbers: np.ndarray, wanted: Iterab
         if close:
             whole, n_apart = _welded(whole, np.isin(face_numbers, wanted), sculpted)
             whole = whole if sculpted else _agreeing(whole)
-        source = partial(SculptedMesh, plain, planar) if sculpted else partial(PlainMesh, plain, whole, planar)
+        source = (partial(SculptedMesh, plain, planar) if sculpted
+                  else partial(PlainMesh, plain, whole, planar, _moved_groups(mesh)))
         yield 0.1
         made = yield from stretched(_made(source(), face_numbers, wanted, close, smooth, np.empty((0, 2), np.int64)),
                                     0.1, 0.8)
         if smooth is not None and len(made.crossing):
             made = yield from stretched(_with_whole_faces(source, face_numbers, wanted, smooth, made), 0.8, 1.0)
-    for number, piece in made.meshes.items():
-        materials.drop_slots(piece, [material for other, material in others if other != number])
+        for number, piece in made.meshes.items():
+            materials.drop_slots(piece, [material for other, material in others if other != number])
     return replace(made, n_apart=n_apart)
 
 
@@ -192,11 +200,19 @@ def _with_whole_faces(source: Callable[[], PlainMesh | SculptedMesh], face_numbe
 
 
 class PlainMesh:
-    """A mesh without anything of ours, of which pieces are made. whole : its elements; they are read if not given."""
+    """A mesh without anything of ours, of which pieces are made; ``free`` removes what that takes.
 
-    def __init__(self, mesh: bpy.types.Mesh, whole: Elements | None = None, planar: bool = False) -> None:
+    whole : its elements; they are read if not given. few : names of vertex groups that a piece has only where it has
+    vertices in them: of thousands of bones each hangs on a few.
+    """
+
+    def __init__(self, mesh: bpy.types.Mesh, whole: Elements | None = None, planar: bool = False,
+                 few: Container[str] = ()) -> None:
         self._mesh, self._planar = mesh, planar
         self.whole = whole or element_layers.read(mesh)
+        self._groups, self._like = mesh_groups.names_of(mesh) if few else None, mesh.copy() if few else mesh
+        if few:
+            mesh_groups.empty_without(self._like, few)
 
     def divide(self, face_numbers: np.ndarray, stretch: np.ndarray, along: np.ndarray) -> Steps[tuple[np.ndarray, int]]:
         """Divide faces where smooth cuts run, see smooth_faces.divide_faces.
@@ -214,10 +230,12 @@ class PlainMesh:
         if holes is not None:
             piece, left = holes.closed(piece, chosen, self._mesh)
             piece = _outwards(piece, self.whole, faces)
-        return element_layers.made(piece, self._mesh), left
+        return element_layers.made(piece, self._like, self._groups), left
 
     def free(self) -> None:
-        """Nothing has to be removed."""
+        """Remove the copy that has no groups of bones."""
+        if self._like != self._mesh:
+            bpy.data.meshes.remove(self._like)
 
 
 def _made(source: PlainMesh | SculptedMesh, face_numbers: np.ndarray, wanted: list[int], close: bool,

@@ -100,6 +100,22 @@ def forget_original(collection: bpy.types.Collection) -> None:
     del collection[COLLECTION_OF]
 
 
+def hidden_for_nothing(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Objects of the scene that were hidden for their pieces, all of which are deleted now."""
+    empty = [obj for obj in context.scene.objects if obj.hide_render and obj.is_editable and NUMBER not in obj
+             and store.has_parts(obj) and visibility.is_known(obj) and not _has_pieces(obj)]
+    # Pieces that were moved to another collection do not say whose they are.
+    moved = empty and any(NUMBER in item and item.users_scene and original(item) is None for item in bpy.data.objects)
+    return [] if moved else empty
+
+
+def _has_pieces(obj: bpy.types.Object) -> bool:
+    """Whether a piece of an object is left, be it the user's own by now; hulls and joints are none."""
+    collection = collection_of(obj)
+    return collection is not None and any(item.type == "MESH" and made_objects.ROLE not in item
+                                          for item in collection.objects)
+
+
 def stands_for(item: bpy.types.Object) -> str:
     """The part of a piece, or the parts that a dowel joins; see made_objects.StandsFor."""
     if DOWEL not in item:

@@ -310,8 +310,10 @@ TEXTS = {
     "Keep cuts on level sets of the distance, as the paper does; off, they follow creases":
         "Schnitte wie im Artikel auf Linien gleichen Abstands belassen; ausgeschaltet folgen sie Falten",
     "Small Loose Part": "Lose Teile ab",
-    "Loose parts with less than this share of the whole area are one part each":
-        "Lose Teile mit weniger als diesem Anteil der ganzen Oberfläche sind je ein einziges Teil",
+    "What touches nothing else, or with Pieces: Separate each loose piece, is one part if its share of the whole "
+    "area is less than this":
+        "Was nichts anderes berührt, oder bei Stücke: Getrennt jedes lose Stück, ist ein einziges Teil, wenn sein "
+        "Anteil an der ganzen Oberfläche kleiner ist",
     # Ausgabe
     "Vertex Groups": "Punktgruppen",
     "A vertex group for each part; vertices on a cut belong to every part that meets there":
@@ -1041,6 +1043,8 @@ TEXTS = {
     "{path} would be written over {other}. Give each file a name of its own.":
         "{path} würde {other} überschreiben. Jede Datei braucht einen eigenen Namen.",
     "{n} {n:file|files} in {folder}": "{n} {n:Datei|Dateien} in {folder}",
+    "{name} is moved by {rig}, too: the new bones lie where it is at rest":
+        "{name} wird auch von {rig} bewegt: Die neuen Knochen liegen dort, wo es in Ruhe ist",
     "{name} has {n} {n:bone|bones}": "{name} hat {n} Knochen",
     "A part needs a name.": "Ein Teil braucht einen Namen.",
     "Rename Part": "Teil umbenennen",

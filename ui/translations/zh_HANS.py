@@ -310,8 +310,9 @@ TEXTS = {
     "Keep cuts on level sets of the distance, as the paper does; off, they follow creases":
         "像论文那样使切口保持在距离的等值线上；禁用时切口沿折痕",
     "Small Loose Part": "小松散块",
-    "Loose parts with less than this share of the whole area are one part each":
-        "面积小于总面积此比例的松散块各为一个部件",
+    "What touches nothing else, or with Pieces: Separate each loose piece, is one part if its share of the whole "
+    "area is less than this":
+        "不与其他部分接触者（“块：各自”时为每个松散块），若占总面积的比例小于此值，则为一个部件",
     # 输出
     "Vertex Groups": "顶点组",
     "A vertex group for each part; vertices on a cut belong to every part that meets there":
@@ -921,6 +922,8 @@ TEXTS = {
     "{path} would be written over {other}. Give each file a name of its own.":
         "{path} 会覆盖 {other}。请为每个文件指定单独的名称。",
     "{n} {n:file|files} in {folder}": "{folder} 中有 {n} 个文件",
+    "{name} is moved by {rig}, too: the new bones lie where it is at rest":
+        "{name} 还由 {rig} 带动：新骨骼位于其静置形状处",
     "{name} has {n} {n:bone|bones}": "{name} 有 {n} 根骨骼",
     "A part needs a name.": "部件需要一个名称。",
     "Rename Part": "重命名部件",

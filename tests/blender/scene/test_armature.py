@@ -8,6 +8,7 @@ import shapes
 from mathutils import Euler
 from places import seen_points
 from results import numbers as numbers_of
+from scipy.spatial import cKDTree
 from snapshot import activate, check_undo, snapshot
 
 DEFORM = "DEF-"
@@ -83,6 +84,34 @@ def test_at_rest_nothing_moves_and_a_turned_bone_moves_its_part(obj):
     mine = {v for p in obj.data.polygons if numbers_of(obj.data)[p.index] == number for v in p.vertices}
     assert set(np.flatnonzero(moved).tolist()) <= mine
     assert moved.sum() > 0.8 * len(mine)
+
+
+def test_another_armature_of_the_model_is_named(obj, capfd):
+    """Its pose moves the model away from the new bones, and nothing said why they lie beside it."""
+    rig = bpy.data.objects.new("Mine", bpy.data.armatures.new("Mine"))
+    obj.modifiers.new("Armature", "ARMATURE").object = rig
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature()
+    assert "Tree is moved by Mine, too: the new bones lie where it is at rest" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("weights", ["SMOOTH", "PARTS"])
+def test_pieces_are_posed_as_the_whole(obj, weights):
+    """Each has the groups of the bones that move it, and those of the user's, which may be empty."""
+    obj.vertex_groups.new(name="Mine").lock_weight = True
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.armature(weights=weights)
+    bpy.ops.reeb_parts.separate(cut="FACES", hide=False)
+    bone = next(bone for bone in rig_of(obj).pose.bones if bone.parent and not bone.children)
+    bone.rotation_mode, bone.rotation_euler = "XYZ", Euler((0.5, 0.0, 0.0))
+    whole = cKDTree(seen_points(obj))
+    for piece in obj.reeb_parts_made.pieces.objects:
+        if piece.type == "MESH":
+            assert whole.query(seen_points(piece))[0].max() < 1e-5
+            used = {entry.group for vertex in piece.data.vertices for entry in vertex.groups}
+            (mine,) = {group.index for group in piece.vertex_groups} - used
+            assert piece.vertex_groups[mine].name == "Mine"
+            assert piece.vertex_groups[mine].lock_weight
 
 
 def weights_of(obj):

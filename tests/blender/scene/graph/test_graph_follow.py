@@ -110,9 +110,13 @@ def test_it_drifts_apart_with_the_parts_and_comes_back_whole(obj, follow):
         "/objects/Tree/made", "/objects/Tree/properties/reeb_parts_made"}
 
 
-def test_it_goes_with_the_bones(obj, follow):
+@pytest.mark.parametrize("divided", [False, True])
+def test_it_goes_with_the_bones(obj, follow, divided):
+    """Those of a figure with Subdivision, too, as most that are posed have."""
     bpy.ops.reeb_parts.armature(weights="PARTS")
     before, _ = seen()
+    if divided:
+        obj.modifiers.new("Subdivision", "SUBSURF")
     (rig,) = [item for item in bpy.data.objects if item.type == "ARMATURE"]
     leaves = [bone for bone in rig.pose.bones if bone.parent is not None and not bone.children]
     for bone in leaves:

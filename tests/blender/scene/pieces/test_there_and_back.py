@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Show Original and Show Separated Parts: one or the other is seen, in every layer, scene and file."""
 
+import importlib
+
 import bpy
 import pytest
 from pieces import pieces_of
@@ -33,6 +35,34 @@ def test_there_and_back_for_all_that_is_selected(make, tree, obj):
         assert set(bpy.context.visible_objects) == {obj, other, *obj.children, *other.children}
         bpy.ops.reeb_parts.show_pieces()
         assert set(bpy.context.selected_objects) == pieces == set(bpy.context.visible_objects)
+
+
+@pytest.mark.parametrize("way", ["objects", "hierarchy"])
+def test_the_original_is_back_once_all_pieces_are_deleted(package, obj, way):
+    """It was not rendered any more, and nothing said so."""
+    watch = importlib.import_module(f"{package}.scene.watch")
+    bpy.ops.reeb_parts.decompose()
+    bpy.ops.reeb_parts.hulls()
+    bpy.ops.reeb_parts.separate()
+    pieces = pieces_of()
+    for piece in pieces[1:]:
+        bpy.data.objects.remove(piece)
+    assert not watch._is_untidy()
+    kept = obj.reeb_parts_made.pieces
+    if way == "objects":
+        other = bpy.data.collections.new("Other")  # moved there, it does not say whose it is
+        bpy.context.scene.collection.children.link(other)
+        other.objects.link(pieces[0])
+        kept.objects.unlink(pieces[0])
+        assert not watch._is_untidy()
+    bpy.data.objects.remove(pieces[0])
+    if way == "hierarchy":
+        bpy.data.collections.remove(kept)
+    assert watch._is_untidy()
+    watch._tidy()  # as a timer does
+    assert not obj.hide_render
+    assert not obj.hide_get()
+    assert not watch._is_untidy()
 
 
 @pytest.mark.parametrize("seen", [True, False])
