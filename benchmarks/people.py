@@ -17,7 +17,6 @@ from core.metrics import Overlap
 from core.parameters import Parameters
 from core.pipeline import level_sets_of
 from core.progress import Stopwatch
-from core.surface.arrays import sums_by
 from core.surface.mesh import TriMesh
 from core.surface.ordering import sorted_by_place
 from core.surface.polygons import PolygonMesh
@@ -82,7 +81,7 @@ def varied(vertices: np.ndarray, faces: np.ndarray, rng: np.random.Generator) ->
     mesh = TriMesh(vertices, faces)
     kind = rng.integers(3)
     if kind == 1:
-        normal = sums_by(mesh.faces.ravel(), np.repeat(mesh.area_normals, 3, axis=0), mesh.n_vertices)
+        normal = mesh.vertex_area_normals
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
         step = np.median(mesh.edge_length) * rng.uniform(0.03, 0.15)
         return vertices + step * rng.normal(size=(mesh.n_vertices, 1)) * normal

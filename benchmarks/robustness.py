@@ -27,7 +27,6 @@ from tqdm import tqdm
 
 from core import PRESETS, Parameters, TriMesh, decompose
 from core.metrics import agreement, rand_index_error
-from core.surface.arrays import sums_by
 
 SPOT = packages.ROOT / "models" / "spot.obj"
 SEED = 2009
@@ -38,7 +37,7 @@ def with_noise(share: float):
 
     def change(mesh: TriMesh) -> TriMesh:
         rng = np.random.default_rng(SEED)
-        normal = sums_by(mesh.faces.ravel(), np.repeat(mesh.area_normals, 3, axis=0), mesh.n_vertices)
+        normal = mesh.vertex_area_normals
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), np.finfo(float).tiny)
         step = share * mesh.edge_length.mean() * rng.standard_normal((mesh.n_vertices, 1))
         return TriMesh(mesh.vertices + step * normal, mesh.faces)

@@ -66,7 +66,7 @@ def principal_curvatures(mesh: TriMesh, smoothing_steps: int = 2) -> np.ndarray:
     turn = 0.5 * mesh.dihedral * length
     at_start, at_end = (second_moments_of_each(at, direction, turn, mesh.n_vertices) for at in (start, end))
     sums = (at_start + at_end).reshape(-1, 9)
-    normals = sums_by(mesh.faces.ravel(), np.repeat(mesh.area_normals, 3, axis=0), mesh.n_vertices)
+    normals = mesh.vertex_area_normals
     area = mesh.vertex_area.copy()
     a, b = mesh.edges.vertices.T
     for _ in range(smoothing_steps):

@@ -80,7 +80,7 @@ def roughness(mesh: TriMesh) -> tuple[float, float]:
     total = sums_by(a, taken(mesh.vertices, b), n) + sums_by(b, taken(mesh.vertices, a), n)
     degree = np.bincount(a, minlength=n) + np.bincount(b, minlength=n)
     length = np.bincount(a, mesh.edge_length, n) + np.bincount(b, mesh.edge_length, n)
-    normal = unit(sums_by(mesh.faces.ravel(), np.repeat(mesh.area_normals, 3, axis=0), n))
+    normal = unit(mesh.vertex_area_normals)
     height = np.divide(row_products(degree[:, None] * mesh.vertices - total, normal), length,
                        out=np.zeros(n), where=inner & (length > 0))
     bound = np.quantile(np.abs(height[inner]), 1.0 - OUTLIERS)

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import MeshError
 from ..sentence import Sentence
-from .arrays import begins_run, frozen, renumbered, stable_order, taken
+from .arrays import begins_run, frozen, renumbered, stable_order, sums_by, taken
 from .components import components
 from .vectors import cross, lengths, row_products
 
@@ -171,6 +171,11 @@ class TriMesh:
         p, q, r = taken(self.vertices, self.faces[small].T)
         some[small] &= area[small] > ON_A_LINE * lengths(q - p) * lengths(r - p)
         return np.divide(self.area_normals, area[:, None], out=np.zeros((self.n_faces, 3)), where=some[:, None])
+
+    @property
+    def vertex_area_normals(self) -> np.ndarray:
+        """(n, 3) float64, sum of the ``area_normals`` of the faces at each vertex."""
+        return sums_by(self.faces.ravel(), np.repeat(self.area_normals, 3, axis=0), self.n_vertices)
 
     @cached_property
     def face_centroids(self) -> np.ndarray:
