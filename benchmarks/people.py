@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from core.arrays.ties import in_steps
 from core.cuts.patches import concave_patches
 from core.cuts.perceptual.measures import SurfaceMeasures, surface_measures
 from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
@@ -21,7 +22,6 @@ from core.surface.mesh import TriMesh
 from core.surface.ordering import sorted_by_place
 from core.surface.polygons import PolygonMesh
 from core.surface.preparation import Component, WorkingMesh, repair
-from core.surface.ties import in_steps
 
 CATEGORIES = (
     ("Human", 1), ("Cup", 21), ("Glasses", 41), ("Airplane", 61), ("Ant", 81), ("Chair", 101),

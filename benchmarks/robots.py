@@ -26,7 +26,7 @@ import yourdfpy
 from meshes import joined_alone, some, source_and_target, stacked, write_labelled
 from tqdm import tqdm
 
-from core.surface.components import components
+from core.arrays.components import components
 from core.surface.mesh import TriMesh
 
 ROBOTS = (

@@ -6,6 +6,7 @@ detail. What can be imported from the package itself is listed in ``_HOME``, bel
 
 The stages, in the order of the method; each imports those before it only:
 
+- ``arrays``: what every stage does with whole arrays
 - ``surface``: from the caller's arrays to a checked and repaired mesh, and labels on it
 - ``field``: distances along the surface, and their mean, the AGD
 - ``graph``: level sets of the field, and its Reeb graph

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .arrays.indexing import underflow_is_zero
 from .cuts.boosted_trees import BoostedTrees
 from .cuts.hierarchy import Candidates
 from .cuts.joining.method import JoinModel, fine_parts, join_parts
@@ -25,7 +26,6 @@ from .result.decomposition import Decomposition
 from .result.half import of_half
 from .result.mirrors import Mirror, find_mirrors
 from .surface.arguments import hints_of
-from .surface.arrays import underflow_is_zero
 from .surface.coarsening import Pyramid
 from .surface.copies import find_copies
 from .surface.halves import completed, plane_of

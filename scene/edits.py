@@ -18,9 +18,9 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.arrays.components import components
 from ..core.result.decomposition import Decomposition, Parts
 from ..core.sentence import Count
-from ..core.surface.components import components
 from ..core.surface.corners import CornerTable
 from ..core.surface.labels import FaceGraph
 from . import bridge, mesh_arrays, part_names, property_updates, reactions, store

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.surface.arrays import renumbered
+from ..core.arrays.indexing import renumbered
 from ..core.uses.stacking import double_corners
 from . import fingerprints, made_objects, mesh_arrays, store, transaction
 from .errors import SceneError

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from core.surface.components import components
+from core.arrays.components import components
 from core.surface.labels import FaceGraph, fill_unlabeled
 from core.surface.mesh import TriMesh
 

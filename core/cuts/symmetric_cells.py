@@ -13,11 +13,11 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array
 
-from ..surface.arrays import renumbered
-from ..surface.components import components, roots
+from ..arrays.components import components, roots
+from ..arrays.indexing import renumbered
+from ..arrays.pairs import pair_keys
+from ..arrays.ties import rounded
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
-from ..surface.pairs import pair_keys
-from ..surface.ties import rounded
 from .symmetry_group import SymmetryGroup
 
 # Shares of the area of the pieces that the plane mirrors. What little of a candidate is left on the leading side joins

@@ -8,8 +8,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ..arrays.ties import rounded
 from ..surface.labels import FaceGraph, vote_weights
-from ..surface.ties import rounded
 from .hierarchy import LAST, Hierarchy
 from .symmetric_cells import Cells
 from .symmetry_group import SymmetryGroup

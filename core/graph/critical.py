@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import inverse
+from ..arrays.indexing import inverse
 from ..surface.mesh import TriMesh
 
 MINIMUM, SADDLE, MAXIMUM = 0, 1, 2

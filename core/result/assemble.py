@@ -10,6 +10,9 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..arrays.components import components
+from ..arrays.indexing import is_last_of_each, last_of_each, sums_by
+from ..arrays.nearest import nearest_before
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.hinted import hinted_candidates
@@ -20,11 +23,8 @@ from ..field.agd import ScalarField
 from ..graph.reeb import ReebGraph
 from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
-from ..surface.arrays import is_last_of_each, last_of_each, sums_by
-from ..surface.components import components
 from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
 from ..surface.mesh import LEAST_WEIGHT
-from ..surface.nearest import nearest_before
 from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh
 from .component_results import ComponentResult, FoundCandidates

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.components import components
+from ..arrays.indexing import place_among, renumbered, sums_by
 from ..parameters import Parameters
-from ..surface.arrays import place_among, renumbered, sums_by
-from ..surface.components import components
 from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, connect, straighten
 

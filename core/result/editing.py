@@ -12,13 +12,13 @@ from dataclasses import replace
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
+from ..arrays.components import components
+from ..arrays.indexing import inverse, renumbered
+from ..arrays.pairs import both_ways, symmetric_matrix
 from ..cuts.hierarchy import Dendrogram, Hierarchy
 from ..graph.critical import SADDLE
-from ..surface.arrays import inverse, renumbered
-from ..surface.components import components
 from ..surface.corners import CornerTable
 from ..surface.labels import FaceGraph, label_boundaries, majority, spread, vote_weights
-from ..surface.pairs import both_ways, symmetric_matrix
 from .contour_cut import contours
 from .decomposition import Decomposition
 from .junctions import boundaries, junctions

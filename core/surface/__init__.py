@@ -36,14 +36,7 @@ Symmetry:
 - ``topology_mirror``: the twins that follow from how polygons hang together, whatever the pose
 - ``halves``: half models, whose other side is their mirror image
 
-Labels, and what every stage does with whole arrays:
+Labels:
 
 - ``labels``: labels on faces: votes, boundaries, connected labels
-- ``arrays``: orders, sums by group, ranges, numbering
-- ``ties``: numbers that are equal but for rounding
-- ``components``: what hangs together
-- ``vectors``: products and lengths of many vectors
-- ``pairs``: pairs of whole numbers
-- ``nearest``: the search of many points for their nearest
-- ``nearest_seeds``: the nearest of several seeds along the ways of a graph
 """

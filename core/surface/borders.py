@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import first_at_place
-from .components import components
+from ..arrays.components import components
+from ..arrays.indexing import first_at_place
 
 GAP = 5e-5  # share of the diagonal within which border vertices are one: seams that were moved, and rounded, apart
 NEAREST = 8  # of the border vertices around each, itself included, so many are looked at

@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import GOLDEN, begins_run, frozen, hashed_rows, inverse, place_among, stable_order
-from .components import components
+from ..arrays.components import components
+from ..arrays.indexing import GOLDEN, begins_run, frozen, hashed_rows, inverse, place_among, stable_order
 from .mesh import TriMesh
 from .polygons import MIN_FACES, PolygonMesh
 

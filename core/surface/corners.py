@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import begins_run, renumbered, stable_order, sums_by
+from ..arrays.indexing import begins_run, renumbered, stable_order, sums_by
+from ..arrays.pairs import distinct_pairs
+from ..arrays.vectors import cross, lengths
 from .borders import joined_borders
-from .pairs import distinct_pairs
-from .vectors import cross, lengths
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import expanded, sums_by
-from .ties import rounded
-from .vectors import cross, cross_in_plane, lengths, row_products, unit
+from ..arrays.indexing import expanded, sums_by
+from ..arrays.ties import rounded
+from ..arrays.vectors import cross, cross_in_plane, lengths, row_products, unit
 
 #: Share of a polygon's area; what is folded by less is convex but for the rounding of its corners.
 FOLD = 1e-6

@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import inverse, place_among
-from .components import components
+from ..arrays.components import components
+from ..arrays.indexing import inverse, place_among
 from .mesh import TriMesh, next_side
 
 

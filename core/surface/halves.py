@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays.pairs import distinct_pairs
 from ..errors import MeshError
 from ..sentence import Sentence
 from .arguments import numbers
 from .corners import CornerTable, next_of_owner
 from .mirror_plane import MirrorPlane
-from .pairs import distinct_pairs
 from .polygons import PolygonMesh
 
 if TYPE_CHECKING:

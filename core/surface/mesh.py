@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays.components import components
+from ..arrays.indexing import begins_run, frozen, renumbered, stable_order, sums_by, taken
+from ..arrays.vectors import cross, lengths, row_products
 from ..errors import MeshError
 from ..sentence import Sentence
-from .arrays import begins_run, frozen, renumbered, stable_order, sums_by, taken
-from .components import components
-from .vectors import cross, lengths, row_products
 
 ON_A_LINE = 1e-11  # sine of an angle below which the corners of a face lie on a line, but for rounding
 # What faces without an area weigh where faces vote for labels by their areas, as a share of the area of the mesh, and

@@ -8,11 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
+from ..arrays.vectors import inner_products, second_moments
 from .labels import majority
 from .mirror_plane import MirrorPlane
 from .small_faces import DENSE, Elements, SmallFaces
 from .symmetry import EXACT, is_exact, judged, oriented
-from .vectors import inner_products, second_moments
 
 # How far a mirrored face may lie beside the surface where twins are found, on a model bent to one side a little; in
 # units of the size.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .vectors import inner_products
+from ..arrays.vectors import inner_products
 
 
 @dataclass(frozen=True, eq=False)

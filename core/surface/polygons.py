@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays.indexing import frozen
 from ..errors import EmptyMeshError, MeshError
 from ..sentence import Sentence
 from .arguments import corners, positions, whole_numbers
-from .arrays import frozen
 from .ears import fans, without_folds
 from .mesh import TriMesh, check_corners
 

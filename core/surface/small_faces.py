@@ -9,12 +9,12 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import even_steps, rounded_order, sums_by, taken
+from ..arrays.indexing import even_steps, rounded_order, sums_by, taken
+from ..arrays.nearest import nearest, search_tree
+from ..arrays.vectors import lengths, row_products, weighted_sum
 from .contact import diameter
 from .mesh import TriMesh
 from .mirror_plane import MirrorPlane
-from .nearest import nearest, search_tree
-from .vectors import lengths, row_products, weighted_sum
 
 # How much a turned normal counts where the nearest face is searched, in units of the size, so that the two sides of a
 # wall are told apart.

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.vectors import second_moments
 from .mirror_plane import MirrorPlane, positive_sign
 from .ordering import principal_axes
 from .small_faces import Elements, SmallFaces
-from .vectors import second_moments
 
 MATCH = 0.012  # how far a mirrored point may lie beside the surface where a plane is judged, in units of the size
 LEAST = 0.85  # share of the area that must be matched for a plane to be one of symmetry

@@ -15,13 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import GOLDEN, sums_by
-from .components import components
+from ..arrays.components import components
+from ..arrays.indexing import GOLDEN, sums_by
+from ..arrays.pairs import distinct_pairs
+from ..arrays.vectors import weighted_sum
 from .half_edges import HalfEdges
 from .mesh import TriMesh
 from .mirror_plane import positive_sign
-from .pairs import distinct_pairs
-from .vectors import weighted_sum
 
 MOST_POLYGONS = 50_000  # denser meshes are scans, or subdivided: each polygon is like its neighbors
 # Steps from half-edge to half-edge after which colors are compared: after few of them asymmetric details hide little,

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import sums_by
-from ..surface.components import components
+from ..arrays.components import components
+from ..arrays.indexing import sums_by
+from ..arrays.pairs import distinct_pairs
+from ..arrays.vectors import cross, row_products, second_moments_of_each
 from ..surface.corners import CornerTable
-from ..surface.pairs import distinct_pairs
-from ..surface.vectors import cross, row_products, second_moments_of_each
 from .groups import beside, touching_groups
 from .hulls import Hull
 

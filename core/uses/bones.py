@@ -14,11 +14,11 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
 
-from ..surface.arrays import sums_by
+from ..arrays.indexing import sums_by
+from ..arrays.pairs import distinct_pairs
 from ..surface.corners import CornerTable
 from ..surface.cut_edges import CutEdges
 from ..surface.mirror_plane import MirrorPlane
-from ..surface.pairs import distinct_pairs
 from .groups import touching_groups
 
 # Least length of a bone, as a share of the diagonal of the faces' bounding box. A shorter bone is replaced by one of

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import renumbered, run_starts, stable_order, sums_by
-from ..surface.components import components
+from ..arrays.components import components
+from ..arrays.indexing import renumbered, run_starts, stable_order, sums_by
+from ..arrays.vectors import cross, unit
 from ..surface.corners import next_of_owner
-from ..surface.vectors import cross, unit
 
 # Faces of a cap that turn by more than this lie apart in the map, as where three parts meet.
 _TURN = np.radians(60)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..surface.arrays import sums_by
-from ..surface.vectors import cross, lengths
+from ..arrays.indexing import sums_by
+from ..arrays.vectors import cross, lengths
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -88,7 +88,7 @@ def away_from_curve(flat: np.ndarray, before: np.ndarray | None = None, density:
     inner : (m, 2) float64
         Some of them outside of the curve.
     """
-    from scipy.spatial import cKDTree  # imported here, as below, for the reason that surface.components gives
+    from scipy.spatial import cKDTree  # imported here, as below, for the reason that arrays.components gives
 
     before = np.roll(flat, 1, axis=0) if before is None else before
     step = max(float(np.median(np.linalg.norm(flat - before, axis=1))), _LEAST) / density

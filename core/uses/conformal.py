@@ -9,9 +9,9 @@ import numpy as np
 from scipy.sparse import csr_array, diags
 from scipy.sparse.linalg import splu
 
-from ..surface.arrays import sums_by
+from ..arrays.indexing import sums_by
+from ..arrays.pairs import distinct_pairs, symmetric_matrix
 from ..surface.corners import CornerTable
-from ..surface.pairs import distinct_pairs, symmetric_matrix
 
 # Cotangents of the angles of needles and the sum at an edge are kept within these, so that none outweighs all others
 # and the matrix stays positive definite.

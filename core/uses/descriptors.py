@@ -15,11 +15,11 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
+from ..arrays.indexing import sums_by, underflow_is_zero
 from ..errors import MeshError
 from ..graph.critical import MAXIMUM
 from ..result.decomposition import Parts
 from ..sentence import Sentence
-from ..surface.arrays import sums_by, underflow_is_zero
 from ..surface.copies import find_copies
 from ..surface.mesh import TriMesh
 from ..surface.ordering import sorted_by_place

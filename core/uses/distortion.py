@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import inverse, sums_by
+from ..arrays.indexing import inverse, sums_by
 from ..surface.corners import CornerTable
 
 #: Areas between these, as multiples of their share of the whole map, are called even.

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ..surface.arrays import renumbered, rounded_order, stable_order, sums_by
-from ..surface.components import components
+from ..arrays.components import components
+from ..arrays.indexing import renumbered, rounded_order, stable_order, sums_by
+from ..arrays.pairs import distinct_pairs
+from ..arrays.vectors import cross, inner_products, lengths, second_moments
 from ..surface.corners import CornerTable
 from ..surface.ordering import principal_axes
-from ..surface.pairs import distinct_pairs
-from ..surface.vectors import cross, inner_products, lengths, second_moments
 
 #: How many corners a hull has at most; game engines take 255, and are faster with fewer.
 MOST_CORNERS = 64

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from ..surface.ties import rounded
-from ..surface.vectors import cross_in_plane
+from ..arrays.ties import rounded
+from ..arrays.vectors import cross_in_plane
 from .joint_shapes import REACH, Kind
 
 if TYPE_CHECKING:

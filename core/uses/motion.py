@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import sums_by
+from ..arrays.indexing import sums_by
 
 # Points on a line leave the rotation around it open: so little of their spread as if in all directions keeps it small.
 _ROUND = 1e-9

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.ties import rounded
-from ..surface.vectors import lengths
+from ..arrays.ties import rounded
+from ..arrays.vectors import lengths
 
 # Of larger networks, not all ways to divide them are looked at. So many curves may go from one side to the other: each
 # face between curves then goes across twice or not at all, and a line across is met by every face once on each side.

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.indexing import expanded
 from ..graph.reeb import ReebGraph
-from ..surface.arrays import expanded
 from ..surface.mesh import TriMesh
 
 CHUNK = 2_000_000  # pixels, of the picture, of faces or of discs, that are looked at together

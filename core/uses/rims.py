@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import renumbered
-from ..surface.components import components
+from ..arrays.components import components
+from ..arrays.indexing import renumbered
 from .cap_surfaces import over_a_plane
 
 # A rim within another one may be so far off its plane, or off what is nearest of it where that is bent, too, as a share

@@ -12,10 +12,10 @@ from scipy.sparse import csr_array, diags
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
+from ..arrays.pairs import distinct_pairs, symmetric_matrix
+from ..arrays.vectors import lengths
 from ..surface.corners import CornerTable
 from ..surface.cut_edges import CutEdges
-from ..surface.pairs import distinct_pairs, symmetric_matrix
-from ..surface.vectors import lengths
 from .bones import Bones, following
 from .conformal import ConformalFactor, solved
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import renumbered
-from ..surface.components import components
+from ..arrays.components import components
+from ..arrays.indexing import renumbered
 
 
 @dataclass(frozen=True, eq=False)

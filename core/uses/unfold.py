@@ -9,10 +9,10 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components, dijkstra, minimum_spanning_tree
 
-from ..surface.arrays import last_of_each
-from ..surface.components import components
+from ..arrays.components import components
+from ..arrays.indexing import last_of_each
+from ..arrays.pairs import pair_keys
 from ..surface.corners import CornerTable
-from ..surface.pairs import pair_keys
 from .conformal import ConformalFactor
 
 # Areas shall lie in the plane at 0.3 to 3 times their size: a conformal map whose scale of lengths is exp(u) does that

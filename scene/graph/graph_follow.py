@@ -11,7 +11,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core.surface.arrays import sums_by
+from ...core.arrays.indexing import sums_by
 from ...core.uses.motion import rigid_motions
 from .. import bridge, mesh_arrays, redraw, store
 from ..errors import SceneError

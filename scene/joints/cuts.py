@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ...core.surface.components import components
+from ...core.arrays.components import components
+from ...core.arrays.pairs import distinct_pairs
 from ...core.surface.mesh import EdgeTable
-from ...core.surface.pairs import distinct_pairs
 from .. import mesh_arrays
 from ..pieces import caps
 

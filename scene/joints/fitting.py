@@ -129,7 +129,7 @@ def _beyond(joint: Joint, wanted: Wanted, receives: bool) -> tuple[float, float]
 
 def _topology(mesh: bpy.types.Mesh) -> tuple[int, int]:
     """How many bodies the faces of a mesh make, and its Euler characteristic."""
-    from ...core.surface.components import components
+    from ...core.arrays.components import components
 
     ends = mesh_arrays.edge_ends(mesh)
     count, _ = components(len(mesh.vertices), *ends.T)

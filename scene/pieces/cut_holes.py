@@ -115,8 +115,8 @@ def _around_holes(piece: Elements, opened: np.ndarray) -> np.ndarray:
 
     A hole goes round borders that there were before, too, if the cut ends there.
     """
-    from ...core.surface.arrays import renumbered
-    from ...core.surface.components import components
+    from ...core.arrays.components import components
+    from ...core.arrays.indexing import renumbered
 
     border = np.bincount(piece.corner_edge, minlength=len(piece.ends)) == 1
     on = np.zeros(len(piece.points), bool)

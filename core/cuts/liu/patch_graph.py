@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import place_among, renumbered, sums_by
-from ...surface.components import components
+from ...arrays.components import components
+from ...arrays.indexing import place_among, renumbered, sums_by
 from ...surface.curvature import curvature_across
 from ...surface.labels import label_boundaries
 from ...surface.mesh import TriMesh

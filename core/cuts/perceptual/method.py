@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...arrays.ties import in_steps
 from ...field.agd import ScalarField
 from ...graph.level_sets import LevelSets, cut_at_levels
 from ...parameters import Parameters
@@ -20,7 +21,6 @@ from ...surface.denoising import denoised
 from ...surface.labels import FaceGraph, connect, fill_unlabeled, majority
 from ...surface.mesh import TriMesh
 from ...surface.sheets import Inflated, inflated, sheet_faces
-from ...surface.ties import in_steps
 from ..boosted_trees import BoostedTrees
 from ..hierarchy import Candidates, Hierarchy
 from ..minimum_cut import MovableCuts, move_cuts

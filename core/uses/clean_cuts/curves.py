@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import renumbered, stable_order
+from ...arrays.indexing import renumbered, stable_order
 from ...surface.corners import CornerTable
 from .method import CleanCuts
 

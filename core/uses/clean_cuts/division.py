@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...surface.arrays import inverse, stable_order
+from ...arrays.indexing import inverse, stable_order
 from ...surface.corners import next_of_owner
 from ...surface.labels import majority
 from .band import Band

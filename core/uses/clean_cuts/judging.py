@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...surface.arrays import last_of_each, renumbered, sums_by
-from ...surface.components import components
+from ...arrays.components import components
+from ...arrays.indexing import last_of_each, renumbered, sums_by
 from ...surface.corners import next_of_owner
 from .band import Band
 from .division import Division

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.surface.components import components
 from core.surface.mesh import TriMesh
 
 SURFACES = {

@@ -6,8 +6,8 @@ import pytest
 import shapes
 from face_graphs import graph_of
 
+from core.arrays.components import components
 from core.result.contour_cut import Contours, contour_sides, contours
-from core.surface.components import components
 from core.surface.corners import CornerTable
 from core.surface.labels import FaceGraph
 

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.field.geodesic import GeodesicSolver
 from core.surface.coarsening import SLIM, coarsen, prolong
-from core.surface.components import components
 from core.surface.mesh import TriMesh
 
 SURFACES = {"sphere": lambda: shapes.icosphere(3), "genus 2": lambda: shapes.surface_of_genus(2),

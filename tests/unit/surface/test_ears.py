@@ -6,9 +6,9 @@ import pytest
 import shapes
 from folding import LETTER_H, bumps, extruded
 
+from core.arrays.vectors import cross, lengths
 from core.surface.ears import fans, without_folds
 from core.surface.polygons import PolygonMesh
-from core.surface.vectors import cross, lengths
 
 ARROW = [(0, 0), (2, 3), (0, 1.2), (-2, 3)]
 #: A square with a hole, tied to the outside along an edge that is there twice; two corners there are one point.

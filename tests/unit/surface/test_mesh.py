@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
+from core.arrays.ties import first_largest
 from core.errors import EmptyMeshError, MeshError
-from core.surface.components import components
 from core.surface.mesh import EdgeTable, TriMesh
 from core.surface.polygons import PolygonMesh
-from core.surface.ties import first_largest
 
 CLOSED = {
     "tetrahedron": (shapes.tetrahedron, 2), "octahedron": (shapes.octahedron, 2),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operations on whole arrays that every stage uses: orders, sums by group, ranges, numbering."""
+"""Operations on whole arrays, most of them by indices: orders, sums by group, ranges, numbering."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def stable_order(keys: np.ndarray) -> np.ndarray:
 def _counted_order(keys: np.ndarray, count: int) -> np.ndarray | None:
     """What ``stable_order`` returns for keys 0..count-1, found by counting; None without SciPy."""
     try:
-        from scipy.sparse import csr_array  # imported here for the reason that surface.components gives
+        from scipy.sparse import csr_array  # imported here for the reason that arrays.components gives
     except ImportError:
         return None
     rows = np.arange(len(keys) + 1)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .arrays import renumbered
+from .indexing import renumbered
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -37,7 +37,7 @@ def symmetric_matrix(pairs: np.ndarray, values: np.ndarray, n: int) -> csr_array
     -------
     matrix : (n, n) scipy.sparse.csr_array
     """
-    from scipy.sparse import coo_array  # imported here for the reason that surface.components gives
+    from scipy.sparse import coo_array  # imported here for the reason that arrays.components gives
 
     # SciPy's searches take indices of 32 bits and would convert others each time.
     a, b = both_ways(pairs.astype(np.int32)).T

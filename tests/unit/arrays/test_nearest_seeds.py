@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 
-from core.surface.nearest_seeds import nearest_seeds
-from core.surface.pairs import symmetric_matrix
+from core.arrays.nearest_seeds import nearest_seeds
+from core.arrays.pairs import symmetric_matrix
 
 
 def test_in_the_middle_of_a_path_the_first_counts():

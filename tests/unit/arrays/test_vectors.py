@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from core.surface.vectors import BLOCK, cross, lengths
+from core.arrays.vectors import BLOCK, cross, lengths
 
 
 @pytest.mark.parametrize("count", [0, 500, BLOCK, 2 * BLOCK + 1])

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from core.surface.components import MANY_ELEMENTS, components
+from core.arrays.components import MANY_ELEMENTS, components
 
 
 def named_by_the_lowest(n, a, b):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import sums_by
+from .indexing import sums_by
 
 BLOCK = 8192  # vectors whose products stay in the processor's cache
 

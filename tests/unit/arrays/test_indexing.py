@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from core.surface.arrays import (
+from core.arrays.indexing import (
     expanded,
     first_of_rows,
     is_last_of_each,

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.distance import cdist
 
 from ..processors import n_processors
-from .arrays import first_at_place
+from .indexing import first_at_place
 from .ties import TIE, first_least
 
 # Points in a leaf; SciPy takes 16. With 32, and boxes that are not fitted to their points, medial balls take a

@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from core.surface.nearest import nearest_before
+from core.arrays.nearest import nearest_before
 
 RNG = np.random.default_rng(0)
 POINTS = {

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from core.surface.pairs import are_among, pair_keys
+from core.arrays.pairs import are_among, pair_keys
 
 
 def test_keys_of_pairs_are_in_the_order_of_the_pairs():

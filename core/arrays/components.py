@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import inverse, place_among
+from .indexing import inverse, place_among
 
 MANY_ELEMENTS = 5_000  # number of elements from which on it is faster to divide the search for components into rounds
 FEW_ELEMENTS = 600  # number of elements and pairs up to which a search in Python takes less time than a call of SciPy
