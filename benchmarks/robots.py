@@ -27,7 +27,7 @@ from meshes import joined_alone, some, source_and_target, stacked, write_labelle
 from tqdm import tqdm
 
 from core.arrays.components import components
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 ROBOTS = (
     "a1_description/urdf/a1", "alex_description/urdf/alex_nub_hands", "allegro_hand_description/urdf/allegro_left_hand",

@@ -42,7 +42,7 @@ from core.arrays.indexing import renumbered
 from core.cuts.boosted_trees import BoostedTrees
 from core.cuts.perceptual.features import FEATURES
 from core.cuts.perceptual.method import SHARE_AT_HALF, SHEET_SHARE_AT_HALF
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 N_TREES = 250
 SETTINGS = {

@@ -42,12 +42,12 @@ from core.cuts.joining.distant import FEATURES as DISTANT_FEATURES
 from core.cuts.joining.distant import DistantPairs
 from core.cuts.joining.method import FineParts, JoinModel, compare_distant, fine_parts, join_parts, near_odds
 from core.cuts.joining.pairs import FEATURES
+from core.mesh.labels import majority
+from core.mesh.triangles import TriMesh
 from core.metrics import rand_index_error
 from core.parameters import Parameters
 from core.pipeline import decompose_component
 from core.progress import Stopwatch
-from core.surface.labels import majority
-from core.surface.mesh import TriMesh
 from core.surface.preparation import bodies
 
 SETTINGS = {

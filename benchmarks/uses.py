@@ -26,7 +26,7 @@ import numpy as np
 from meshes import load_mesh
 
 from core import decompose
-from core.surface.corners import CornerTable
+from core.mesh.corners import CornerTable
 from core.uses.bones import BoneSurface, following, limb_bones
 from core.uses.hulls import part_hulls, part_volumes
 from core.uses.skinning import BENT, bends, smooth_weights, turned_over

@@ -18,6 +18,9 @@ from .field.agd import ScalarField, protrusion_field
 from .graph.level_sets import LevelSets, cut_at_levels, uniform_levels
 from .graph.reeb import reeb_graph, reeb_topology
 from .graph.simplify import without_ripples
+from .mesh.arguments import hints_of
+from .mesh.copies import find_copies
+from .mesh.polygons import PolygonMesh
 from .parameters import TOGETHER, Parameters
 from .progress import Progress, Stopwatch
 from .result.assemble import assemble
@@ -25,12 +28,9 @@ from .result.component_results import ComponentResult
 from .result.decomposition import Decomposition
 from .result.half import of_half
 from .result.mirrors import Mirror, find_mirrors
-from .surface.arguments import hints_of
 from .surface.coarsening import Pyramid
-from .surface.copies import find_copies
 from .surface.halves import completed, plane_of
 from .surface.ordering import sorted_by_place
-from .surface.polygons import PolygonMesh
 from .surface.preparation import Component, WorkingMesh, bodies, repair
 
 if TYPE_CHECKING:

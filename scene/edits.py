@@ -19,10 +19,10 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.arrays.components import components
+from ..core.mesh.corners import CornerTable
+from ..core.mesh.labels import FaceGraph
 from ..core.result.decomposition import Decomposition, Parts
 from ..core.sentence import Count
-from ..core.surface.corners import CornerTable
-from ..core.surface.labels import FaceGraph
 from . import bridge, mesh_arrays, part_names, property_updates, reactions, store
 from .errors import SceneError
 from .outputs import face_sets

@@ -10,9 +10,9 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
+from ..core.mesh.corners import CornerTable
 from ..core.result.numbering import NumberedParts
 from ..core.result.whole import Whole, whole_of
-from ..core.surface.corners import CornerTable
 from . import bridge, mesh_arrays, part_names, placing, store
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from ..core.mesh.labels import majority
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import inherited
-from ..core.surface.labels import majority
 from . import bridge, mesh_arrays, part_names, store
 from .bridge import Shape
 from .errors import SceneError

@@ -20,7 +20,7 @@ from .store import Stored
 from .temporary import removed
 
 if TYPE_CHECKING:
-    from ..core.surface.corners import CornerTable
+    from ..core.mesh.corners import CornerTable
     from ..core.uses.distortion import Distortion
 
 UV_MAP = "Reeb Parts UV"

@@ -4,8 +4,8 @@
 import numpy as np
 
 from core.arrays.components import components
-from core.surface.labels import FaceGraph, fill_unlabeled
-from core.surface.mesh import TriMesh
+from core.mesh.labels import FaceGraph, fill_unlabeled
+from core.mesh.triangles import TriMesh
 
 
 def path(n, lengths=None, areas=None):

@@ -9,10 +9,10 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.mesh.corners import CornerTable
+from ..core.mesh.labels import FaceGraph
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..core.surface.corners import CornerTable
-from ..core.surface.labels import FaceGraph
 from ..scene import bridge, cut_curves, edits, mesh_arrays, part_list, part_names, store
 from ..scene.errors import SceneError
 from ..scene.seen_points import seen_points
@@ -85,7 +85,7 @@ class Knife:
     def sides(self, target: Target, face_graph: FaceGraph) -> np.ndarray | None:
         """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off.
 
-        face_graph : core.surface.labels.FaceGraph
+        face_graph : core.mesh.labels.FaceGraph
         """
         from ..core.result.contour_cut import contour_sides
         from ..core.result.editing import smaller_side, two_sides

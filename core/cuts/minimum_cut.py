@@ -17,8 +17,8 @@ from scipy.sparse.csgraph import breadth_first_order, dijkstra, maximum_flow
 
 from ..arrays.indexing import place_among
 from ..arrays.pairs import both_ways, symmetric_matrix
-from ..surface.labels import label_boundaries, spread
-from ..surface.mesh import TriMesh
+from ..mesh.labels import label_boundaries, spread
+from ..mesh.triangles import TriMesh
 from .hierarchy import Hierarchy
 
 if TYPE_CHECKING:

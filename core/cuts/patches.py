@@ -18,8 +18,8 @@ from ..arrays.nearest_seeds import nearest_seeds
 from ..arrays.pairs import symmetric_matrix
 from ..arrays.ties import first_largest, rounded, whole_steps
 from ..arrays.vectors import row_products, weighted_sum
-from ..surface.labels import label_boundaries, longest_neighbor
-from ..surface.mesh import TriMesh
+from ..mesh.labels import label_boundaries, longest_neighbor
+from ..mesh.triangles import TriMesh
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

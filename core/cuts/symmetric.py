@@ -18,7 +18,7 @@ from itertools import product
 
 import numpy as np
 
-from ..surface.labels import FaceGraph, disagreement, majority
+from ..mesh.labels import FaceGraph, disagreement, majority
 from .face_candidates import FaceCandidates
 from .symmetric_cells import make_cells
 from .symmetric_linkage import symmetric_linkage

@@ -17,7 +17,7 @@ from ..arrays.components import components, roots
 from ..arrays.indexing import renumbered
 from ..arrays.pairs import pair_keys
 from ..arrays.ties import rounded
-from ..surface.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
+from ..mesh.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
 from .symmetry_group import SymmetryGroup
 
 # Shares of the area of the pieces that the plane mirrors. What little of a candidate is left on the leading side joins

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..arrays.ties import rounded
-from ..surface.labels import FaceGraph, vote_weights
+from ..mesh.labels import FaceGraph, vote_weights
 from .hierarchy import LAST, Hierarchy
 from .symmetric_cells import Cells
 from .symmetry_group import SymmetryGroup

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..surface.labels import FaceGraph, majority
+from ..mesh.labels import FaceGraph, majority
 from .face_candidates import FaceCandidates
 from .symmetric import symmetric_candidates
 

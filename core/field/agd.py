@@ -11,8 +11,8 @@ import numpy as np
 from ..arrays.indexing import frozen
 from ..arrays.ties import TIE, first_largest
 from ..arrays.vectors import weighted_sum
+from ..mesh.triangles import TriMesh
 from ..surface.coarsening import Pyramid, prolong
-from ..surface.mesh import TriMesh
 from .geodesic import GeodesicSolver
 
 HISTOGRAM_BINS = 100  # number of bins of ``equalize``: each 0.01 wide, as in [Berretti2009]

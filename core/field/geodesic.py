@@ -11,8 +11,8 @@ from ..arrays.indexing import run_starts, stable_order, taken
 from ..arrays.pairs import symmetric_matrix
 from ..arrays.vectors import lengths, row_products
 from ..errors import DisconnectedMeshError
+from ..mesh.triangles import ON_A_LINE, TriMesh
 from ..sentence import Sentence
-from ..surface.mesh import ON_A_LINE, TriMesh
 from .sight import lines_in_sight
 
 

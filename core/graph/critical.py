@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays.indexing import inverse
-from ..surface.mesh import TriMesh
+from ..mesh.triangles import TriMesh
 
 MINIMUM, SADDLE, MAXIMUM = 0, 1, 2
 KINDS = ("minimum", "saddle", "maximum")  # name of each kind

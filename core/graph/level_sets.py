@@ -16,7 +16,7 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.indexing import expanded, sums_by
 from ..arrays.vectors import lengths
-from ..surface.mesh import LEAST_WEIGHT, TriMesh
+from ..mesh.triangles import LEAST_WEIGHT, TriMesh
 from .bridged_levels import FaceBridges, joined_by_faces
 
 

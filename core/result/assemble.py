@@ -21,11 +21,11 @@ from ..cuts.symmetric import symmetric_candidates, turned_candidates
 from ..cuts.symmetric_regions import MANY_FACES, symmetric_on_regions
 from ..field.agd import ScalarField
 from ..graph.reeb import ReebGraph
+from ..mesh.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
+from ..mesh.polygons import PolygonMesh
+from ..mesh.triangles import LEAST_WEIGHT
 from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
-from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
-from ..surface.mesh import LEAST_WEIGHT
-from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh
 from .component_results import ComponentResult, FoundCandidates
 from .decomposition import Decomposition, too_many

@@ -15,7 +15,7 @@ from ..cuts.hierarchy import LAST, Candidates, Hierarchy
 from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebGraph, ReebTopology
-from ..surface.labels import majority
+from ..mesh.labels import majority
 from ..surface.preparation import Component, WorkingMesh
 
 

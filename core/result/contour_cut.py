@@ -13,9 +13,9 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import place_among, renumbered, sums_by
+from ..mesh.corners import CornerTable
+from ..mesh.labels import FaceGraph, connect, straighten
 from ..parameters import Parameters
-from ..surface.corners import CornerTable
-from ..surface.labels import FaceGraph, connect, straighten
 
 STRAIGHTEN = Parameters.smoothing  # rounds of ``straighten``, as many as cuts get by default
 

@@ -16,11 +16,11 @@ from ..arrays.ties import first_largest
 from ..cuts.hierarchy import Hierarchy
 from ..errors import ParameterError
 from ..graph.reeb import ReebGraph
+from ..mesh.arguments import whole_numbers
+from ..mesh.copies import Copies
+from ..mesh.labels import FaceGraph, majority, vote_weights
 from ..parameters import Parameters
 from ..sentence import Sentence
-from ..surface.arguments import whole_numbers
-from ..surface.copies import Copies
-from ..surface.labels import FaceGraph, majority, vote_weights
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
 from ..version import VERSION

@@ -17,8 +17,8 @@ from ..arrays.indexing import inverse, renumbered
 from ..arrays.pairs import both_ways, symmetric_matrix
 from ..cuts.hierarchy import Dendrogram, Hierarchy
 from ..graph.critical import SADDLE
-from ..surface.corners import CornerTable
-from ..surface.labels import FaceGraph, label_boundaries, majority, spread, vote_weights
+from ..mesh.corners import CornerTable
+from ..mesh.labels import FaceGraph, label_boundaries, majority, spread, vote_weights
 from .contour_cut import contours
 from .decomposition import Decomposition
 from .junctions import boundaries, junctions

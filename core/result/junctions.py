@@ -16,7 +16,7 @@ import numpy as np
 
 from ..arrays.indexing import expanded, sums_by
 from ..arrays.pairs import distinct_pairs
-from ..surface.labels import FaceGraph
+from ..mesh.labels import FaceGraph
 
 
 def boundaries(

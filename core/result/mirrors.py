@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..cuts.symmetry_group import SymmetryGroup
-from ..surface.mesh import TriMesh
+from ..mesh.triangles import TriMesh
 from ..surface.mirror_images import Images
 from ..surface.mirror_plane import MirrorPlane
 from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges

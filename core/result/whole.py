@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays.indexing import sums_by
 from ..arrays.pairs import distinct_pairs
 from ..cuts.hierarchy import Hierarchy
-from ..surface.corners import CornerTable
+from ..mesh.corners import CornerTable
 from ..surface.halves import completed_table
 from ..surface.mirror_plane import MirrorPlane
 from .decomposition import Decomposition, Parts

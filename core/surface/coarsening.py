@@ -16,7 +16,7 @@ from ..arrays.indexing import GOLDEN, first_of_rows, inverse, place_among, run_s
 from ..arrays.pairs import both_ways
 from ..arrays.ties import TIE
 from ..arrays.vectors import lengths, row_products
-from .mesh import TriMesh
+from ..mesh.triangles import TriMesh
 from .ordering import rank_by_place
 
 SLIM = 3.0  # ratio of two lengths of links from which on cells grow along the shorter ones only

@@ -9,7 +9,7 @@ from scipy.sparse import csr_array, diags_array
 from ..arrays.indexing import sums_by, taken
 from ..arrays.pairs import symmetric_matrix
 from ..arrays.vectors import second_moments_of_each
-from .mesh import TriMesh
+from ..mesh.triangles import TriMesh
 
 SCALES = (0.01, 0.02, 0.04)  # widths over which normals are smoothed, in units of sqrt(area)
 MAX_CURVATURE = 60.0  # bound of ``curvature_across``, in units of 1 / sqrt(area)

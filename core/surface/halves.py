@@ -10,11 +10,11 @@ import numpy as np
 
 from ..arrays.pairs import distinct_pairs
 from ..errors import MeshError
+from ..mesh.arguments import numbers
+from ..mesh.corners import CornerTable, next_of_owner
+from ..mesh.polygons import PolygonMesh
 from ..sentence import Sentence
-from .arguments import numbers
-from .corners import CornerTable, next_of_owner
 from .mirror_plane import MirrorPlane
-from .polygons import PolygonMesh
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

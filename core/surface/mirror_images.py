@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays.vectors import inner_products, second_moments
-from .labels import majority
+from ..mesh.labels import majority
 from .mirror_plane import MirrorPlane
 from .small_faces import DENSE, Elements, SmallFaces
 from .symmetry import EXACT, is_exact, judged, oriented

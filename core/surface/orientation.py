@@ -14,9 +14,9 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.indexing import even_steps, sums_by
 from ..arrays.vectors import row_products
+from ..mesh.corners import CornerTable
+from ..mesh.triangles import TriMesh
 from ..sentence import Sentence
-from .corners import CornerTable
-from .mesh import TriMesh
 from .winding import MOST_OF_SHEETS, winding_numbers
 
 N_PROBES, N_SURFACE = 40, 400  # upper bounds of the numbers of faces at which, and of which, windings are measured

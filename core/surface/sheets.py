@@ -18,9 +18,9 @@ from scipy.sparse.linalg import splu, spsolve
 from ..arrays.indexing import spread_evenly, sums_by
 from ..arrays.nearest import nearest, search_tree
 from ..arrays.pairs import symmetric_matrix
+from ..mesh.labels import majority
+from ..mesh.triangles import TriMesh
 from .balls import ball_radius
-from .labels import majority
-from .mesh import TriMesh
 from .preparation import split_edges
 from .winding import MOST_OF_SHEETS, winding_numbers
 

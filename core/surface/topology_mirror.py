@@ -19,8 +19,8 @@ from ..arrays.components import components
 from ..arrays.indexing import GOLDEN, sums_by
 from ..arrays.pairs import distinct_pairs
 from ..arrays.vectors import weighted_sum
-from .half_edges import HalfEdges
-from .mesh import TriMesh
+from ..mesh.half_edges import HalfEdges
+from ..mesh.triangles import TriMesh
 from .mirror_plane import positive_sign
 
 MOST_POLYGONS = 50_000  # denser meshes are scans, or subdivided: each polygon is like its neighbors

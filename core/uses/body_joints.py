@@ -11,7 +11,7 @@ from ..arrays.components import components
 from ..arrays.indexing import sums_by
 from ..arrays.pairs import distinct_pairs
 from ..arrays.vectors import cross, row_products, second_moments_of_each
-from ..surface.corners import CornerTable
+from ..mesh.corners import CornerTable
 from .groups import beside, touching_groups
 from .hulls import Hull
 

@@ -16,8 +16,8 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components, mini
 
 from ..arrays.indexing import sums_by
 from ..arrays.pairs import distinct_pairs
-from ..surface.corners import CornerTable
-from ..surface.cut_edges import CutEdges
+from ..mesh.corners import CornerTable
+from ..mesh.cut_edges import CutEdges
 from ..surface.mirror_plane import MirrorPlane
 from .groups import touching_groups
 

@@ -8,7 +8,7 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.indexing import renumbered, run_starts, stable_order, sums_by
 from ..arrays.vectors import cross, unit
-from ..surface.corners import next_of_owner
+from ..mesh.corners import next_of_owner
 
 # Faces of a cap that turn by more than this lie apart in the map, as where three parts meet.
 _TURN = np.radians(60)

@@ -11,7 +11,7 @@ from scipy.sparse.linalg import splu
 
 from ..arrays.indexing import sums_by
 from ..arrays.pairs import distinct_pairs, symmetric_matrix
-from ..surface.corners import CornerTable
+from ..mesh.corners import CornerTable
 
 # Cotangents of the angles of needles and the sum at an edge are kept within these, so that none outweighs all others
 # and the matrix stays positive definite.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays.indexing import inverse, sums_by
-from ..surface.corners import CornerTable
+from ..mesh.corners import CornerTable
 
 #: Areas between these, as multiples of their share of the whole map, are called even.
 EVEN = (0.3, 3.0)

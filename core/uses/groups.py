@@ -7,7 +7,7 @@ import numpy as np
 from scipy.cluster.hierarchy import DisjointSet
 from scipy.spatial import cKDTree
 
-from ..surface.corners import CornerTable
+from ..mesh.corners import CornerTable
 
 # Parts that no cuts connect touch if they come nearer than this share of the diagonal; they hold together where they
 # are at most this much farther from each other.

@@ -16,7 +16,7 @@ from ..arrays.components import components
 from ..arrays.indexing import renumbered, rounded_order, stable_order, sums_by
 from ..arrays.pairs import distinct_pairs
 from ..arrays.vectors import cross, inner_products, lengths, second_moments
-from ..surface.corners import CornerTable
+from ..mesh.corners import CornerTable
 from ..surface.ordering import principal_axes
 
 #: How many corners a hull has at most; game engines take 255, and are faster with fewer.

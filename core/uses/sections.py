@@ -8,7 +8,7 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.pairs import are_among, distinct_pairs
 from ..arrays.vectors import cross_in_plane
-from ..surface.mesh import EdgeTable
+from ..mesh.triangles import EdgeTable
 
 # A piece is a little smaller than the box.
 _ROOM = 1 - 1e-4

@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 
 from ..arrays.pairs import distinct_pairs, symmetric_matrix
 from ..arrays.vectors import lengths
-from ..surface.corners import CornerTable
-from ..surface.cut_edges import CutEdges
+from ..mesh.corners import CornerTable
+from ..mesh.cut_edges import CutEdges
 from .bones import Bones, following
 from .conformal import ConformalFactor, solved
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.corners import CornerTable
+from ..mesh.corners import CornerTable
 from ..surface.mirror_plane import MirrorPlane
 
 # How far the image of a corner may be from a corner, as a share of the diagonal of the bounding box.

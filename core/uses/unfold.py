@@ -12,7 +12,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra, minimum_spannin
 from ..arrays.components import components
 from ..arrays.indexing import last_of_each
 from ..arrays.pairs import pair_keys
-from ..surface.corners import CornerTable
+from ..mesh.corners import CornerTable
 from .conformal import ConformalFactor
 
 # Areas shall lie in the plane at 0.3 to 3 times their size: a conformal map whose scale of lengths is exp(u) does that

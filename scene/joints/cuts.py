@@ -12,7 +12,7 @@ import numpy as np
 
 from ...core.arrays.components import components
 from ...core.arrays.pairs import distinct_pairs
-from ...core.surface.mesh import EdgeTable
+from ...core.mesh.triangles import EdgeTable
 from .. import mesh_arrays
 from ..pieces import caps
 

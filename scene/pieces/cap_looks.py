@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core.arrays.indexing import run_starts
-from ...core.surface.corners import next_of_owner
+from ...core.mesh.corners import next_of_owner
 from ...core.uses.cap_maps import cap_map
 from .. import mesh_arrays
 from . import caps

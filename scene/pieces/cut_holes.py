@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ...core.surface.corners import edge_labels
+from ...core.mesh.corners import edge_labels
 from ...core.uses.cap_surfaces import common_order
 from ...core.uses.rims import nested_rims
 from .. import element_layers, mesh_arrays

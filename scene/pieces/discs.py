@@ -14,7 +14,7 @@ from scipy.sparse import coo_array
 from ...core.arrays.components import components
 from ...core.arrays.indexing import ranges
 from ...core.arrays.vectors import cross, cross_in_plane
-from ...core.surface.mesh import EdgeTable
+from ...core.mesh.triangles import EdgeTable
 from ...core.uses.cap_surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
 from ...core.uses.rims import is_inside
 from ...core.uses.sleeves import Sleeve, sleeve

@@ -13,8 +13,8 @@ import numpy as np
 
 from ...core.arrays.indexing import inverse
 from ...core.arrays.pairs import distinct_pairs
-from ...core.surface.borders import GAP
-from ...core.surface.corners import next_of_owner
+from ...core.mesh.borders import GAP
+from ...core.mesh.corners import next_of_owner
 from .. import element_layers
 from ..elements import EDGE, FACE, POINT, Elements, Layer, Ragged, Values, take
 

@@ -11,7 +11,7 @@ import shapes
 
 from core import PRESETS, Cancelled, EmptyMeshError, MeshError, Parameters, TriMesh, decompose
 from core.arrays.components import components
-from core.surface.labels import disagreement
+from core.mesh.labels import disagreement
 from core.uses.colors import part_colors
 from core.uses.descriptors import part_descriptors
 

@@ -16,8 +16,8 @@ from ...arrays.indexing import last_of_each, run_starts, sums_by
 from ...arrays.pairs import distinct_pairs
 from ...arrays.ties import rounded, square_roots
 from ...arrays.vectors import second_moments_of_each
+from ...mesh.triangles import TriMesh
 from ...surface.contact import NEAR, SurfacePoints, diameter, near_pairs
-from ...surface.mesh import TriMesh
 from ...surface.ordering import EQUAL
 
 RADII = (0.004, 0.012, NEAR)  # within which surfaces are counted as touching, in units of the diameter

@@ -18,7 +18,7 @@ from ...arrays.components import components
 from ...arrays.indexing import sums_by
 from ...arrays.ties import on_grid, rounded
 from ...arrays.vectors import second_moments_of_each
-from ...surface.mesh import TriMesh
+from ...mesh.triangles import TriMesh
 from .linkage import JudgedPairs, Linkage
 
 #: Pieces repeat each other if the logarithms of their size and extents are in the same cells of this width, or in cells

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...arrays.indexing import sums_by
 from ...arrays.pairs import distinct_pairs
-from ...surface.mesh import TriMesh
+from ...mesh.triangles import TriMesh
 from .features import RegionMeasures, cut_features_, region_shape
 from .measures import BORDER, REGION, SurfaceMeasures
 

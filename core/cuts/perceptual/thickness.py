@@ -12,8 +12,8 @@ from scipy.spatial import cKDTree
 from ...arrays.indexing import spread_evenly
 from ...arrays.nearest import nearest, search_tree
 from ...arrays.ties import TIE
+from ...mesh.triangles import TriMesh
 from ...surface.balls import ball_radius
-from ...surface.mesh import TriMesh
 
 LARGEST_BALL = 0.2  # radius at which balls begin to shrink, in units of the square root of the area
 N_SURFACE = 12_000  # upper bound of the number of points that represent the surface

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...arrays.indexing import ranges, renumbered
 from ...arrays.vectors import cross
-from ...surface.corners import CornerTable
+from ...mesh.corners import CornerTable
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import last_of_each, renumbered, sums_by
-from ...surface.corners import next_of_owner
+from ...mesh.corners import next_of_owner
 from .band import Band
 from .division import Division
 from .sides import Sides

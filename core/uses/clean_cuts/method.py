@@ -9,8 +9,8 @@ import numpy as np
 
 from ...arrays.components import components
 from ...arrays.indexing import renumbered, stable_order
+from ...mesh.corners import CornerTable
 from ...steps import Steps, finished, stretched
-from ...surface.corners import CornerTable
 from .band import Band
 from .division import Division, divide
 from .judging import judged

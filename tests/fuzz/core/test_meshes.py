@@ -17,11 +17,11 @@ from core import Parameters, ReebError, decompose
 from core.arrays.components import components
 from core.cuts.perceptual import method as perceptual
 from core.field import agd
+from core.mesh.borders import GAP
+from core.mesh.polygons import PolygonMesh
 from core.result.decomposition import Decomposition
 from core.result.numbering import Numbering
 from core.surface import mirror_images, small_faces
-from core.surface.borders import GAP
-from core.surface.polygons import PolygonMesh
 from core.surface.preparation import bodies, repair
 from core.uses.report import document, report
 

@@ -10,9 +10,9 @@ from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import Hierarchy
 from core.cuts.symmetric import symmetric_candidates
 from core.cuts.symmetric_regions import symmetric_on_regions
+from core.mesh.labels import FaceGraph
 from core.metrics import rand_index_error
 from core.result import assemble
-from core.surface.labels import FaceGraph
 
 
 @pytest.fixture(params=[symmetric_candidates, symmetric_on_regions])

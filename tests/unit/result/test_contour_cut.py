@@ -7,9 +7,9 @@ import shapes
 from face_graphs import graph_of
 
 from core.arrays.components import components
+from core.mesh.corners import CornerTable
+from core.mesh.labels import FaceGraph
 from core.result.contour_cut import Contours, contour_sides, contours
-from core.surface.corners import CornerTable
-from core.surface.labels import FaceGraph
 
 
 class Surface:

@@ -12,6 +12,8 @@ from core import Parameters, decompose
 from core.cuts.hierarchy import Hierarchy
 from core.graph.critical import MAXIMUM
 from core.graph.reeb import ReebGraph
+from core.mesh.corners import CornerTable
+from core.mesh.labels import FaceGraph
 from core.result.decomposition import Decomposition
 from core.result.editing import (
     best_split,
@@ -25,8 +27,6 @@ from core.result.editing import (
     split_candidates,
     two_sides,
 )
-from core.surface.corners import CornerTable
-from core.surface.labels import FaceGraph
 
 
 @pytest.fixture(scope="module")

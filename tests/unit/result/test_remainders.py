@@ -6,8 +6,8 @@ import pytest
 import shapes
 from face_graphs import graph_of, n_connected, patches, path
 
+from core.mesh.labels import FaceGraph
 from core.result.remainders import halved_between_images, with_small_pieces
-from core.surface.labels import FaceGraph
 
 
 @pytest.mark.parametrize(("before", "after", "expected"), [

@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 import shapes
 
+from core.mesh.polygons import PolygonMesh
+from core.mesh.triangles import TriMesh
 from core.surface import small_faces as small
-from core.surface.mesh import TriMesh
 from core.surface.mirror_images import Images
-from core.surface.polygons import PolygonMesh
 from core.surface.preparation import bodies, repair
 from core.surface.small_faces import SmallFaces
 from core.surface.symmetry import mirror_plane

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.corners import CornerTable
+from core.mesh.corners import CornerTable
 from core.uses.body_joints import body_joints, overlapping
 from core.uses.hulls import Hull, part_hulls
 

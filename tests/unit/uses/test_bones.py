@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.corners import CornerTable
+from core.mesh.corners import CornerTable
 from core.surface.mirror_plane import MirrorPlane
 from core.uses.bones import BoneSurface, PartImages, limb_bones, part_bones
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.corners import CornerTable
+from core.mesh.corners import CornerTable
 from core.uses.hulls import part_hulls, part_volumes
 
 

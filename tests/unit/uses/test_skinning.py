@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core import decompose
-from core.surface.corners import CornerTable
+from core.mesh.corners import CornerTable
 from core.uses import skinning
 from core.uses.bones import Bones, BoneSurface, following, limb_bones
 from core.uses.skinning import bends, limited, smooth_weights, turned_over

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.corners import CornerTable, next_of_owner
+from core.mesh.corners import CornerTable, next_of_owner
 from core.surface.mirror_plane import MirrorPlane
 from core.uses.stacking import double_corners, image_corners
 

@@ -7,7 +7,7 @@ import shapes
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from core.surface.corners import CornerTable
+from core.mesh.corners import CornerTable
 from core.uses.conformal import ConformalFactor
 from core.uses.unfold import opening_seams, seam_cost, unfolding_seams
 

@@ -12,9 +12,9 @@ from core.cuts.berretti.regions import fuse_equal_adjacency, regions_between_eve
 from core.graph.level_sets import cut_at_levels
 from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
+from core.mesh.triangles import TriMesh
 from core.parameters import Parameters
 from core.pipeline import decompose
-from core.surface.mesh import TriMesh
 
 LEAST = 1e-9  # a threshold at which no region is small
 

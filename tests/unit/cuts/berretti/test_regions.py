@@ -12,7 +12,7 @@ from core.cuts.berretti.regions import berretti_regions, fuse_equal_adjacency, r
 from core.graph.level_sets import cut_at_levels
 from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def y_shape():

@@ -20,8 +20,8 @@ from core.cuts.perceptual.merging import (
 )
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.mesh.triangles import TriMesh
 from core.surface.coarsening import Pyramid
-from core.surface.mesh import TriMesh
 
 
 def measured(mesh):

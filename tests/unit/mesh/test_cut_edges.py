@@ -4,8 +4,8 @@
 import numpy as np
 import shapes
 
-from core.surface.corners import CornerTable
-from core.surface.cut_edges import CutEdges
+from core.mesh.corners import CornerTable
+from core.mesh.cut_edges import CutEdges
 
 
 def test_edges_between_some_parts_and_others():

@@ -10,10 +10,10 @@ import pytest
 import shapes
 
 from core.errors import MeshError, ParameterError
+from core.mesh.arguments import hints_of
+from core.mesh.polygons import PolygonMesh
 from core.parameters import Parameters
 from core.pipeline import decompose
-from core.surface.arguments import hints_of
-from core.surface.polygons import PolygonMesh
 
 VERTICES, FACES = shapes.box()
 HUGE = 10**40

@@ -8,8 +8,8 @@ import shapes
 from core.arrays.components import components
 from core.arrays.ties import first_largest
 from core.errors import EmptyMeshError, MeshError
-from core.surface.mesh import EdgeTable, TriMesh
-from core.surface.polygons import PolygonMesh
+from core.mesh.polygons import PolygonMesh
+from core.mesh.triangles import EdgeTable, TriMesh
 
 CLOSED = {
     "tetrahedron": (shapes.tetrahedron, 2), "octahedron": (shapes.octahedron, 2),

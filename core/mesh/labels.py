@@ -12,7 +12,7 @@ import numpy as np
 from ..arrays.components import components
 from ..arrays.indexing import begins_run, inverse, last_of_each, place_among, sums_by
 from ..arrays.pairs import both_ways, distinct_pairs
-from .mesh import LEAST_WEIGHT, TriMesh
+from .triangles import LEAST_WEIGHT, TriMesh
 
 #: What it costs faces to change label: called with faces, their labels and the new labels.
 Loss = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]

@@ -7,8 +7,8 @@ import shapes
 from folding import LETTER_H, bumps, extruded
 
 from core.arrays.vectors import cross, lengths
-from core.surface.ears import fans, without_folds
-from core.surface.polygons import PolygonMesh
+from core.mesh.ears import fans, without_folds
+from core.mesh.polygons import PolygonMesh
 
 ARROW = [(0, 0), (2, 3), (0, 1.2), (-2, 3)]
 #: A square with a hole, tied to the outside along an edge that is there twice; two corners there are one point.

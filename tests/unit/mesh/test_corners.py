@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from core.surface.corners import edge_labels
+from core.mesh.corners import edge_labels
 
 
 @pytest.mark.parametrize("seed", range(3))

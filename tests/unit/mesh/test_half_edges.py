@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.half_edges import HalfEdges
-from core.surface.polygons import PolygonMesh
+from core.mesh.half_edges import HalfEdges
+from core.mesh.polygons import PolygonMesh
 from core.surface.preparation import repair
 
 

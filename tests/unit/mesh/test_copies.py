@@ -6,8 +6,8 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
-from core.surface.copies import Copies, find_copies
-from core.surface.polygons import PolygonMesh
+from core.mesh.copies import Copies, find_copies
+from core.mesh.polygons import PolygonMesh
 
 RNG = np.random.default_rng(0)
 TREE = shapes.tube_tree()

@@ -14,8 +14,8 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import GOLDEN, begins_run, frozen, hashed_rows, inverse, place_among, stable_order
-from .mesh import TriMesh
 from .polygons import MIN_FACES, PolygonMesh
+from .triangles import TriMesh
 
 # Share of the area of a piece above which what is copied of it is its other side. Of less these are walls that touching
 # solids, such as the boards of a cupboard, have in common: without its wall a solid would be open.

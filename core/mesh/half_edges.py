@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays.components import components
 from ..arrays.indexing import inverse, place_among
-from .mesh import TriMesh, next_side
+from .triangles import TriMesh, next_side
 
 
 @dataclass(frozen=True, eq=False)

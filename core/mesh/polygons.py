@@ -14,7 +14,7 @@ from ..errors import EmptyMeshError, MeshError
 from ..sentence import Sentence
 from .arguments import corners, positions, whole_numbers
 from .ears import fans, without_folds
-from .mesh import TriMesh, check_corners
+from .triangles import TriMesh, check_corners
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

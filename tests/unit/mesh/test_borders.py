@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.borders import GAP
-from core.surface.corners import CornerTable
+from core.mesh.borders import GAP
+from core.mesh.corners import CornerTable
 
 
 def table_of(vertices, faces):

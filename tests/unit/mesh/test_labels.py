@@ -6,7 +6,7 @@ import pytest
 import shapes
 from face_graphs import boundary_length, graph_of, n_connected, patches, path
 
-from core.surface.labels import (
+from core.mesh.labels import (
     FaceGraph,
     connect,
     disagreement,
@@ -16,7 +16,7 @@ from core.surface.labels import (
     majority,
     straighten,
 )
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def test_disagreement_by_counting_pairs():
