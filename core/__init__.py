@@ -9,6 +9,7 @@ The stages, in the order of the method; each imports those before it only:
 - ``arrays``: what every stage does with whole arrays
 - ``mesh``: from the caller's arrays to a checked mesh, and labels on it
 - ``surface``: the mesh repaired and divided in components, and what is measured on it
+- ``symmetry``: planes and turns that map the surface onto itself
 - ``field``: distances along the surface, and their mean, the AGD
 - ``graph``: level sets of the field, and its Reeb graph
 - ``cuts``: the methods of cutting; the finest parts, and the order in which they merge

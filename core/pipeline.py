@@ -27,11 +27,11 @@ from .result.assemble import assemble
 from .result.component_results import ComponentResult
 from .result.decomposition import Decomposition
 from .result.half import of_half
-from .result.mirrors import Mirror, find_mirrors
 from .surface.coarsening import Pyramid
-from .surface.halves import completed, plane_of
 from .surface.ordering import sorted_by_place
 from .surface.preparation import Component, WorkingMesh, bodies, repair
+from .symmetry.halves import completed, plane_of
+from .symmetry.mirrors import Mirror, find_mirrors
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -7,7 +7,7 @@ both sides; average linkage, each merge with its mirror image, makes a hierarchy
 made symmetric in this way, because only labels and a hierarchy are asked for.
 
 Planes across each other divide a shape in quarters, or in eighths, one of which leads. Where exact planes meet at other
-angles, as those of a star or a gear do, a wedge leads, and the shape is turned, too (``symmetry_group``).
+angles, as those of a star or a gear do, a wedge leads, and the shape is turned, too (``symmetry.group``).
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from itertools import product
 import numpy as np
 
 from ..mesh.labels import FaceGraph, disagreement, majority
+from ..symmetry.group import SymmetryGroup
 from .face_candidates import FaceCandidates
 from .symmetric_cells import make_cells
 from .symmetric_linkage import symmetric_linkage
-from .symmetry_group import SymmetryGroup
 
 # At these details the parts of both sides are compared with those found. Where more pairs of points than WORST come
 # together or apart, the faces are too large to be mirrored, or what was found speaks against the plane.

@@ -18,7 +18,7 @@ from ..arrays.indexing import renumbered
 from ..arrays.pairs import pair_keys
 from ..arrays.ties import rounded
 from ..mesh.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
-from .symmetry_group import SymmetryGroup
+from ..symmetry.group import SymmetryGroup
 
 # Shares of the area of the pieces that the plane mirrors. What little of a candidate is left on the leading side joins
 # a neighbor below LEAST_LEADING, and so does what lies across the plane below LEAST_ACROSS; a region without an image

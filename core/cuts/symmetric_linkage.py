@@ -10,9 +10,9 @@ import numpy as np
 
 from ..arrays.ties import rounded
 from ..mesh.labels import FaceGraph, vote_weights
+from ..symmetry.group import SymmetryGroup
 from .hierarchy import LAST, Hierarchy
 from .symmetric_cells import Cells
-from .symmetry_group import SymmetryGroup
 
 
 def symmetric_linkage(cells: Cells, graph: FaceGraph, salience: np.ndarray) -> Hierarchy:

@@ -4,7 +4,6 @@
 From the components to the result:
 
 - ``component_results``: what the stages found on the components
-- ``mirrors``: the planes of symmetry of the caller's mesh
 - ``votes``: which candidate each of the caller's faces gets
 - ``within_faces``: symmetry within the caller's faces, where these are too large to be mirrored
 - ``slivers``: what is left of parts where cuts moved or sides were mirrored

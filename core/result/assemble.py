@@ -27,10 +27,10 @@ from ..mesh.triangles import LEAST_WEIGHT
 from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
 from ..surface.preparation import WorkingMesh
+from ..symmetry.mirrors import Mirror
 from .component_results import ComponentResult, FoundCandidates
 from .decomposition import Decomposition, too_many
 from .junctions import boundaries, junctions
-from .mirrors import Mirror
 from .slivers import without_slivers
 from .votes import WIDTH, FaceVotes
 from .within_faces import symmetric_within_faces

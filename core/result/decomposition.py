@@ -21,8 +21,8 @@ from ..mesh.copies import Copies
 from ..mesh.labels import FaceGraph, majority, vote_weights
 from ..parameters import Parameters
 from ..sentence import Sentence
-from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
+from ..symmetry.plane import MirrorPlane
 from ..version import VERSION
 from . import stored
 from .junctions import counted_again

@@ -18,7 +18,7 @@ from ..arrays.indexing import sums_by
 from ..arrays.pairs import distinct_pairs
 from ..mesh.corners import CornerTable
 from ..mesh.cut_edges import CutEdges
-from ..surface.mirror_plane import MirrorPlane
+from ..symmetry.plane import MirrorPlane
 from .groups import touching_groups
 
 # Least length of a bone, as a share of the diagonal of the faces' bounding box. A shorter bone is replaced by one of

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh.corners import CornerTable
-from ..surface.mirror_plane import MirrorPlane
+from ..symmetry.plane import MirrorPlane
 
 # How far the image of a corner may be from a corner, as a share of the diagonal of the bounding box.
 _EXACT = 1e-4

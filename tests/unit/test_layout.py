@@ -22,7 +22,7 @@ MAY_IMPORT = {
     "package": {"core"},
 }
 #: The stages of core, in the order in which the method takes them: a stage may import itself and earlier ones.
-STAGES = ("arrays", "mesh", "surface", "field", "graph", "cuts", "result", "uses")
+STAGES = ("arrays", "mesh", "surface", "symmetry", "field", "graph", "cuts", "result", "uses")
 #: Modules of core that all of core may import; they import only each other.
 COMMON = {"errors", "sentence", "parameters", "processors", "steps", "version"}
 #: Modules of core that may import everything in it.

@@ -9,7 +9,7 @@ from scipy.sparse import csr_array
 from core.cuts.hierarchy import LAST
 from core.cuts.symmetric_cells import Cells
 from core.cuts.symmetric_linkage import symmetric_linkage
-from core.cuts.symmetry_group import SymmetryGroup
+from core.symmetry.group import SymmetryGroup
 
 TWIN = np.array([3, 2, 1, 0])
 

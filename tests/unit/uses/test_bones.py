@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core.mesh.corners import CornerTable
-from core.surface.mirror_plane import MirrorPlane
+from core.symmetry.plane import MirrorPlane
 from core.uses.bones import BoneSurface, PartImages, limb_bones, part_bones
 
 

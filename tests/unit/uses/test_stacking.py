@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core.mesh.corners import CornerTable, next_of_owner
-from core.surface.mirror_plane import MirrorPlane
+from core.symmetry.plane import MirrorPlane
 from core.uses.stacking import double_corners, image_corners
 
 ACROSS = MirrorPlane(np.array([1.0, 0.0, 0.0]), 2.0)

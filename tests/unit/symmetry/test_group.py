@@ -7,8 +7,8 @@ import shapes
 from scipy.spatial import cKDTree
 
 from core import decompose
-from core.cuts.symmetry_group import SymmetryGroup
 from core.metrics import rand_index_error
+from core.symmetry.group import SymmetryGroup
 
 
 def rays(count):

@@ -10,9 +10,9 @@ import numpy as np
 
 from ..arrays.vectors import inner_products, second_moments
 from ..mesh.labels import majority
-from .mirror_plane import MirrorPlane
+from .plane import MirrorPlane
+from .search import EXACT, is_exact, judged, oriented
 from .small_faces import DENSE, Elements, SmallFaces
-from .symmetry import EXACT, is_exact, judged, oriented
 
 # How far a mirrored face may lie beside the surface where twins are found, on a model bent to one side a little; in
 # units of the size.

@@ -14,7 +14,7 @@ from ..mesh.arguments import numbers
 from ..mesh.corners import CornerTable, next_of_owner
 from ..mesh.polygons import PolygonMesh
 from ..sentence import Sentence
-from .mirror_plane import MirrorPlane
+from .plane import MirrorPlane
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -7,14 +7,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..cuts.symmetry_group import SymmetryGroup
 from ..mesh.triangles import TriMesh
-from ..surface.mirror_images import Images
-from ..surface.mirror_plane import MirrorPlane
 from ..surface.preparation import MAX_EDGE, Component, WorkingMesh, split_long_edges
-from ..surface.small_faces import SmallFaces
-from ..surface.symmetry import EXACT, LEAST, mirror_plane
-from ..surface.topology_mirror import TopologyMirror, topology_mirror
+from .group import SymmetryGroup
+from .images import Images
+from .plane import MirrorPlane
+from .search import EXACT, LEAST, mirror_plane
+from .small_faces import SmallFaces
+from .topology import TopologyMirror, topology_mirror
 
 LEAST_BODY = 0.1  # share of the area below which a body has no plane of its own
 LARGEST_GROUP = 64  # upper bound of the number of symmetries of a shape

@@ -7,11 +7,11 @@ import shapes
 
 from core.mesh.polygons import PolygonMesh
 from core.mesh.triangles import TriMesh
-from core.surface import small_faces as small
-from core.surface.mirror_images import Images
 from core.surface.preparation import bodies, repair
-from core.surface.small_faces import SmallFaces
-from core.surface.symmetry import mirror_plane
+from core.symmetry import small_faces as small
+from core.symmetry.images import Images
+from core.symmetry.search import mirror_plane
+from core.symmetry.small_faces import SmallFaces
 
 
 def small_faces(vertices, faces):

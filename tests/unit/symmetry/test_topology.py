@@ -7,12 +7,12 @@ import shapes
 
 from core.mesh.polygons import PolygonMesh
 from core.mesh.triangles import TriMesh
-from core.surface import topology_mirror as module
-from core.surface.mirror_images import Images
 from core.surface.preparation import repair
-from core.surface.small_faces import SmallFaces
-from core.surface.symmetry import mirror_plane
-from core.surface.topology_mirror import topology_mirror
+from core.symmetry import topology as module
+from core.symmetry.images import Images
+from core.symmetry.search import mirror_plane
+from core.symmetry.small_faces import SmallFaces
+from core.symmetry.topology import topology_mirror
 
 
 def found(vertices, faces):

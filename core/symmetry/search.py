@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.vectors import second_moments
-from .mirror_plane import MirrorPlane, positive_sign
-from .ordering import principal_axes
+from ..surface.ordering import principal_axes
+from .plane import MirrorPlane, positive_sign
 from .small_faces import Elements, SmallFaces
 
 MATCH = 0.012  # how far a mirrored point may lie beside the surface where a plane is judged, in units of the size

@@ -21,7 +21,7 @@ from ..arrays.pairs import distinct_pairs
 from ..arrays.vectors import weighted_sum
 from ..mesh.half_edges import HalfEdges
 from ..mesh.triangles import TriMesh
-from .mirror_plane import positive_sign
+from .plane import positive_sign
 
 MOST_POLYGONS = 50_000  # denser meshes are scans, or subdivided: each polygon is like its neighbors
 # Steps from half-edge to half-edge after which colors are compared: after few of them asymmetric details hide little,

@@ -13,8 +13,8 @@ from ..arrays.indexing import even_steps, rounded_order, sums_by, taken
 from ..arrays.nearest import nearest, search_tree
 from ..arrays.vectors import lengths, row_products, weighted_sum
 from ..mesh.triangles import TriMesh
-from .contact import diameter
-from .mirror_plane import MirrorPlane
+from ..surface.contact import diameter
+from .plane import MirrorPlane
 
 # How much a turned normal counts where the nearest face is searched, in units of the size, so that the two sides of a
 # wall are told apart.
