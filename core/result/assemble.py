@@ -17,8 +17,8 @@ from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.hinted import hinted_candidates
 from ..cuts.settling import settle
-from ..cuts.symmetric import symmetric_candidates, turned_candidates
-from ..cuts.symmetric_regions import MANY_FACES, symmetric_on_regions
+from ..cuts.symmetric.method import symmetric_candidates, turned_candidates
+from ..cuts.symmetric.regions import MANY_FACES, symmetric_on_regions
 from ..field.agd import ScalarField
 from ..graph.reeb import ReebGraph
 from ..mesh.labels import FaceGraph, connect, fill_unlabeled, majority, straighten

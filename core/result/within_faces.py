@@ -15,7 +15,7 @@ import numpy as np
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.settling import settle
-from ..cuts.symmetric_regions import symmetric_on_regions
+from ..cuts.symmetric.regions import symmetric_on_regions
 from ..mesh.labels import FaceGraph, connect
 from ..mesh.triangles import LEAST_WEIGHT, TriMesh
 from ..symmetry.images import Images

@@ -13,12 +13,12 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array
 
-from ..arrays.components import components, roots
-from ..arrays.indexing import renumbered
-from ..arrays.pairs import pair_keys
-from ..arrays.ties import rounded
-from ..mesh.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
-from ..symmetry.group import SymmetryGroup
+from ...arrays.components import components, roots
+from ...arrays.indexing import renumbered
+from ...arrays.pairs import pair_keys
+from ...arrays.ties import rounded
+from ...mesh.labels import FaceGraph, connect, fill_unlabeled, longest_neighbor, majority
+from ...symmetry.group import SymmetryGroup
 
 # Shares of the area of the pieces that the plane mirrors. What little of a candidate is left on the leading side joins
 # a neighbor below LEAST_LEADING, and so does what lies across the plane below LEAST_ACROSS; a region without an image

@@ -8,11 +8,11 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..arrays.ties import rounded
-from ..mesh.labels import FaceGraph, vote_weights
-from ..symmetry.group import SymmetryGroup
-from .hierarchy import LAST, Hierarchy
-from .symmetric_cells import Cells
+from ...arrays.ties import rounded
+from ...mesh.labels import FaceGraph, vote_weights
+from ...symmetry.group import SymmetryGroup
+from ..hierarchy import LAST, Hierarchy
+from .cells import Cells
 
 
 def symmetric_linkage(cells: Cells, graph: FaceGraph, salience: np.ndarray) -> Hierarchy:

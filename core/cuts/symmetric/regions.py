@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..mesh.labels import FaceGraph, majority
-from .face_candidates import FaceCandidates
-from .symmetric import symmetric_candidates
+from ...mesh.labels import FaceGraph, majority
+from ..face_candidates import FaceCandidates
+from .method import symmetric_candidates
 
 MANY_FACES = 20_000  # number of faces from which on regions are faster, and slivers beside cuts are small
 

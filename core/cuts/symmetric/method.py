@@ -18,11 +18,11 @@ from itertools import product
 
 import numpy as np
 
-from ..mesh.labels import FaceGraph, disagreement, majority
-from ..symmetry.group import SymmetryGroup
-from .face_candidates import FaceCandidates
-from .symmetric_cells import make_cells
-from .symmetric_linkage import symmetric_linkage
+from ...mesh.labels import FaceGraph, disagreement, majority
+from ...symmetry.group import SymmetryGroup
+from ..face_candidates import FaceCandidates
+from .cells import make_cells
+from .linkage import symmetric_linkage
 
 # At these details the parts of both sides are compared with those found. Where more pairs of points than WORST come
 # together or apart, the faces are too large to be mirrored, or what was found speaks against the plane.

@@ -7,8 +7,8 @@ from face_graphs import path
 from scipy.sparse import csr_array
 
 from core.cuts.hierarchy import LAST
-from core.cuts.symmetric_cells import Cells
-from core.cuts.symmetric_linkage import symmetric_linkage
+from core.cuts.symmetric.cells import Cells
+from core.cuts.symmetric.linkage import symmetric_linkage
 from core.symmetry.group import SymmetryGroup
 
 TWIN = np.array([3, 2, 1, 0])
