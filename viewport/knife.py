@@ -19,7 +19,7 @@ from ..scene.seen_points import seen_points
 from .pointing import Model, Target
 
 if TYPE_CHECKING:
-    from ..core.result.contour_cut import Contours
+    from ..core.result.editing.contour_cut import Contours
 
 
 class Knife:
@@ -41,7 +41,7 @@ class Knife:
         chosen : int
             -1 if there is none.
         """
-        from ..core.result.contour_cut import contours
+        from ..core.result.editing.contour_cut import contours
 
         number = self.model.number(target)
         if number not in self._parts:
@@ -87,8 +87,8 @@ class Knife:
 
         face_graph : core.mesh.labels.FaceGraph
         """
-        from ..core.result.contour_cut import contour_sides
-        from ..core.result.editing import smaller_side, two_sides
+        from ..core.result.editing.changes import smaller_side, two_sides
+        from ..core.result.editing.contour_cut import contour_sides
 
         found, chosen = self.contour(target)
         if chosen < 0:
@@ -136,7 +136,7 @@ def nothing_there(obj: bpy.types.Object, number: int) -> str:
 
 def _parts_beside(before: Model, after: store.Stored, new: int) -> int:
     """How many parts have come about beside a new one and its mirror image."""
-    from ..core.result.mirrored_edits import twin_numbers
+    from ..core.result.editing.mirrored import twin_numbers
 
     made = np.setdiff1d(after.shown, before.numbers)
     return len(np.setdiff1d(made, [new, twin_numbers(after.shown_parts()).get(new, new)]))

@@ -22,8 +22,5 @@ The result itself:
 
 Changes by hand:
 
-- ``editing``: where a part splits, what it takes or gives
-- ``contour_cut``: contours of the field to cut a part along
-- ``remainders``: small pieces that a change cuts off
-- ``mirrored_edits``: changes made on both sides of a plane of symmetry
+- ``editing``: where a part splits, what it takes or gives, on one side or on both
 """

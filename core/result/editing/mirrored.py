@@ -9,10 +9,10 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays.indexing import last_of_each
-from ..arrays.pairs import distinct_pairs
-from ..mesh.labels import FaceGraph, connect
-from .numbering import NumberedParts
+from ...arrays.indexing import last_of_each
+from ...arrays.pairs import distinct_pairs
+from ...mesh.labels import FaceGraph, connect
+from ..numbering import NumberedParts
 
 CRUMB = 0.02  # share of its part's area below which a region that the image of a change leaves alone is no part
 

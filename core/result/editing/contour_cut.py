@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays.components import components
-from ..arrays.indexing import place_among, renumbered, sums_by
-from ..mesh.corners import CornerTable
-from ..mesh.labels import FaceGraph, connect, straighten
-from ..parameters import Parameters
+from ...arrays.components import components
+from ...arrays.indexing import place_among, renumbered, sums_by
+from ...mesh.corners import CornerTable
+from ...mesh.labels import FaceGraph, connect, straighten
+from ...parameters import Parameters
 
 STRAIGHTEN = Parameters.smoothing  # rounds of ``straighten``, as many as cuts get by default
 

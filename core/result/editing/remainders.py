@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays.pairs import both_ways
-from ..arrays.ties import TIE
-from ..mesh.labels import FaceGraph, majority
+from ...arrays.pairs import both_ways
+from ...arrays.ties import TIE
+from ...mesh.labels import FaceGraph, majority
 
 #: A piece goes along if it is smaller than this share of the largest that is left of its part ...
 BESIDE_LARGEST = 1 / 3

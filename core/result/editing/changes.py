@@ -12,16 +12,16 @@ from dataclasses import replace
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
-from ..arrays.components import components
-from ..arrays.indexing import inverse, renumbered
-from ..arrays.pairs import both_ways, symmetric_matrix
-from ..cuts.hierarchy import Dendrogram, Hierarchy
-from ..graph.critical import SADDLE
-from ..mesh.corners import CornerTable
-from ..mesh.labels import FaceGraph, label_boundaries, majority, spread, vote_weights
+from ...arrays.components import components
+from ...arrays.indexing import inverse, renumbered
+from ...arrays.pairs import both_ways, symmetric_matrix
+from ...cuts.hierarchy import Dendrogram, Hierarchy
+from ...graph.critical import SADDLE
+from ...mesh.corners import CornerTable
+from ...mesh.labels import FaceGraph, label_boundaries, majority, spread, vote_weights
+from ..decomposition import Decomposition
+from ..junctions import boundaries, junctions
 from .contour_cut import contours
-from .decomposition import Decomposition
-from .junctions import boundaries, junctions
 
 
 def components_of(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:

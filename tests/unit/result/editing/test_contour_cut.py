@@ -9,7 +9,7 @@ from face_graphs import graph_of
 from core.arrays.components import components
 from core.mesh.corners import CornerTable
 from core.mesh.labels import FaceGraph
-from core.result.contour_cut import Contours, contour_sides, contours
+from core.result.editing.contour_cut import Contours, contour_sides, contours
 
 
 class Surface:

@@ -15,7 +15,7 @@ from core.graph.reeb import ReebGraph
 from core.mesh.corners import CornerTable
 from core.mesh.labels import FaceGraph
 from core.result.decomposition import Decomposition
-from core.result.editing import (
+from core.result.editing.changes import (
     best_split,
     boundary_distance,
     components_of,

@@ -7,7 +7,7 @@ import shapes
 from face_graphs import graph_of, n_connected, patches, path
 
 from core.mesh.labels import FaceGraph
-from core.result.remainders import halved_between_images, with_small_pieces
+from core.result.editing.remainders import halved_between_images, with_small_pieces
 
 
 @pytest.mark.parametrize(("before", "after", "expected"), [

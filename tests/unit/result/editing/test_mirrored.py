@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from core.mesh.labels import FaceGraph
-from core.result.mirrored_edits import MirroredChange, cleaned, gathered, on_both_sides, without_crumbs
+from core.result.editing.mirrored import MirroredChange, cleaned, gathered, on_both_sides, without_crumbs
 
 BEFORE = [1, 1, 1, 3, 3, 3, 3, 2, 2, 2]
 TWIN = list(range(9, -1, -1))
