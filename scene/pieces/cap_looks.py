@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.arrays.indexing import run_starts
 from ...core.mesh.corners import next_of_owner
-from ...core.uses.cap_maps import cap_map
+from ...core.uses.caps.maps import cap_map
 from .. import mesh_arrays
 from . import caps
 

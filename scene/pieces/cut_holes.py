@@ -10,8 +10,8 @@ import bpy
 import numpy as np
 
 from ...core.mesh.corners import edge_labels
-from ...core.uses.cap_surfaces import common_order
-from ...core.uses.rims import nested_rims
+from ...core.uses.caps.rims import nested_rims
+from ...core.uses.caps.surfaces import common_order
 from .. import element_layers, mesh_arrays
 from ..elements import Elements, Selection
 from ..temporary import removed

@@ -15,9 +15,9 @@ from ...core.arrays.components import components
 from ...core.arrays.indexing import ranges
 from ...core.arrays.vectors import cross, cross_in_plane
 from ...core.mesh.triangles import EdgeTable
-from ...core.uses.cap_surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
-from ...core.uses.rims import is_inside
-from ...core.uses.sleeves import Sleeve, sleeve
+from ...core.uses.caps.rims import is_inside
+from ...core.uses.caps.sleeves import Sleeve, sleeve
+from ...core.uses.caps.surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
 from .. import mesh_arrays
 from .body_surface import BodySurface
 from .disc import Disc
