@@ -58,9 +58,10 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
                 steps = separation.separating(context, obj, stored, wanted_numbers(obj.data, self.which), self)
                 separated = yield from stretched(steps, index / len(found), (index + 1) / len(found))
                 made.append((obj, separated))
+        every = [piece for _, separated in made for piece in (*separated.pieces, *separated.loose)]
+        origins.include(context, every)
         if self.hide:
             self._hide(context, [obj for obj, _ in made])
-        every = [piece for _, separated in made for piece in (*separated.pieces, *separated.loose)]
         self._show(context, every, made[0][1].pieces)
         for obj, separated in made:
             self._report(obj, separated)
@@ -173,7 +174,9 @@ class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):
         for obj, _ in targets.usable(objects, targets.check_object, self.report):
             # Appended alone to another file, an object comes with its pieces, but these are in no scene.
             origins.make_collection(context, obj)
-            pieces += piece_objects.piece_objects(obj)
+            own = piece_objects.piece_objects(obj)
+            origins.include(context, own)
+            pieces += own
             piece_objects.hide_original(context, obj)
             piece_objects.show_pieces(context, obj, True)
         shading.show_pieces(context)

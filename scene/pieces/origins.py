@@ -67,12 +67,20 @@ def follow(obj: bpy.types.Object, gone: Iterable[tuple[str, bpy.types.Object]],
     for key, item in gone:
         where = [place for place in around.collections[item] if place not in around.physics]
         for heir in heirs[key][:1]:
-            if where and own not in where and all(place.is_editable for place in where):
+            if own is not None and where and own not in where and all(place.is_editable for place in where):
                 for place in where:
                     place.objects.link(heir)
                 own.objects.unlink(heir)
         if len(heirs[key]) > 1:
             del heirs[key][0]
+
+
+def include(context: bpy.types.Context, items: Iterable[bpy.types.Object]) -> None:
+    """Have the view layer show the collections, be they the user's, of objects that it does not have."""
+    there, around = set(context.view_layer.objects), Surroundings.now()
+    for place in dict.fromkeys(place for item in items if item not in there for place in around.collections[item]):
+        if place not in around.physics and not place.is_embedded_data:  # which is that of a scene
+            visibility.include(context, place)
 
 
 def made_of(obj: bpy.types.Object, kind: str) -> list[bpy.types.Object]:

@@ -358,6 +358,21 @@ def test_pieces_know_their_original_wherever_they_are(obj, make, tree, way):
     assert not other.hide_render or other.hide_get()
 
 
+def test_pieces_in_a_collection_of_the_users_that_is_excluded_are_shown(obj):
+    """The original was hidden for pieces that nobody saw."""
+    bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
+    bpy.ops.reeb_parts.separate()
+    moved_to("Mine", pieces_of())
+    mine = bpy.context.view_layer.layer_collection.children["Mine"]
+    for command in (bpy.ops.reeb_parts.show_pieces, bpy.ops.reeb_parts.separate):
+        bpy.ops.reeb_parts.show_original()
+        mine.exclude = True
+        activate(obj)
+        command()
+        assert [piece.visible_get() for piece in mine.collection.objects] == [True] * 3
+        assert not obj.visible_get()
+
+
 def test_pasted_pieces_are_pieces(obj):
     """They come without the original, and the next run leaves them to the user. In another file they know nothing."""
     bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
