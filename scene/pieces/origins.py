@@ -76,9 +76,9 @@ def follow(obj: bpy.types.Object, gone: Iterable[tuple[str, bpy.types.Object]],
 
 
 def include(context: bpy.types.Context, items: Iterable[bpy.types.Object]) -> None:
-    """Have the view layer show the collections, be they the user's, of objects that it does not have."""
-    there, around = set(context.view_layer.objects), Surroundings.now()
-    for place in dict.fromkeys(place for item in items if item not in there for place in around.collections[item]):
+    """Have the view layer show the collections, be they the user's, that objects lie in."""
+    around = Surroundings.now()
+    for place in dict.fromkeys(place for item in items for place in around.collections[item]):
         if place not in around.physics and not place.is_embedded_data:  # which is that of a scene
             visibility.include(context, place)
 

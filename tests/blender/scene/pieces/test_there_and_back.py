@@ -363,13 +363,13 @@ def test_pieces_in_a_collection_of_the_users_that_is_excluded_are_shown(obj):
     bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
     bpy.ops.reeb_parts.separate()
     moved_to("Mine", pieces_of())
-    mine = bpy.context.view_layer.layer_collection.children["Mine"]
     for command in (bpy.ops.reeb_parts.show_pieces, bpy.ops.reeb_parts.separate):
         bpy.ops.reeb_parts.show_original()
-        mine.exclude = True
+        bpy.context.view_layer.layer_collection.children["Mine"].exclude = True
         activate(obj)
         command()
-        assert [piece.visible_get() for piece in mine.collection.objects] == [True] * 3
+        bpy.context.view_layer.update()
+        assert [piece.visible_get() for piece in bpy.data.collections["Mine"].objects] == [True] * 3
         assert not obj.visible_get()
 
 
