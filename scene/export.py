@@ -17,7 +17,7 @@ from ..core.file_names import file_name
 from ..core.uses.threemf import Assembly, ColoredMesh, write_3mf
 from . import bridge, file_checks, mesh_arrays, part_names, placing, store
 from .errors import SceneError
-from .pieces import piece_objects
+from .pieces import origins, piece_objects
 from .pieces.part_meshes import piece_meshes
 from .run_files import RunFiles
 from .temporary import removed
@@ -185,7 +185,7 @@ def _colors(obj: bpy.types.Object) -> dict[str, tuple[float, ...]]:
     for piece in piece_objects.piece_objects(obj):
         # Parts that are not shown now are not in the list; pieces of them have the color that these had.
         own = Color(piece.color[:3]).from_scene_linear_to_srgb()[:]
-        colors[piece.name] = listed.get(piece[piece_objects.NUMBER], own)
+        colors[piece.name] = listed.get(piece[origins.NUMBER], own)
     return colors | {part_names.with_object(obj, names[number]): color for number, color in listed.items()}
 
 

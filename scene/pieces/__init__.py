@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts as objects of their own, called pieces: their meshes, what closes them, and what is wrong with them.
 
-``separation`` makes the objects, ``piece_objects`` knows them; ``piece_checks`` measures them and ``piece_repairs``
-repairs what it can.
+``separation`` makes the objects, ``piece_objects`` knows them, ``origins`` whose they are; ``piece_checks`` measures
+them and ``piece_repairs`` repairs what it can.
 
 The meshes: ``part_meshes`` makes them, ``sculpted_pieces`` those of a mesh with Multires; ``welding`` joins seams
 before, ``smooth_faces`` divides faces along smooth cuts, ``box_fitting`` cuts what is longer than a box.
