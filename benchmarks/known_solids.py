@@ -20,7 +20,7 @@ sys.path.append(str(packages.ROOT / "tests"))
 import shapes
 from shapes import Shape
 
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 COUNTS = {"plain": 60, "limbs": 80, "tubes": 40, "turned": 50, "blocks": 50}
 N_PEOPLE = 4

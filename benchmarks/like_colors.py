@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.surface.arrays import sums_by
+from core.arrays.indexing import sums_by
 from core.uses.colors import PALETTE
 
 

@@ -23,7 +23,7 @@ from meshes import some, source_and_target, stacked, write_labelled
 from robots import Robot, labels, reduced
 from tqdm import tqdm
 
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 SUITE, WALKERS = "dm_control/suite", "dm_control/locomotion/walkers/assets"
 ROBOTS, GRIPPERS = "robosuite/models/assets/robots", "robosuite/models/assets/grippers"

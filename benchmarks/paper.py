@@ -35,8 +35,8 @@ from scores import labels_path, mean
 from tqdm import tqdm
 
 from core import Parameters, TriMesh, decompose
+from core.mesh.labels import majority
 from core.metrics import rand_index_error
-from core.surface.labels import majority
 
 RG, CC, SE, OURS = "Berretti 2009", "Lavoue 2005", "Liu 2007", "Perceptual"
 METHODS = (RG, CC, SE, OURS)

@@ -9,19 +9,19 @@ from pathlib import Path
 
 import numpy as np
 
+from core.arrays.ties import in_steps
 from core.cuts.patches import concave_patches
 from core.cuts.perceptual.measures import SurfaceMeasures, surface_measures
 from core.cuts.perceptual.merging import RegionAdjacencyGraph, merge_all_
 from core.cuts.perceptual.method import inflate
+from core.mesh.polygons import PolygonMesh
+from core.mesh.triangles import TriMesh
 from core.metrics import Overlap
 from core.parameters import Parameters
 from core.pipeline import level_sets_of
 from core.progress import Stopwatch
-from core.surface.mesh import TriMesh
 from core.surface.ordering import sorted_by_place
-from core.surface.polygons import PolygonMesh
 from core.surface.preparation import Component, WorkingMesh, repair
-from core.surface.ties import in_steps
 
 CATEGORIES = (
     ("Human", 1), ("Cup", 21), ("Glasses", 41), ("Airplane", 61), ("Ant", 81), ("Chair", 101),

@@ -16,7 +16,7 @@ import numpy as np
 from like_colors import like_colors
 from scores import MEASURES, labels_path, mean, typical
 
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 from core.uses.pictures import picture, png
 
 mpl.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "report", "font.size": 9, "axes.spines.top": False,

@@ -26,8 +26,8 @@ import yourdfpy
 from meshes import joined_alone, some, source_and_target, stacked, write_labelled
 from tqdm import tqdm
 
-from core.surface.components import components
-from core.surface.mesh import TriMesh
+from core.arrays.components import components
+from core.mesh.triangles import TriMesh
 
 ROBOTS = (
     "a1_description/urdf/a1", "alex_description/urdf/alex_nub_hands", "allegro_hand_description/urdf/allegro_left_hand",

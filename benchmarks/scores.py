@@ -8,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
+from core.mesh.labels import majority
+from core.mesh.triangles import TriMesh
 from core.metrics import (
     agreement,
     consistency_error,
@@ -16,8 +18,6 @@ from core.metrics import (
     mean_intersection_over_union,
     rand_index_error,
 )
-from core.surface.labels import majority
-from core.surface.mesh import TriMesh
 
 #: Measures by name: the heading of their column, and whether more is better.
 MEASURES = {

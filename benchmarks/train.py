@@ -38,11 +38,11 @@ from known_sheets import known_sheets
 from known_solids import known_solids
 from people import Run, Subject, category_of, merge_and_record, mesh_numbers, prepare, varied
 
+from core.arrays.indexing import renumbered
 from core.cuts.boosted_trees import BoostedTrees
 from core.cuts.perceptual.features import FEATURES
 from core.cuts.perceptual.method import SHARE_AT_HALF, SHEET_SHARE_AT_HALF
-from core.surface.arrays import renumbered
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 N_TREES = 250
 SETTINGS = {

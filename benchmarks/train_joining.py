@@ -35,19 +35,19 @@ from people import category_of, working_mesh
 from tqdm import tqdm
 from train import mean_of, trees_of
 
+from core.arrays.components import components
+from core.arrays.indexing import renumbered
 from core.cuts.boosted_trees import BoostedTrees
 from core.cuts.joining.distant import FEATURES as DISTANT_FEATURES
 from core.cuts.joining.distant import DistantPairs
 from core.cuts.joining.method import FineParts, JoinModel, compare_distant, fine_parts, join_parts, near_odds
 from core.cuts.joining.pairs import FEATURES
+from core.mesh.labels import majority
+from core.mesh.triangles import TriMesh
 from core.metrics import rand_index_error
 from core.parameters import Parameters
 from core.pipeline import decompose_component
 from core.progress import Stopwatch
-from core.surface.arrays import renumbered
-from core.surface.components import components
-from core.surface.labels import majority
-from core.surface.mesh import TriMesh
 from core.surface.preparation import bodies
 
 SETTINGS = {

@@ -26,11 +26,11 @@ import numpy as np
 from meshes import load_mesh
 
 from core import decompose
-from core.surface.corners import CornerTable
-from core.uses.bones import BoneSurface, following, limb_bones
-from core.uses.hulls import part_hulls, part_volumes
-from core.uses.skinning import BENT, bends, smooth_weights, turned_over
-from core.uses.unfold import unfolding_seams
+from core.mesh.corners import CornerTable
+from core.uses.maps.unfold import unfolding_seams
+from core.uses.moving.bones import BoneSurface, following, limb_bones
+from core.uses.moving.hulls import part_hulls, part_volumes
+from core.uses.moving.skinning import BENT, bends, smooth_weights, turned_over
 
 HULLS = (1, 2, 4, 8)
 COLUMNS = ("parts", "bones", "poses", "joints that turn faces", "faces", "poses, volume", "1 hull", "2", "4", "8",

@@ -6,7 +6,10 @@ detail. What can be imported from the package itself is listed in ``_HOME``, bel
 
 The stages, in the order of the method; each imports those before it only:
 
-- ``surface``: from the caller's arrays to a checked and repaired mesh, and labels on it
+- ``arrays``: what every stage does with whole arrays
+- ``mesh``: from the caller's arrays to a checked mesh, and labels on it
+- ``surface``: the mesh repaired and divided in components, and what is measured on it
+- ``symmetry``: planes and turns that map the surface onto itself
 - ``field``: distances along the surface, and their mean, the AGD
 - ``graph``: level sets of the field, and its Reeb graph
 - ``cuts``: the methods of cutting; the finest parts, and the order in which they merge
@@ -48,12 +51,12 @@ if TYPE_CHECKING:  # "as", so that a name counts as one of the package for those
     from .errors import ReebError as ReebError
     from .errors import UnknownParameterError as UnknownParameterError
     from .graph.reeb import ReebGraph as ReebGraph
+    from .mesh.triangles import TriMesh as TriMesh
     from .parameters import PRESETS as PRESETS
     from .parameters import Parameters as Parameters
     from .pipeline import decompose as decompose
     from .result.decomposition import Decomposition as Decomposition
     from .result.decomposition import Parts as Parts
-    from .surface.mesh import TriMesh as TriMesh
     from .version import VERSION as VERSION
 
 # The module of each name, which is imported when the name is first used: Blender reads the parameters when it starts,
@@ -70,7 +73,7 @@ _HOME = {
     "Parts": "result.decomposition",
     "ReebError": "errors",
     "ReebGraph": "graph.reeb",
-    "TriMesh": "surface.mesh",
+    "TriMesh": "mesh.triangles",
     "UnknownParameterError": "errors",
     "VERSION": "version",
     "decompose": "pipeline",

@@ -27,10 +27,10 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
 from .errors import ParameterError
+from .mesh.arguments import numbers, whole_numbers
+from .mesh.polygons import normalized
+from .mesh.triangles import TriMesh
 from .sentence import Sentence
-from .surface.arguments import numbers, whole_numbers
-from .surface.mesh import TriMesh
-from .surface.polygons import normalized
 
 
 @dataclass(frozen=True, eq=False)

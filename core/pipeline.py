@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .arrays.indexing import underflow_is_zero
 from .cuts.boosted_trees import BoostedTrees
 from .cuts.hierarchy import Candidates
 from .cuts.joining.method import JoinModel, fine_parts, join_parts
@@ -17,21 +18,20 @@ from .field.agd import ScalarField, protrusion_field
 from .graph.level_sets import LevelSets, cut_at_levels, uniform_levels
 from .graph.reeb import reeb_graph, reeb_topology
 from .graph.simplify import without_ripples
+from .mesh.arguments import hints_of
+from .mesh.copies import find_copies
+from .mesh.polygons import PolygonMesh
 from .parameters import TOGETHER, Parameters
 from .progress import Progress, Stopwatch
 from .result.assemble import assemble
 from .result.component_results import ComponentResult
 from .result.decomposition import Decomposition
 from .result.half import of_half
-from .result.mirrors import Mirror, find_mirrors
-from .surface.arguments import hints_of
-from .surface.arrays import underflow_is_zero
 from .surface.coarsening import Pyramid
-from .surface.copies import find_copies
-from .surface.halves import completed, plane_of
 from .surface.ordering import sorted_by_place
-from .surface.polygons import PolygonMesh
 from .surface.preparation import Component, WorkingMesh, bodies, repair
+from .symmetry.halves import completed, plane_of
+from .symmetry.mirrors import Mirror, find_mirrors
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

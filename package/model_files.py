@@ -21,10 +21,10 @@ from .core.atomic_files import HIDDEN
 from .core.errors import ReebError
 from .core.file_names import kind_of, readable
 from .core.memory import lacks_memory
+from .core.mesh.arguments import corners, positions
+from .core.mesh.ears import fans, without_folds
+from .core.mesh.triangles import check_corners
 from .core.sentence import Sentence
-from .core.surface.arguments import corners, positions
-from .core.surface.ears import fans, without_folds
-from .core.surface.mesh import check_corners
 from .gltf_checks import read_header, unread
 from .obj_files import parse_obj
 from .off_files import parse_off

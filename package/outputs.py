@@ -12,10 +12,10 @@ import numpy as np
 
 from .core.errors import ParameterError
 from .core.file_names import file_name
+from .core.mesh.arguments import whole_numbers
+from .core.mesh.triangles import TriMesh
 from .core.result.decomposition import Decomposition, Parts
 from .core.sentence import Sentence
-from .core.surface.arguments import whole_numbers
-from .core.surface.mesh import TriMesh
 from .core.uses.colors import linear, part_colors
 from .core.uses.pictures import picture, png
 from .core.uses.report import bounding_boxes, document, report

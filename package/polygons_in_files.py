@@ -7,7 +7,7 @@ from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 
 import numpy as np
 
-from .core.surface.ears import triangulated
+from .core.mesh.ears import triangulated
 
 
 def plain_text(data: bytes) -> bytes:

@@ -189,7 +189,7 @@ def _free_pair(name: str, side: int, taken: set[str], carried: set[str]) -> tupl
 
 def _corresponding(source: bpy.types.Object, target: bpy.types.Object) -> tuple[list[int], np.ndarray]:
     """Number of the source's part for each part of the target, and how sure that is, (count,) 0..1."""
-    from ..core.surface.labels import majority
+    from ..core.mesh.labels import majority
     from ..core.uses.correspondence import carried_labels, sample_surface
 
     from_parts, to_parts = (store.load(obj.data).shown_parts() for obj in (source, target))

@@ -33,8 +33,8 @@ from .store import Stored
 from .temporary import removed
 
 if TYPE_CHECKING:
-    from ..core.uses.bones import Bones
-    from ..core.uses.skinning import Weights
+    from ..core.uses.moving.bones import Bones
+    from ..core.uses.moving.skinning import Weights
 
 NAME = "Reeb Parts Armature"
 DEFORM = "DEF-"  # how their names begin, as Rigify's do; after that comes the name of the part
@@ -181,7 +181,7 @@ def _sided_names(obj: bpy.types.Object, found: Skeleton) -> list[str]:
 def _weights(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.Object, groups: list[str],
              found: Skeleton, kind: str) -> Weights:
     """The weights of a skeleton's surface. kind : see ``make``."""
-    from ..core.uses.skinning import smooth_weights, stiff_weights  # imports SciPy
+    from ..core.uses.moving.skinning import smooth_weights, stiff_weights  # imports SciPy
 
     if kind == "PARTS":
         return stiff_weights(found.table, found.labels)
@@ -192,7 +192,7 @@ def _weights(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.O
 def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.Object, groups: list[str],
                skeleton: Skeleton, smooth: Weights) -> Weights:
     """Blender's own weights, found on a copy; where it finds none, the smooth ones."""
-    from ..core.uses.skinning import Weights, limited
+    from ..core.uses.moving.skinning import Weights, limited
 
     copy = mesh_arrays.mesh_of(skeleton.table, NAME) if skeleton.is_half else part_meshes.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)

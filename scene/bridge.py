@@ -12,11 +12,11 @@ import bmesh
 import bpy
 import numpy as np
 
+from ..core.arrays.vectors import cross, lengths
+from ..core.mesh.corners import CornerTable
+from ..core.mesh.labels import FaceGraph
 from ..core.sentence import Sentence
 from ..core.steps import Steps, finished
-from ..core.surface.corners import CornerTable
-from ..core.surface.labels import FaceGraph
-from ..core.surface.vectors import cross, lengths
 from . import face_hints, fingerprints, mesh_arrays, modifiers, targets
 from .half_models import half_plane
 from .mesh_arrays import shown_points

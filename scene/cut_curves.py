@@ -10,10 +10,10 @@ import bmesh
 import bpy
 import numpy as np
 
+from ..core.arrays.indexing import renumbered
+from ..core.arrays.pairs import distinct_pairs
+from ..core.mesh.corners import CornerTable
 from ..core.steps import Steps, stretched
-from ..core.surface.arrays import renumbered
-from ..core.surface.corners import CornerTable
-from ..core.surface.pairs import distinct_pairs
 from . import bridge, mesh_arrays
 from .pieces import smooth_faces
 from .temporary import freed

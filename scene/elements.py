@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core.surface.arrays import ranges
-from ..core.surface.corners import CornerTable
+from ..core.arrays.indexing import ranges
+from ..core.mesh.corners import CornerTable
 from ..core.surface.orientation import looks_inwards, of_solids
 
 POINT, EDGE, FACE, CORNER = "POINT", "EDGE", "FACE", "CORNER"

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 
-from ..core.surface.components import components
+from ..core.arrays.components import components
 from . import mesh_arrays
 from .outputs import materials, seams
 

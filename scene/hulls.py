@@ -43,7 +43,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     -------
     made : Made
     """
-    from ..core.uses.hulls import part_hulls  # imports SciPy
+    from ..core.uses.moving.hulls import part_hulls  # imports SciPy
 
     numbered = stored.shown_parts()
     table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))

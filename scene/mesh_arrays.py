@@ -13,9 +13,9 @@ import bpy
 import numpy as np
 from numpy.typing import DTypeLike
 
-from ..core.surface.arrays import renumbered, run_starts
-from ..core.surface.corners import CornerTable
-from ..core.surface.vectors import cross, lengths
+from ..core.arrays.indexing import renumbered, run_starts
+from ..core.arrays.vectors import cross, lengths
+from ..core.mesh.corners import CornerTable
 
 _VALUES = {  # of an attribute: the name of its values, their type, how many
     "FLOAT": ("value", np.float32, 1), "INT": ("value", np.int32, 1), "BOOLEAN": ("value", bool, 1),
@@ -196,7 +196,7 @@ def mesh_of(table: CornerTable, name: str) -> bpy.types.Mesh:
 
 
 def joined_table(mesh: bpy.types.Mesh, points: np.ndarray | None = None) -> CornerTable:
-    """As ``corner_table``, with border vertices joined that are one for Decompose: see core.surface.borders.
+    """As ``corner_table``, with border vertices joined that are one for Decompose: see core.mesh.borders.
 
     Vertices and faces keep their numbers; edges are not those of the mesh where it has such seams. Kept as
     ``face_corners`` are.

@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
-from ..core.surface.arrays import begins_run
+from ..core.arrays.indexing import begins_run
 from . import matrix_layers
 from .temporary import removed
 

@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.arrays.pairs import distinct_pairs
 from ..core.sentence import Count
-from ..core.surface.mirror_plane import MirrorPlane
-from ..core.surface.pairs import distinct_pairs
+from ..core.symmetry.plane import MirrorPlane
 from . import bridge, explode, hidden, mesh_arrays, property_updates
 from .errors import SceneError
 from .snapshots import set_values, values_of

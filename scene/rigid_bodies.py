@@ -15,7 +15,7 @@ from . import made_objects, mesh_arrays, placing, transaction
 from .store import Stored
 
 if TYPE_CHECKING:
-    from ..core.uses.body_joints import BodyJoints
+    from ..core.uses.moving.body_joints import BodyJoints
 
 #: How joints hold: the names of Blender's constraints.
 KINDS = ("HINGE", "POINT", "FIXED")
@@ -56,8 +56,8 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     -------
     joined : RigidBodies
     """
-    from ..core.uses.body_joints import body_joints, overlapping  # imports SciPy
-    from ..core.uses.hulls import part_hulls
+    from ..core.uses.moving.body_joints import body_joints, overlapping  # imports SciPy
+    from ..core.uses.moving.hulls import part_hulls
 
     earlier = remove_joints(collection)
     numbered = stored.shown_parts()

@@ -10,8 +10,8 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.surface.arrays import renumbered
-from ..core.uses.stacking import double_corners
+from ..core.arrays.indexing import renumbered
+from ..core.uses.maps.stacking import double_corners
 from . import fingerprints, made_objects, mesh_arrays, store, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
@@ -20,8 +20,8 @@ from .store import Stored
 from .temporary import removed
 
 if TYPE_CHECKING:
-    from ..core.surface.corners import CornerTable
-    from ..core.uses.distortion import Distortion
+    from ..core.mesh.corners import CornerTable
+    from ..core.uses.maps.distortion import Distortion
 
 UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
@@ -123,7 +123,7 @@ def _of_faces_below(table: CornerTable, numbers: np.ndarray, double: np.ndarray)
 
 def _unfolding_seams(table: CornerTable, cut: np.ndarray, left_out: np.ndarray) -> np.ndarray:
     """Edges to be cut so that all lies flat but for some faces, (e,) bool. cut : (e,) bool. left_out : (p,) bool."""
-    from ..core.uses.unfold import unfolding_seams  # imports SciPy
+    from ..core.uses.maps.unfold import unfolding_seams  # imports SciPy
 
     rest = table.within(~left_out)
     faces, corner_face = renumbered(rest.corner_face)
@@ -135,7 +135,7 @@ def _unfolding_seams(table: CornerTable, cut: np.ndarray, left_out: np.ndarray) 
 
 def _images(table: CornerTable, stored: Stored) -> np.ndarray:
     """The corner that each corner of a part is the exact mirror image of, (c,), -1 for none."""
-    from ..core.uses.stacking import image_corners
+    from ..core.uses.maps.stacking import image_corners
 
     decomposition, parts = stored.decomposition, stored.shown_parts().parts
     if decomposition.plane is None:
@@ -145,7 +145,7 @@ def _images(table: CornerTable, stored: Stored) -> np.ndarray:
 
 def _distortion(table: CornerTable, flat: np.ndarray, image: np.ndarray) -> Distortion:
     """What the map does, without faces that share the place of others."""
-    from ..core.uses.distortion import distortion
+    from ..core.uses.maps.distortion import distortion
 
     alone = ~_left_out(table, image)
     return distortion(table.within(alone), flat[alone[table.corner_face]].astype(np.float64))

@@ -3,9 +3,9 @@
 
 import numpy as np
 
-from core.surface.components import components
-from core.surface.labels import FaceGraph, fill_unlabeled
-from core.surface.mesh import TriMesh
+from core.arrays.components import components
+from core.mesh.labels import FaceGraph, fill_unlabeled
+from core.mesh.triangles import TriMesh
 
 
 def path(n, lengths=None, areas=None):

@@ -5,7 +5,7 @@ import numpy as np
 import shapes
 
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def along(shape, direction, n_slabs=40, noise=0.0):

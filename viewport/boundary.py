@@ -43,7 +43,7 @@ class Boundary:
 
     def __init__(self, obj: bpy.types.Object, stored: Stored, number: int, neighbor: int = 0) -> None:
         """Of the part ``number``: all of it, or only where it meets the part ``neighbor``."""
-        from ..core.result.editing import boundary_distance
+        from ..core.result.editing.changes import boundary_distance
 
         self.number = number
         self.numbers = stored.face_numbers

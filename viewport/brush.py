@@ -6,10 +6,10 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from numpy.typing import ArrayLike
 
+from ..core.arrays.components import components
+from ..core.arrays.indexing import expanded
+from ..core.arrays.pairs import both_ways
 from ..core.sentence import Count
-from ..core.surface.arrays import expanded
-from ..core.surface.components import components
-from ..core.surface.pairs import both_ways
 from ..scene import edits, mesh_arrays, part_names, store
 from ..scene.errors import SceneError
 from .pointing import Model, check_place

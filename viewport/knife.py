@@ -9,17 +9,17 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
+from ..core.mesh.corners import CornerTable
+from ..core.mesh.labels import FaceGraph
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..core.surface.corners import CornerTable
-from ..core.surface.labels import FaceGraph
 from ..scene import bridge, cut_curves, edits, mesh_arrays, part_list, part_names, store
 from ..scene.errors import SceneError
 from ..scene.seen_points import seen_points
 from .pointing import Model, Target
 
 if TYPE_CHECKING:
-    from ..core.result.contour_cut import Contours
+    from ..core.result.editing.contour_cut import Contours
 
 
 class Knife:
@@ -41,7 +41,7 @@ class Knife:
         chosen : int
             -1 if there is none.
         """
-        from ..core.result.contour_cut import contours
+        from ..core.result.editing.contour_cut import contours
 
         number = self.model.number(target)
         if number not in self._parts:
@@ -85,10 +85,10 @@ class Knife:
     def sides(self, target: Target, face_graph: FaceGraph) -> np.ndarray | None:
         """The smaller of the two sides of the cut, (p,) bool; None if nothing would be cut off.
 
-        face_graph : core.surface.labels.FaceGraph
+        face_graph : core.mesh.labels.FaceGraph
         """
-        from ..core.result.contour_cut import contour_sides
-        from ..core.result.editing import smaller_side, two_sides
+        from ..core.result.editing.changes import smaller_side, two_sides
+        from ..core.result.editing.contour_cut import contour_sides
 
         found, chosen = self.contour(target)
         if chosen < 0:
@@ -136,7 +136,7 @@ def nothing_there(obj: bpy.types.Object, number: int) -> str:
 
 def _parts_beside(before: Model, after: store.Stored, new: int) -> int:
     """How many parts have come about beside a new one and its mirror image."""
-    from ..core.result.mirrored_edits import twin_numbers
+    from ..core.result.editing.mirrored import twin_numbers
 
     made = np.setdiff1d(after.shown, before.numbers)
     return len(np.setdiff1d(made, [new, twin_numbers(after.shown_parts()).get(new, new)]))

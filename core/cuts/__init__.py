@@ -16,10 +16,6 @@ What follows every method, on the caller's faces:
 - ``joining``: one hierarchy of those of several pieces
 - ``face_candidates``: what each of the next steps takes and gives
 - ``symmetric``: candidates made the same on all sides of a symmetric shape
-- ``symmetry_group``: the mirrorings and turns that map a shape onto itself
-- ``symmetric_cells``: candidates of the side that leads, and their images
-- ``symmetric_linkage``: merges that happen together with their images
-- ``symmetric_regions``: symmetric candidates of a dense mesh, on regions of its faces
 - ``hinted``: heeds labels that the mesh brings along, such as materials
 - ``settling``: lets merge only what touches
 """

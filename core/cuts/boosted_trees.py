@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays.indexing import frozen
+from ..arrays.ties import on_grid
 from ..errors import ReebError
 from ..sentence import Sentence
-from ..surface.arrays import frozen
-from ..surface.ties import on_grid
 
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable

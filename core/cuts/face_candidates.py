@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.labels import FaceGraph
+from ..mesh.labels import FaceGraph
 from .hierarchy import Hierarchy
 
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..surface.arrays import frozen, inverse
-from ..surface.components import components
-from ..surface.pairs import distinct_pairs
+from ..arrays.components import components
+from ..arrays.indexing import frozen, inverse
+from ..arrays.pairs import distinct_pairs
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -12,11 +12,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..surface.arrays import is_last_of_each, renumbered
-from ..surface.components import components
-from ..surface.labels import FaceGraph, majority, spread
-from ..surface.pairs import both_ways
-from ..surface.ties import on_grid
+from ..arrays.components import components
+from ..arrays.indexing import is_last_of_each, renumbered
+from ..arrays.pairs import both_ways
+from ..arrays.ties import on_grid
+from ..mesh.labels import FaceGraph, majority, spread
 from .face_candidates import FaceCandidates
 from .hierarchy import LAST, Hierarchy
 from .joining.linkage import JudgedPairs, average_linkage

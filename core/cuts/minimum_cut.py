@@ -15,10 +15,10 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, dijkstra, maximum_flow
 
-from ..surface.arrays import place_among
-from ..surface.labels import label_boundaries, spread
-from ..surface.mesh import TriMesh
-from ..surface.pairs import both_ways, symmetric_matrix
+from ..arrays.indexing import place_among
+from ..arrays.pairs import both_ways, symmetric_matrix
+from ..mesh.labels import label_boundaries, spread
+from ..mesh.triangles import TriMesh
 from .hierarchy import Hierarchy
 
 if TYPE_CHECKING:

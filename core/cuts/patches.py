@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..surface.arrays import last_of_each, renumbered
-from ..surface.components import components, roots
-from ..surface.labels import label_boundaries, longest_neighbor
-from ..surface.mesh import TriMesh
-from ..surface.nearest_seeds import nearest_seeds
-from ..surface.pairs import symmetric_matrix
-from ..surface.ties import first_largest, rounded, whole_steps
-from ..surface.vectors import row_products, weighted_sum
+from ..arrays.components import components, roots
+from ..arrays.indexing import last_of_each, renumbered
+from ..arrays.nearest_seeds import nearest_seeds
+from ..arrays.pairs import symmetric_matrix
+from ..arrays.ties import first_largest, rounded, whole_steps
+from ..arrays.vectors import row_products, weighted_sum
+from ..mesh.labels import label_boundaries, longest_neighbor
+from ..mesh.triangles import TriMesh
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..surface.arrays import renumbered
+from ..arrays.indexing import renumbered
 from .face_candidates import FaceCandidates
 from .hierarchy import Dendrogram, Hierarchy
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import frozen
+from ..arrays.indexing import frozen
+from ..arrays.ties import TIE, first_largest
+from ..arrays.vectors import weighted_sum
+from ..mesh.triangles import TriMesh
 from ..surface.coarsening import Pyramid, prolong
-from ..surface.mesh import TriMesh
-from ..surface.ties import TIE, first_largest
-from ..surface.vectors import weighted_sum
 from .geodesic import GeodesicSolver
 
 HISTOGRAM_BINS = 100  # number of bins of ``equalize``: each 0.01 wide, as in [Berretti2009]

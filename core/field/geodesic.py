@@ -7,12 +7,12 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
+from ..arrays.indexing import run_starts, stable_order, taken
+from ..arrays.pairs import symmetric_matrix
+from ..arrays.vectors import lengths, row_products
 from ..errors import DisconnectedMeshError
+from ..mesh.triangles import ON_A_LINE, TriMesh
 from ..sentence import Sentence
-from ..surface.arrays import run_starts, stable_order, taken
-from ..surface.mesh import ON_A_LINE, TriMesh
-from ..surface.pairs import symmetric_matrix
-from ..surface.vectors import lengths, row_products
 from .sight import lines_in_sight
 
 

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import taken
-from ..surface.mesh import ON_A_LINE, TriMesh
-from ..surface.ties import TIE
-from ..surface.vectors import cross_in_plane, lengths, row_products
+from ..arrays.indexing import taken
+from ..arrays.ties import TIE
+from ..arrays.vectors import cross_in_plane, lengths, row_products
+from ..mesh.triangles import ON_A_LINE, TriMesh
 
 WIDE = 0.5  # cosine of 60 degrees: the angle up to which directions of paths are near enough to each other
 NEEDLE = 4.0  # ratio of a triangle's longest side to its height above that from which on it is one

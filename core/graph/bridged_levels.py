@@ -14,9 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import expanded, last_of_each, place_among, ranges
-from ..surface.components import components
-from ..surface.pairs import distinct_pairs
+from ..arrays.components import components
+from ..arrays.indexing import expanded, last_of_each, place_among, ranges
+from ..arrays.pairs import distinct_pairs
 
 MAX_LINKS = 100_000  # pairs of slab pieces that are looked at at once, of which each takes some 300 bytes
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..surface.arrays import inverse
-from ..surface.mesh import TriMesh
+from ..arrays.indexing import inverse
+from ..mesh.triangles import TriMesh
 
 MINIMUM, SADDLE, MAXIMUM = 0, 1, 2
 KINDS = ("minimum", "saddle", "maximum")  # name of each kind

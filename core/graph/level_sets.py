@@ -13,10 +13,10 @@ from functools import cached_property
 
 import numpy as np
 
-from ..surface.arrays import expanded, sums_by
-from ..surface.components import components
-from ..surface.mesh import LEAST_WEIGHT, TriMesh
-from ..surface.vectors import lengths
+from ..arrays.components import components
+from ..arrays.indexing import expanded, sums_by
+from ..arrays.vectors import lengths
+from ..mesh.triangles import LEAST_WEIGHT, TriMesh
 from .bridged_levels import FaceBridges, joined_by_faces
 
 

@@ -13,8 +13,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..surface.arrays import last_of_each, place_among, sums_by
-from ..surface.components import components
+from ..arrays.components import components
+from ..arrays.indexing import last_of_each, place_among, sums_by
 from .critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from .level_sets import LevelSets
 

@@ -10,9 +10,9 @@ import heapq
 
 import numpy as np
 
+from ..arrays.components import roots
+from ..arrays.indexing import place_among
 from ..field.agd import ScalarField
-from ..surface.arrays import place_among
-from ..surface.components import roots
 from .level_sets import LevelSets
 from .reeb import ReebTopology
 

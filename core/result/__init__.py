@@ -4,7 +4,6 @@
 From the components to the result:
 
 - ``component_results``: what the stages found on the components
-- ``mirrors``: the planes of symmetry of the caller's mesh
 - ``votes``: which candidate each of the caller's faces gets
 - ``within_faces``: symmetry within the caller's faces, where these are too large to be mirrored
 - ``slivers``: what is left of parts where cuts moved or sides were mirrored
@@ -23,8 +22,5 @@ The result itself:
 
 Changes by hand:
 
-- ``editing``: where a part splits, what it takes or gives
-- ``contour_cut``: contours of the field to cut a part along
-- ``remainders``: small pieces that a change cuts off
-- ``mirrored_edits``: changes made on both sides of a plane of symmetry
+- ``editing``: where a part splits, what it takes or gives, on one side or on both
 """

@@ -10,27 +10,27 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..arrays.components import components
+from ..arrays.indexing import is_last_of_each, last_of_each, sums_by
+from ..arrays.nearest import nearest_before
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.hinted import hinted_candidates
 from ..cuts.settling import settle
-from ..cuts.symmetric import symmetric_candidates, turned_candidates
-from ..cuts.symmetric_regions import MANY_FACES, symmetric_on_regions
+from ..cuts.symmetric.method import symmetric_candidates, turned_candidates
+from ..cuts.symmetric.regions import MANY_FACES, symmetric_on_regions
 from ..field.agd import ScalarField
 from ..graph.reeb import ReebGraph
+from ..mesh.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
+from ..mesh.polygons import PolygonMesh
+from ..mesh.triangles import LEAST_WEIGHT
 from ..parameters import TOGETHER, Parameters
 from ..sentence import Sentence
-from ..surface.arrays import is_last_of_each, last_of_each, sums_by
-from ..surface.components import components
-from ..surface.labels import FaceGraph, connect, fill_unlabeled, majority, straighten
-from ..surface.mesh import LEAST_WEIGHT
-from ..surface.nearest import nearest_before
-from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh
+from ..symmetry.mirrors import Mirror
 from .component_results import ComponentResult, FoundCandidates
 from .decomposition import Decomposition, too_many
 from .junctions import boundaries, junctions
-from .mirrors import Mirror
 from .slivers import without_slivers
 from .votes import WIDTH, FaceVotes
 from .within_faces import symmetric_within_faces

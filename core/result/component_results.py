@@ -10,12 +10,12 @@ from itertools import accumulate
 
 import numpy as np
 
+from ..arrays.indexing import renumbered
 from ..cuts.hierarchy import LAST, Candidates, Hierarchy
 from ..field.agd import ScalarField
 from ..graph.level_sets import LevelSets
 from ..graph.reeb import ReebGraph, ReebTopology
-from ..surface.arrays import renumbered
-from ..surface.labels import majority
+from ..mesh.labels import majority
 from ..surface.preparation import Component, WorkingMesh
 
 

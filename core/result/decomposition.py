@@ -10,19 +10,19 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays.indexing import inverse, renumbered, sums_by
+from ..arrays.pairs import distinct_pairs
+from ..arrays.ties import first_largest
 from ..cuts.hierarchy import Hierarchy
 from ..errors import ParameterError
 from ..graph.reeb import ReebGraph
+from ..mesh.arguments import whole_numbers
+from ..mesh.copies import Copies
+from ..mesh.labels import FaceGraph, majority, vote_weights
 from ..parameters import Parameters
 from ..sentence import Sentence
-from ..surface.arguments import whole_numbers
-from ..surface.arrays import inverse, renumbered, sums_by
-from ..surface.copies import Copies
-from ..surface.labels import FaceGraph, majority, vote_weights
-from ..surface.mirror_plane import MirrorPlane
 from ..surface.ordering import Ordering
-from ..surface.pairs import distinct_pairs
-from ..surface.ties import first_largest
+from ..symmetry.plane import MirrorPlane
 from ..version import VERSION
 from . import stored
 from .junctions import counted_again

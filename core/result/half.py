@@ -10,9 +10,9 @@ import numpy as np
 
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.settling import settle
+from ..mesh.labels import connect, majority, vote_weights
+from ..mesh.polygons import PolygonMesh
 from ..sentence import Sentence
-from ..surface.labels import connect, majority, vote_weights
-from ..surface.polygons import PolygonMesh
 from ..surface.preparation import WorkingMesh, repair
 from .assemble import face_graph_of, tables_of
 from .decomposition import Decomposition

@@ -14,9 +14,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.arrays import expanded, sums_by
-from ..surface.labels import FaceGraph
-from ..surface.pairs import distinct_pairs
+from ..arrays.indexing import expanded, sums_by
+from ..arrays.pairs import distinct_pairs
+from ..mesh.labels import FaceGraph
 
 
 def boundaries(

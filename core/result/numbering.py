@@ -16,9 +16,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..surface.arrays import place_among, stable_order, sums_by
-from ..surface.pairs import both_ways, distinct_pairs
-from ..surface.ties import TIE, first_largest, ranks
+from ..arrays.indexing import place_among, stable_order, sums_by
+from ..arrays.pairs import both_ways, distinct_pairs
+from ..arrays.ties import TIE, first_largest, ranks
 from .decomposition import Decomposition, Parts, default_name
 from .levels import detail_between, strong_levels
 from .splits import Splits

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..arrays.components import components
+from ..arrays.indexing import renumbered
+from ..arrays.pairs import both_ways, distinct_pairs
+from ..arrays.ties import TIE
 from ..cuts.face_candidates import FaceCandidates
-from ..surface.arrays import renumbered
-from ..surface.components import components
-from ..surface.labels import label_boundaries
-from ..surface.pairs import both_ways, distinct_pairs
-from ..surface.ties import TIE
+from ..mesh.labels import label_boundaries
 
 # A connected region of a part of detail 0.5 is a sliver if it is smaller than TINY, a share of the area of its piece
 # (such parts were found 15 times on 150 benchmark meshes, where no person has made one), or smaller than SHARD times

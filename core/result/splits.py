@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.indexing import renumbered
 from ..cuts.hierarchy import Dendrogram
-from ..surface.arrays import renumbered
 from .decomposition import Decomposition
 
 

@@ -16,11 +16,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..arrays.components import components
 from ..errors import ParameterError, ReebError
 from ..graph.reeb import ReebGraph
 from ..parameters import SEPARATE, Parameters, present_names
 from ..sentence import Sentence
-from ..surface.components import components
 from ..version import VERSION
 
 # Items that any other array has at most, per face and vertex, and on any mesh.

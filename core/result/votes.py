@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.indexing import run_starts, sums_by
+from ..arrays.pairs import distinct_pairs
 from ..cuts.hierarchy import Hierarchy
-from ..surface.arrays import run_starts, sums_by
-from ..surface.pairs import distinct_pairs
 
 # A refined face leaves the part that has most of it only if this shortens the boundary by more than the area lost,
 # divided by this width, in units of the square root of the area of the component.

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..arrays.indexing import sums_by
+from ..arrays.pairs import distinct_pairs
 from ..cuts.hierarchy import Hierarchy
-from ..surface.arrays import sums_by
-from ..surface.corners import CornerTable
-from ..surface.halves import completed_table
-from ..surface.mirror_plane import MirrorPlane
-from ..surface.pairs import distinct_pairs
+from ..mesh.corners import CornerTable
+from ..symmetry.halves import completed_table
+from ..symmetry.plane import MirrorPlane
 from .decomposition import Decomposition, Parts
 
 # A part reaches over the plane if it meets its image along so much, in square roots of its area: half of a ball has

@@ -15,12 +15,12 @@ import numpy as np
 from ..cuts.face_candidates import FaceCandidates
 from ..cuts.hierarchy import Hierarchy
 from ..cuts.settling import settle
-from ..cuts.symmetric_regions import symmetric_on_regions
-from ..surface.labels import FaceGraph, connect
-from ..surface.mesh import LEAST_WEIGHT, TriMesh
-from ..surface.mirror_images import Images
+from ..cuts.symmetric.regions import symmetric_on_regions
+from ..mesh.labels import FaceGraph, connect
+from ..mesh.triangles import LEAST_WEIGHT, TriMesh
+from ..symmetry.images import Images
+from ..symmetry.mirrors import Mirror
 from .component_results import ComponentResult, FoundCandidates, firsts, merged_at_last
-from .mirrors import Mirror
 
 
 def symmetric_within_faces(results: list[ComponentResult], mirrors: list[Mirror]) -> FoundCandidates:

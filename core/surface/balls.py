@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .nearest import nearest
-from .vectors import lengths, row_products
+from ..arrays.nearest import nearest
+from ..arrays.vectors import lengths, row_products
 
 STEPS = 12  # upper bound of the number of times that a ball shrinks
 # Cosine of the smallest angle between the two points that a ball touches, seen from its center. A ball stops shrinking

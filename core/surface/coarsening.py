@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import GOLDEN, first_of_rows, inverse, place_among, run_starts, stable_order, sums_by, taken
-from .mesh import TriMesh
+from ..arrays.indexing import GOLDEN, first_of_rows, inverse, place_among, run_starts, stable_order, sums_by, taken
+from ..arrays.pairs import both_ways
+from ..arrays.ties import TIE
+from ..arrays.vectors import lengths, row_products
+from ..mesh.triangles import TriMesh
 from .ordering import rank_by_place
-from .pairs import both_ways
-from .ties import TIE
-from .vectors import lengths, row_products
 
 SLIM = 3.0  # ratio of two lengths of links from which on cells grow along the shorter ones only
 MOST_RISE = 4.0  # upper bound of what a value rises within a cell, in units of its largest rise to a neighbor

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arrays import is_last_of_each, last_of_each
-from .components import components
-from .mesh import TriMesh
-from .pairs import distinct_pairs
-from .ties import first_least
-from .vectors import weighted_sum
+from ..arrays.components import components
+from ..arrays.indexing import is_last_of_each, last_of_each
+from ..arrays.pairs import distinct_pairs
+from ..arrays.ties import first_least
+from ..arrays.vectors import weighted_sum
+from ..mesh.triangles import TriMesh
 
 # In units of the diameter of a surface: how near two pieces must come to touch, how near to belong to one body, and
 # how much farther from each other than the nearest two points of two pieces other points may be to be linked.

@@ -6,10 +6,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
-from .arrays import sums_by, taken
-from .mesh import TriMesh
-from .pairs import symmetric_matrix
-from .vectors import second_moments_of_each
+from ..arrays.indexing import sums_by, taken
+from ..arrays.pairs import symmetric_matrix
+from ..arrays.vectors import second_moments_of_each
+from ..mesh.triangles import TriMesh
 
 SCALES = (0.01, 0.02, 0.04)  # widths over which normals are smoothed, in units of sqrt(area)
 MAX_CURVATURE = 60.0  # bound of ``curvature_across``, in units of 1 / sqrt(area)

@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from .arrays import sums_by, taken
-from .mesh import TriMesh
-from .pairs import symmetric_matrix
-from .vectors import row_products, unit
+from ..arrays.indexing import sums_by, taken
+from ..arrays.pairs import symmetric_matrix
+from ..arrays.vectors import row_products, unit
+from ..mesh.triangles import TriMesh
 
 # Correlation of neighbors, see ``roughness``, from which on a surface has no noise, and at and below which all that
 # varies from vertex to vertex is taken for noise. Independent noise of every vertex of a grid of triangles has -5/21.

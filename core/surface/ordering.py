@@ -14,12 +14,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .arrays import frozen, hashed_rows, inverse, renumbered, stable_order, sums_by, taken
-from .components import components
-from .mesh import TriMesh
-from .polygons import PolygonMesh
-from .ties import DENSE, TIE, ranks
-from .vectors import inner_products, second_moments, weighted_sum
+from ..arrays.components import components
+from ..arrays.indexing import frozen, hashed_rows, inverse, renumbered, stable_order, sums_by, taken
+from ..arrays.ties import DENSE, TIE, ranks
+from ..arrays.vectors import inner_products, second_moments, weighted_sum
+from ..mesh.polygons import PolygonMesh
+from ..mesh.triangles import TriMesh
 
 # The largest coordinate is so many cells, and the middle, where symmetric shapes have vertices, so far within its cell:
 # rounding is not to decide in which cell a point lies. Points of one cell are compared one by one. Of a dense mesh, on

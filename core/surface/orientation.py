@@ -11,12 +11,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.components import components
+from ..arrays.indexing import even_steps, sums_by
+from ..arrays.vectors import row_products
+from ..mesh.corners import CornerTable
+from ..mesh.triangles import TriMesh
 from ..sentence import Sentence
-from .arrays import even_steps, sums_by
-from .components import components
-from .corners import CornerTable
-from .mesh import TriMesh
-from .vectors import row_products
 from .winding import MOST_OF_SHEETS, winding_numbers
 
 N_PROBES, N_SURFACE = 40, 400  # upper bounds of the numbers of faces at which, and of which, windings are measured

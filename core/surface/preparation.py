@@ -12,18 +12,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.components import components
+from ..arrays.indexing import frozen, inverse, place_among, renumbered, stable_order, taken
+from ..arrays.pairs import distinct_pairs
+from ..arrays.ties import TIE
+from ..arrays.vectors import lengths
+from ..mesh.borders import joined_borders
+from ..mesh.polygons import MIN_FACES, PolygonMesh
+from ..mesh.triangles import TriMesh, next_side
 from ..sentence import Sentence
-from .arrays import frozen, inverse, place_among, renumbered, stable_order, taken
-from .borders import joined_borders
-from .components import components
 from .contact import Bridges, bridges
-from .mesh import TriMesh, next_side
 from .ordering import Ordering
 from .orientation import turn_outwards
-from .pairs import distinct_pairs
-from .polygons import MIN_FACES, PolygonMesh
-from .ties import TIE
-from .vectors import lengths
 
 # Longest edge of the copy, in units of the square root of the component's area: half the radius of the disc that a base
 # vertex stands for, so that the field can vary within every disc.

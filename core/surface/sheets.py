@@ -15,12 +15,12 @@ import numpy as np
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import splu, spsolve
 
-from .arrays import spread_evenly, sums_by
+from ..arrays.indexing import spread_evenly, sums_by
+from ..arrays.nearest import nearest, search_tree
+from ..arrays.pairs import symmetric_matrix
+from ..mesh.labels import majority
+from ..mesh.triangles import TriMesh
 from .balls import ball_radius
-from .labels import majority
-from .mesh import TriMesh
-from .nearest import nearest, search_tree
-from .pairs import symmetric_matrix
 from .preparation import split_edges
 from .winding import MOST_OF_SHEETS, winding_numbers
 

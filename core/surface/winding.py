@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .mesh import TriMesh
-from .vectors import inner_products
+from ..arrays.vectors import inner_products
+from ..mesh.triangles import TriMesh
 
 # How far the mean winding number at the faces of a sheet may be from a whole number: half a tube has 0.20, a hemisphere
 # 0.32, and a closed surface 0.5.

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays.indexing import frozen
 from ..result.numbering import NumberedParts, NumberGraph
-from ..surface.arrays import frozen
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

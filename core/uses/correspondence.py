@@ -17,17 +17,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..arrays.indexing import inverse, underflow_is_zero
 from ..errors import ParameterError
 from ..field.agd import spread_base_vertices
 from ..field.geodesic import GeodesicSolver
+from ..mesh.arguments import whole_numbers
+from ..mesh.copies import find_copies
+from ..mesh.labels import majority
+from ..mesh.polygons import PolygonMesh
 from ..sentence import Sentence
-from ..surface.arguments import whole_numbers
-from ..surface.arrays import inverse, underflow_is_zero
 from ..surface.coarsening import Pyramid
-from ..surface.copies import find_copies
-from ..surface.labels import majority
 from ..surface.ordering import sorted_by_place
-from ..surface.polygons import PolygonMesh
 from ..surface.preparation import Component, repair
 
 if TYPE_CHECKING:

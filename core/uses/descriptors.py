@@ -15,15 +15,15 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
+from ..arrays.indexing import sums_by, underflow_is_zero
 from ..errors import MeshError
 from ..graph.critical import MAXIMUM
+from ..mesh.copies import find_copies
+from ..mesh.polygons import PolygonMesh
+from ..mesh.triangles import TriMesh
 from ..result.decomposition import Parts
 from ..sentence import Sentence
-from ..surface.arrays import sums_by, underflow_is_zero
-from ..surface.copies import find_copies
-from ..surface.mesh import TriMesh
 from ..surface.ordering import sorted_by_place
-from ..surface.polygons import PolygonMesh
 from ..surface.preparation import repair
 
 if TYPE_CHECKING:

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.indexing import expanded
 from ..graph.reeb import ReebGraph
-from ..surface.arrays import expanded
-from ..surface.mesh import TriMesh
+from ..mesh.triangles import TriMesh
 
 CHUNK = 2_000_000  # pixels, of the picture, of faces or of discs, that are looked at together
 LIGHT = np.array([-0.4, 0.5, 0.76])  # direction to the light, in the picture's axes: right, up, to the viewer

@@ -13,10 +13,10 @@ import scipy
 
 from ..errors import ParameterError
 from ..graph.critical import KINDS
+from ..mesh.arguments import numbers as as_numbers
+from ..mesh.arguments import whole_numbers
 from ..result.decomposition import Decomposition, Parts
 from ..sentence import Sentence
-from ..surface.arguments import numbers as as_numbers
-from ..surface.arguments import whole_numbers
 from ..version import VERSION
 from .colors import part_colors
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..surface.components import components
-from ..surface.mesh import EdgeTable
-from ..surface.pairs import are_among, distinct_pairs
-from ..surface.vectors import cross_in_plane
+from ..arrays.components import components
+from ..arrays.pairs import are_among, distinct_pairs
+from ..arrays.vectors import cross_in_plane
+from ..mesh.triangles import EdgeTable
 
 # A piece is a little smaller than the box.
 _ROOM = 1 - 1e-4

@@ -15,8 +15,8 @@ from pyarrow import ArrowException
 
 from ..core.errors import ReebError
 from ..core.file_names import kind_of, spelled
+from ..core.mesh.triangles import TriMesh
 from ..core.sentence import Sentence
-from ..core.surface.mesh import TriMesh
 from ..core.uses.descriptors import NAMES, distances
 from ..core.uses.pictures import picture, png
 from ..model_files import read_model

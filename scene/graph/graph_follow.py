@@ -11,8 +11,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core.surface.arrays import sums_by
-from ...core.uses.motion import rigid_motions
+from ...core.arrays.indexing import sums_by
+from ...core.uses.moving.motion import rigid_motions
 from .. import bridge, mesh_arrays, redraw, store
 from ..errors import SceneError
 from ..seen_points import seen_corners

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Joints between pieces: pegs and what they go into, dowels and holes for magnets, by Blender's own booleans.
 
-``cuts`` finds what pieces share, ``piece_surfaces`` how much room there is, ``planning`` asks core.uses.joint_places
+``cuts`` finds what pieces share, ``piece_surfaces`` how much room there is, ``planning`` asks core.uses.joints.places
 where joints go and how large they are, ``solids`` makes pegs and holes, ``fitting`` puts them in and checks every
 result: a cut whose joint would leave a piece open, crossing itself or pierced stays without one. ``method`` has the
 whole.

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ...core.surface.components import components
-from ...core.surface.mesh import EdgeTable
-from ...core.surface.pairs import distinct_pairs
+from ...core.arrays.components import components
+from ...core.arrays.pairs import distinct_pairs
+from ...core.mesh.triangles import EdgeTable
 from .. import mesh_arrays
 from ..pieces import caps
 
 if TYPE_CHECKING:
-    from ...core.uses.joint_places import Cap
+    from ...core.uses.joints.places import Cap
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ class Cut:
 
 def shared_cuts(meshes: dict[int, bpy.types.Mesh], stretch: np.ndarray) -> list[Cut]:
     """What the pieces have in common: connected faces of caps with the same corners in two of them."""
-    from ...core.uses.joint_places import Cap
+    from ...core.uses.joints.places import Cap
 
     keys = sorted(meshes)
     found = [_cap_faces(meshes[key]) for key in keys]

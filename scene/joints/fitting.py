@@ -17,7 +17,7 @@ from .planning import Plan
 from .solids import solid_of, with_solids
 
 if TYPE_CHECKING:
-    from ...core.uses.joint_places import Joint, Wanted
+    from ...core.uses.joints.places import Joint, Wanted
 
 # A joint that the solver fails at is tried again, so much smaller, and so often.
 _AGAIN, _TRIES = 0.93, 2
@@ -117,7 +117,7 @@ def _is_fine(work: Work, key: int, made: bpy.types.Mesh, least: float, most: flo
 
 def _beyond(joint: Joint, wanted: Wanted, receives: bool) -> tuple[float, float]:
     """What of a joint lies on the other side of the cap, or on this one of a hole: at the least and at the most."""
-    from ...core.uses.joint_shapes import volume_from
+    from ...core.uses.joints.shapes import volume_from
 
     clearance = wanted.clearance if receives or wanted.kind.both_sides else 0.0
     starts, end = (joint.high, joint.low), joint.high + joint.depth
@@ -129,7 +129,7 @@ def _beyond(joint: Joint, wanted: Wanted, receives: bool) -> tuple[float, float]
 
 def _topology(mesh: bpy.types.Mesh) -> tuple[int, int]:
     """How many bodies the faces of a mesh make, and its Euler characteristic."""
-    from ...core.surface.components import components
+    from ...core.arrays.components import components
 
     ends = mesh_arrays.edge_ends(mesh)
     count, _ = components(len(mesh.vertices), *ends.T)

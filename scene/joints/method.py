@@ -23,7 +23,7 @@ from .solids import dowel
 
 if TYPE_CHECKING:
     from ...core.graph.reeb import ReebGraph
-    from ...core.uses.joint_places import Wanted
+    from ...core.uses.joints.places import Wanted
     from ..settings import SeparateProperties
 
 # Joints are at least so wide, in millimeters: what is smaller breaks off.
@@ -83,8 +83,8 @@ class JointedPieces:
 
 def wanted_joints(style: SeparateProperties) -> Wanted:
     """What settings.SeparateProperties ask for, in units of the world."""
-    from ...core.uses.joint_places import Wanted
-    from ...core.uses.joint_shapes import Kind
+    from ...core.uses.joints.places import Wanted
+    from ...core.uses.joints.shapes import Kind
 
     unit = millimeters()
     return Wanted(Kind(style.joints), style.joint_count, *(value / unit for value in (
@@ -128,7 +128,7 @@ def joining(context: bpy.types.Context, meshes: dict[int, bpy.types.Mesh], stret
 
 def _dowels(planned: list[Plan], stretch: np.ndarray) -> list[Dowel]:
     """The loose dowels of all cuts that have some."""
-    from ...core.uses.joint_shapes import Kind
+    from ...core.uses.joints.shapes import Kind
 
     return [Dowel(dowel(joint, plan.wanted, bridge.unstretch(stretch)), plan.cut.keys) for plan in planned
             if not plan.why and plan.places and plan.wanted and plan.wanted.kind is Kind.DOWEL

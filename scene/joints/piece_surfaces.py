@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pieces as core.uses.joint_places sees them: how far their surface is, and what is inside."""
+"""Pieces as core.uses.joints.places sees them: how far their surface is, and what is inside."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .. import mesh_arrays
 from ..pieces import caps
 
 if TYPE_CHECKING:
-    from ...core.uses.joint_shapes import Solid
+    from ...core.uses.joints.shapes import Solid
     from .cuts import Cut
 
 

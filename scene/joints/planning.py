@@ -14,7 +14,7 @@ from .solids import solid_of
 
 if TYPE_CHECKING:
     from ...core.graph.reeb import ReebGraph
-    from ...core.uses.joint_places import Places, Wanted
+    from ...core.uses.joints.places import Places, Wanted
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +66,7 @@ def planning(cuts: list[Cut], room: JointRoom, wanted: Wanted, kind_of: Callable
 
 def _wanted_at(cut: Cut, wanted: Wanted, kind_of: Callable[[int, int], str]) -> Wanted | None:
     """What one cut is to have; None for no joints."""
-    from ...core.uses.joint_shapes import Kind
+    from ...core.uses.joints.shapes import Kind
 
     kind = kind_of(*cut.keys) or wanted.kind.name
     return replace(wanted, kind=Kind(kind)) if kind != "NONE" else None
@@ -74,7 +74,7 @@ def _wanted_at(cut: Cut, wanted: Wanted, kind_of: Callable[[int, int], str]) -> 
 
 def _places(cut: Cut, wanted: Wanted, room: JointRoom) -> Places:
     """Where the joints of a cut have room."""
-    from ...core.uses.joint_places import arc_direction, joint_places
+    from ...core.uses.joints.places import arc_direction, joint_places
 
     # The smaller piece has the peg, the larger one has room for it.
     first = int(room.volumes[cut.keys[0]] < room.volumes[cut.keys[1]])

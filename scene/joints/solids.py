@@ -15,13 +15,13 @@ from ..pieces import caps
 from ..temporary import removed
 
 if TYPE_CHECKING:
-    from ...core.uses.joint_places import Joint, Wanted
-    from ...core.uses.joint_shapes import Solid
+    from ...core.uses.joints.places import Joint, Wanted
+    from ...core.uses.joints.shapes import Solid
 
 
 def solid_of(joint: Joint, wanted: Wanted, hole: bool) -> Solid:
     """A peg, or what it goes into, in its place."""
-    from ...core.uses.joint_shapes import solid
+    from ...core.uses.joints.shapes import solid
 
     hole = hole or wanted.kind.both_sides
     made = solid(wanted.kind, joint.radius, joint.low - joint.foot, joint.high + joint.depth,

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from ...core.arrays.indexing import run_starts
 from ...core.result.numbering import NumberedParts
-from ...core.surface.arrays import run_starts
 from .. import made_objects, mesh_arrays, part_names, targets, transaction
 
 

@@ -291,7 +291,7 @@ def _half(mesh: bpy.types.Mesh, bm: BMesh, kept: np.ndarray, cap: np.ndarray, la
 
 def _bodies(mesh: bpy.types.Mesh) -> list[bpy.types.Mesh]:
     """A mesh for each body of a mesh, which is removed; all in one if some of them are hollows in others."""
-    from ...core.surface.components import components
+    from ...core.arrays.components import components
 
     table = mesh_arrays.corner_table(mesh)
     pairs, _ = table.face_pairs()

@@ -6,9 +6,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core.surface.arrays import run_starts
-from ...core.surface.corners import next_of_owner
-from ...core.uses.cap_maps import cap_map
+from ...core.arrays.indexing import run_starts
+from ...core.mesh.corners import next_of_owner
+from ...core.uses.caps.maps import cap_map
 from .. import mesh_arrays
 from . import caps
 

@@ -13,7 +13,7 @@ from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
 from mathutils import Vector
 from mathutils.geometry import tessellate_polygon
 
-from ...core.uses.cap_surfaces import common_order
+from ...core.uses.caps.surfaces import common_order
 from .. import mesh_arrays, mesh_groups
 from ..matrix_layers import as_bmesh
 

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ...core.surface.corners import edge_labels
-from ...core.uses.cap_surfaces import common_order
-from ...core.uses.rims import nested_rims
+from ...core.mesh.corners import edge_labels
+from ...core.uses.caps.rims import nested_rims
+from ...core.uses.caps.surfaces import common_order
 from .. import element_layers, mesh_arrays
 from ..elements import Elements, Selection
 from ..temporary import removed
@@ -115,8 +115,8 @@ def _around_holes(piece: Elements, opened: np.ndarray) -> np.ndarray:
 
     A hole goes round borders that there were before, too, if the cut ends there.
     """
-    from ...core.surface.arrays import renumbered
-    from ...core.surface.components import components
+    from ...core.arrays.components import components
+    from ...core.arrays.indexing import renumbered
 
     border = np.bincount(piece.corner_edge, minlength=len(piece.ends)) == 1
     on = np.zeros(len(piece.points), bool)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...core.uses.cap_surfaces import spread
+from ...core.uses.caps.surfaces import spread
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -25,7 +25,7 @@ class Disc:
     places : (m, 3) float64
         Of the points inside.
     weights : csr_array, (k + m, k + m)
-        What each point adds to a point inside that lies between them, see core.uses.cap_surfaces.
+        What each point adds to a point inside that lies between them, see core.uses.caps.surfaces.
     following : (k,) int64
         The point after each on its curve.
     """

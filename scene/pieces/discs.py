@@ -11,13 +11,13 @@ import numpy as np
 from mathutils.geometry import delaunay_2d_cdt
 from scipy.sparse import coo_array
 
-from ...core.surface.arrays import ranges
-from ...core.surface.components import components
-from ...core.surface.mesh import EdgeTable
-from ...core.surface.vectors import cross, cross_in_plane
-from ...core.uses.cap_surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
-from ...core.uses.rims import is_inside
-from ...core.uses.sleeves import Sleeve, sleeve
+from ...core.arrays.components import components
+from ...core.arrays.indexing import ranges
+from ...core.arrays.vectors import cross, cross_in_plane
+from ...core.mesh.triangles import EdgeTable
+from ...core.uses.caps.rims import is_inside
+from ...core.uses.caps.sleeves import Sleeve, sleeve
+from ...core.uses.caps.surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
 from .. import mesh_arrays
 from .body_surface import BodySurface
 from .disc import Disc

@@ -14,11 +14,11 @@ from functools import partial
 import bpy
 import numpy as np
 
+from ...core.arrays.indexing import stable_order
+from ...core.arrays.pairs import are_among, distinct_pairs
+from ...core.mesh.corners import CornerTable, edge_labels
 from ...core.steps import Steps, finished, stretched
-from ...core.surface.arrays import stable_order
-from ...core.surface.corners import CornerTable, edge_labels
 from ...core.surface.orientation import against_neighbors
-from ...core.surface.pairs import are_among, distinct_pairs
 from .. import element_layers, hidden, mesh_arrays, mesh_groups, outputs, property_updates, targets
 from ..elements import CORNER, Elements
 from ..outputs import kept_aside, materials

@@ -11,9 +11,9 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ...core.surface.arrays import renumbered, stable_order
+from ...core.arrays.indexing import renumbered, stable_order
+from ...core.arrays.vectors import cross
 from ...core.surface.reach import within_reach
-from ...core.surface.vectors import cross
 from .. import mesh_arrays, transaction
 from . import caps
 from .body_surface import crossing, search_tree

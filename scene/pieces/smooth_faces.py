@@ -16,8 +16,8 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh, BMFace, BMVert
 
+from ...core.arrays.indexing import run_starts
 from ...core.steps import Steps, stretched
-from ...core.surface.arrays import run_starts
 from .. import element_layers, mesh_groups
 from ..elements import FACE, Elements, Layer, Selection
 from ..matrix_layers import as_bmesh

@@ -11,10 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...core.surface.arrays import inverse
-from ...core.surface.borders import GAP
-from ...core.surface.corners import next_of_owner
-from ...core.surface.pairs import distinct_pairs
+from ...core.arrays.indexing import inverse
+from ...core.arrays.pairs import distinct_pairs
+from ...core.mesh.borders import GAP
+from ...core.mesh.corners import next_of_owner
 from .. import element_layers
 from ..elements import EDGE, FACE, POINT, Elements, Layer, Ragged, Values, take
 

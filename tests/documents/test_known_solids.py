@@ -12,7 +12,7 @@ sys.path.append(str(Path(__file__).resolve().parents[2] / "benchmarks"))
 import known_solids
 from known_solids import Part, certainty, cuboid, labels_of, largest_piece, meshed, rod, united
 
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 @pytest.fixture(autouse=True)

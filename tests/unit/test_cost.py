@@ -11,11 +11,11 @@ import shapes
 
 from core.field.agd import spread_base_vertices
 from core.field.geodesic import GeodesicSolver
+from core.mesh.polygons import PolygonMesh
+from core.mesh.triangles import TriMesh
 from core.parameters import Parameters
 from core.pipeline import decompose
 from core.result.numbering import Numbering
-from core.surface.mesh import TriMesh
-from core.surface.polygons import PolygonMesh
 from core.surface.preparation import MAX_EDGE, MIN_BUDGET, bodies, repair, split_long_edges
 from core.surface.sheets import inflated
 

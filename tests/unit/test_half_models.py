@@ -8,9 +8,9 @@ from results import same_partition
 
 from core import Decomposition, MeshError, decompose
 from core.graph.critical import SADDLE
-from core.surface.halves import completed, is_one_side, plane_of
-from core.surface.mesh import TriMesh
-from core.surface.polygons import PolygonMesh
+from core.mesh.polygons import PolygonMesh
+from core.mesh.triangles import TriMesh
+from core.symmetry.halves import completed, is_one_side, plane_of
 
 X = np.array([1.0, 0, 0, 0])
 

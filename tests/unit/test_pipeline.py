@@ -10,8 +10,8 @@ import pytest
 import shapes
 
 from core import PRESETS, Cancelled, EmptyMeshError, MeshError, Parameters, TriMesh, decompose
-from core.surface.components import components
-from core.surface.labels import disagreement
+from core.arrays.components import components
+from core.mesh.labels import disagreement
 from core.uses.colors import part_colors
 from core.uses.descriptors import part_descriptors
 

@@ -9,9 +9,9 @@ import shapes
 from scipy.spatial import cKDTree
 
 from core import Parameters, decompose
+from core.mesh.triangles import TriMesh
 from core.metrics import rand_index_error
 from core.surface.coarsening import coarsen
-from core.surface.mesh import TriMesh
 
 SPOT = Path(__file__).parents[2] / "models" / "spot.obj"
 

@@ -50,7 +50,7 @@ def test_an_error_reaches_the_caller():
 
 
 def test_the_same_parts_where_no_thread_is_to_be_had(monkeypatch):
-    monkeypatch.setattr("core.surface.nearest.n_processors", lambda: 2)
+    monkeypatch.setattr("core.arrays.nearest.n_processors", lambda: 2)
     shape = shapes.mirrored_figure()
     found = decompose(*shape)
 

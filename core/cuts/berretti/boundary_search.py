@@ -10,10 +10,10 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import depth_first_order
 
+from ...arrays.components import components
+from ...arrays.indexing import renumbered
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
-from ...surface.arrays import renumbered
-from ...surface.components import components
 
 SAMPLES = 128  # number of points along a contour at which k_min is sampled
 # With r the radius of a circle as long as the contour, E_concave = max(CREASE_WORTH * r * k_min, -MAX_WORTH), in units

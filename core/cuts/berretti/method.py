@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...arrays.pairs import both_ways
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
+from ...mesh.labels import majority, spread
 from ...parameters import Parameters
 from ...surface.curvature import SCALES, curvature_across, k_min
-from ...surface.labels import majority, spread
-from ...surface.pairs import both_ways
 from ..hierarchy import Candidates
 from ..minimum_cut import MovableCuts, move_cuts
 from .boundary_search import search_boundaries

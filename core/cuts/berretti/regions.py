@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...arrays.components import components
+from ...arrays.indexing import renumbered
+from ...arrays.pairs import distinct_pairs
 from ...graph.level_sets import LevelSets
 from ...graph.reeb import ReebTopology
-from ...surface.arrays import renumbered
-from ...surface.components import components
-from ...surface.pairs import distinct_pairs
 from ..hierarchy import Hierarchy
 from .fusion import fuse_small, fuse_weakest
 

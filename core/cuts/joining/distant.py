@@ -15,8 +15,8 @@ from scipy.cluster.hierarchy import DisjointSet
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra, minimum_spanning_tree
 
-from ...surface.pairs import pair_keys
-from ...surface.ties import on_grid, rounded
+from ...arrays.pairs import pair_keys
+from ...arrays.ties import on_grid, rounded
 from .pairs import PartPairs, Salience, cut_between, unlikeness
 
 MOST_COMPARED = 80  # parts that are compared with all others; pairs grow as the square of it

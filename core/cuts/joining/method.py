@@ -15,11 +15,11 @@ from importlib.resources import files
 
 import numpy as np
 
-from ...surface.arrays import renumbered
+from ...arrays.indexing import renumbered
+from ...arrays.pairs import pair_keys
+from ...arrays.ties import in_steps, on_grid
+from ...mesh.triangles import TriMesh
 from ...surface.contact import TOUCH
-from ...surface.mesh import TriMesh
-from ...surface.pairs import pair_keys
-from ...surface.ties import in_steps, on_grid
 from ..boosted_trees import BoostedTrees
 from ..hierarchy import LAST, Hierarchy
 from .distant import FEATURES as DISTANT_FEATURES

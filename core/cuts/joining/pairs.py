@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import last_of_each, run_starts, sums_by
+from ...arrays.indexing import last_of_each, run_starts, sums_by
+from ...arrays.pairs import distinct_pairs
+from ...arrays.ties import rounded, square_roots
+from ...arrays.vectors import second_moments_of_each
+from ...mesh.triangles import TriMesh
 from ...surface.contact import NEAR, SurfacePoints, diameter, near_pairs
-from ...surface.mesh import TriMesh
 from ...surface.ordering import EQUAL
-from ...surface.pairs import distinct_pairs
-from ...surface.ties import rounded, square_roots
-from ...surface.vectors import second_moments_of_each
 
 RADII = (0.004, 0.012, NEAR)  # within which surfaces are counted as touching, in units of the diameter
 # Pairs of parts are looked at if either is among the MOST_NEAR that come nearest to the other, or as near. Where that

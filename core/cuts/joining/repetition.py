@@ -14,11 +14,11 @@ import numpy as np
 from scipy.cluster.hierarchy import DisjointSet
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import sums_by
-from ...surface.components import components
-from ...surface.mesh import TriMesh
-from ...surface.ties import on_grid, rounded
-from ...surface.vectors import second_moments_of_each
+from ...arrays.components import components
+from ...arrays.indexing import sums_by
+from ...arrays.ties import on_grid, rounded
+from ...arrays.vectors import second_moments_of_each
+from ...mesh.triangles import TriMesh
 from .linkage import JudgedPairs, Linkage
 
 #: Pieces repeat each other if the logarithms of their size and extents are in the same cells of this width, or in cells

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...surface.arrays import renumbered, sums_by
-from ...surface.pairs import distinct_pairs
-from ...surface.ties import first_least, rounded
-from ...surface.vectors import weighted_sum
+from ...arrays.indexing import renumbered, sums_by
+from ...arrays.pairs import distinct_pairs
+from ...arrays.ties import first_least, rounded
+from ...arrays.vectors import weighted_sum
 
 MOST_CLUSTERS = 12  # upper bound of the number of clusters that is chosen from the data
 EXPLAINED = 0.9  # share of the variance that enough clusters explain

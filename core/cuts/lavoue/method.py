@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...mesh.triangles import TriMesh
 from ...surface.curvature import principal_curvatures
-from ...surface.mesh import TriMesh
 from ..hierarchy import Hierarchy
 from ..patches import absorb_small
 from .clusters import cluster

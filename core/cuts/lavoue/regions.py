@@ -7,13 +7,13 @@ import heapq
 
 import numpy as np
 
-from ...surface.arrays import sums_by
-from ...surface.components import components
-from ...surface.labels import label_boundaries
-from ...surface.mesh import TriMesh
-from ...surface.nearest_seeds import nearest_seeds
-from ...surface.pairs import pair_keys, symmetric_matrix
-from ...surface.ties import rounded, whole_steps
+from ...arrays.components import components
+from ...arrays.indexing import sums_by
+from ...arrays.nearest_seeds import nearest_seeds
+from ...arrays.pairs import pair_keys, symmetric_matrix
+from ...arrays.ties import rounded, whole_steps
+from ...mesh.labels import label_boundaries
+from ...mesh.triangles import TriMesh
 
 # Share of the area below which a region is a sliver; what parts it from its neighbors counts by the weight only.
 SLIVER_AREA, SLIVER_WEIGHT = 0.02, 0.1

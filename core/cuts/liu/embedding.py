@@ -7,7 +7,7 @@ import numpy as np
 from scipy.linalg import eigh
 from scipy.sparse import diags_array
 
-from ...surface.pairs import symmetric_matrix
+from ...arrays.pairs import symmetric_matrix
 from .patch_graph import PatchGraph
 
 # A border counts exp(-crease / SHARP) in the geometric operator, where creases are in units of 1 / square root of the

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.mesh import TriMesh
+from ...mesh.triangles import TriMesh
 from ..hierarchy import Hierarchy
 from .embedding import geometric, structural
 from .outline import Outline

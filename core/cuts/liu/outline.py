@@ -10,8 +10,8 @@ from scipy.ndimage import binary_dilation, binary_fill_holes
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import ConvexHull, QhullError
 
-from ...surface.pairs import symmetric_matrix
-from ...surface.ties import first_largest
+from ...arrays.pairs import symmetric_matrix
+from ...arrays.ties import first_largest
 
 LANDMARKS = 10  # number of patches from which inner distances run; more than the tips that a shape has
 PIXELS = 48  # number of pixels along the longer side of the outline

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import place_among, renumbered, sums_by
-from ...surface.components import components
+from ...arrays.components import components
+from ...arrays.indexing import place_among, renumbered, sums_by
+from ...mesh.labels import label_boundaries
+from ...mesh.triangles import TriMesh
 from ...surface.curvature import curvature_across
-from ...surface.labels import label_boundaries
-from ...surface.mesh import TriMesh
 from ..patches import concave_patches
 
 N_PATCHES = 600  # upper bound of the number of patches

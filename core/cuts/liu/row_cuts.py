@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
-from ...surface.pairs import symmetric_matrix
+from ...arrays.pairs import symmetric_matrix
 from .patch_graph import PatchGraph
 
 CREASE_WAY = 0.02  # what a crease of curvature 1 adds to the way across it

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.ties import rounded, square_roots
-from ...surface.vectors import lengths, row_products
+from ...arrays.ties import rounded, square_roots
+from ...arrays.vectors import lengths, row_products
 from .measures import BORDER, REGION, matrices, products
 
 #: Features of one region. perimeter_ratio and extent_1 are in units of the square root of the region's area, extent_2

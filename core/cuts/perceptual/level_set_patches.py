@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...graph.level_sets import LevelSets, cut_at_levels, uniform_levels
-from ...surface.labels import majority
+from ...mesh.labels import majority
 from ..patches import SMALLEST, absorb_small, connected_cells
 
 SLABS = 24  # number of slabs whose pieces are the patches of ``level_set_patches``

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...arrays.vectors import row_products, weighted_sum
 from ...field.agd import ScalarField, equalize
 from ...graph.level_sets import LevelSets
 from ...surface.curvature import angle_defect, curvature_across
-from ...surface.vectors import row_products, weighted_sum
 from .thickness import LARGEST_BALL, thickness
 
 THICKNESS_BINS = 8  # number of bins of the histogram of the logarithm of the thickness

@@ -7,9 +7,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...surface.arrays import sums_by
-from ...surface.mesh import TriMesh
-from ...surface.pairs import distinct_pairs
+from ...arrays.indexing import sums_by
+from ...arrays.pairs import distinct_pairs
+from ...mesh.triangles import TriMesh
 from .features import RegionMeasures, cut_features_, region_shape
 from .measures import BORDER, REGION, SurfaceMeasures
 

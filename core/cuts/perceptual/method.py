@@ -11,16 +11,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...arrays.ties import in_steps
 from ...field.agd import ScalarField
 from ...graph.level_sets import LevelSets, cut_at_levels
+from ...mesh.labels import FaceGraph, connect, fill_unlabeled, majority
+from ...mesh.triangles import TriMesh
 from ...parameters import Parameters
 from ...surface.coarsening import Coarsening, Pyramid, coarsen
 from ...surface.curvature import MAX_CURVATURE
 from ...surface.denoising import denoised
-from ...surface.labels import FaceGraph, connect, fill_unlabeled, majority
-from ...surface.mesh import TriMesh
 from ...surface.sheets import Inflated, inflated, sheet_faces
-from ...surface.ties import in_steps
 from ..boosted_trees import BoostedTrees
 from ..hierarchy import Candidates, Hierarchy
 from ..minimum_cut import MovableCuts, move_cuts

@@ -9,11 +9,11 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...surface.arrays import spread_evenly
+from ...arrays.indexing import spread_evenly
+from ...arrays.nearest import nearest, search_tree
+from ...arrays.ties import TIE
+from ...mesh.triangles import TriMesh
 from ...surface.balls import ball_radius
-from ...surface.mesh import TriMesh
-from ...surface.nearest import nearest, search_tree
-from ...surface.ties import TIE
 
 LARGEST_BALL = 0.2  # radius at which balls begin to shrink, in units of the square root of the area
 N_SURFACE = 12_000  # upper bound of the number of points that represent the surface

@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ...surface.arrays import ranges, renumbered
-from ...surface.corners import CornerTable
-from ...surface.vectors import cross
+from ...arrays.indexing import ranges, renumbered
+from ...arrays.vectors import cross
+from ...mesh.corners import CornerTable
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +82,7 @@ class Band:
 
 def _around(table: CornerTable, vertices: np.ndarray, rings: int) -> np.ndarray:
     """The faces less than so many faces away from some vertices, (p,) bool."""
-    from scipy.sparse import csr_array  # imported here for the reason that surface.components gives
+    from scipy.sparse import csr_array  # imported here for the reason that arrays.components gives
 
     n_corners = len(table.corner_vertex)
     count = np.bincount(table.corner_face, minlength=table.n_faces)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import renumbered, stable_order
-from ...surface.corners import CornerTable
+from ...arrays.indexing import renumbered, stable_order
+from ...mesh.corners import CornerTable
 from .method import CleanCuts
 
 

@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ...surface.arrays import inverse, stable_order
-from ...surface.corners import next_of_owner
-from ...surface.labels import majority
+from ...arrays.indexing import inverse, stable_order
+from ...mesh.corners import next_of_owner
+from ...mesh.labels import majority
 from .band import Band
 from .sides import Sides
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...surface.arrays import last_of_each, renumbered, sums_by
-from ...surface.components import components
-from ...surface.corners import next_of_owner
+from ...arrays.components import components
+from ...arrays.indexing import last_of_each, renumbered, sums_by
+from ...mesh.corners import next_of_owner
 from .band import Band
 from .division import Division
 from .sides import Sides

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...arrays.components import components
+from ...arrays.indexing import renumbered, stable_order
+from ...mesh.corners import CornerTable
 from ...steps import Steps, finished, stretched
-from ...surface.arrays import renumbered, stable_order
-from ...surface.components import components
-from ...surface.corners import CornerTable
 from .band import Band
 from .division import Division, divide
 from .judging import judged

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...surface.arrays import place_among
-from ...surface.vectors import unit
+from ...arrays.indexing import place_among
+from ...arrays.vectors import unit
 from .band import Band
 from .turning import turning
 

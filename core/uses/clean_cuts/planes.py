@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...surface.arrays import place_among, sums_by
-from ...surface.components import components
+from ...arrays.components import components
+from ...arrays.indexing import place_among, sums_by
 from .band import Band
 
 # A plane fits if no point of a curve is farther from it than so many edges and such a share of the curve's radius; if

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, eye_array
 
+from ...arrays.indexing import last_of_each, sums_by
+from ...arrays.pairs import distinct_pairs
+from ...arrays.vectors import cross, lengths
 from ...steps import Steps
-from ...surface.arrays import last_of_each, sums_by
-from ...surface.pairs import distinct_pairs
-from ...surface.vectors import cross, lengths
 from .band import Band
 from .pins import Pins
 

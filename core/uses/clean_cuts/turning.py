@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...surface.arrays import stable_order
+from ...arrays.indexing import stable_order
 
 
 def turning(points: np.ndarray, segments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -14,15 +14,16 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from core import Parameters, ReebError, decompose
+from core.arrays.components import components
 from core.cuts.perceptual import method as perceptual
 from core.field import agd
+from core.mesh.borders import GAP
+from core.mesh.polygons import PolygonMesh
 from core.result.decomposition import Decomposition
 from core.result.numbering import Numbering
-from core.surface import mirror_images, small_faces
-from core.surface.borders import GAP
-from core.surface.components import components
-from core.surface.polygons import PolygonMesh
 from core.surface.preparation import bodies, repair
+from core.symmetry import images as mirror_images
+from core.symmetry import small_faces
 from core.uses.report import document, report
 
 damages = st.tuples(st.sampled_from(sorted(DAMAGES)), st.floats(0, 1, width=16), st.integers(0, 99)).map(list)

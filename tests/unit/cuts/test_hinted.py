@@ -11,8 +11,8 @@ from core.cuts import hinted
 from core.cuts.face_candidates import FaceCandidates
 from core.cuts.hierarchy import LAST, Hierarchy
 from core.cuts.hinted import hinted_candidates
+from core.mesh.labels import FaceGraph
 from core.parameters import METHODS
-from core.surface.labels import FaceGraph
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,9 @@ from core.field.agd import protrusion_field
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_topology
 from core.graph.simplify import without_ripples
+from core.mesh.triangles import TriMesh
 from core.parameters import METHODS, Parameters
 from core.surface.coarsening import Pyramid
-from core.surface.mesh import TriMesh
 
 
 @pytest.fixture(scope="module")

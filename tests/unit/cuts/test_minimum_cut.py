@@ -9,7 +9,7 @@ import shapes
 
 from core.cuts.hierarchy import Hierarchy
 from core.cuts.minimum_cut import MovableCuts, _cuts_by_length, _minimum_cut, minimum_cuts, move_cuts
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def border_length(mesh, part):

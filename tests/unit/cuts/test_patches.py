@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.cuts.patches import N_PATCHES, absorb_small, concave_patches
 from core.cuts.perceptual.level_set_patches import SLABS, level_set_patches
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.surface.components import components
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def mesh_of(shape) -> TriMesh:

@@ -17,8 +17,8 @@ from core.field.agd import (
     spread_base_vertices,
 )
 from core.field.geodesic import GeodesicSolver
+from core.mesh.triangles import TriMesh
 from core.surface.coarsening import Pyramid
-from core.surface.mesh import TriMesh
 
 
 def base_of(mesh, spacing=0.005, progress=None):

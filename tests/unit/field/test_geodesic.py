@@ -7,7 +7,7 @@ import shapes
 
 from core.errors import DisconnectedMeshError
 from core.field.geodesic import GeodesicSolver, _shortest_of
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 SURFACES = {"tree": shapes.tube_tree, "genus 2": lambda: shapes.surface_of_genus(2),
             "torus": shapes.torus, "border": lambda: shapes.flat_grid(15, 10),

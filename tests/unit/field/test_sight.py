@@ -8,10 +8,10 @@ import shapes
 from core.field.agd import protrusion_field
 from core.field.geodesic import GeodesicSolver
 from core.field.sight import lines_in_sight
+from core.mesh.polygons import PolygonMesh
+from core.mesh.triangles import TriMesh
 from core.surface.coarsening import Pyramid
-from core.surface.mesh import TriMesh
 from core.surface.ordering import sorted_by_place
-from core.surface.polygons import PolygonMesh
 from core.surface.preparation import bodies, repair
 
 WORST = 1 / np.cos(np.deg2rad(37.5))  # directions of paths are 75 degrees apart at most

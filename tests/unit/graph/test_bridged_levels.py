@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.graph import bridged_levels
 from core.graph.bridged_levels import joined_runs
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.surface.components import components
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 # Two chains of five pieces, 0..4 and 5..9, one piece in every slab; contour i lies between pieces i and i + 1.
 CHAINS = np.array([(0, 1), (1, 2), (2, 3), (3, 4), (5, 6), (6, 7), (7, 8), (8, 9)])

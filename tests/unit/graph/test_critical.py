@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core.graph.critical import KINDS, MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 CLOSED = {
     "tetrahedron": shapes.tetrahedron, "octahedron": shapes.octahedron, "box": shapes.box,

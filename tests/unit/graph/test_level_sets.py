@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.graph.level_sets import cut_at_levels, uniform_levels
-from core.surface.components import components
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 SURFACES = {
     **{f"genus {g}": (lambda g=g: shapes.surface_of_genus(g, 0.2)) for g in range(4)},

@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.graph.critical import MAXIMUM, MINIMUM, SADDLE, critical_points, total_order
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import ReebGraph, _node_means, _saddle_values, reeb_graph, reeb_topology
+from core.mesh.triangles import TriMesh
 from core.parameters import Parameters
 from core.pipeline import decompose
-from core.surface.components import components
-from core.surface.mesh import TriMesh
 
 UNIT = 1e-9
 

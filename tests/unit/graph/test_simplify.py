@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.field.agd import ScalarField
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_graph, reeb_topology
 from core.graph.simplify import _WorkGraph, level_height, simplify
-from core.surface.components import components
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def noisy(genus, seed, noise=0.3):

@@ -12,11 +12,11 @@ import shapes
 from core.cuts.hierarchy import Hierarchy
 from core.errors import ParameterError, ReebError
 from core.graph.reeb import ReebGraph
+from core.mesh.labels import FaceGraph
+from core.mesh.triangles import TriMesh
 from core.parameters import Parameters
 from core.pipeline import decompose
 from core.result.decomposition import Decomposition
-from core.surface.labels import FaceGraph
-from core.surface.mesh import TriMesh
 
 
 def row():

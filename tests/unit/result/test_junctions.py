@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 import shapes
 
+from core.mesh.corners import CornerTable
+from core.mesh.labels import FaceGraph
 from core.parameters import PRESETS, Parameters
 from core.pipeline import decompose
 from core.result.decomposition import Decomposition
-from core.result.editing import split_candidates
+from core.result.editing.changes import split_candidates
 from core.result.junctions import boundaries, counted_again, junctions
-from core.surface.corners import CornerTable
-from core.surface.labels import FaceGraph
 
 
 def book(n_pages, n=8):

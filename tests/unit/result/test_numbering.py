@@ -6,12 +6,12 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
+from core.arrays.components import components
 from core.cuts.hierarchy import Hierarchy
 from core.graph.reeb import ReebGraph
+from core.mesh.labels import majority
 from core.result.decomposition import Decomposition
 from core.result.numbering import Numbering, follow, inherited
-from core.surface.components import components
-from core.surface.labels import majority
 from core.uses.colors import number_colors, number_places
 
 ROUNDING = pytest.mark.parametrize("rounding", [-1e-15, 0.0, 1e-15])  # of one of two areas

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from core.cuts.hierarchy import Hierarchy
+from core.mesh.labels import majority
 from core.result.votes import FaceVotes
-from core.surface.labels import majority
 
 
 def random_votes(seed, n_faces=40, count=12, each=5):

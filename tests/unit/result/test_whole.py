@@ -6,11 +6,11 @@ import shapes
 from results import same_partition
 
 from core import decompose
+from core.mesh.corners import CornerTable
+from core.mesh.polygons import PolygonMesh
 from core.result.whole import whole_of
-from core.surface.corners import CornerTable
-from core.surface.halves import completed, completed_table
-from core.surface.mirror_plane import MirrorPlane
-from core.surface.polygons import PolygonMesh
+from core.symmetry.halves import completed, completed_table
+from core.symmetry.plane import MirrorPlane
 
 X = np.array([1.0, 0, 0, 0])
 

@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.field.geodesic import GeodesicSolver
+from core.mesh.triangles import TriMesh
 from core.surface.coarsening import SLIM, coarsen, prolong
-from core.surface.components import components
-from core.surface.mesh import TriMesh
 
 SURFACES = {"sphere": lambda: shapes.icosphere(3), "genus 2": lambda: shapes.surface_of_genus(2),
             "tree": shapes.tube_tree, "border": lambda: shapes.flat_grid(20, 15),

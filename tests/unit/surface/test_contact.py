@@ -6,8 +6,8 @@ import pytest
 import shapes
 
 from core import TriMesh
+from core.arrays.components import components
 from core.surface import contact
-from core.surface.components import components
 from core.surface.contact import FEW_LABELS, MAX_POINTS, SurfacePoints, bridges, diameter, near_pairs
 
 

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import shapes
 
+from core.mesh.triangles import TriMesh
 from core.surface.curvature import curvature_across, k_min
-from core.surface.mesh import TriMesh
 
 
 @pytest.mark.parametrize("radius", [1e-6, 0.5, 3.0, 1e6])

@@ -6,9 +6,9 @@ import pytest
 import shapes
 
 from core import decompose
+from core.mesh.triangles import TriMesh
 from core.metrics import rand_index_error
 from core.surface.denoising import denoised, roughness
-from core.surface.mesh import TriMesh
 
 
 def shaken(shape, share, seed=0):

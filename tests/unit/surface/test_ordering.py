@@ -7,8 +7,8 @@ import pytest
 import shapes
 from shapes import Shape, bent
 
+from core.mesh.polygons import PolygonMesh
 from core.surface.ordering import principal_axes, sorted_by_place
-from core.surface.polygons import PolygonMesh
 from core.surface.preparation import repair
 
 LOPSIDED = {"sphere": bent(shapes.icosphere(3)), "torus": bent(shapes.torus(24, 9)), "tree": bent(shapes.tube_tree()),

@@ -8,8 +8,8 @@ import pytest
 import shapes
 from open_bodies import OPEN, opened
 
-from core.surface.corners import CornerTable
-from core.surface.mesh import TriMesh
+from core.mesh.corners import CornerTable
+from core.mesh.triangles import TriMesh
 from core.surface.orientation import against_neighbors, looks_inwards, of_solids, turn_outwards
 
 

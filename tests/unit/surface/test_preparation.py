@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.mesh import TriMesh
-from core.surface.polygons import PolygonMesh
+from core.mesh.polygons import PolygonMesh
+from core.mesh.triangles import TriMesh
 from core.surface.preparation import _separate_fans, repair, split_long_edges, worth_cutting
 
 

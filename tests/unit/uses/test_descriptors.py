@@ -8,7 +8,7 @@ import pytest
 import shapes
 
 from core import Hierarchy, MeshError, Parameters, decompose
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 from core.uses.descriptors import NAMES, SCALE, _Surface, distances, part_descriptors
 
 

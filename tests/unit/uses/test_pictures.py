@@ -10,7 +10,7 @@ import pytest
 import shapes
 
 from core import decompose
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 from core.uses import pictures
 from core.uses.pictures import picture, png
 

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.cuts.berretti.boundary_search import concavity, contour_curve, search_boundaries
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_topology
-from core.surface.components import components
+from core.mesh.triangles import TriMesh
 from core.surface.curvature import k_min
-from core.surface.mesh import TriMesh
 
 
 def upright(shape, n_slabs=60):

@@ -6,15 +6,15 @@ import pytest
 import shapes
 from heights import HEIGHTS
 
+from core.arrays.components import components
 from core.cuts.berretti.fusion import FusionGraph, fuse_small, fuse_weakest
 from core.cuts.berretti.regions import fuse_equal_adjacency, regions_between_events
 from core.graph.level_sets import cut_at_levels
 from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
+from core.mesh.triangles import TriMesh
 from core.parameters import Parameters
 from core.pipeline import decompose
-from core.surface.components import components
-from core.surface.mesh import TriMesh
 
 LEAST = 1e-9  # a threshold at which no region is small
 

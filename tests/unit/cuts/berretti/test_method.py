@@ -5,16 +5,16 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.cuts.berretti.boundary_search import concavity
 from core.cuts.berretti.method import berretti_candidates
 from core.cuts.berretti.regions import berretti_regions, with_finer
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
+from core.mesh.triangles import TriMesh
 from core.parameters import Parameters
-from core.surface.components import components
 from core.surface.curvature import k_min
-from core.surface.mesh import TriMesh
 
 PAPER = Parameters.preset("Berretti 2009")
 

@@ -6,13 +6,13 @@ import pytest
 import shapes
 from heights import HEIGHTS, along
 
+from core.arrays.components import components
 from core.cuts.berretti.fusion import fuse_small
 from core.cuts.berretti.regions import berretti_regions, fuse_equal_adjacency, regions_between_events
 from core.graph.level_sets import cut_at_levels
 from core.graph.reeb import reeb_topology
 from core.graph.simplify import simplify
-from core.surface.components import components
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def y_shape():

@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 
+from core.arrays.components import components
 from core.cuts.joining.linkage import JudgedPairs, average_linkage
-from core.surface.components import components
 
 
 def judged(pairs, score, weight=None, near=None):

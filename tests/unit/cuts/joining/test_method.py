@@ -6,8 +6,8 @@ import pytest
 import shapes
 
 from core import Parameters, TriMesh, decompose
+from core.arrays.components import components
 from core.metrics import rand_index_error
-from core.surface.components import components
 
 
 def shells(shape, label):

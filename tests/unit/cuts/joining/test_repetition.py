@@ -9,7 +9,7 @@ import shapes
 
 from core.cuts.joining.linkage import JudgedPairs, average_linkage
 from core.cuts.joining.repetition import evenly_linked, piece_kinds
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def together(pieces):

@@ -6,10 +6,10 @@ import pytest
 import shapes
 
 from core import Parameters, decompose
+from core.arrays.components import components
 from core.cuts.lavoue.method import curvature_features, lavoue_candidates
 from core.cuts.lavoue.regions import SLIVER_AREA, SLIVER_WEIGHT, CurvatureGraph, grow_regions, merge_regions
-from core.surface.components import components
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def connected(mesh, region):

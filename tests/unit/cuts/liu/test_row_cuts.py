@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.cuts.liu.embedding import SHARP, geometric, structural
 from core.cuts.liu.method import COST_AT_HALF, DEAREST, LEAST_AREA, bisect, liu_candidates
 from core.cuts.liu.patch_graph import PatchGraph
 from core.cuts.liu.row_cuts import CHEAPEST, SOFT, best_cut, distances, rows
-from core.surface.components import components
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def chain(n, crease=()):

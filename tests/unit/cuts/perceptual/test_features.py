@@ -11,7 +11,7 @@ from core.cuts.perceptual.features import CUT, FEATURES, SHAPE, RegionMeasures, 
 from core.cuts.perceptual.measures import BORDER, REGION, THICKNESS_BINS, products, surface_measures
 from core.field.agd import ScalarField
 from core.graph.level_sets import cut_at_levels
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def row(columns, **values):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapes
 
+from core.arrays.components import components
 from core.cuts.patches import absorb_small, concave_patches
 from core.cuts.perceptual.features import FEATURES
 from core.cuts.perceptual.measures import BORDER, REGION, surface_measures
@@ -19,9 +20,8 @@ from core.cuts.perceptual.merging import (
 )
 from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
+from core.mesh.triangles import TriMesh
 from core.surface.coarsening import Pyramid
-from core.surface.components import components
-from core.surface.mesh import TriMesh
 
 
 def measured(mesh):

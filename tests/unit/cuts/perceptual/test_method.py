@@ -6,6 +6,7 @@ import pytest
 import shapes
 
 from core import Parameters, TriMesh, decompose
+from core.arrays.components import components
 from core.cuts.minimum_cut import WIDEST
 from core.cuts.patches import concave_patches
 from core.cuts.perceptual.method import MAX_FACES, SHARE_AT_HALF, perceptual_candidates, salience_of
@@ -13,7 +14,6 @@ from core.field.agd import agd_field, coarse_agd
 from core.graph.level_sets import cut_at_levels, uniform_levels
 from core.metrics import rand_index_error
 from core.surface.coarsening import Pyramid
-from core.surface.components import components
 
 
 def halves(shape, labels):

@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from core.cuts.perceptual.thickness import LARGEST_BALL, thickness
-from core.surface.mesh import TriMesh
+from core.mesh.triangles import TriMesh
 
 
 def measured(shape, order=None):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.corners import CornerTable
+from core.mesh.corners import CornerTable
 from core.uses.clean_cuts.curves import curves_of
 from core.uses.clean_cuts.method import CleanCuts, clean_cuts
 

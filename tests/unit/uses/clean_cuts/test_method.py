@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 
-from core.surface.corners import CornerTable
+from core.mesh.corners import CornerTable
 from core.uses.clean_cuts.method import clean_cuts
 from core.uses.clean_cuts.turning import turning
 

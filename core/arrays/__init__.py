@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What every stage does with whole arrays, and which knows of no mesh.
+
+- ``indexing``: orders, sums by group, ranges, numbering
+- ``ties``: numbers that are equal but for rounding
+- ``components``: what hangs together
+- ``vectors``: products and lengths of many vectors
+- ``pairs``: pairs of whole numbers
+- ``nearest``: the search of many points for their nearest
+- ``nearest_seeds``: the nearest of several seeds along the ways of a graph
+"""

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The caller's mesh, from arrays to triangles and polygons whose tables are at hand, and labels on its faces.
+
+Where data enters:
+
+- ``arguments``: what a caller gives as arrays, taken or refused
+- ``triangles``: the triangle mesh that every stage works on, and its checks
+- ``polygons``: the caller's mesh with its polygons cut into triangles
+- ``ears``: how polygons are cut into triangles
+- ``copies``: faces that lie on others with the same corners
+- ``borders``: border vertices that are one, apart at seams only
+
+How polygons hang together:
+
+- ``corners``: the caller's polygons, corner by corner
+- ``cut_edges``: the edges between parts, looked at again and again
+- ``half_edges``: the sides of polygons, and which lies across which edge
+
+What lies on them:
+
+- ``labels``: labels on faces: votes, boundaries, connected labels
+"""

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Border vertices that are one: files keep them apart where textures or normals have seams."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays.components import components
+from ..arrays.indexing import first_at_place
+
+GAP = 5e-5  # share of the diagonal within which border vertices are one: seams that were moved, and rounded, apart
+NEAREST = 8  # of the border vertices around each, itself included, so many are looked at
+
+
+def joined_borders(
+    vertices: np.ndarray, border: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarray
+) -> np.ndarray:
+    """Find the vertex that each vertex is joined to.
+
+    A border vertex is joined to the first border vertex at its place, or within GAP of it, any other vertex to itself:
+    two closed surfaces that touch stay apart.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    border : (k,) int64
+        Vertices of edges of one face, rising.
+    corner_vertex, corner_face : (c,) int64
+        Vertex and face of each corner of all faces, the corners of a face in a row.
+
+    Returns
+    -------
+    joined : (n,) int64
+    """
+    joined = first_at_place(vertices, border)
+    return _joined_nearby(vertices, joined, border[joined[border] == border], corner_vertex, corner_face)
+
+
+def _joined_nearby(
+    vertices: np.ndarray, joined: np.ndarray, place: np.ndarray, corner_vertex: np.ndarray, corner_face: np.ndarray
+) -> np.ndarray:
+    """As ``joined``, (n,) int64, but border vertices within GAP of each other are joined, too.
+
+    Not where a face would have a corner twice: what is as small as that stays as it is. place : (k,), a border vertex
+    at each place.
+    """
+    from scipy.spatial import cKDTree  # here, since Blender's panels come up without SciPy
+
+    if len(place) < 2:
+        return joined
+    used = np.zeros(len(vertices), bool)
+    used[corner_vertex] = True
+    gap = GAP * np.linalg.norm(np.ptp(vertices[used], axis=0))
+    distance, near = cKDTree(vertices[place]).query(
+        vertices[place], k=range(2, min(NEAREST, len(place)) + 1), distance_upper_bound=gap)
+    row, column = np.nonzero(np.isfinite(distance))
+    if not len(row):
+        return joined
+    count, group = components(len(place), row, near[row, column])
+    of_vertex = np.full(len(vertices), -1)
+    of_vertex[place] = group
+    corner = of_vertex[joined[corner_vertex]]
+    here = corner >= 0  # all others are no matter of this
+    key = np.sort(corner_face[here].astype(np.int64) * count + corner[here])
+    kept = np.ones(count, bool)
+    kept[key[1:][key[1:] == key[:-1]] % count] = False
+    first = np.full(count, len(vertices))
+    np.minimum.at(first, group, place)
+    goal = np.arange(len(vertices))
+    goal[place] = np.where(kept[group], first[group], place)
+    return goal[joined]

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces that lie on others with the same corners: some models have every face twice, once for each side.
+
+At the edges of such faces three and more meet, as if the surface branched there, and what is said of the bend, the
+borders and the inside of a surface holds no more. So a copy is left out before anything is measured, and has the part
+of the face on which it lies.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..arrays.components import components
+from ..arrays.indexing import GOLDEN, begins_run, frozen, hashed_rows, inverse, place_among, stable_order
+from .polygons import MIN_FACES, PolygonMesh
+from .triangles import TriMesh
+
+# Share of the area of a piece above which what is copied of it is its other side. Of less these are walls that touching
+# solids, such as the boards of a cupboard, have in common: without its wall a solid would be open.
+MOST = 0.9
+
+
+@dataclass(frozen=True, eq=False)
+class Copies:
+    """Which of p polygons are copies of others, and which of n vertices belong to copies alone.
+
+    Attributes
+    ----------
+    polygon : (k,) int64
+        The polygons that are no copies, rising: the first at each place.
+    original : (p,) int64
+        For each polygon, the place in ``polygon`` of the one of which it is a copy; of the others their own.
+    vertex : (m,) int64
+        The vertices that belong to other polygons than copies, or to none, rising.
+    home : (n,) int64
+        For each vertex, the place in ``vertex`` of one where it is; of most their own.
+    """
+
+    polygon: np.ndarray
+    original: np.ndarray
+    vertex: np.ndarray
+    home: np.ndarray
+
+    @property
+    def n_copies(self) -> int:
+        """Number of polygons that are copies."""
+        return len(self.original) - len(self.polygon)
+
+    def without(self, given: PolygonMesh) -> PolygonMesh:
+        """The mesh in which they were found, without copies: k polygons and m vertices."""
+        number = place_among(self.polygon, given.n_polygons)
+        kept = number[given.polygon] >= 0
+        triangles = TriMesh(given.triangles.vertices[self.vertex], self.home[given.triangles.faces[kept]])
+        return replace(given, triangles=triangles, polygon=frozen(number[given.polygon[kept]], np.int64),
+                       n_polygons=len(self.polygon))
+
+    def images(self, twin: np.ndarray) -> np.ndarray:
+        """Mirror images of all polygons, from those of the ones that are no copies.
+
+        twin : (k,) int64, place in ``polygon`` of the image of each; -1 for none. Returns (p,) int64: the image of a
+        copy is a copy of the image, if there is one.
+        """
+        order = stable_order(self.original)
+        count = np.bincount(self.original)
+        first = np.cumsum(count) - count
+        rank = inverse(order) - first[self.original]
+        image = twin[self.original]
+        return np.where(image >= 0, order[first[image] + np.minimum(rank, count[image] - 1)], -1)
+
+
+def find_copies(given: PolygonMesh) -> Copies | None:
+    """Find polygons with the same corners as others, in the same order or the opposite one.
+
+    Only in pieces that are copied nearly whole. Corners are the same where their coordinates are, whether they are one
+    vertex or several.
+
+    Parameters
+    ----------
+    given : PolygonMesh
+
+    Returns
+    -------
+    copies : Copies or None
+        None if there are none, or if too few polygons would be left.
+    """
+    mesh = given.triangles
+    place = hashed_rows(mesh.vertices)
+    number = _outlines(given, place)
+    in_order = np.sort(number[number > 0])
+    if not (in_order[1:] == in_order[:-1]).any():
+        return None
+    _, first, group, count = np.unique(number, return_index=True, return_inverse=True, return_counts=True)
+    is_copied = (number > 0) & (count[group.reshape(-1)] > 1)
+    is_copied &= _mostly_copied(given, place, is_copied)
+    original = np.where(is_copied, first[group.reshape(-1)], np.arange(len(number)))
+    is_kept = original == np.arange(len(number))
+    if is_kept.all() or is_kept.sum() < MIN_FACES:
+        return None
+    kept = np.zeros(mesh.n_vertices, bool)
+    kept[mesh.faces[is_kept[given.polygon]]] = True
+    home = _first_kept(place, kept)
+    # A polygon that is folded onto itself somewhere may have the outline of one that does not come there.
+    elsewhere = np.unique(given.polygon[~kept[home][mesh.faces].all(axis=1)])
+    is_kept[elsewhere], original[elsewhere] = True, elsewhere
+    if is_kept.all():
+        return None
+    kept[mesh.faces[is_kept[given.polygon]]] = True
+    vertex = np.flatnonzero(kept | ~mesh.used)
+    home[vertex] = vertex
+    return Copies(np.flatnonzero(is_kept), (np.cumsum(is_kept) - 1)[original], vertex, np.searchsorted(vertex, home))
+
+
+def _first_kept(place: np.ndarray, kept: np.ndarray) -> np.ndarray:
+    """The first vertex at the place of each, (n,) int64, those that are kept before others; place, kept : (n,)."""
+    order = np.lexsort((~kept, place))
+    new = begins_run(place[order])
+    first = np.empty(len(place), np.int64)
+    first[order] = order[new][np.cumsum(new) - 1]
+    return first
+
+
+def _mostly_copied(given: PolygonMesh, place: np.ndarray, is_copied: np.ndarray) -> np.ndarray:
+    """Whether each polygon, (p,) bool, is of a piece that is copied for more than MOST of its area.
+
+    is_copied : (p,) bool, whether there are two and more of a polygon. place : (n,) uint64, where each vertex is.
+    """
+    mesh = given.triangles
+    _, vertex = np.unique(place, return_inverse=True)
+    a, b, c = vertex.reshape(-1)[mesh.faces].T
+    count, piece = components(int(vertex.max()) + 1, np.concatenate([a, b]), np.concatenate([b, c]))
+    of_triangle = piece[a]
+    copied = np.bincount(of_triangle, mesh.face_area * is_copied[given.polygon], count)
+    mostly = copied > MOST * np.bincount(of_triangle, mesh.face_area, count)
+    of_polygon = np.zeros(given.n_polygons, bool)
+    of_polygon[given.polygon] = mostly[of_triangle]
+    return of_polygon
+
+
+def _outlines(given: PolygonMesh, place: np.ndarray) -> np.ndarray:
+    """A number for the outline of each polygon, (p,) uint64, that is equal for equal ones; 0 for some without area.
+
+    place : (n,) uint64, a number for where each vertex is. Each side of a triangle counts with a sign for its
+    direction, so that sides within a polygon cancel out, however it is cut into triangles.
+    """
+    other = (place ^ place >> np.uint64(32)) * GOLDEN
+    corners = given.triangles.faces.T
+    total = np.zeros(given.triangles.n_faces, np.uint64)
+    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        total += place[a] * other[b] - place[b] * other[a]
+    if given.n_polygons < given.triangles.n_faces:
+        of_triangle, total = total, np.zeros(given.n_polygons, np.uint64)
+        np.add.at(total, given.polygon, of_triangle)
+    return np.minimum(total, np.uint64(0) - total)

@@ -1,0 +1,355 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Labels on faces: votes for labels, boundaries between labels, connected labels, straight boundaries."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..arrays.components import components
+from ..arrays.indexing import begins_run, inverse, last_of_each, place_among, sums_by
+from ..arrays.pairs import both_ways, distinct_pairs
+from .triangles import LEAST_WEIGHT, TriMesh
+
+#: What it costs faces to change label: called with faces, their labels and the new labels.
+Loss = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+
+
+def vote_weights(area: np.ndarray) -> np.ndarray:
+    """Weights of votes by area, (n,) float64: what has none votes after all others. area : (n,) float64."""
+    return area + LEAST_WEIGHT * area.sum()
+
+
+def majority(owner: np.ndarray, label: np.ndarray, weight: np.ndarray, n_owners: int) -> np.ndarray:
+    """Let weighted votes decide which label each owner gets.
+
+    Parameters
+    ----------
+    owner : (r,) int64
+        Owner that each vote is for, 0..n_owners-1.
+    label : (r,) int64
+        Label that each vote names, 0 or more.
+    weight : (r,) float64
+        Weight of each vote.
+    n_owners : int
+
+    Returns
+    -------
+    winner : (n_owners,) int64
+        Label with the largest sum of weights, of equal ones the smallest label; -1 for an owner without a vote.
+    """
+    winner = np.full(n_owners, -1, np.int64)
+    winner[owner] = label
+    # Most owners' votes all name one label: only the others' are counted.
+    divided = np.zeros(n_owners, bool)
+    divided[owner[label != winner[owner]]] = True
+    counted = np.flatnonzero(divided[owner])
+    cells, cell = distinct_pairs(owner[counted], label[counted])
+    of, name = cells.T
+    last = last_of_each(of, sums_by(cell, weight[counted], len(cells)), -name, count=n_owners)
+    return np.where(divided, np.append(name, -1)[last], winner)
+
+
+def label_boundaries(
+    label: np.ndarray, pairs: np.ndarray, length: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Find which labels touch, and along what length.
+
+    Parameters
+    ----------
+    label : (n,) int64
+        Label of each face (or of anything else that has neighbors); -1 for none.
+    pairs : (e, 2) int64
+        Faces that touch.
+    length : (e,) float64
+        Length of the boundary between the two faces of each pair.
+
+    Returns
+    -------
+    touching : (c, 2) int64
+        Pairs of labels that touch, the smaller label first, in lexicographic order.
+    total : (c,) float64
+        Length of the boundary between the two labels, in the unit of ``length``.
+    """
+    first, second = label[pairs.T]
+    apart = np.flatnonzero((first != second) & (first >= 0) & (second >= 0))
+    first, second = first[apart], second[apart]
+    touching, boundary = distinct_pairs(np.minimum(first, second), np.maximum(first, second))
+    return touching, sums_by(boundary, length[apart], len(touching))
+
+
+def longest_neighbor(touching: np.ndarray, length: np.ndarray, count: int) -> np.ndarray:
+    """Find the neighbor that each label shares its longest boundary with.
+
+    Parameters
+    ----------
+    touching : (c, 2) int64
+        Labels that touch, each pair once.
+    length : (c,) float64
+        Length of the boundary between the two labels of each pair.
+    count : int
+        Number of labels.
+
+    Returns
+    -------
+    neighbor : (count,) int64
+        That neighbor, of equal ones the smallest label; -1 for a label that touches no other.
+    """
+    label, other = both_ways(touching).T
+    last = last_of_each(label, np.concatenate([length, length]), -other, count=count)
+    return np.where(last >= 0, np.append(other, -1)[last], -1)
+
+
+def spread(label: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Let labels spread in rounds from labeled faces outwards to unlabeled ones.
+
+    Parameters
+    ----------
+    label : (n,) int64
+        Label of each face (or of anything else that has neighbors); -1 for none.
+    a, b : (e,) int64
+        Face a[i] may take the label of face b[i].
+
+    Returns
+    -------
+    label : (n,) int64
+        -1 remains where no label arrives.
+    """
+    label = label.copy()
+    unlabeled = label[a] < 0  # labeled faces keep their labels
+    a, b = a[unlabeled], b[unlabeled]
+    while True:
+        reached = (label[a] < 0) & (label[b] >= 0)
+        if not reached.any():
+            return label
+        label[a[reached]] = label[b[reached]]
+
+
+def disagreement(first: np.ndarray, second: np.ndarray, weight: np.ndarray) -> float:
+    """Compute the share of pairs of points that one labeling joins and the other separates: 1 minus the Rand index.
+
+    Parameters
+    ----------
+    first, second : (n,) int64
+        Label of each face in the two labelings, 0 or more, and few: a table has all pairs of them.
+    weight : (n,) float64
+        How much of the points is on each face, such as its area.
+
+    Returns
+    -------
+    share : float
+        0..1.
+    """
+    width = int(second.max()) + 1
+    together = np.bincount(first * width + second, weight, (int(first.max()) + 1) * width).reshape(-1, width)
+    apart = sum((together.sum(axis=axis) ** 2).sum() for axis in (0, 1)) - 2 * (together**2).sum()
+    return float(apart / weight.sum() ** 2)
+
+
+@dataclass(frozen=True, eq=False)
+class FaceGraph:
+    """Which faces touch, along what length, and how large they are.
+
+    Attributes
+    ----------
+    n_faces : int
+    pairs : (e, 2) int64
+        Faces that share an edge.
+    length : (e,) float64
+        Length of the shared edge, in the unit of the vertices.
+    area : (n_faces,) float64
+        Area of each face, in squared units of the vertices.
+    """
+
+    n_faces: int
+    pairs: np.ndarray
+    length: np.ndarray
+    area: np.ndarray
+
+    @classmethod
+    def of(cls, mesh: TriMesh) -> FaceGraph:
+        """The faces of a mesh that share an edge."""
+        return cls(mesh.n_faces, mesh.edges.pairs, mesh.pair_length, mesh.face_area)
+
+    @cached_property
+    def weight(self) -> np.ndarray:
+        """(n_faces,) float64, weight of the vote of each face: its area; faces without one vote after all others."""
+        return vote_weights(self.area)
+
+    def regions(self, label: np.ndarray) -> tuple[int, np.ndarray]:
+        """How many connected regions of one label there are, and which each face is in, (n_faces,) int64."""
+        first, second = self.pairs.T
+        same = np.flatnonzero(label[first] == label[second])
+        return components(self.n_faces, first[same], second[same])
+
+    def with_contacts(self, contacts: np.ndarray) -> FaceGraph:
+        """The graph with pairs of faces that touch along no length, (k, 2) int64."""
+        length = np.concatenate([self.length, np.zeros(len(contacts))])
+        return FaceGraph(self.n_faces, np.concatenate([self.pairs, contacts]), length, self.area)
+
+    @cached_property
+    def pieces(self) -> tuple[int, np.ndarray]:
+        """Number of connected components of the faces, and that of each face, (n_faces,) int64, from 0."""
+        return components(self.n_faces, *self.pairs.T)
+
+    def boundaries(self, label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Find which labels touch, and along what length.
+
+        label : (n_faces,) int64, -1 for a face without a label. Returns what ``label_boundaries`` returns.
+        """
+        return label_boundaries(label, self.pairs, self.length)
+
+
+def fill_unlabeled(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
+    """Give faces without a label the label of a neighbor.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+    label : (n_faces,) int64
+        -1 for a face without a label.
+
+    Returns
+    -------
+    label : (n_faces,) int64
+        0 or more. A face that no label reaches gets the lowest there is.
+    """
+    if (label >= 0).all():
+        return label
+    label = spread(label, *both_ways(graph.pairs).T)
+    known = label[label >= 0]
+    return np.where(label >= 0, label, known.min() if len(known) else 0)
+
+
+def connect(graph: FaceGraph, label: np.ndarray) -> np.ndarray:
+    """Make every label one connected set of faces.
+
+    Where the faces of a label form several components, the component of most area keeps the label; every other
+    component takes the label of the neighbor with which it shares its longest boundary.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+    label : (n_faces,) int64
+        0 or more.
+
+    Returns
+    -------
+    label : (n_faces,) int64
+        A label stays in several components only where these touch no other label.
+    """
+    count, part = graph.regions(label)
+    name = np.empty(count, np.int64)
+    name[part] = label
+    area = np.bincount(part, graph.area, count)
+    touching, length = graph.boundaries(part)
+    # From here on components move as a whole, and there are few of them.
+    while True:
+        order = np.lexsort((-area, name))
+        largest = begins_run(name[order])
+        stray = np.ones(len(name), bool)
+        stray[order[largest]] = False
+        goal = _goal_of_strays(touching, length, area, stray)
+        if not (goal >= 0).any():
+            return name[part]
+        before = name[np.where(goal >= 0, goal, np.arange(len(name)))]
+        same = before[touching[:, 0]] == before[touching[:, 1]]
+        count, union = components(len(name), *touching[same].T)
+        name = np.empty(count, np.int64)
+        name[union] = before
+        part, area = union[part], np.bincount(union, area, count)
+        touching, length = label_boundaries(union, touching, length)
+
+
+def _goal_of_strays(touching: np.ndarray, length: np.ndarray, area: np.ndarray, stray: np.ndarray) -> np.ndarray:
+    """Component that each stray component joins, (k,) int64; -1 for a component that stays.
+
+    Where two stray components would join each other, only the smaller one moves. touching, length : what
+    ``label_boundaries`` returns of the components.
+    """
+    goal = np.where(stray, longest_neighbor(touching, length, len(area)), -1)
+    mover = np.flatnonzero(goal >= 0)
+    mutual = mover[goal[goal[mover]] == mover]
+    larger = mutual[(area[mutual] > area[goal[mutual]])
+                    | ((area[mutual] == area[goal[mutual]]) & (mutual < goal[mutual]))]
+    goal[larger] = -1
+    return goal
+
+
+def straighten(graph: FaceGraph, label: np.ndarray, rounds: int, loss: Loss | None = None) -> np.ndarray:
+    """Take saw teeth off boundaries: faces change to the label that shortens the boundaries most.
+
+    Two faces that touch never change in one round, so that every round shortens the boundaries.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+    label : (n_faces,) int64
+        0 or more.
+    rounds : int
+        Upper bound of the number of rounds; 0 changes nothing.
+    loss : callable, optional
+        Called with some faces, their labels and the labels that they would change to, (k,) int64 each; returns what
+        this costs, (k,) float64, in the unit of ``graph.length``. A face changes if the boundaries shorten by more.
+
+    Returns
+    -------
+    label : (n_faces,) int64
+        Labels may no longer be connected.
+    """
+    first, second = graph.pairs.T
+    zone = _around_boundaries(graph, label, rounds)
+    faces = np.flatnonzero(zone)
+    place = place_among(faces, graph.n_faces)
+    inside = np.flatnonzero(zone[first] & zone[second])
+    a, b = both_ways(place[graph.pairs[inside]]).T
+    length = np.tile(graph.length[inside], 2)
+    # A gain below 1e-9 of the longest edge is a rounding error.
+    least = 1e-9 * graph.length.max(initial=0.0)
+    whole, label = label.copy(), label[faces]
+    for _ in range(rounds):
+        gain, best = _gains(a, b, length, label)
+        if loss is not None:
+            willing = np.flatnonzero(gain > 0)
+            gain[willing] -= loss(faces[willing], label[willing], best[willing])
+        gain[gain <= least] = 0.0
+        # Of two neighbors that both gain, the one that gains more changes; of equal ones that of the higher index.
+        rank = inverse(np.argsort(gain, kind="stable"))
+        beaten = np.zeros(len(label), bool)
+        beaten[a[(gain[b] > 0) & (rank[b] > rank[a])]] = True
+        flip = (gain > 0) & ~beaten
+        if not flip.any():
+            break
+        label[flip] = best[flip]
+    whole[faces] = label
+    return whole
+
+
+def _around_boundaries(graph: FaceGraph, label: np.ndarray, rounds: int) -> np.ndarray:
+    """Faces, (n_faces,) bool, that so many rounds of changes at the boundaries can reach, and their neighbors."""
+    first, second = graph.pairs.T
+    zone = np.zeros(graph.n_faces, bool)
+    cut = np.flatnonzero(label[first] != label[second])
+    for _ in range(rounds + 1):
+        zone[first[cut]] = zone[second[cut]] = True
+        cut = np.flatnonzero(zone[first] != zone[second])
+    return zone
+
+
+def _gains(a: np.ndarray, b: np.ndarray, length: np.ndarray, label: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """By how much the boundaries become shorter if a face changes its label, (n,) float64, and to which, (n,) int64.
+
+    a, b, length : (e,), each pair of faces that touch, both ways. 0 and -1 for a face at no boundary.
+    """
+    edge = label[a] != label[b]
+    owner, other, weight = a[edge], label[b[edge]], length[edge]
+    inside = np.bincount(a[~edge], length[~edge], len(label))
+    best = majority(owner, other, weight, len(label))
+    toward = other == best[owner]
+    # NumPy counts in whole numbers where no face is at a boundary.
+    gain = np.bincount(owner[toward], weight[toward], len(label)).astype(float) - inside
+    gain[best < 0] = 0.0
+    return gain, best

@@ -1,0 +1,467 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Changes of parts by hand: where a part splits, which candidate it takes or gives, whether it is connected.
+
+All functions work on the c candidates of a decomposition; a mask is (c,) bool and says which of them belong to a part.
+Where the candidates are not fine enough for a change, ``split_around`` cuts some of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.sparse.csgraph import dijkstra
+
+from ...arrays.components import components
+from ...arrays.indexing import inverse, renumbered
+from ...arrays.pairs import both_ways, symmetric_matrix
+from ...cuts.hierarchy import Dendrogram, Hierarchy
+from ...graph.critical import SADDLE
+from ...mesh.corners import CornerTable
+from ...mesh.labels import FaceGraph, label_boundaries, majority, spread, vote_weights
+from ..decomposition import Decomposition
+from ..junctions import boundaries, junctions
+from .contour_cut import contours
+
+
+def components_of(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
+    """Find the connected components of some candidates.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+    mask : (c,) bool
+        Candidates that count.
+
+    Returns
+    -------
+    piece : (c,) int64
+        Component of each candidate: 0 for the component of most area, 1 for the next ...; -1 outside the mask.
+    """
+    _, label = components(decomposition.n_candidates, *_inside(decomposition, mask).T)
+    _, label = renumbered(label[mask])
+    area = np.bincount(label, decomposition.candidate_area[mask])
+    piece = np.full(len(mask), -1, np.int64)
+    piece[mask] = inverse(np.argsort(-area, kind="stable"))[label]
+    return piece
+
+
+def best_split(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray | None:
+    """Split a part along its best cut: that of the last merge when the part's candidates merge, weakest cut first.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+    mask : (c,) bool
+        Candidates of one connected part.
+
+    Returns
+    -------
+    side : (c,) bool or None
+        Candidates on the side of less area; None for a part of a single candidate.
+    """
+    if mask.sum() < 2:
+        return None
+    pairs, tree = _merging_inside(decomposition, mask)
+    side = _side_without(pairs, tree.rows[:-1], tree.order[tree.joins[-1, 0]], mask)
+    return smaller_side(side, mask, decomposition.candidate_area)
+
+
+def node_split(decomposition: Decomposition, mask: np.ndarray, node: int) -> np.ndarray | None:
+    """Split a part along the best cut between a node of the graph and what the arcs of this node reach.
+
+    When the part's candidates merge, weakest cut first, the candidate of the node is joined with the candidates that
+    the node's arcs reach inside the part, one after the other. The part is split at the last of these merges. If the
+    arcs reach no other candidate of the part, all of its candidates count as reached.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+    mask : (c,) bool
+        Candidates of one connected part, including that of the node.
+    node : int
+        Index of the node in ``decomposition.graph``.
+
+    Returns
+    -------
+    side : (c,) bool or None
+        Candidates on the side of the node; None for a part of a single candidate.
+    """
+    start = decomposition.node_candidate[node]
+    graph = decomposition.graph
+    ours = (graph.arcs == node).any(axis=1)
+    reached = np.zeros(len(mask), bool)
+    reached[decomposition.point_candidate[ours[graph.point_arc]]] = True
+    reached[decomposition.node_candidate[graph.arcs[ours].ravel()]] = True
+    rest = mask & (np.arange(len(mask)) != start)
+    return _strongest_cut(decomposition, mask, start, rest & reached if (rest & reached).any() else rest)
+
+
+def _strongest_cut(
+    decomposition: Decomposition, mask: np.ndarray, start: int, targets: np.ndarray
+) -> np.ndarray | None:
+    """Side of candidate ``start`` when a part is split at the last merge that joins this candidate with a target.
+
+    targets : (c,) bool, candidates of the part. Returns (c,) bool; None if no merge joins ``start`` with a target.
+    """
+    pairs, tree = _merging_inside(decomposition, mask)
+    targets = np.flatnonzero(targets)
+    rows = tree.row_of(np.full(len(targets), start), targets)
+    rows = rows[np.isin(rows, tree.rows)]
+    if not len(rows):
+        return None
+    return _side_without(pairs, tree.rows[tree.rows != rows.max()], start, mask)
+
+
+def _merging_inside(decomposition: Decomposition, mask: np.ndarray) -> tuple[np.ndarray, Dendrogram]:
+    """Pairs of candidates that touch inside a part, (k, 2), weakest cut first, and the dendrogram of these pairs."""
+    pairs = _inside(decomposition, mask)
+    pairs = pairs[np.argsort(decomposition.hierarchy.merge_of(*pairs.T), kind="stable")]
+    return pairs, Dendrogram.of(decomposition.n_candidates, pairs)
+
+
+def _side_without(pairs: np.ndarray, joins: np.ndarray, start: int, mask: np.ndarray) -> np.ndarray:
+    """Candidates that are connected with candidate ``start``, (c,) bool, when only some of the pairs are joined.
+
+    joins : rows of ``pairs`` that are joined.
+    """
+    label = components(len(mask), *pairs[joins].T)[1]
+    return label == label[start]
+
+
+def smaller_side(side: np.ndarray, inside: np.ndarray, area: np.ndarray) -> np.ndarray:
+    """Of a side of a part and the rest of the part, the one of less area, (k,) bool; of equals the side.
+
+    side, inside : (k,) bool, the side and the whole part. area : (k,) float64, of each face or candidate.
+    """
+    other = inside & ~side
+    return side if area[side].sum() <= area[other].sum() else other
+
+
+def growth(decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray) -> int | None:
+    """Find the candidate that a part takes next when it grows: the one beyond the weakest stretch of its boundary.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+    mask : (c,) bool
+        Candidates of the part.
+    allowed : (c,) bool
+        Candidates that the part may take.
+
+    Returns
+    -------
+    candidate : int or None
+        None if no allowed candidate touches the part.
+    """
+    inner, outer = _border(decomposition, mask, allowed)
+    if not len(outer):
+        return None
+    return int(outer[_weakest(decomposition, inner, outer)])
+
+
+def shrinkage(
+    decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray
+) -> tuple[int, int] | None:
+    """Find the candidate that a part gives away next when it shrinks, and the candidate across the boundary.
+
+    The part gives the candidate behind the weakest stretch of its boundary that leaves the part connected and not
+    empty.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+    mask : (c,) bool
+        Candidates of the part.
+    allowed : (c,) bool
+        Candidates whose parts may receive a candidate.
+
+    Returns
+    -------
+    given, receiver : int
+        The candidate that is given, and the candidate whose part receives it. None instead of both if the part can
+        give no candidate.
+    """
+    inner, outer = _border(decomposition, mask, allowed)
+    time = decomposition.hierarchy.merge_of(inner, outer)
+    for index in np.argsort(time, kind="stable").tolist():
+        rest = mask.copy()
+        rest[inner[index]] = False
+        if rest.any() and components_of(decomposition, rest).max() == 0:
+            return int(inner[index]), int(outer[index])
+    return None
+
+
+def boundary_distance(
+    inside: np.ndarray, face_pairs: np.ndarray, pair_length: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Measure how far each face is from the boundary of some faces, and find the nearest face across the boundary.
+
+    Parameters
+    ----------
+    inside : (p,) bool
+        Faces whose boundary counts.
+    face_pairs : (e, 2) int64
+        Faces that share an edge.
+    pair_length : (e,) float64
+        Distance between the centers of the two faces, 0 or more, in any unit.
+
+    Returns
+    -------
+    distance : (p,) float64
+        Distance along the surface from the center of the nearest face across the boundary, in the unit of
+        ``pair_length``: positive outside, negative inside, infinite for a face that no path joins with the boundary.
+    across : (p,) int64
+        The nearest face across the boundary; -1 where the distance is infinite.
+    """
+    count = len(inside)
+    sides = inside[face_pairs]
+    distance = np.full(count, np.inf)
+    across = np.full(count, -1, np.int64)
+    # A path begins across the boundary and then stays on one side. It has a length, so that its sign says which.
+    length = np.maximum(pair_length, 1e-12 * (pair_length.max(initial=0.0) or 1.0))
+    for side in (False, True):
+        usable = ~(sides != side).all(axis=1)
+        border = np.unique(face_pairs[sides[:, 0] != sides[:, 1]])
+        border = border[inside[border] != side]
+        if not len(border):
+            continue
+        graph = symmetric_matrix(face_pairs[usable], length[usable], count)
+        found, _, source = dijkstra(
+            graph, directed=True, indices=border, min_only=True, return_predecessors=True)
+        here = (inside == side) & np.isfinite(found)
+        distance[here] = -found[here] if side else found[here]
+        across[here] = source[here]
+    return distance, across
+
+
+def two_sides(graph: FaceGraph, contacts: np.ndarray, inside: np.ndarray, side: np.ndarray
+              ) -> tuple[np.ndarray, np.ndarray]:
+    """The two sides of a cut that meet along it, each with what hangs on it.
+
+    A part may be of several pieces that only touch, and a cut goes through one of them: what hung on the rest by the
+    side that is cut off goes with that side.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+        Of p faces.
+    contacts : (t, 2) int64
+        Faces of different pieces that touch.
+    inside : (p,) bool
+        Faces of the part.
+    side : (p,) bool
+        Those on one side of the cut.
+
+    Returns
+    -------
+    side, other : (p,) bool
+        Both that side and the other one. Pieces of the part that hang on neither are in none.
+    """
+    pairs = np.concatenate([graph.pairs, contacts])
+    pairs = pairs[inside[pairs].all(axis=1)]
+    across = side[pairs[:, 0]] != side[pairs[:, 1]]
+    count, region = components(graph.n_faces, *pairs[~across].T)
+    within = inside[graph.pairs].all(axis=1)
+    touching, length = label_boundaries(region, graph.pairs[within], graph.length[within])
+    own = np.zeros(count, np.int64)
+    own[region[side]] = 1
+    known = np.full(count, -1)
+    along = touching[length.argmax()]
+    known[along] = own[along]
+    # From one side to the other in turn: what touches one of the two is no piece of the other.
+    found = np.where(inside, spread(known, *both_ways(region[pairs[across]]).T)[region], -1)
+    return found == 1, found == 0
+
+
+def pieces_cut_off(decomposition: Decomposition, moved: np.ndarray, graph: FaceGraph) -> np.ndarray:
+    """What a change leaves of each candidate in several pieces, as of a limb with a ring around its middle.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+        p faces.
+    moved : (p,) bool
+        Faces that change their part.
+    graph : FaceGraph
+        Of the p faces.
+
+    Returns
+    -------
+    piece : (p,) int64
+        0 for faces that move and for the largest piece that is left of a candidate, or of each of its pieces if it was
+        in several before; 1 and more for the other pieces.
+    """
+    candidates = decomposition.candidates
+    partly = np.bincount(candidates, moved, decomposition.n_candidates) > 0
+    left = partly[candidates] & ~moved
+    touching = graph.with_contacts(decomposition.contacts)
+    _, piece = touching.regions(np.where(left, candidates, -1))
+    _, whole = touching.regions(np.where(partly[candidates], candidates, -1))
+    number, face = np.unique(piece[left], return_index=True)
+    of = whole[left][face]
+    order = np.lexsort((-np.bincount(piece, graph.area)[number], of))
+    rank = np.zeros(int(piece.max()) + 1, np.int64)
+    rank[number[order]] = np.arange(len(order)) - np.searchsorted(of[order], of[order])
+    return np.where(left, rank[piece], 0)
+
+
+def split_around(
+    decomposition: Decomposition, number: np.ndarray, graph: FaceGraph, table: CornerTable
+) -> Decomposition:
+    """Cut candidates so that faces can become parts that are given face by face.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+        p faces and c candidates.
+    number : (p,) int64
+        Faces of one number, 1 or more, shall be separable from all others. 0 for faces that stay as they are; what is
+        left of a candidate in several pieces becomes several candidates.
+    graph, table
+        As of ``split_candidates``.
+
+    Returns
+    -------
+    finer : Decomposition
+        As of ``split_candidates``; no candidate has faces of two numbers.
+    """
+    moved = number > 0
+    place = pieces_cut_off(decomposition, moved, graph)
+    place[moved] = place.max(initial=0) + 1 + np.unique(number[moved], return_inverse=True)[1]
+    # What differs, differs in a bit: of a thousand numbers, ten cuts tell all.
+    for bit in range(int(place.max(initial=0)).bit_length()):
+        decomposition = split_candidates(decomposition, (place >> bit) & 1 == 1, graph, table)
+    return decomposition
+
+
+def split_candidates(
+    decomposition: Decomposition, faces: np.ndarray, graph: FaceGraph, table: CornerTable
+) -> Decomposition:
+    """Cut candidates in two along the outline of some faces, so that these faces can become a part.
+
+    The two halves of a candidate merge before all other candidates. A level of detail therefore never shows the new
+    cuts, unless the halves are pinned to different parts.
+
+    Parameters
+    ----------
+    decomposition : Decomposition
+        p faces and c candidates.
+    faces : (p,) bool
+        Faces that shall be separable from the others.
+    graph : FaceGraph
+        Which of the p faces touch, and their areas.
+    table : CornerTable
+        Corners of the p faces, in the coordinates of ``decomposition.graph``.
+
+    Returns
+    -------
+    finer : Decomposition
+        Candidates below c are the old ones. Candidates from c on are the halves that consist of the given faces; the
+        vertices, nodes and center points in these halves belong to them. The given decomposition if no candidate
+        has to be cut.
+    """
+    old = decomposition.candidates
+    size = np.bincount(old, minlength=decomposition.n_candidates)
+    inside = np.bincount(old, faces, decomposition.n_candidates)
+    cut = np.flatnonzero((inside > 0) & (inside < size))
+    if not len(cut):
+        return decomposition
+    half = np.arange(decomposition.n_candidates)  # for each candidate, the one of its given faces
+    half[cut] = decomposition.n_candidates + np.arange(len(cut))
+    candidates = np.where(faces, half[old], old)
+    count = decomposition.n_candidates + len(cut)
+    sides = table.corner_face, table.corner_edge, table.edge_length(np.arange(len(table.edges)))
+    pairs, length = boundaries(graph.with_contacts(decomposition.contacts), candidates, *sides)
+    members, at_junction = junctions(candidates, *sides)
+    area = np.bincount(candidates, graph.area, count)
+    area *= decomposition.candidate_area.sum() / area.sum()
+    hierarchy = decomposition.hierarchy
+    merges = np.concatenate([np.stack([cut, half[cut]], axis=1), hierarchy.merges])
+    salience = np.concatenate([np.zeros(len(cut)), hierarchy.salience])
+    nodes, points = _graph_halves(decomposition, faces, cut, half, table)
+    return replace(
+        decomposition, candidates=candidates, candidate_area=area, candidate_pairs=pairs,
+        vertex_candidates=_vertex_halves(decomposition, candidates, graph.area, table),
+        candidate_pair_length=length, hierarchy=Hierarchy.of(count, merges, salience),
+        node_candidate=nodes, point_candidate=points, junctions=members, junction_length=at_junction)
+
+
+def _vertex_halves(
+    decomposition: Decomposition, candidates: np.ndarray, area: np.ndarray, table: CornerTable
+) -> np.ndarray:
+    """Candidate of each vertex, (n,): of the two halves of its former candidate, the one with more area around it."""
+    vertex, face = table.corner_vertex, table.corner_face
+    former = decomposition.vertex_candidates
+    votes = decomposition.candidates[face] == former[vertex]
+    vertex, face = vertex[votes], face[votes]
+    winner = majority(vertex, candidates[face], vote_weights(area)[face], len(former))
+    return np.where(winner >= 0, winner, former)
+
+
+def _graph_halves(
+    decomposition: Decomposition, faces: np.ndarray, cut: np.ndarray, half: np.ndarray, table: CornerTable
+) -> tuple[np.ndarray, np.ndarray]:
+    """Candidate of each node, (k,), and of each center point, (r,), of the graph after candidates were cut.
+
+    A center point or a saddle belongs to the half in which most of its contour lies, a minimum or a maximum to the half
+    in which the nearest vertex lies. cut : candidates that were cut. half : (c,), the new candidate of each old one.
+    """
+    graph = decomposition.graph
+    nodes, points = decomposition.node_candidate.copy(), decomposition.point_candidate.copy()
+    for candidate in cut.tolist():
+        mine = table.within(decomposition.candidates == candidate)
+        for place in np.flatnonzero(points == candidate):
+            if _contour_is_on(mine, decomposition, graph.point_position[place], graph.point_value[place], faces):
+                points[place] = half[candidate]
+        for node in np.flatnonzero(nodes == candidate):
+            position = graph.node_position[node]
+            on = (_contour_is_on(mine, decomposition, position, graph.node_value[node], faces)
+                  if graph.node_kind[node] == SADDLE else _nearest_is_on(mine, position, faces))
+            if on:
+                nodes[node] = half[candidate]
+    return nodes, points
+
+
+def _contour_is_on(
+    table: CornerTable, decomposition: Decomposition, position: np.ndarray, level: float, faces: np.ndarray
+) -> bool:
+    """Whether most of the contour of a level around a position, on the faces of a table, lies on faces of a mask."""
+    found = contours(decomposition.field, level, table)
+    chosen = found.label == found.around(position)
+    if not chosen.any():
+        return _nearest_is_on(table, position, faces)
+    length = found.length[chosen]
+    return bool(length[faces[found.face[chosen]]].sum() > length.sum() / 2)
+
+
+def _nearest_is_on(table: CornerTable, position: np.ndarray, faces: np.ndarray) -> bool:
+    """Whether most faces of a table that meet at the vertex nearest to a position are faces of a mask, (p,) bool."""
+    offset = table.vertices[table.corner_vertex] - position
+    nearest = table.corner_vertex[np.einsum("ij,ij->i", offset, offset).argmin()]
+    around = faces[table.corner_face[table.corner_vertex == nearest]]
+    return bool(around.sum() > len(around) / 2)
+
+
+def _inside(decomposition: Decomposition, mask: np.ndarray) -> np.ndarray:
+    """Pairs of touching candidates, (k, 2), of which both are in a mask."""
+    pairs = decomposition.candidate_pairs
+    return pairs[mask[pairs].all(axis=1)]
+
+
+def _border(
+    decomposition: Decomposition, mask: np.ndarray, allowed: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of touching candidates across the boundary of a mask: the inner ones, (k,), and the outer ones, (k,).
+
+    allowed : (c,) bool, which the outer one may be.
+    """
+    pairs = decomposition.candidate_pairs
+    across = pairs[mask[pairs].sum(axis=1) == 1]
+    inner, outer = np.where(mask[across[:, :1]], across, across[:, ::-1]).T
+    return inner[allowed[outer]], outer[allowed[outer]]
+
+
+def _weakest(decomposition: Decomposition, a: np.ndarray, b: np.ndarray) -> int:
+    """Index of the pair of candidates, (a[i], b[i]), that merges first."""
+    return int(decomposition.hierarchy.merge_of(a, b).argmin())

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces that lie on others with the same corners are left out, and have the parts of these."""
+
+import numpy as np
+import pytest
+import shapes
+
+from core import Parameters, decompose
+from core.mesh.copies import Copies, find_copies
+from core.mesh.polygons import PolygonMesh
+
+RNG = np.random.default_rng(0)
+TREE = shapes.tube_tree()
+BLOCKS = shapes.together(shapes.box((3.0, 1.0, 1.0)), shapes.moved(shapes.box((0.4, 0.4, 3.0)), (0.3, 0.3, 1.0)))
+
+
+def same(faces):
+    """The faces once more, each from the other side and beginning with another corner."""
+    return np.roll(faces[:, ::-1], 1, axis=1)
+
+
+SHAPES = {"triangles": TREE, "quads": shapes.box_quads(), "pieces": BLOCKS, "figure": shapes.mirrored_figure()}
+
+
+@pytest.mark.parametrize("own_vertices", [False, True])
+@pytest.mark.parametrize("name", SHAPES)
+def test_a_mesh_with_every_face_twice_has_the_parts_of_the_mesh(name, own_vertices):
+    """Three faces met at every edge: a man came in nine parts instead of ten, his head with the trunk."""
+    vertices, faces = SHAPES[name]
+    once = decompose(vertices, faces)
+    copies, points = same(faces), vertices
+    if own_vertices:
+        copies, points = copies + len(vertices), np.concatenate([vertices, vertices])
+    order = RNG.permutation(2 * len(faces))
+    twice = decompose(points, np.concatenate([faces, copies])[order])
+    assert twice.n_candidates == once.n_candidates
+    for count in range(1, min(once.n_candidates, 30) + 1):
+        labels = np.empty(2 * len(faces), np.int64)
+        labels[order] = twice.parts(n_parts=count).labels
+        expected = once.parts(n_parts=count).labels
+        assert (labels[:len(faces)] == labels[len(faces):]).all()
+        assert len(np.unique(np.stack([expected, labels[:len(faces)]], axis=1), axis=0)) == count
+    assert twice.candidate_area.sum() == pytest.approx(2 * once.candidate_area.sum())
+    assert (twice.vertex_candidates >= 0).all() == (once.vertex_candidates >= 0).all()
+    assert np.isfinite(twice.field).all()
+    assert twice.notes[-1] == f"{len(faces)} faces lie on another one with the same corners, and have its part."
+
+
+def test_the_image_of_a_copy_is_a_copy_of_the_image():
+    vertices, faces = shapes.mirrored_figure()
+    once = decompose(vertices, faces).face_twin
+    twice = decompose(vertices, np.concatenate([faces, same(faces)])).face_twin
+    assert (twice == np.concatenate([once, np.where(once >= 0, once + len(faces), -1)])).all()
+
+
+def test_where_the_image_has_no_copy_that_of_a_copy_is_the_image():
+    """Polygons 0 and 1 are images of each other, 2 has none, and 3 and 4 are copies of 0."""
+    copies = Copies(np.arange(3), np.array([0, 1, 2, 0, 0]), np.arange(3), np.arange(3))
+    assert copies.images(np.array([1, 0, -1])).tolist() == [1, 0, -1, 1, 1]
+    assert copies.n_copies == 2
+
+
+def test_a_wall_that_two_solids_have_in_common_stays_in_both():
+    """Each would be open without it."""
+    block = shapes.box((1.0, 1.0, 1.0))
+    assert find_copies(PolygonMesh.of(*shapes.together(block, shapes.moved(block, (1.0, 0.0, 0.0))))) is None
+
+
+def test_of_two_pieces_one_may_have_every_face_twice():
+    vertices, faces = shapes.together(shapes.icosphere(2), shapes.moved(shapes.icosphere(1), (5.0, 0.0, 0.0)))
+    sphere = faces[:320]
+    copies = find_copies(PolygonMesh.of(vertices, np.concatenate([same(sphere), faces])))
+    assert copies.polygon.tolist() == [*range(320), *range(640, 720)]
+    assert copies.original.tolist() == [*range(320), *range(400)]
+
+
+def test_a_half_model_with_every_face_twice():
+    vertices, faces = shapes.mirrored_figure()
+    half = faces[(vertices[faces][:, :, 0] >= -1e-9).all(axis=1)]
+    once = decompose(vertices, half, mirror=(1, 0, 0, 0)).parts().labels
+    twice = decompose(vertices, np.concatenate([half, same(half)]), mirror=(1, 0, 0, 0)).parts().labels
+    assert (twice[:len(half)] == once).all()
+    assert (twice[len(half):] == once).all()
+
+
+def test_copies_have_the_hints_of_what_they_lie_on():
+    vertices, faces = TREE
+    hints = (vertices[faces].mean(axis=1)[:, 2] > 0.5).astype(int)
+    once = decompose(vertices, faces, hints=hints).parts().labels
+    both = decompose(vertices, np.concatenate([faces, same(faces)]), hints=np.append(hints, 0 * hints)).parts().labels
+    assert (both == np.append(once, once)).all()
+
+
+@pytest.mark.parametrize("shape", [TREE, shapes.box_quads(), shapes.flat_grid(4, 4)])
+def test_a_mesh_without_copies_has_none(shape):
+    assert find_copies(PolygonMesh.of(*shape)) is None
+
+
+def test_two_folded_faces_without_an_area_are_no_copies_of_each_other():
+    vertices, faces = TREE
+    folded = np.array([(0, 1, 0), (5, 6, 5), (5, 6, 5)])
+    assert find_copies(PolygonMesh.of(vertices, np.concatenate([faces, folded]))) is None
+
+
+def test_however_a_polygon_is_cut_into_triangles_it_is_the_same_one():
+    vertices, quads = shapes.box_quads()
+    one = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    other = np.concatenate([quads[:, [1, 2, 3]], quads[:, [3, 0, 1]]])
+    number = np.tile(np.arange(len(quads)), 2)
+    given = PolygonMesh.of(vertices, np.concatenate([one, other]), np.concatenate([number, number + len(quads)]))
+    copies = find_copies(given)
+    assert copies.polygon.tolist() == list(range(len(quads)))
+    assert copies.original.tolist() == 2 * list(range(len(quads)))
+
+
+def test_so_few_faces_that_none_may_be_left_out_stay():
+    vertices, faces = shapes.box((1.0, 1.0, 1.0))
+    three = faces[:3]
+    result = decompose(vertices, np.concatenate([three, same(three)]), Parameters())
+    assert len(result.candidates) == 6
+
+
+def test_a_polygon_that_also_comes_elsewhere_is_no_copy():
+    """Two triangles that are folded onto each other have no outline, and their corners are those of nothing else."""
+    vertices = np.concatenate([shapes.octahedron().vertices, np.eye(3) + 5])
+    faces = shapes.octahedron().faces
+    folded = np.array([[6, 7, 8], [8, 7, 6]])
+    polygon = np.concatenate([np.arange(16), [15, 15]])
+    result = decompose(vertices, np.concatenate([faces, same(faces), folded]), polygon=polygon)
+    assert len(result.candidates) == 16
+    assert ((result.field >= 0) & (result.field <= 1)).all()
+    assert (result.vertex_candidates >= 0).all()
+    assert result.notes[-1].startswith("7 faces lie on another one")

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What goes along with a change by hand, on rows of faces by hand and on random parts."""
+
+import numpy as np
+import pytest
+import shapes
+from face_graphs import graph_of, n_connected, patches, path
+
+from core.mesh.labels import FaceGraph
+from core.result.editing.remainders import halved_between_images, with_small_pieces
+
+
+@pytest.mark.parametrize(("before", "after", "expected"), [
+    # Two faces are cut off from seven: they go along.
+    ([1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2], [1, 2, 2, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2],
+     [1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2]),
+    # More than a third of what is left stays,
+    ([1, 2, 2, 2, 2, 2, 2, 2, 2, 2], [1, 2, 2, 1, 1, 1, 2, 2, 2, 2], [1, 2, 2, 1, 1, 1, 2, 2, 2, 2]),
+    # and so does more than what was taken.
+    ([1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2], [1, 2, 2, 1, 2, 2, 2, 2, 2, 2, 2, 2], [1, 2, 2, 1, 2, 2, 2, 2, 2, 2, 2, 2]),
+    # Equal pieces of a part of which next to nothing is left: both stay, and a smaller one goes.
+    ([2] * 2 + [2] * 9 + [2] * 2 + [2] * 9 + [2], [2] * 2 + [1] * 9 + [2] * 2 + [3] * 9 + [2],
+     [2] * 2 + [1] * 9 + [2] * 2 + [3] * 10),
+    # What was apart before is another part in this.
+    ([2, 1, 2, 2, 2, 2, 2, 2], [2, 1, 1, 1, 2, 2, 2, 2], [2, 1, 1, 1, 2, 2, 2, 2]),
+    # What nothing was taken from stays in its pieces.
+    ([2, 1, 2, 2, 2, 2, 1, 1], [2, 1, 2, 2, 2, 2, 1, 3], [2, 1, 2, 2, 2, 2, 1, 3]),
+])
+def test_small_pieces_go_along(before, after, expected):
+    before, after = np.array(before), np.array(after)
+    assert with_small_pieces(path(len(before)), before, after).tolist() == expected
+
+
+def test_small_beside_what_was_taken():
+    before = np.array([1] + [2] * 40)
+    after = np.where((before == 1) | (np.arange(41) > 1) & (np.arange(41) < 12), 1, 2)
+    assert (with_small_pieces(path(41), before, after, 0.05) == after).all()
+    assert (with_small_pieces(path(41), before, after, 0.2)[:12] == 1).all()
+
+
+def test_a_piece_goes_to_the_part_that_took_most_around_it():
+    """One face of part 5 between faces that three parts took; its longest side is at part 2."""
+    pairs = np.array([[0, 1], [0, 2], [0, 3], [1, 4], [2, 4], [3, 4]])
+    graph = FaceGraph(5, pairs, np.array([1.0, 3.0, 2.0, 1.0, 1.0, 1.0]), np.array([1.0, 1.0, 1.0, 1.0, 9.0]))
+    assert with_small_pieces(graph, np.full(5, 5), np.array([5, 1, 2, 3, 5])).tolist() == [2, 1, 2, 3, 5]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_only_pieces_that_were_cut_off_change(seed):
+    rng = np.random.default_rng(seed)
+    graph = graph_of(shapes.icosphere(3))
+    before = patches(graph, rng, 5)
+    after = np.where(rng.random(graph.n_faces) < 0.3, patches(graph, rng, 3), before)
+    result = with_small_pieces(graph, before, after)
+    moved = after != before
+    assert (result[moved] == after[moved]).all()
+    assert n_connected(graph, result) <= n_connected(graph, after)
+    # Of what was left of a part in one piece, some is left.
+    whole = graph.regions(before)[1]
+    assert set(whole[~moved].tolist()) == set(whole[result == before].tolist())
+
+
+def test_images_are_treated_alike():
+    """A row in which each face is the image of the one as far from the other end."""
+    rng = np.random.default_rng(0)
+    for _ in range(50):
+        half, took = np.sort(rng.integers(0, 3, 30)), rng.random(30) < 0.4
+        area = rng.random(30)
+        graph = path(60, areas=np.concatenate([area, area[::-1]]))
+        before = np.concatenate([half, 4 - half[::-1]])
+        after = np.where(np.concatenate([took, took[::-1]]), np.where(np.arange(60) < 30, 5, 6), before)
+        result = with_small_pieces(graph, before, after)
+        image = np.array([4, 3, 2, 1, 0, 6, 5])
+        either = image[result[::-1]]
+        # What lies across the middle has one neighbor on either side.
+        assert ((result == either) | ((result > 4) & (before == 2))).all()
+
+
+@pytest.mark.parametrize(("without", "after", "expected"), [
+    # Two faces between parts 1 and 2 that both went to part 1: one each.
+    ([1, 1, 1, 3, 3, 2, 2, 2], [1, 1, 1, 1, 1, 2, 2, 2], [1, 1, 1, 1, 2, 2, 2, 2]),
+    # One across the plane stays where it is.
+    ([1, 1, 1, 3, 2, 2, 2], [1, 1, 1, 1, 2, 2, 2], [1, 1, 1, 1, 2, 2, 2]),
+    # Part 2 does not touch what is on its side.
+    ([1, 1, 1, 3, 3, 4, 2, 2], [1, 1, 1, 1, 1, 4, 2, 2], [1, 1, 1, 1, 1, 4, 2, 2]),
+])
+def test_what_lies_between_images_is_divided(without, after, expected):
+    count = len(without)
+    twin = np.arange(count)[::-1]
+    image, own_side = np.array([0, 2, 1, 3, 4]), np.array([0, -1, 1, 0, 0])
+    side = np.sign(np.arange(count) - (count - 1) / 2).astype(int)
+    result = halved_between_images(path(count), np.array(without), np.array(after), twin, side, own_side, image)
+    assert result.tolist() == expected
