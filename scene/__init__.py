@@ -4,17 +4,7 @@
 Reading:
 
 - ``bridge``: the shape of an object as arrays for core
-- ``mesh_arrays``: the arrays of a mesh
-- ``fingerprints``: what tells that a mesh was edited, or moved as a whole
-- ``elements``: the elements of a mesh with all that they carry, some of them taken or others put on
-- ``element_layers``: reads these from a mesh, and makes meshes of them
-- ``mesh_groups``: the vertex groups of a mesh
-- ``matrix_layers``: a BMesh with matrices, too
-- ``half_models``: objects whose first modifier is a Mirror
-- ``face_hints``: materials and such, for cuts to follow
-- ``modified``: the mesh as it is seen, with its modifiers applied
-- ``seen_points``: where the vertices of a mesh are seen
-- ``placing``: where objects are in the world, and how long its unit is
+- ``reading``: objects and their meshes as arrays, and what is read of them
 - ``part_places``: where parts are
 
 Computing:
@@ -95,8 +85,9 @@ What every operator needs:
 
 from __future__ import annotations
 
-from . import compute, defaults, fingerprints, mesh_arrays, part_places, schema, sculpt_undo, store, watch
+from . import compute, defaults, part_places, schema, sculpt_undo, store, watch
 from .outputs import vertex_groups
+from .reading import fingerprints, mesh_arrays
 
 
 def register() -> None:

@@ -7,7 +7,8 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-from . import explode, hidden, mesh_arrays
+from . import explode, hidden
+from .reading import mesh_arrays
 from .temporary import removed
 
 

@@ -14,8 +14,9 @@ from ..core.arrays.indexing import renumbered
 from ..core.arrays.pairs import distinct_pairs
 from ..core.mesh.corners import CornerTable
 from ..core.steps import Steps, stretched
-from . import bridge, mesh_arrays
+from . import bridge
 from .pieces import smooth_faces
+from .reading import mesh_arrays
 from .temporary import freed
 
 if TYPE_CHECKING:

@@ -15,10 +15,11 @@ from mathutils import Color
 
 from ..core.file_names import file_name
 from ..core.uses.threemf import Assembly, ColoredMesh, write_3mf
-from . import bridge, file_checks, mesh_arrays, part_names, placing, store
+from . import bridge, file_checks, part_names, store
 from .errors import SceneError
 from .pieces import piece_objects
 from .pieces.part_meshes import piece_meshes
+from .reading import mesh_arrays, placing
 from .run_files import RunFiles
 from .temporary import removed
 

@@ -9,8 +9,9 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import fingerprints, made_objects, mesh_arrays, part_names, placing
+from . import made_objects, part_names
 from .pieces import piece_objects
+from .reading import fingerprints, mesh_arrays, placing
 from .store import Stored
 
 PART = "reeb_parts_hull_of"  # on a hull: the number of its part

@@ -12,7 +12,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.uses.naming.method import Suggestion, suggestions
 from ..core.uses.naming.shapes import Shapes
-from . import bridge, mesh_arrays, placing, skeleton, store
+from . import bridge, skeleton, store
+from .reading import mesh_arrays, placing
 from .store import Stored
 
 _WORDS = {word: word for word in (

@@ -16,7 +16,8 @@ from typing import Any
 
 import bpy
 
-from . import element_layers, fingerprints, visibility
+from . import visibility
+from .reading import element_layers, fingerprints
 from .surroundings import Surroundings
 
 _OURS = "reeb_parts"  # how the names of our custom properties begin

@@ -9,8 +9,9 @@ import bpy
 import numpy as np
 
 from ..core.uses.report import bounding_boxes, report
-from . import bridge, mesh_arrays, part_names, placing, store
+from . import bridge, part_names, store
 from .pieces import part_meshes, piece_checks
+from .reading import mesh_arrays, placing
 from .store import Stored
 from .temporary import removed
 

@@ -13,9 +13,10 @@ import re
 import bpy
 import numpy as np
 
-from . import hidden, mesh_arrays, part_names, store, targets, transaction
+from . import hidden, part_names, store, targets, transaction
 from .outputs import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
 from .outputs.kept_aside import find_attribute, remove_attribute
+from .reading import mesh_arrays
 
 _OWN_NAME = re.compile(r"Part \d\d+(\.[LR])?")  # see core/result/numbering.py
 

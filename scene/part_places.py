@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.arrays.indexing import sums_by
 from ..core.result.numbering import NumberedParts
-from . import mesh_arrays, placing
+from .reading import mesh_arrays, placing
 
 _middles: list[tuple[tuple, np.ndarray]] = []  # the last ones, with what they are of
 

@@ -11,7 +11,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import made_objects, mesh_arrays, placing, transaction
+from . import made_objects, transaction
+from .reading import mesh_arrays, placing
 from .store import Stored
 
 if TYPE_CHECKING:

@@ -14,9 +14,10 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 
 from ..core.parameters import PRESETS, RENAMED, Parameters, present_names
 from ..core.uses.colors import LABELS, PALETTES
-from . import face_hints, reactions
+from . import reactions
 from .errors import translated
 from .graph import graph_objects
+from .reading import face_hints
 from .settled import Settled, reaction
 
 

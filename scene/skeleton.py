@@ -13,7 +13,8 @@ from mathutils import Matrix
 from ..core.mesh.corners import CornerTable
 from ..core.result.numbering import NumberedParts
 from ..core.result.whole import Whole, whole_of
-from . import bridge, mesh_arrays, part_names, placing, store
+from . import bridge, part_names, store
+from .reading import mesh_arrays, placing
 
 if TYPE_CHECKING:
     from ..core.uses.moving.bones import Bones

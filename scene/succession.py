@@ -11,10 +11,11 @@ import numpy as np
 from ..core.mesh.labels import majority
 from ..core.result.decomposition import Decomposition
 from ..core.result.numbering import inherited
-from . import bridge, mesh_arrays, part_names, store
+from . import bridge, part_names, store
 from .bridge import Shape
 from .errors import SceneError
 from .outputs import face_attribute
+from .reading import mesh_arrays
 from .store import Stored
 
 

@@ -12,9 +12,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.arrays.indexing import renumbered
 from ..core.uses.maps.stacking import double_corners
-from . import fingerprints, made_objects, mesh_arrays, store, transaction
+from . import made_objects, store, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
+from .reading import fingerprints, mesh_arrays
 from .selection import nothing_selected
 from .store import Stored
 from .temporary import removed

@@ -14,9 +14,10 @@ import bmesh
 import bpy
 from bpy.app.handlers import persistent
 
-from . import fingerprints, handlers, moved, redraw, seen_points, store, transaction
+from . import handlers, moved, redraw, store, transaction
 from .graph import graph_follow, graph_objects, graph_visibility
 from .pieces import piece_objects
+from .reading import fingerprints, seen_points
 from .temporary import removed
 
 REST = 0.3  # seconds

@@ -13,9 +13,10 @@ import blf
 import bpy
 import numpy as np
 
-from ..scene import explode, mesh_arrays, part_names, store
+from ..scene import explode, part_names, store
 from ..scene.errors import SceneError
-from ..scene.seen_points import seen_points, version
+from ..scene.reading import mesh_arrays
+from ..scene.reading.seen_points import seen_points, version
 from . import idle, pointing
 from .lines import Surface
 

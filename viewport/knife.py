@@ -13,9 +13,10 @@ from ..core.mesh.corners import CornerTable
 from ..core.mesh.labels import FaceGraph
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..scene import bridge, cut_curves, edits, mesh_arrays, part_list, part_names, store
+from ..scene import bridge, cut_curves, edits, part_list, part_names, store
 from ..scene.errors import SceneError
-from ..scene.seen_points import seen_points
+from ..scene.reading import mesh_arrays
+from ..scene.reading.seen_points import seen_points
 from .pointing import Model, Target
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from ..core.sentence import Count
 from ..core.steps import Steps
 from ..scene import cut_curves, edits, part_list
 from ..scene.errors import SceneError
-from ..scene.seen_points import seen_points
+from ..scene.reading.seen_points import seen_points
 from ..scene.store import Stored
 from .boundary import Boundary, check_borders, write_moved
 from .colored_tool import ColoredTool

@@ -14,7 +14,8 @@ import numpy as np
 
 from ...core.arrays.indexing import run_starts
 from ...core.result.numbering import NumberedParts
-from .. import made_objects, mesh_arrays, part_names, targets, transaction
+from .. import made_objects, part_names, targets, transaction
+from ..reading import mesh_arrays
 
 
 @dataclass(frozen=True, eq=False)

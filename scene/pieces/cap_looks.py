@@ -9,7 +9,7 @@ import numpy as np
 from ...core.arrays.indexing import run_starts
 from ...core.mesh.corners import next_of_owner
 from ...core.uses.caps.maps import cap_map
-from .. import mesh_arrays
+from ..reading import mesh_arrays
 from . import caps
 
 CAP_MATERIAL = "reeb_parts_cap"  # on a material: it is that of caps

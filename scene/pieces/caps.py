@@ -14,8 +14,8 @@ from mathutils import Vector
 from mathutils.geometry import tessellate_polygon
 
 from ...core.uses.caps.surfaces import common_order
-from .. import mesh_arrays, mesh_groups
-from ..matrix_layers import as_bmesh
+from ..reading import mesh_arrays, mesh_groups
+from ..reading.matrix_layers import as_bmesh
 
 if TYPE_CHECKING:
     from .disc import Disc

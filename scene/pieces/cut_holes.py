@@ -12,8 +12,8 @@ import numpy as np
 from ...core.mesh.corners import edge_labels
 from ...core.uses.caps.rims import nested_rims
 from ...core.uses.caps.surfaces import common_order
-from .. import element_layers, mesh_arrays
-from ..elements import Elements, Selection
+from ..reading import element_layers, mesh_arrays
+from ..reading.elements import Elements, Selection
 from ..temporary import removed
 from . import caps
 

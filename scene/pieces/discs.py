@@ -18,7 +18,7 @@ from ...core.mesh.triangles import EdgeTable
 from ...core.uses.caps.rims import is_inside
 from ...core.uses.caps.sleeves import Sleeve, sleeve
 from ...core.uses.caps.surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
-from .. import mesh_arrays
+from ..reading import mesh_arrays
 from .body_surface import BodySurface
 from .disc import Disc
 from .disc_fitting import depths, pulled, pushed, steep

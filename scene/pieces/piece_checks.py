@@ -14,7 +14,8 @@ from mathutils.bvhtree import BVHTree
 from ...core.arrays.indexing import renumbered, stable_order
 from ...core.arrays.vectors import cross
 from ...core.surface.reach import within_reach
-from .. import mesh_arrays, transaction
+from .. import transaction
+from ..reading import mesh_arrays
 from . import caps
 from .body_surface import crossing, search_tree
 

@@ -14,10 +14,11 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.steps import Steps
-from .. import bridge, element_layers, fingerprints, made_objects, rigid_bodies, store, targets, transaction, visibility
+from .. import bridge, made_objects, rigid_bodies, store, targets, transaction, visibility
 from ..errors import SceneError
 from ..graph import graph_visibility
 from ..part_names import fitted, without_number
+from ..reading import element_layers, fingerprints
 from ..selection import in_layer
 from ..store import Stored
 from ..surroundings import Surroundings

@@ -92,7 +92,7 @@ def test_middles_and_areas_of_faces_are_those_of_blender(kind, obj, package):
     if kind == "polygons":
         bpy.ops.mesh.primitive_cylinder_add(vertices=7, end_fill_type="NGON")
     mesh = bpy.context.object.data
-    center, area = importlib.import_module(f"{package}.scene.mesh_arrays").face_middles(mesh)
+    center, area = importlib.import_module(f"{package}.scene.reading.mesh_arrays").face_middles(mesh)
     assert center == pytest.approx(np.array([face.center[:] for face in mesh.polygons]), abs=1e-6)
     assert area == pytest.approx(np.array([face.area for face in mesh.polygons]), rel=1e-4)
 

@@ -13,9 +13,9 @@ import bpy
 import numpy as np
 from numpy.typing import DTypeLike
 
-from ..core.arrays.indexing import renumbered, run_starts
-from ..core.arrays.vectors import cross, lengths
-from ..core.mesh.corners import CornerTable
+from ...core.arrays.indexing import renumbered, run_starts
+from ...core.arrays.vectors import cross, lengths
+from ...core.mesh.corners import CornerTable
 
 _VALUES = {  # of an attribute: the name of its values, their type, how many
     "FLOAT": ("value", np.float32, 1), "INT": ("value", np.int32, 1), "BOOLEAN": ("value", bool, 1),

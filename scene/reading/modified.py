@@ -9,13 +9,14 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.arrays.pairs import distinct_pairs
-from ..core.sentence import Count
-from ..core.symmetry.plane import MirrorPlane
-from . import bridge, explode, hidden, mesh_arrays, property_updates
-from .errors import SceneError
-from .snapshots import set_values, values_of
-from .temporary import removed
+from ...core.arrays.pairs import distinct_pairs
+from ...core.sentence import Count
+from ...core.symmetry.plane import MirrorPlane
+from .. import bridge, explode, hidden, property_updates
+from ..errors import SceneError
+from ..snapshots import set_values, values_of
+from ..temporary import removed
+from . import mesh_arrays
 
 _NUMBER = "reeb_parts_face_number"  # face attribute of the copy that is evaluated
 

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from ..core.arrays.indexing import ranges
-from ..core.mesh.corners import CornerTable
-from ..core.surface.orientation import looks_inwards, of_solids
+from ...core.arrays.indexing import ranges
+from ...core.mesh.corners import CornerTable
+from ...core.surface.orientation import looks_inwards, of_solids
 
 POINT, EDGE, FACE, CORNER = "POINT", "EDGE", "FACE", "CORNER"
 

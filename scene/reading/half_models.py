@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.symmetry.halves import is_one_side
+from ...core.symmetry.halves import is_one_side
 from .placing import world_matrix
 
 _ROUNDING = 1e-4  # by how much the axes of a mirror object may be no axes of a mirror

@@ -8,9 +8,9 @@ from collections.abc import Callable
 import bpy
 import numpy as np
 
-from ..core.arrays.components import components
+from ...core.arrays.components import components
+from ..outputs import materials, seams
 from . import mesh_arrays
-from .outputs import materials, seams
 
 NONE = "NONE"
 

@@ -15,9 +15,9 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
-from ..core.arrays.indexing import begins_run
+from ...core.arrays.indexing import begins_run
+from ..temporary import removed
 from . import matrix_layers
-from .temporary import removed
 
 WEIGHTS = "reeb_parts_weights"  # on a mesh: the names of the groups with the weights of our armature, as JSON
 

@@ -77,7 +77,7 @@ def test_what_blender_does_not_evaluate_is_where_it_would_be(obj, package, tmp_p
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "x.blend"))
     obj = bpy.data.objects["Tree"]
     bridge = importlib.import_module(f"{package}.scene.bridge")
-    placing = importlib.import_module(f"{package}.scene.placing")
+    placing = importlib.import_module(f"{package}.scene.reading.placing")
     np.testing.assert_array_equal(placing.world_matrix(obj), [[2, 0, 0, 2], [0, 2, 0, 0], [0, 0, 10, 0], [0, 0, 0, 1]])
     assert np.ptp(bridge.read_shape(obj).vertices, axis=0) == pytest.approx(np.ptp(wanted, axis=0), rel=1e-4)
 

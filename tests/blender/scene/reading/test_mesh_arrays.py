@@ -13,7 +13,7 @@ from bulk import read
 @pytest.mark.parametrize("corners", [(3, 7), (3, 5), (4, 5)])  # from, to less than
 def test_quads_and_larger_faces_are_divided_as_blender_divides_them(package, flat, corners):
     """Random ones, most of them not flat or crossing themselves, and some with three equal corners."""
-    module = importlib.import_module(f"{package}.scene.mesh_arrays")
+    module = importlib.import_module(f"{package}.scene.reading.mesh_arrays")
     count = np.random.default_rng(0).integers(*corners, 600)
     points = np.random.default_rng(1).normal(size=(count.sum(), 3)).astype(np.float32)
     points = points.round() if flat else points
@@ -27,7 +27,7 @@ def test_quads_and_larger_faces_are_divided_as_blender_divides_them(package, fla
 
 
 def test_an_attribute_that_only_has_the_name_of_a_setting_is_left_alone(package):
-    module = importlib.import_module(f"{package}.scene.mesh_arrays")
+    module = importlib.import_module(f"{package}.scene.reading.mesh_arrays")
     mesh = bpy.data.meshes.new("Face")
     mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
     mine = mesh.attributes.new("material_index", "FLOAT", "POINT")

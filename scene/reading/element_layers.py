@@ -14,9 +14,9 @@ import bmesh
 import bpy
 import numpy as np
 
+from ..temporary import freed, removed
 from . import fingerprints, mesh_arrays, mesh_groups
 from .elements import CORNER, EDGE, FACE, POINT, Elements, Layer, Ragged
-from .temporary import freed, removed
 
 #: What is no attribute. Their layers have names that no attribute can have.
 SPECIAL = KEY, WEIGHTS, SKIN, FREESTYLE = "shape key", "weights", "skin", "Freestyle"

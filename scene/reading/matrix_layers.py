@@ -15,8 +15,8 @@ import bpy
 import numpy as np
 from bmesh.types import BMesh
 
+from ..temporary import freed
 from .mesh_arrays import attribute_values, set_attribute_values
-from .temporary import freed
 
 _MATRIX, _HALF_ROW = "FLOAT4X4", "INT32_2D"  # the bits of two numbers, which nothing mixes, as nothing does matrices
 _MARKS = [f"\1{place}" for place in range(8)]  # how the names of the half rows begin, which no user can type
