@@ -9,16 +9,12 @@ Reading:
 
 Computing:
 
-- ``compute``: from shapes to decompositions
-- ``jobs``: a computation in a process of its own, watched from Blender's
-- ``processes``: that process
+- ``runs``: a run, in a process of its own, and what becomes of its result
 
 The result:
 
-- ``results``: written to an object, and removed from it
 - ``store``: kept with its mesh
 - ``schema``: what is stored in the file
-- ``succession``: a new result for a mesh that had one
 - ``outputs``: what of the parts is written to a mesh
 - ``orphan_outputs``: what of ours a mesh has without a result
 - ``part_list``: which parts are chosen in the list
@@ -85,9 +81,10 @@ What every operator needs:
 
 from __future__ import annotations
 
-from . import compute, defaults, part_places, schema, sculpt_undo, store, watch
+from . import defaults, part_places, schema, sculpt_undo, store, watch
 from .outputs import vertex_groups
 from .reading import fingerprints, mesh_arrays
+from .runs import compute
 
 
 def register() -> None:

@@ -211,7 +211,7 @@ def test_reports(said, obj, capfd):
 
 
 def test_progress(said, package):
-    jobs = importlib.import_module(f"{package}.scene.jobs")
+    jobs = importlib.import_module(f"{package}.scene.runs.jobs")
     job = jobs.Job([], None)
     job.stage, job.of = "reeb graph", "BODY"
     assert job.text == said["progress"]
@@ -219,7 +219,7 @@ def test_progress(said, package):
 
 def test_why_there_is_no_result(said, obj, package):
     jobs, bridge, parameters = (
-        importlib.import_module(f"{package}.{name}") for name in ("scene.jobs", "scene.bridge", "core.parameters"))
+        importlib.import_module(f"{package}.{name}") for name in ("scene.runs.jobs", "scene.bridge", "core.parameters"))
     for number in (signal.SIGKILL, signal.SIGSEGV):
         job = jobs.Job([("Tree", bridge.read_shape(obj))], parameters.Parameters(base_spacing=0.0005))
         job.start()

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.errors import Cancelled, ReebError
-from ..core.handover import arguments
-from ..core.parameters import Parameters
-from .bridge import Shape
-from .errors import SceneError, load_core
+from ...core.errors import Cancelled, ReebError
+from ...core.handover import arguments
+from ...core.parameters import Parameters
+from ..bridge import Shape
+from ..errors import SceneError, load_core
 
 if TYPE_CHECKING:
-    from ..core.result.decomposition import Decomposition
+    from ...core.result.decomposition import Decomposition
 
 
 # The last few decompositions, by what they depend on.

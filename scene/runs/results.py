@@ -9,10 +9,10 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.result.numbering import NumberedParts
-from ..core.steps import Steps, finished
-from ..core.uses.graph_folding import unfolded
-from . import (
+from ...core.result.numbering import NumberedParts
+from ...core.steps import Steps, finished
+from ...core.uses.graph_folding import unfolded
+from .. import (
     armature,
     bridge,
     explode,
@@ -22,14 +22,14 @@ from . import (
     outputs,
     property_updates,
     store,
-    succession,
     targets,
     transaction,
     uv_map,
 )
+from ..errors import SceneError
+from ..graph import graph_objects
+from . import succession
 from .compute import Outcome
-from .errors import SceneError
-from .graph import graph_objects
 
 
 def check_unchanged(digests: dict[str, str]) -> None:

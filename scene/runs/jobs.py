@@ -11,12 +11,12 @@ from typing import Any
 
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core import handover
-from ..core.parameters import Parameters
+from ...core import handover
+from ...core.parameters import Parameters
+from ..bridge import Shape
+from ..errors import SceneError
 from . import compute
-from .bridge import Shape
 from .compute import Outcome
-from .errors import SceneError
 from .processes import Worker
 
 

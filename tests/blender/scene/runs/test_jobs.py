@@ -20,21 +20,21 @@ import pytest
 import shapes
 from diagonal import some
 
-TESTS = Path(__file__).resolve().parents[2]
+TESTS = Path(__file__).resolve().parents[3]
 WAIT = 60.0  # seconds for a computation of some thousand vertices on a busy machine
 
 
 @pytest.fixture
 def jobs(package):
     """The module; nothing is remembered from other tests, and nothing may be left."""
-    importlib.import_module(f"{package}.scene.compute").forget()
-    yield importlib.import_module(f"{package}.scene.jobs")
+    importlib.import_module(f"{package}.scene.runs.compute").forget()
+    yield importlib.import_module(f"{package}.scene.runs.jobs")
     assert folders() == []
 
 
 @pytest.fixture
 def compute(package):
-    return importlib.import_module(f"{package}.scene.compute")
+    return importlib.import_module(f"{package}.scene.runs.compute")
 
 
 @pytest.fixture
@@ -236,7 +236,7 @@ def test_out_of_memory_costs_one_sentence(jobs, read, parameters, capfd):
 
 @pytest.mark.parametrize("words", some("RuntimeError: can't start new thread", "[Errno 12] Cannot allocate memory"))
 def test_whatever_words_say_so_a_lack_of_memory_is_one(package, jobs, read, parameters, words):
-    processes = importlib.import_module(f"{package}.scene.processes")
+    processes = importlib.import_module(f"{package}.scene.runs.processes")
     worker = processes.Worker([read(shapes.tube_tree())[0][1]], parameters())
     try:
         os.kill(worker.pid, signal.SIGTERM)
@@ -300,7 +300,7 @@ def test_where_no_python_can_be_started_blender_computes(
 ])  # fmt: skip
 def test_what_counts_as_an_interpreter(package, other_python, name, known):
     """By the names that it has in builds of Blender, and those of programs around it."""
-    processes = importlib.import_module(f"{package}.scene.processes")
+    processes = importlib.import_module(f"{package}.scene.runs.processes")
     other_python(name, "#!/bin/sh")
     assert processes.interpreter() == (sys.executable if known else None)
 
@@ -348,7 +348,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, {tests!r})
 import bpy, checkout, shapes
 package = checkout.enable(pathlib.Path(tempfile.mkdtemp(dir={scratch!r})))
-jobs, bridge, p = (importlib.import_module(package + name) for name in (".scene.jobs", ".scene.bridge",
+jobs, bridge, p = (importlib.import_module(package + name) for name in (".scene.runs.jobs", ".scene.bridge",
                                                                         ".core.parameters"))
 shape = shapes.subdivide(shapes.subdivide(shapes.tube_tree()))
 mesh = bpy.data.meshes.new("Tree")

@@ -93,7 +93,7 @@ def test_steps_go_from_one_clear_choice_to_the_next_and_back(obj, result, packag
 
 
 def test_the_panel_decomposes_an_edited_mesh_at_the_detail_that_it_shows(obj, result, package):
-    results = importlib.import_module(f"{package}.scene.results")
+    results = importlib.import_module(f"{package}.scene.runs.results")
     assert results.detail_of(obj) == {"detail": pytest.approx(0.5), "n_parts": 0}
     result.n_parts = 4
     assert results.detail_of(obj)["n_parts"] == 4
@@ -123,7 +123,7 @@ def edit(mesh):
 
 
 def test_what_was_given_to_parts_outlasts_an_edit(obj, result, package):
-    results = importlib.import_module(f"{package}.scene.results")
+    results = importlib.import_module(f"{package}.scene.runs.results")
     result.detail = 0.6
     parts = result.parts
     parts[1].name = "Arm"

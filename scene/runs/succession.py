@@ -8,15 +8,15 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core.mesh.labels import majority
-from ..core.result.decomposition import Decomposition
-from ..core.result.numbering import inherited
-from . import bridge, part_names, store
-from .bridge import Shape
-from .errors import SceneError
-from .outputs import face_attribute
-from .reading import mesh_arrays
-from .store import Stored
+from ...core.mesh.labels import majority
+from ...core.result.decomposition import Decomposition
+from ...core.result.numbering import inherited
+from .. import bridge, part_names, store
+from ..bridge import Shape
+from ..errors import SceneError
+from ..outputs import face_attribute
+from ..reading import mesh_arrays
+from ..store import Stored
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,7 @@ def _cut_around_pins(obj: bpy.types.Object, shape: Shape, decomposition: Decompo
 
     most : (p,) int64, what most faces of each face's candidate are pinned to; new faces go with them.
     """
-    from ..core.result.editing.changes import split_around
+    from ...core.result.editing.changes import split_around
 
     pinned = np.where(former.number > 0, former.pinned, most)
     if np.array_equal(pinned, most):

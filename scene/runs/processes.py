@@ -16,11 +16,11 @@ from typing import Any
 
 import bpy
 
-from ..core import handover
-from ..core.memory import lacks_memory
-from ..core.parameters import Parameters
-from .bridge import Shape
-from .errors import load_core
+from ...core import handover
+from ...core.memory import lacks_memory
+from ...core.parameters import Parameters
+from ..bridge import Shape
+from ..errors import load_core
 
 # What the process executes: where the extension is and the folder it works in come first, then where its libraries
 # are. Nothing else is looked for anywhere but in Python's standard library.
