@@ -7,10 +7,11 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import edits, part_list, part_names
+from ..scene import edits
 from ..scene.errors import SceneError
-from ..scene.part_list import chosen_numbers
 from ..scene.reporting import PartOperator
+from ..scene.result import part_list, part_names
+from ..scene.result.part_list import chosen_numbers
 from ..scene.store import Stored
 from ..viewport.ring_tool import RingTool, move
 

@@ -11,8 +11,8 @@ from ..scene import moved, store, targets
 from ..scene.errors import SceneError
 from ..scene.export import KINDS, export_parts
 from ..scene.modes import object_mode
-from ..scene.part_list import wanted_numbers
 from ..scene.reporting import ReportingOperator
+from ..scene.result.part_list import wanted_numbers
 from ..scene.run_files import together
 from ..scene.settings import SEPARATE, WhichProperties, fill_in
 

@@ -5,13 +5,14 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits, moved, part_names, property_updates, reactions, store, targets, transaction
+from ..scene import edits, moved, property_updates, reactions, store, targets, transaction
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.graph.graph_objects import part_of, source_of_arcs
 from ..scene.modes import object_mode
-from ..scene.part_list import check_parts, choose, chosen_numbers
 from ..scene.reporting import ReportingOperator
+from ..scene.result import part_names
+from ..scene.result.part_list import check_parts, choose, chosen_numbers
 from ..scene.selection import select_objects
 from ..viewport import pointing
 

@@ -10,9 +10,9 @@ from ..core.steps import Steps, stretched
 from ..scene import moved, store, targets
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
-from ..scene.part_list import check_parts, wanted_numbers
 from ..scene.pieces import piece_objects, separation
 from ..scene.reporting import ReportingOperator
+from ..scene.result.part_list import check_parts, wanted_numbers
 from ..scene.selection import in_layer, select_objects
 from ..scene.settings import SEPARATE, SeparateProperties, closes_holes, fill_in
 from ..scene.stepped import SteppedOperator, is_long

@@ -5,10 +5,11 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import edits, part_names
+from ..scene import edits
 from ..scene.errors import SceneError
-from ..scene.part_list import active_number
 from ..scene.reporting import PartOperator
+from ..scene.result import part_names
+from ..scene.result.part_list import active_number
 from ..scene.store import Stored
 from ..viewport import pointing
 from ..viewport.boundary import Boundary, check_borders, write_moved

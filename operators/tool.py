@@ -5,9 +5,10 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import part_list, reactions, redraw
+from ..scene import reactions, redraw
 from ..scene.errors import SceneError
 from ..scene.reporting import PartOperator, ReportingOperator
+from ..scene.result import part_list
 from ..scene.store import Stored
 from ..viewport import hover, pointing
 from ..viewport.box import Frame, parts_in_box

@@ -5,7 +5,6 @@ Reading:
 
 - ``bridge``: the shape of an object as arrays for core
 - ``reading``: objects and their meshes as arrays, and what is read of them
-- ``part_places``: where parts are
 
 Computing:
 
@@ -14,13 +13,9 @@ Computing:
 The result:
 
 - ``store``: kept with its mesh
-- ``schema``: what is stored in the file
+- ``result``: what is stored of a result, its parts' names and their list
 - ``outputs``: what of the parts is written to a mesh
 - ``orphan_outputs``: what of ours a mesh has without a result
-- ``part_list``: which parts are chosen in the list
-- ``part_names``: names and colors of parts, by their numbers
-- ``naming``: names that are suggested
-- ``notes``: notes on a mesh
 - ``object_report``: what the JSON says of an object
 - ``graph``: the graph as objects
 
@@ -81,9 +76,10 @@ What every operator needs:
 
 from __future__ import annotations
 
-from . import defaults, part_places, schema, sculpt_undo, store, watch
+from . import defaults, sculpt_undo, store, watch
 from .outputs import vertex_groups
 from .reading import fingerprints, mesh_arrays
+from .result import part_places, schema
 from .runs import compute
 
 

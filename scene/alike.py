@@ -9,8 +9,9 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import bridge, moved, part_list, part_names, reactions, store
+from . import bridge, moved, reactions, store
 from .errors import SceneError
+from .result import part_list, part_names
 
 
 def objects_with_parts(context: bpy.types.Context, selected: bool = False) -> list[bpy.types.Object]:

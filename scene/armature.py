@@ -12,11 +12,12 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from ..core.result.numbering import NumberedParts
-from . import made_objects, modifiers, outputs, part_names, property_updates, targets, transaction
+from . import made_objects, modifiers, outputs, property_updates, targets, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
 from .pieces import part_meshes, piece_objects
 from .reading import mesh_arrays, mesh_groups, placing
+from .result import part_names
 from .selection import nothing_selected
 from .skeleton import Skeleton, skeleton
 from .store import Stored

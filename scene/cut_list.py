@@ -11,8 +11,9 @@ from collections.abc import Callable
 
 import bpy
 
-from . import part_names, transaction
+from . import transaction
 from .joints import CutJoints
+from .result import part_names
 
 
 def chosen(obj: bpy.types.Object, part: dict[int, int]) -> Callable[[int, int], str]:

@@ -23,10 +23,11 @@ from ..core.mesh.corners import CornerTable
 from ..core.mesh.labels import FaceGraph
 from ..core.result.decomposition import Decomposition, Parts
 from ..core.sentence import Count
-from . import bridge, part_names, property_updates, reactions, store
+from . import bridge, property_updates, reactions, store
 from .errors import SceneError
 from .outputs import face_sets
 from .reading import mesh_arrays
+from .result import part_names
 from .selection import selected_faces
 from .store import Stored
 

@@ -15,11 +15,12 @@ from mathutils import Color
 
 from ..core.file_names import file_name
 from ..core.uses.threemf import Assembly, ColoredMesh, write_3mf
-from . import bridge, file_checks, part_names, store
+from . import bridge, file_checks, store
 from .errors import SceneError
 from .pieces import piece_objects
 from .pieces.part_meshes import piece_meshes
 from .reading import mesh_arrays, placing
+from .result import part_names
 from .run_files import RunFiles
 from .temporary import removed
 

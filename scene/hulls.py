@@ -9,9 +9,10 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import made_objects, part_names
+from . import made_objects
 from .pieces import piece_objects
 from .reading import fingerprints, mesh_arrays, placing
+from .result import part_names
 from .store import Stored
 
 PART = "reeb_parts_hull_of"  # on a hull: the number of its part

@@ -9,9 +9,10 @@ import bpy
 import numpy as np
 
 from ..core.uses.report import bounding_boxes, report
-from . import bridge, part_names, store
+from . import bridge, store
 from .pieces import part_meshes, piece_checks
 from .reading import mesh_arrays, placing
+from .result import part_names
 from .store import Stored
 from .temporary import removed
 

@@ -13,7 +13,7 @@ from ..core.errors import ReebError
 from . import moved, store, targets
 from .errors import SceneError, translated
 from .modes import object_mode
-from .part_list import check_parts
+from .result.part_list import check_parts
 from .store import Stored
 from .transaction import transaction
 

@@ -13,8 +13,9 @@ from mathutils import Matrix
 from ..core.mesh.corners import CornerTable
 from ..core.result.numbering import NumberedParts
 from ..core.result.whole import Whole, whole_of
-from . import bridge, part_names, store
+from . import bridge, store
 from .reading import mesh_arrays, placing
+from .result import part_names
 
 if TYPE_CHECKING:
     from ..core.uses.moving.bones import Bones

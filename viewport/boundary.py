@@ -10,9 +10,10 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import bridge, edits, part_names
+from ..scene import bridge, edits
 from ..scene.errors import SceneError
 from ..scene.reading import mesh_arrays
+from ..scene.result import part_names
 from ..scene.store import Stored
 
 RING = 0.01  # width of a ring, as a share of the object's size

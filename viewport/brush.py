@@ -10,9 +10,10 @@ from ..core.arrays.components import components
 from ..core.arrays.indexing import expanded
 from ..core.arrays.pairs import both_ways
 from ..core.sentence import Count
-from ..scene import edits, part_names, store
+from ..scene import edits, store
 from ..scene.errors import SceneError
 from ..scene.reading import mesh_arrays
+from ..scene.result import part_names
 from .pointing import Model, check_place
 
 # What a stroke leaves of a part between itself and others goes along if it is smaller than this share of what it took;

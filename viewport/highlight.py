@@ -19,9 +19,9 @@ from ..core.steps import Steps
 from ..scene import bridge, cut_curves, explode, selection, store
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
-from ..scene.part_list import chosen_numbers
 from ..scene.reading import mesh_arrays
 from ..scene.reading.seen_points import seen_points, version
+from ..scene.result.part_list import chosen_numbers
 from .idle import IdleSearch
 from .lines import Lines, Surface
 from .view_tool import CHANGED

@@ -13,10 +13,11 @@ from ..core.mesh.corners import CornerTable
 from ..core.mesh.labels import FaceGraph
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..scene import bridge, cut_curves, edits, part_list, part_names, store
+from ..scene import bridge, cut_curves, edits, store
 from ..scene.errors import SceneError
 from ..scene.reading import mesh_arrays
 from ..scene.reading.seen_points import seen_points
+from ..scene.result import part_list, part_names
 from .pointing import Model, Target
 
 if TYPE_CHECKING:

@@ -12,9 +12,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps
-from ..scene import cut_curves, edits, part_list
+from ..scene import cut_curves, edits
 from ..scene.errors import SceneError
 from ..scene.reading.seen_points import seen_points
+from ..scene.result import part_list
 from ..scene.store import Stored
 from .boundary import Boundary, check_borders, write_moved
 from .colored_tool import ColoredTool

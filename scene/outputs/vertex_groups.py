@@ -14,8 +14,9 @@ import numpy as np
 
 from ...core.arrays.indexing import run_starts
 from ...core.result.numbering import NumberedParts
-from .. import made_objects, part_names, targets, transaction
+from .. import made_objects, targets, transaction
 from ..reading import mesh_arrays
+from ..result import part_names
 
 
 @dataclass(frozen=True, eq=False)

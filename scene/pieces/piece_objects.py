@@ -17,8 +17,8 @@ from ...core.steps import Steps
 from .. import bridge, made_objects, rigid_bodies, store, targets, transaction, visibility
 from ..errors import SceneError
 from ..graph import graph_visibility
-from ..part_names import fitted, without_number
 from ..reading import element_layers, fingerprints
+from ..result.part_names import fitted, without_number
 from ..selection import in_layer
 from ..store import Stored
 from ..surroundings import Surroundings

@@ -17,7 +17,6 @@ from .. import (
     bridge,
     explode,
     hidden,
-    notes,
     orphan_outputs,
     outputs,
     property_updates,
@@ -28,6 +27,7 @@ from .. import (
 )
 from ..errors import SceneError
 from ..graph import graph_objects
+from ..result import notes
 from . import succession
 from .compute import Outcome
 

@@ -11,11 +11,12 @@ import numpy as np
 from ...core.mesh.labels import majority
 from ...core.result.decomposition import Decomposition
 from ...core.result.numbering import inherited
-from .. import bridge, part_names, store
+from .. import bridge, store
 from ..bridge import Shape
 from ..errors import SceneError
 from ..outputs import face_attribute
 from ..reading import mesh_arrays
+from ..result import part_names
 from ..store import Stored
 
 

@@ -237,7 +237,7 @@ def test_the_panel_also_in_a_file_that_was_opened_again(said, obj, package, tmp_
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     result = bpy.data.objects["Tree"].data.reeb_parts
-    assert said["note"] in importlib.import_module(f"{package}.scene.notes").spoken(result)
+    assert said["note"] in importlib.import_module(f"{package}.scene.result.notes").spoken(result)
     lines = importlib.import_module(f"{package}.ui.panel").facts(result)
     for line, expected in zip(lines, said["facts"], strict=True):
         assert re.fullmatch(expected, line)
@@ -256,7 +256,7 @@ def test_notes_of_a_file_from_before_there_were_translations(obj, package):
     obj.modifiers.new("Bevel", "BEVEL")
     bpy.ops.reeb_parts.decompose()
     obj.data.reeb_parts.property_unset("note_words")
-    assert ENGLISH["note"] in importlib.import_module(f"{package}.scene.notes").spoken(obj.data.reeb_parts)
+    assert ENGLISH["note"] in importlib.import_module(f"{package}.scene.result.notes").spoken(obj.data.reeb_parts)
 
 
 def test_switched_off_leaves_no_translations(said, package):

@@ -10,8 +10,8 @@ from collections.abc import Container
 import bpy
 import numpy as np
 
-from ..core.result.decomposition import default_name
-from . import transaction
+from ...core.result.decomposition import default_name
+from .. import transaction
 
 #: The largest number that a part has: colors are looked up in a table of all numbers.
 MAX_NUMBER = 1_000_000

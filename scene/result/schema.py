@@ -20,9 +20,10 @@ from bpy.props import (
     StringProperty,
 )
 
-from . import explode, part_list, reactions
-from .settings import JOINTS, ReebPartsSettings, ReebPartsUse
-from .settled import Settled
+from .. import explode, reactions
+from ..settings import JOINTS, ReebPartsSettings, ReebPartsUse
+from ..settled import Settled
+from . import part_list
 
 
 class ReebPart(bpy.types.PropertyGroup):

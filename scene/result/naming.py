@@ -10,11 +10,11 @@ import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.uses.naming.method import Suggestion, suggestions
-from ..core.uses.naming.shapes import Shapes
-from . import bridge, skeleton, store
-from .reading import mesh_arrays, placing
-from .store import Stored
+from ...core.uses.naming.method import Suggestion, suggestions
+from ...core.uses.naming.shapes import Shapes
+from .. import bridge, skeleton, store
+from ..reading import mesh_arrays, placing
+from ..store import Stored
 
 _WORDS = {word: word for word in (
     n_("body"), n_("head"), n_("neck"), n_("arm"), n_("leg"), n_("tail"), n_("ear"), n_("horn"), n_("handle"),

@@ -6,9 +6,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.arrays.indexing import sums_by
-from ..core.result.numbering import NumberedParts
-from .reading import mesh_arrays, placing
+from ...core.arrays.indexing import sums_by
+from ...core.result.numbering import NumberedParts
+from ..reading import mesh_arrays, placing
 
 _middles: list[tuple[tuple, np.ndarray]] = []  # the last ones, with what they are of
 

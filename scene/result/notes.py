@@ -9,7 +9,7 @@ from collections.abc import Iterable
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.sentence import Sentence
+from ...core.sentence import Sentence
 
 
 def keep(result: bpy.types.PropertyGroup, notes: Iterable[str]) -> None:
