@@ -7,7 +7,8 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import moved, store, targets
+from ..scene import store, targets
+from ..scene.changes import moved
 from ..scene.errors import SceneError
 from ..scene.export import KINDS, export_parts
 from ..scene.modes import object_mode

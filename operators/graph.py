@@ -5,7 +5,8 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits, moved, property_updates, reactions, store, targets, transaction
+from ..scene import property_updates, store, targets, transaction
+from ..scene.changes import edits, moved, reactions
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.graph.graph_objects import part_of, source_of_arcs

@@ -6,7 +6,7 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Vector
 
-from ..scene import edits
+from ..scene.changes import edits
 from ..scene.reporting import PartOperator
 from ..scene.result import part_names
 from ..scene.result.part_list import active_number

@@ -6,7 +6,8 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import hidden, moved, reactions, selection, store, targets
+from ..scene import hidden, selection, store, targets
+from ..scene.changes import moved, reactions
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
 from ..scene.modes import object_mode

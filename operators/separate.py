@@ -7,7 +7,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..scene import moved, store, targets
+from ..scene import store, targets
+from ..scene.changes import moved
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
 from ..scene.pieces import piece_objects, separation

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import edits
+from ..scene.changes import edits
 from ..scene.errors import SceneError
 from ..scene.reporting import PartOperator
 from ..scene.result import part_names

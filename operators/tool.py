@@ -5,7 +5,8 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene import reactions, redraw
+from ..scene import redraw
+from ..scene.changes import reactions
 from ..scene.errors import SceneError
 from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.result import part_list

@@ -21,13 +21,8 @@ The result:
 
 Changes:
 
-- ``edits``: parts changed by hand
-- ``reactions``: what a slider or a new name does
-- ``settled``: sliders that go back when what they ask for cannot be shown
+- ``changes``: what changes a result: the user's hand, a slider, an edit of the mesh
 - ``property_updates``: whether it is the user who writes a property
-- ``watch``: notices that a mesh was edited or deleted
-- ``moved``: the result of a mesh that was moved as a whole goes along
-- ``alike``: parts that are alike, and names carried to other models
 
 What is made of parts:
 
@@ -64,7 +59,6 @@ What every operator needs:
 - ``errors``: what users are told, and the way into core
 - ``transaction``: all or nothing
 - ``snapshots``: what a transaction keeps
-- ``sculpt_undo``: undo in Sculpt Mode
 - ``modes``: leaves a mode, and returns to it
 - ``selection``: what is selected or hidden
 - ``visibility``: what is hidden for a while
@@ -76,7 +70,8 @@ What every operator needs:
 
 from __future__ import annotations
 
-from . import defaults, sculpt_undo, store, watch
+from . import defaults, store
+from .changes import sculpt_undo, watch
 from .outputs import vertex_groups
 from .reading import fingerprints, mesh_arrays
 from .result import part_places, schema

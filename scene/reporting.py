@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.errors import ReebError
-from . import moved, store, targets
+from . import store, targets
+from .changes import moved
 from .errors import SceneError, translated
 from .modes import object_mode
 from .result.part_list import check_parts

@@ -10,7 +10,8 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
-from ..scene import bridge, edits
+from ..scene import bridge
+from ..scene.changes import edits
 from ..scene.errors import SceneError
 from ..scene.reading import mesh_arrays
 from ..scene.result import part_names

@@ -10,7 +10,8 @@ from ..core.arrays.components import components
 from ..core.arrays.indexing import expanded
 from ..core.arrays.pairs import both_ways
 from ..core.sentence import Count
-from ..scene import edits, store
+from ..scene import store
+from ..scene.changes import edits
 from ..scene.errors import SceneError
 from ..scene.reading import mesh_arrays
 from ..scene.result import part_names

@@ -12,7 +12,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps
-from ..scene import cut_curves, edits
+from ..scene import cut_curves
+from ..scene.changes import edits
 from ..scene.errors import SceneError
 from ..scene.reading.seen_points import seen_points
 from ..scene.result import part_list

@@ -14,10 +14,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix
 
 from .. import property_updates, store, targets, transaction
+from ..changes.settled import reaction
 from ..errors import SceneError
 from ..pieces import piece_objects
 from ..reading import mesh_arrays
-from ..settled import reaction
 
 
 def check_parts(obj: bpy.types.Object | None) -> None:

@@ -20,9 +20,10 @@ from bpy.props import (
     StringProperty,
 )
 
-from .. import explode, reactions
+from .. import explode
+from ..changes import reactions
+from ..changes.settled import Settled
 from ..settings import JOINTS, ReebPartsSettings, ReebPartsUse
-from ..settled import Settled
 from . import part_list
 
 

@@ -40,7 +40,7 @@ def test_there_and_back_for_all_that_is_selected(make, tree, obj):
 @pytest.mark.parametrize("way", ["objects", "hierarchy"])
 def test_the_original_is_back_once_all_pieces_are_deleted(package, obj, way):
     """It was not rendered any more, and nothing said so."""
-    watch = importlib.import_module(f"{package}.scene.watch")
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
     bpy.ops.reeb_parts.decompose()
     bpy.ops.reeb_parts.hulls()
     bpy.ops.reeb_parts.separate()

@@ -205,7 +205,7 @@ def test_names_are_suggested_for_all_selected_models(obj, result, make, tree):
 def test_names_given_at_once_are_those_given_one_by_one(make, package, seed):
     """Names that others have, or had a moment ago, with and without numbers, long ones, and the parts' own."""
     part_names = importlib.import_module(f"{package}.scene.result.part_names")
-    reactions = importlib.import_module(f"{package}.scene.reactions")
+    reactions = importlib.import_module(f"{package}.scene.changes.reactions")
     found = []
     for at_once in (False, True):
         obj = make(shapes.tube_tree())

@@ -9,9 +9,10 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from . import bridge, moved, reactions, store
-from .errors import SceneError
-from .result import part_list, part_names
+from .. import bridge, store
+from ..errors import SceneError
+from ..result import part_list, part_names
+from . import moved, reactions
 
 
 def objects_with_parts(context: bpy.types.Context, selected: bool = False) -> list[bpy.types.Object]:
@@ -54,7 +55,7 @@ def find_similar(context: bpy.types.Context, obj: bpy.types.Object, limit: float
     n_parts, n_objects : int
         How many are marked besides the active part, and on how many objects.
     """
-    from ..core.uses.descriptors import distances
+    from ...core.uses.descriptors import distances
 
     objects = objects_with_parts(context)
     described = {other: _descriptors(other) for other in objects}
@@ -72,7 +73,7 @@ def find_similar(context: bpy.types.Context, obj: bpy.types.Object, limit: float
 
 def _descriptors(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
     """Number and descriptor of each part of an object, (count,) int64 and (count, d) float64."""
-    from ..core.uses.descriptors import part_descriptors
+    from ...core.uses.descriptors import part_descriptors
 
     numbered = store.load(obj.data).shown_parts()
     shape = bridge.read_shape(obj)
@@ -190,8 +191,8 @@ def _free_pair(name: str, side: int, taken: set[str], carried: set[str]) -> tupl
 
 def _corresponding(source: bpy.types.Object, target: bpy.types.Object) -> tuple[list[int], np.ndarray]:
     """Number of the source's part for each part of the target, and how sure that is, (count,) 0..1."""
-    from ..core.mesh.labels import majority
-    from ..core.uses.correspondence import carried_labels, sample_surface
+    from ...core.mesh.labels import majority
+    from ...core.uses.correspondence import carried_labels, sample_surface
 
     from_parts, to_parts = (store.load(obj.data).shown_parts() for obj in (source, target))
     shapes = [bridge.read_shape(obj) for obj in (source, target)]

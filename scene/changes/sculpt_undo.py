@@ -11,7 +11,7 @@ import time
 import bpy
 from bpy.app.handlers import persistent
 
-from . import handlers
+from .. import handlers
 
 REST = 0.3  # seconds
 

@@ -18,18 +18,19 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.arrays.components import components
-from ..core.mesh.corners import CornerTable
-from ..core.mesh.labels import FaceGraph
-from ..core.result.decomposition import Decomposition, Parts
-from ..core.sentence import Count
-from . import bridge, property_updates, reactions, store
-from .errors import SceneError
-from .outputs import face_sets
-from .reading import mesh_arrays
-from .result import part_names
-from .selection import selected_faces
-from .store import Stored
+from ...core.arrays.components import components
+from ...core.mesh.corners import CornerTable
+from ...core.mesh.labels import FaceGraph
+from ...core.result.decomposition import Decomposition, Parts
+from ...core.sentence import Count
+from .. import bridge, property_updates, store
+from ..errors import SceneError
+from ..outputs import face_sets
+from ..reading import mesh_arrays
+from ..result import part_names
+from ..selection import selected_faces
+from ..store import Stored
+from . import reactions
 
 _BESIDE = 0.5  # share of a candidate's faces, more on one side than on the other, from which on it is of that side
 
@@ -50,7 +51,7 @@ def check_unlocked(mesh: bpy.types.Mesh, numbers: Iterable[int]) -> None:
 
 def one_of_each_pair(stored: Stored, numbers: list[int]) -> list[int]:
     """Parts without those that change with their mirror images, which come before them."""
-    from ..core.result.editing.mirrored import twin_numbers
+    from ...core.result.editing.mirrored import twin_numbers
 
     if not bpy.context.scene.reeb_parts.symmetry:
         return numbers
@@ -65,7 +66,7 @@ def locked_others(mesh: bpy.types.Mesh, number: int) -> list[int]:
 
 def merged(mesh: bpy.types.Mesh, stored: Stored, numbers: list[int], into: int) -> Stored:
     """The result with one part of several; raises SceneError if they do not touch."""
-    from ..core.result.editing.changes import components_of
+    from ...core.result.editing.changes import components_of
 
     check_unlocked(mesh, numbers)
     mask = np.isin(stored.shown, numbers)
@@ -80,7 +81,7 @@ def merged_into_neighbors(mesh: bpy.types.Mesh, stored: Stored, numbers: list[in
     Of parts that are each other's nearest the largest takes the others. Where the user has given the neighbor no name,
     but has named the largest part of all that become one, that is which stays. numbers : of parts.
     """
-    from ..core.result.editing.mirrored import twin_numbers
+    from ...core.result.editing.mirrored import twin_numbers
 
     numbered = stored.shown_parts()
     cuts = numbered.numbers[numbered.parts.cuts]
@@ -131,7 +132,7 @@ def small_merged(mesh: bpy.types.Mesh, stored: Stored, small: Iterable[int]) -> 
 
 def halved(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
     """The result with a part split in two at the most salient cut inside it."""
-    from ..core.result.editing.changes import best_split
+    from ...core.result.editing.changes import best_split
 
     side = best_split(stored.decomposition, stored.shown == number)
     return _split_off(mesh, stored, number, side)[0]
@@ -150,7 +151,7 @@ def split_at_node(context: bpy.types.Context, mesh: bpy.types.Mesh, node: int) -
     SceneError
         The part is locked, cannot be split, or the mesh was edited.
     """
-    from ..core.result.editing.changes import node_split, smaller_side
+    from ...core.result.editing.changes import node_split, smaller_side
 
     stored = store.load(mesh)
     number = int(stored.shown[stored.decomposition.node_candidate[node]])
@@ -180,7 +181,7 @@ def _split_off(mesh: bpy.types.Mesh, stored: Stored, number: int, side: np.ndarr
 
 def grown(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
     """The result with the next candidate beyond a part's weakest boundary in it, unless that is of a locked part."""
-    from ..core.result.editing.changes import growth
+    from ...core.result.editing.changes import growth
 
     allowed = _not_locked(mesh, stored, number) & (_own_side(stored, number) > _BESIDE)
     taken = growth(stored.decomposition, stored.shown == number, allowed)
@@ -192,7 +193,7 @@ def grown(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
 
 def shrunk(mesh: bpy.types.Mesh, stored: Stored, number: int) -> Stored:
     """The result with a candidate of a part in the part beside it, unless that part is locked."""
-    from ..core.result.editing.changes import shrinkage
+    from ...core.result.editing.changes import shrinkage
 
     allowed = _not_locked(mesh, stored, number) & (_own_side(stored, number) > -_BESIDE)
     step = shrinkage(stored.decomposition, stored.shown == number, allowed)
@@ -213,7 +214,7 @@ def _own_side(stored: Stored, number: int) -> np.ndarray:
     All 1 if the part is no mirror image of another. A part and its image cannot both take a candidate across the plane,
     and would change sides if they took from beyond it.
     """
-    from ..core.result.editing.mirrored import twin_numbers
+    from ...core.result.editing.mirrored import twin_numbers
 
     found, shown = stored.decomposition, stored.shown
     twin = twin_numbers(stored.shown_parts()).get(number, number)
@@ -227,7 +228,7 @@ def _own_side(stored: Stored, number: int) -> np.ndarray:
 
 def _moved(mesh: bpy.types.Mesh, stored: Stored, candidate: int, number: int) -> Stored:
     """The result with a candidate in a part; small pieces that it cuts off go along, large ones become parts."""
-    from ..core.result.editing.remainders import with_small_pieces
+    from ...core.result.editing.remainders import with_small_pieces
 
     found, giver = stored.decomposition, int(stored.shown[candidate])
     numbers = stored.shown.copy()
@@ -296,8 +297,8 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
         The part that each face was to be in, with what goes along and the mirror image of the change; pieces have
         other numbers then.
     """
-    from ..core.result.editing.changes import split_around
-    from ..core.result.editing.mirrored import MirroredChange, cleaned
+    from ...core.result.editing.changes import split_around
+    from ...core.result.editing.mirrored import MirroredChange, cleaned
 
     found, before, asked = stored.decomposition, stored.face_numbers, face_numbers
     if np.array_equal(asked, before):
@@ -327,8 +328,8 @@ def assign_faces(context: bpy.types.Context, obj: bpy.types.Object, stored: Stor
 
 def _with_small_pieces(stored: Stored, graph: FaceGraph, after: np.ndarray, beside_taken: float) -> np.ndarray:
     """The part of each face after a change, (p,), with small pieces that it cuts off; on both sides alike."""
-    from ..core.result.editing.mirrored import twin_numbers
-    from ..core.result.editing.remainders import halved_between_images, with_small_pieces
+    from ...core.result.editing.mirrored import twin_numbers
+    from ...core.result.editing.remainders import halved_between_images, with_small_pieces
 
     found, numbered = stored.decomposition, stored.shown_parts()
     touching = graph.with_contacts(found.contacts)
@@ -395,7 +396,7 @@ def _part_pieces_(mesh: bpy.types.Mesh, stored: Stored, numbers: np.ndarray, num
     made : set of int
         The new numbers.
     """
-    from ..core.result.editing.changes import components_of
+    from ...core.result.editing.changes import components_of
 
     area = stored.decomposition.candidate_area
     piece = components_of(stored.decomposition, numbers == number)
@@ -461,7 +462,7 @@ def _mirrored(
 
     Returns the numbers after both, and those of the parts that the mirror image concerns.
     """
-    from ..core.result.editing.mirrored import on_both_sides, twin_numbers
+    from ...core.result.editing.mirrored import on_both_sides, twin_numbers
 
     if not bpy.context.scene.reeb_parts.symmetry or not (twin >= 0).any():
         return after, []

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapes
 
-SPOT = Path(__file__).resolve().parents[3] / "models" / "spot.obj"
+SPOT = Path(__file__).resolve().parents[4] / "models" / "spot.obj"
 
 
 @pytest.fixture

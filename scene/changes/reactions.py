@@ -12,16 +12,17 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ..core.result.numbering import NumberedParts
-from . import moved, outputs, property_updates, store, targets, transaction
-from .errors import SceneError
-from .graph import graph_objects
-from .modes import object_mode, why_not_left
-from .outputs import materials, vertex_groups
-from .result import part_names
+from ...core.result.numbering import NumberedParts
+from .. import outputs, property_updates, store, targets, transaction
+from ..errors import SceneError
+from ..graph import graph_objects
+from ..modes import object_mode, why_not_left
+from ..outputs import materials, vertex_groups
+from ..result import part_names
+from ..store import Stored
+from ..transaction import keep_result
+from . import moved
 from .settled import reaction
-from .store import Stored
-from .transaction import keep_result
 
 
 @reaction

@@ -15,7 +15,8 @@ from typing import Any
 import bpy
 from bpy.props import StringProperty
 
-from . import property_updates, sculpt_undo, transaction
+from .. import property_updates, transaction
+from . import sculpt_undo
 
 #: The group on each kind of data block that remembers.
 _GROUPS = {bpy.types.Mesh: "reeb_parts", bpy.types.Object: "reeb_parts_made", bpy.types.Scene: "reeb_parts"}

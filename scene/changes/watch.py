@@ -14,11 +14,12 @@ import bmesh
 import bpy
 from bpy.app.handlers import persistent
 
-from . import handlers, moved, redraw, store, transaction
-from .graph import graph_follow, graph_objects, graph_visibility
-from .pieces import piece_objects
-from .reading import fingerprints, seen_points
-from .temporary import removed
+from .. import handlers, redraw, store, transaction
+from ..graph import graph_follow, graph_objects, graph_visibility
+from ..pieces import piece_objects
+from ..reading import fingerprints, seen_points
+from ..temporary import removed
+from . import moved
 
 REST = 0.3  # seconds
 MOST_EDITED = 200_000  # vertices of a mesh that is looked at in Edit Mode: less than a tenth of a second

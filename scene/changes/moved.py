@@ -12,10 +12,10 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from . import bridge, property_updates, redraw, store, targets, transaction
-from .errors import SceneError
-from .graph import graph_follow, graph_objects
-from .reading import fingerprints, half_models
+from .. import bridge, property_updates, redraw, store, targets, transaction
+from ..errors import SceneError
+from ..graph import graph_follow, graph_objects
+from ..reading import fingerprints, half_models
 
 
 def load(mesh: bpy.types.Mesh) -> store.Stored:
