@@ -14,7 +14,7 @@ from ..scene.modes import object_mode
 from ..scene.reporting import ReportingOperator
 from ..scene.result import part_names
 from ..scene.result.part_list import check_parts, choose, chosen_numbers
-from ..scene.selection import select_objects
+from ..scene.showing.selection import select_objects
 from ..viewport import pointing
 
 

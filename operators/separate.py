@@ -14,8 +14,8 @@ from ..scene.modes import object_mode
 from ..scene.pieces import piece_objects, separation
 from ..scene.reporting import ReportingOperator
 from ..scene.result.part_list import check_parts, wanted_numbers
-from ..scene.selection import in_layer, select_objects
 from ..scene.settings import SEPARATE, SeparateProperties, closes_holes, fill_in
+from ..scene.showing.selection import in_layer, select_objects
 from ..scene.stepped import SteppedOperator, is_long
 from ..viewport import shading
 from .checks import report_kept, report_unsound

@@ -36,8 +36,7 @@ What is made of parts:
 - ``hulls``: convex hulls to collide with
 - ``rigid_bodies``: pieces held together by joints of Blender's simulation
 - ``uv_map``: a UV map with an island for each part
-- ``explode``: parts that drift apart in the view
-- ``hidden``: parts that vanish from it
+- ``showing``: what is shown, hidden and selected of objects and parts
 - ``made_objects``: what we made, replaced by the next run unless the user has worked on it
 - ``object_digest``: tells whether somebody has worked on an object
 - ``surroundings``: what many objects are in, and what hangs on them
@@ -60,8 +59,6 @@ What every operator needs:
 - ``transaction``: all or nothing
 - ``snapshots``: what a transaction keeps
 - ``modes``: leaves a mode, and returns to it
-- ``selection``: what is selected or hidden
-- ``visibility``: what is hidden for a while
 - ``modifiers``: modifiers of ours
 - ``temporary``: data that is there for a while only
 - ``handlers``: functions that Blender calls

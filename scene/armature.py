@@ -18,7 +18,7 @@ from .modes import call_with, set_mode
 from .pieces import part_meshes, piece_objects
 from .reading import mesh_arrays, mesh_groups, placing
 from .result import part_names
-from .selection import nothing_selected
+from .showing.selection import nothing_selected
 from .skeleton import Skeleton, skeleton
 from .store import Stored
 from .temporary import removed

@@ -7,8 +7,8 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-from . import explode, hidden
 from .reading import mesh_arrays
+from .showing import explode, hidden
 from .temporary import removed
 
 

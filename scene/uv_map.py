@@ -16,7 +16,7 @@ from . import made_objects, store, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
 from .reading import fingerprints, mesh_arrays
-from .selection import nothing_selected
+from .showing.selection import nothing_selected
 from .store import Stored
 from .temporary import removed
 

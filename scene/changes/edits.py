@@ -28,7 +28,7 @@ from ..errors import SceneError
 from ..outputs import face_sets
 from ..reading import mesh_arrays
 from ..result import part_names
-from ..selection import selected_faces
+from ..showing.selection import selected_faces
 from ..store import Stored
 from . import reactions
 

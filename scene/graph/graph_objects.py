@@ -20,11 +20,12 @@ from ...core.graph.reeb import ReebGraph
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
 from ...core.uses.graph_folding import unfolded
-from .. import bridge, made_objects, store, transaction, visibility
+from .. import bridge, made_objects, store, transaction
 from ..made_objects import ROLE
 from ..reading import mesh_arrays
 from ..result import part_names
-from ..selection import in_layer
+from ..showing import visibility
+from ..showing.selection import in_layer
 from ..temporary import remove_object
 from . import arc_curves
 

@@ -14,7 +14,7 @@ import bpy
 
 from .. import transaction
 from ..made_objects import ROLE
-from ..selection import in_layer
+from ..showing.selection import in_layer
 from . import graph_objects
 from .graph_objects import SHOWN_BEFORE
 

@@ -14,12 +14,13 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.steps import Steps
-from .. import bridge, made_objects, rigid_bodies, store, targets, transaction, visibility
+from .. import bridge, made_objects, rigid_bodies, store, targets, transaction
 from ..errors import SceneError
 from ..graph import graph_visibility
 from ..reading import element_layers, fingerprints
 from ..result.part_names import fitted, without_number
-from ..selection import in_layer
+from ..showing import visibility
+from ..showing.selection import in_layer
 from ..store import Stored
 from ..surroundings import Surroundings
 from ..temporary import remove_object

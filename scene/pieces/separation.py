@@ -16,11 +16,12 @@ from mathutils import Matrix, Vector
 
 from ...core.steps import Steps, finished, stretched
 from ...core.uses.colors import linear
-from .. import bridge, by_extent, cut_list, explode, hidden, joints, made_objects, modifiers
+from .. import bridge, by_extent, cut_list, joints, made_objects, modifiers
 from ..reading import mesh_arrays, modified
 from ..reading.placing import millimeters
 from ..result import part_names
 from ..settings import SeparateProperties, closes_holes
+from ..showing import explode, hidden
 from ..store import Stored
 from ..temporary import removed
 from . import box_fitting, cap_looks

@@ -12,8 +12,9 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ...core.arrays.pairs import distinct_pairs
 from ...core.sentence import Count
 from ...core.symmetry.plane import MirrorPlane
-from .. import bridge, explode, hidden, property_updates
+from .. import bridge, property_updates
 from ..errors import SceneError
+from ..showing import explode, hidden
 from ..snapshots import set_values, values_of
 from ..temporary import removed
 from . import mesh_arrays

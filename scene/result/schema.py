@@ -20,10 +20,10 @@ from bpy.props import (
     StringProperty,
 )
 
-from .. import explode
 from ..changes import reactions
 from ..changes.settled import Settled
 from ..settings import JOINTS, ReebPartsSettings, ReebPartsUse
+from ..showing import explode
 from . import part_list
 
 

@@ -8,7 +8,7 @@ from functools import partial
 
 import bpy
 
-from . import transaction
+from .. import transaction
 
 _UNKNOWN = -1  # see schema.ReebPartsMade.rendered
 

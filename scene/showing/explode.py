@@ -11,11 +11,11 @@ from collections.abc import Iterable
 
 import bpy
 
-from . import modifiers, outputs, property_updates, store, targets, transaction
-from .changes.settled import reaction
-from .errors import SceneError
-from .graph import graph_follow
-from .outputs import face_attribute
+from .. import modifiers, outputs, property_updates, store, targets, transaction
+from ..changes.settled import reaction
+from ..errors import SceneError
+from ..graph import graph_follow
+from ..outputs import face_attribute
 
 NAME = "Reeb Parts Explode"
 PROPERTY = "reeb_parts_made.explode"

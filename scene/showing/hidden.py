@@ -9,8 +9,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from . import modifiers, selection, targets, transaction
-from .outputs.kept_aside import add_attribute, remove_attribute
+from .. import modifiers, targets, transaction
+from ..outputs.kept_aside import add_attribute, remove_attribute
+from . import selection
 
 NAME = "Reeb Parts Hide"
 ATTRIBUTE = "reeb_hidden"  # of faces

@@ -9,8 +9,8 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 
-from . import transaction
-from .reading import mesh_arrays
+from .. import transaction
+from ..reading import mesh_arrays
 
 
 def selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
