@@ -15,7 +15,6 @@ The result:
 - ``store``: kept with its mesh
 - ``result``: what is stored of a result, its parts' names and their list
 - ``outputs``: what of the parts is written to a mesh
-- ``orphan_outputs``: what of ours a mesh has without a result
 - ``object_report``: what the JSON says of an object
 - ``graph``: the graph as objects
 
@@ -37,9 +36,7 @@ What is made of parts:
 - ``rigid_bodies``: pieces held together by joints of Blender's simulation
 - ``uv_map``: a UV map with an island for each part
 - ``showing``: what is shown, hidden and selected of objects and parts
-- ``made_objects``: what we made, replaced by the next run unless the user has worked on it
-- ``object_digest``: tells whether somebody has worked on an object
-- ``surroundings``: what many objects are in, and what hangs on them
+- ``ours``: what is ours, and whether the user has worked on it
 - ``export``: parts as files
 - ``run_files``: files put in place all or none
 - ``file_checks``: whether a file is all there
@@ -59,7 +56,6 @@ What every operator needs:
 - ``transaction``: all or nothing
 - ``snapshots``: what a transaction keeps
 - ``modes``: leaves a mode, and returns to it
-- ``modifiers``: modifiers of ours
 - ``temporary``: data that is there for a while only
 - ``handlers``: functions that Blender calls
 - ``redraw``: lets windows draw again

@@ -12,9 +12,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
 from ..core.result.numbering import NumberedParts
-from . import made_objects, modifiers, outputs, property_updates, targets, transaction
+from . import outputs, property_updates, targets, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
+from .ours import made_objects, modifiers
 from .pieces import part_meshes, piece_objects
 from .reading import mesh_arrays, mesh_groups, placing
 from .result import part_names

@@ -17,7 +17,8 @@ from ..core.mesh.corners import CornerTable
 from ..core.mesh.labels import FaceGraph
 from ..core.sentence import Sentence
 from ..core.steps import Steps, finished
-from . import modifiers, targets
+from . import targets
+from .ours import modifiers
 from .reading import face_hints, fingerprints, mesh_arrays
 from .reading.half_models import half_plane
 from .reading.mesh_arrays import shown_points

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import made_objects
+from .ours import made_objects
 from .pieces import piece_objects
 from .reading import fingerprints, mesh_arrays, placing
 from .result import part_names

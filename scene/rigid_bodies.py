@@ -11,7 +11,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import made_objects, transaction
+from . import transaction
+from .ours import made_objects
 from .reading import mesh_arrays, placing
 from .store import Stored
 

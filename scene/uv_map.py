@@ -12,9 +12,10 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.arrays.indexing import renumbered
 from ..core.uses.maps.stacking import double_corners
-from . import made_objects, store, transaction
+from . import store, transaction
 from .errors import SceneError
 from .modes import call_with, set_mode
+from .ours import made_objects
 from .reading import fingerprints, mesh_arrays
 from .showing.selection import nothing_selected
 from .store import Stored

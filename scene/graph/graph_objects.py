@@ -20,8 +20,9 @@ from ...core.graph.reeb import ReebGraph
 from ...core.result.numbering import NumberedParts
 from ...core.uses.colors import linear
 from ...core.uses.graph_folding import unfolded
-from .. import bridge, made_objects, store, transaction
-from ..made_objects import ROLE
+from .. import bridge, store, transaction
+from ..ours import made_objects
+from ..ours.made_objects import ROLE
 from ..reading import mesh_arrays
 from ..result import part_names
 from ..showing import visibility

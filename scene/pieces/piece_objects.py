@@ -14,15 +14,16 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.steps import Steps
-from .. import bridge, made_objects, rigid_bodies, store, targets, transaction
+from .. import bridge, rigid_bodies, store, targets, transaction
 from ..errors import SceneError
 from ..graph import graph_visibility
+from ..ours import made_objects
+from ..ours.surroundings import Surroundings
 from ..reading import element_layers, fingerprints
 from ..result.part_names import fitted, without_number
 from ..showing import visibility
 from ..showing.selection import in_layer
 from ..store import Stored
-from ..surroundings import Surroundings
 from ..temporary import remove_object
 from . import piece_checks
 

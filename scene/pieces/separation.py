@@ -16,7 +16,8 @@ from mathutils import Matrix, Vector
 
 from ...core.steps import Steps, finished, stretched
 from ...core.uses.colors import linear
-from .. import bridge, by_extent, cut_list, joints, made_objects, modifiers
+from .. import bridge, by_extent, cut_list, joints
+from ..ours import made_objects, modifiers
 from ..reading import mesh_arrays, modified
 from ..reading.placing import millimeters
 from ..result import part_names

@@ -11,10 +11,11 @@ from collections.abc import Iterable
 
 import bpy
 
-from .. import modifiers, outputs, property_updates, store, targets, transaction
+from .. import outputs, property_updates, store, targets, transaction
 from ..changes.settled import reaction
 from ..errors import SceneError
 from ..graph import graph_follow
+from ..ours import modifiers
 from ..outputs import face_attribute
 
 NAME = "Reeb Parts Explode"

@@ -9,7 +9,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from .. import modifiers, targets, transaction
+from .. import targets, transaction
+from ..ours import modifiers
 from ..outputs.kept_aside import add_attribute, remove_attribute
 from . import selection
 

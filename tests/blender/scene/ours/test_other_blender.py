@@ -9,7 +9,7 @@ import pytest
 from one_of_each import add_one_of_each
 from snapshot import activate
 
-FILE = Path(__file__).resolve().parents[2] / "data" / "made_in_4_2.blend"
+FILE = Path(__file__).resolve().parents[3] / "data" / "made_in_4_2.blend"
 MADE = "reeb_parts_looks"
 
 
@@ -17,8 +17,8 @@ MADE = "reeb_parts_looks"
 def digest(package):
     """The function that tells objects which somebody has worked on from those that are as they were made."""
     load = importlib.import_module
-    around = load(f"{package}.scene.surroundings").Surroundings
-    return lambda item: load(f"{package}.scene.object_digest").digest(item, around.now())
+    around = load(f"{package}.scene.ours.surroundings").Surroundings
+    return lambda item: load(f"{package}.scene.ours.object_digest").digest(item, around.now())
 
 
 @pytest.fixture

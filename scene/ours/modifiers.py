@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import transaction
+from .. import transaction
 
 
 def new(obj: bpy.types.Object, name: str, kind: str) -> bpy.types.Modifier:

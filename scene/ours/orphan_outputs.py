@@ -13,12 +13,12 @@ import re
 import bpy
 import numpy as np
 
-from . import store, targets, transaction
-from .outputs import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
-from .outputs.kept_aside import find_attribute, remove_attribute
-from .reading import mesh_arrays
-from .result import part_names
-from .showing import hidden
+from .. import store, targets, transaction
+from ..outputs import colors, face_attribute, face_sets, field, materials, seams, vertex_groups
+from ..outputs.kept_aside import find_attribute, remove_attribute
+from ..reading import mesh_arrays
+from ..result import part_names
+from ..showing import hidden
 
 _OWN_NAME = re.compile(r"Part \d\d+(\.[LR])?")  # see core/result/numbering.py
 

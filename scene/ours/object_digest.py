@@ -16,8 +16,8 @@ from typing import Any
 
 import bpy
 
-from .reading import element_layers, fingerprints
-from .showing import visibility
+from ..reading import element_layers, fingerprints
+from ..showing import visibility
 from .surroundings import Surroundings
 
 _OURS = "reeb_parts"  # how the names of our custom properties begin

@@ -13,10 +13,11 @@ from typing import NamedTuple
 
 import bpy
 
-from ..core.steps import Steps, finished
-from . import object_digest, transaction
+from ...core.steps import Steps, finished
+from .. import transaction
+from ..temporary import remove_object
+from . import object_digest
 from .surroundings import Surroundings
-from .temporary import remove_object
 
 #: Custom properties of an object that we made: what it is for, such as "node" or "hull"; what it was like when made.
 ROLE, MADE = "reeb_parts_role", "reeb_parts_looks"

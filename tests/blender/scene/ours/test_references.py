@@ -118,7 +118,7 @@ def test_an_error_leaves_all_as_it_was(package, obj, way, monkeypatch):
     item, _ = prepared(obj, way)
     activate(obj)
     before = snapshot()
-    module = importlib.import_module(f"{package}.scene.made_objects")
+    module = importlib.import_module(f"{package}.scene.ours.made_objects")
     hand_on = module.hand_on
 
     def broken(*arguments):
