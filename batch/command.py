@@ -32,10 +32,11 @@ from ..core.file_names import readable
 from ..core.options import chosen_parameters
 from ..core.parameters import Parameters
 from ..core.progress import said_in_steps
-from ..scene import armature, bridge, export, file_checks, hulls, store, targets, uv_map
+from ..scene import bridge, export, file_checks, store, targets, uv_map
 from ..scene.errors import SceneError, load_core
 from ..scene.graph import graph_objects
 from ..scene.modes import leave_edit_mode
+from ..scene.moving import armature, hulls
 from ..scene.pieces import piece_objects, separation
 from ..scene.run_files import RunFiles, reason, scene_files, together
 from ..scene.runs import results

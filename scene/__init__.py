@@ -30,10 +30,7 @@ What is made of parts:
 - ``cut_list``: their cuts as a list on the object
 - ``cut_curves``: curves that Separate would cut along
 - ``by_extent``: modifiers that work by the extent of the whole mesh, and would shape a piece otherwise
-- ``armature``: bones, and the weights with which they move the mesh
-- ``skeleton``: where these bones are
-- ``hulls``: convex hulls to collide with
-- ``rigid_bodies``: pieces held together by joints of Blender's simulation
+- ``moving``: parts that move: bones, rigid bodies, hulls
 - ``uv_map``: a UV map with an island for each part
 - ``showing``: what is shown, hidden and selected of objects and parts
 - ``ours``: what is ours, and whether the user has worked on it

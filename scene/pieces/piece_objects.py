@@ -14,9 +14,10 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.steps import Steps
-from .. import bridge, rigid_bodies, store, targets, transaction
+from .. import bridge, store, targets, transaction
 from ..errors import SceneError
 from ..graph import graph_visibility
+from ..moving import rigid_bodies
 from ..ours import made_objects
 from ..ours.surroundings import Surroundings
 from ..reading import element_layers, fingerprints

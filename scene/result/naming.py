@@ -12,7 +12,8 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ...core.uses.naming.method import Suggestion, suggestions
 from ...core.uses.naming.shapes import Shapes
-from .. import bridge, skeleton, store
+from .. import bridge, store
+from ..moving import skeleton
 from ..reading import mesh_arrays, placing
 from ..store import Stored
 

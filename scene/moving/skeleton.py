@@ -10,16 +10,16 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.mesh.corners import CornerTable
-from ..core.result.numbering import NumberedParts
-from ..core.result.whole import Whole, whole_of
-from . import bridge, store
-from .reading import mesh_arrays, placing
-from .result import part_names
+from ...core.mesh.corners import CornerTable
+from ...core.result.numbering import NumberedParts
+from ...core.result.whole import Whole, whole_of
+from .. import bridge, store
+from ..reading import mesh_arrays, placing
+from ..result import part_names
 
 if TYPE_CHECKING:
-    from ..core.uses.moving.bones import Bones
-    from ..core.uses.moving.skinning import Weights
+    from ...core.uses.moving.bones import Bones
+    from ...core.uses.moving.skinning import Weights
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,7 @@ class Skeleton:
 
     def of_mesh(self, weights: Weights) -> Weights:
         """The weights of the object's vertices, from those of the table's."""
-        from ..core.uses.moving.skinning import of_half  # imports SciPy
+        from ...core.uses.moving.skinning import of_half  # imports SciPy
 
         return of_half(weights, self.on_plane, self.twin) if self.is_half else weights
 
@@ -80,7 +80,7 @@ def skeleton(obj: bpy.types.Object, numbered: NumberedParts, limbs: bool) -> Ske
 
     limbs : bool, only bones of parts that can be bent where they are cut.
     """
-    from ..core.uses.moving.bones import BoneSurface, PartImages, limb_bones, part_bones  # imports SciPy
+    from ...core.uses.moving.bones import BoneSurface, PartImages, limb_bones, part_bones  # imports SciPy
 
     mesh, parts, world, shape = obj.data, numbered.parts, placing.world_matrix(obj), bridge.read_shape(obj)
     place = Matrix.LocRotScale(world.to_translation(), world.to_quaternion(), None)

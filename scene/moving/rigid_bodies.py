@@ -11,13 +11,13 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from . import transaction
-from .ours import made_objects
-from .reading import mesh_arrays, placing
-from .store import Stored
+from .. import transaction
+from ..ours import made_objects
+from ..reading import mesh_arrays, placing
+from ..store import Stored
 
 if TYPE_CHECKING:
-    from ..core.uses.moving.body_joints import BodyJoints
+    from ...core.uses.moving.body_joints import BodyJoints
 
 #: How joints hold: the names of Blender's constraints.
 KINDS = ("HINGE", "POINT", "FIXED")
@@ -58,8 +58,8 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     -------
     joined : RigidBodies
     """
-    from ..core.uses.moving.body_joints import body_joints, overlapping  # imports SciPy
-    from ..core.uses.moving.hulls import part_hulls
+    from ...core.uses.moving.body_joints import body_joints, overlapping  # imports SciPy
+    from ...core.uses.moving.hulls import part_hulls
 
     earlier = remove_joints(collection)
     numbered = stored.shown_parts()

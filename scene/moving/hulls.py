@@ -9,11 +9,11 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from .ours import made_objects
-from .pieces import piece_objects
-from .reading import fingerprints, mesh_arrays, placing
-from .result import part_names
-from .store import Stored
+from ..ours import made_objects
+from ..pieces import piece_objects
+from ..reading import fingerprints, mesh_arrays, placing
+from ..result import part_names
+from ..store import Stored
 
 PART = "reeb_parts_hull_of"  # on a hull: the number of its part
 _LONGEST = 59  # bytes of a name, with room for a number that Blender adds
@@ -45,7 +45,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     -------
     made : Made
     """
-    from ..core.uses.moving.hulls import part_hulls  # imports SciPy
+    from ...core.uses.moving.hulls import part_hulls  # imports SciPy
 
     numbered = stored.shown_parts()
     table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))

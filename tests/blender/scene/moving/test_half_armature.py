@@ -12,7 +12,7 @@ from mathutils import Euler, Matrix
 from snapshot import check_undo
 
 DEFORM = "DEF-"
-SPOT = Path(__file__).resolve().parents[3] / "models" / "spot.obj"
+SPOT = Path(__file__).resolve().parents[4] / "models" / "spot.obj"
 
 
 @pytest.fixture

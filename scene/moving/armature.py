@@ -11,22 +11,22 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Matrix, Vector
 
-from ..core.result.numbering import NumberedParts
-from . import outputs, property_updates, targets, transaction
-from .errors import SceneError
-from .modes import call_with, set_mode
-from .ours import made_objects, modifiers
-from .pieces import part_meshes, piece_objects
-from .reading import mesh_arrays, mesh_groups, placing
-from .result import part_names
-from .showing.selection import nothing_selected
+from ...core.result.numbering import NumberedParts
+from .. import outputs, property_updates, targets, transaction
+from ..errors import SceneError
+from ..modes import call_with, set_mode
+from ..ours import made_objects, modifiers
+from ..pieces import part_meshes, piece_objects
+from ..reading import mesh_arrays, mesh_groups, placing
+from ..result import part_names
+from ..showing.selection import nothing_selected
+from ..store import Stored
+from ..temporary import removed
 from .skeleton import Skeleton, skeleton
-from .store import Stored
-from .temporary import removed
 
 if TYPE_CHECKING:
-    from ..core.uses.moving.bones import Bones
-    from ..core.uses.moving.skinning import Weights
+    from ...core.uses.moving.bones import Bones
+    from ...core.uses.moving.skinning import Weights
 
 NAME = "Reeb Parts Armature"
 DEFORM = "DEF-"  # how their names begin, as Rigify's do; after that comes the name of the part
@@ -173,7 +173,7 @@ def _sided_names(obj: bpy.types.Object, found: Skeleton) -> list[str]:
 def _weights(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.Object, groups: list[str],
              found: Skeleton, kind: str) -> Weights:
     """The weights of a skeleton's surface. kind : see ``make``."""
-    from ..core.uses.moving.skinning import smooth_weights, stiff_weights  # imports SciPy
+    from ...core.uses.moving.skinning import smooth_weights, stiff_weights  # imports SciPy
 
     if kind == "PARTS":
         return stiff_weights(found.table, found.labels)
@@ -184,7 +184,7 @@ def _weights(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.O
 def _automatic(context: bpy.types.Context, obj: bpy.types.Object, rig: bpy.types.Object, groups: list[str],
                skeleton: Skeleton, smooth: Weights) -> Weights:
     """Blender's own weights, found on a copy; where it finds none, the smooth ones."""
-    from ..core.uses.moving.skinning import Weights, limited
+    from ...core.uses.moving.skinning import Weights, limited
 
     copy = mesh_arrays.mesh_of(skeleton.table, NAME) if skeleton.is_half else part_meshes.plain_copy(obj.data)
     twin = bpy.data.objects.new(copy.name, copy)
