@@ -15,7 +15,6 @@ The result:
 - ``store``: kept with its mesh
 - ``result``: what is stored of a result, its parts' names and their list
 - ``outputs``: what of the parts is written to a mesh
-- ``object_report``: what the JSON says of an object
 - ``graph``: the graph as objects
 
 Changes:
@@ -34,9 +33,7 @@ What is made of parts:
 - ``uv_map``: a UV map with an island for each part
 - ``showing``: what is shown, hidden and selected of objects and parts
 - ``ours``: what is ours, and whether the user has worked on it
-- ``export``: parts as files
-- ``run_files``: files put in place all or none
-- ``file_checks``: whether a file is all there
+- ``saving``: what leaves Blender as files
 
 Settings:
 

@@ -246,7 +246,7 @@ def test_the_panel_also_in_a_file_that_was_opened_again(said, obj, package, tmp_
 def test_json_is_english_in_every_language(said, obj, package):
     obj.modifiers.new("Bevel", "BEVEL")
     bpy.ops.reeb_parts.decompose()
-    report = importlib.import_module(f"{package}.scene.object_report").object_report(obj)
+    report = importlib.import_module(f"{package}.scene.saving.object_report").object_report(obj)
     assert ENGLISH["note"] in report["notes"]
     assert report["parts"][0]["name"] == "Part 01"
     assert "distances" in report["seconds"]

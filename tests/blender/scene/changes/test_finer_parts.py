@@ -21,7 +21,7 @@ FAR = 1.7  # along the branch, beyond every cut below
 @pytest.fixture
 def modules(package):
     """pointing, graph_overlay, part_names and object_report of the extension."""
-    names = "viewport.pointing", "viewport.graph_overlay", "scene.result.part_names", "scene.object_report"
+    names = "viewport.pointing", "viewport.graph_overlay", "scene.result.part_names", "scene.saving.object_report"
     return [importlib.import_module(f"{package}.{name}") for name in names]
 
 

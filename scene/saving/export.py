@@ -13,16 +13,17 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from mathutils import Color
 
-from ..core.file_names import file_name
-from ..core.uses.threemf import Assembly, ColoredMesh, write_3mf
-from . import bridge, file_checks, store
-from .errors import SceneError
-from .pieces import piece_objects
-from .pieces.part_meshes import piece_meshes
-from .reading import mesh_arrays, placing
-from .result import part_names
+from ...core.file_names import file_name
+from ...core.uses.threemf import Assembly, ColoredMesh, write_3mf
+from .. import bridge, store
+from ..errors import SceneError
+from ..pieces import piece_objects
+from ..pieces.part_meshes import piece_meshes
+from ..reading import mesh_arrays, placing
+from ..result import part_names
+from ..temporary import removed
+from . import file_checks
 from .run_files import RunFiles
-from .temporary import removed
 
 EXPORTERS = {
     "obj": lambda path: bpy.ops.wm.obj_export(filepath=path, export_selected_objects=True),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scene.file_checks: what Blender has written is complete, and no beginning of it is, nor one with a hole or a tail."""
+"""What Blender has written is complete, and no beginning of it is, nor one with a hole or a tail."""
 
 from importlib import import_module
 from pathlib import Path
@@ -14,7 +14,7 @@ CASES = ["blend", "packed.blend", "png", "obj", "ply", "stl", "glb", "3mf"]
 
 @pytest.fixture
 def complete(package):
-    return import_module(f"{package}.scene.file_checks")
+    return import_module(f"{package}.scene.saving.file_checks")
 
 
 def coloured(obj):
@@ -95,7 +95,7 @@ def test_materials_that_are_cut_off(complete, obj, tmp_path):
 
 @pytest.mark.parametrize("way", ["folder", "alone"])
 def test_an_interruption_just_when_a_folder_is_made_leaves_none(package, tmp_path, monkeypatch, way):
-    run_files = import_module(f"{package}.scene.run_files")
+    run_files = import_module(f"{package}.scene.saving.run_files")
     mkdir = Path.mkdir
 
     def interrupted(folder, *arguments, **options):
@@ -113,7 +113,7 @@ def test_an_interruption_just_when_a_folder_is_made_leaves_none(package, tmp_pat
 
 def test_none_of_several_files_is_in_place_if_one_cannot_be_moved(package, tmp_path):
     """Such as one that another program has open on Windows; here a folder took its place meanwhile."""
-    run_files = import_module(f"{package}.scene.run_files")
+    run_files = import_module(f"{package}.scene.saving.run_files")
     first, second = tmp_path / "a.json", tmp_path / "b.json"
     for path in (first, second):
         path.write_text("old")

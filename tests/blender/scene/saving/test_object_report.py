@@ -14,7 +14,7 @@ from results import numbers
 def reports(package, obj):
     """A function that tells of the tree and of an object of the same mesh, scaled, with that object."""
     bpy.ops.reeb_parts.decompose()
-    report = importlib.import_module(f"{package}.scene.object_report").object_report
+    report = importlib.import_module(f"{package}.scene.saving.object_report").object_report
 
     def reports_of(scale):
         other = bpy.data.objects.new("Other", obj.data)

@@ -8,13 +8,13 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ..core.uses.report import bounding_boxes, report
-from . import bridge, store
-from .pieces import part_meshes, piece_checks
-from .reading import mesh_arrays, placing
-from .result import part_names
-from .store import Stored
-from .temporary import removed
+from ...core.uses.report import bounding_boxes, report
+from .. import bridge, store
+from ..pieces import part_meshes, piece_checks
+from ..reading import mesh_arrays, placing
+from ..result import part_names
+from ..store import Stored
+from ..temporary import removed
 
 
 def object_report(obj: bpy.types.Object, labels: bool = False, check: bool = False) -> dict:

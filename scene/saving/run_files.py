@@ -19,9 +19,9 @@ from pathlib import Path
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.atomic_files import HIDDEN, hidden_place, put_in_place, sync
-from ..core.file_names import kind_of
-from .errors import SceneError
+from ...core.atomic_files import HIDDEN, hidden_place, put_in_place, sync
+from ...core.file_names import kind_of
+from ..errors import SceneError
 
 
 class RunFiles:
