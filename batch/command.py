@@ -32,11 +32,12 @@ from ..core.file_names import readable
 from ..core.options import chosen_parameters
 from ..core.parameters import Parameters
 from ..core.progress import said_in_steps
-from ..scene import bridge, store, targets, uv_map
+from ..scene import bridge, store, targets
 from ..scene.errors import SceneError, load_core
 from ..scene.graph import graph_objects
 from ..scene.modes import leave_edit_mode
 from ..scene.moving import armature, hulls
+from ..scene.outputs import uv_map
 from ..scene.pieces import piece_objects, separation
 from ..scene.runs import results
 from ..scene.runs.compute import Outcome, compute_all

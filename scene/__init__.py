@@ -1,44 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's data, read and written: meshes as arrays, results stored with their meshes, and what is made of them.
 
-Reading:
+The way of a mesh:
 
 - ``bridge``: the shape of an object as arrays for core
-- ``reading``: objects and their meshes as arrays, and what is read of them
-
-Computing:
-
+- ``reading``: what else is read of objects and their meshes
+- ``settings``: what the next run, and what is made of its parts, will be like
+- ``defaults``: what the preferences say
 - ``runs``: a run, in a process of its own, and what becomes of its result
-
-The result:
-
-- ``store``: kept with its mesh
-- ``result``: what is stored of a result, its parts' names and their list
-- ``outputs``: what of the parts is written to a mesh
-- ``graph``: the graph as objects
-
-Changes:
-
+- ``store``: the result, kept with its mesh
+- ``result``: what the file stores beside it, and the names and the list of its parts
 - ``changes``: what changes a result: the user's hand, a slider, an edit of the mesh
-- ``property_updates``: whether it is the user who writes a property
 
 What is made of parts:
 
+- ``outputs``: what of them is written to a mesh
+- ``graph``: the graph as objects
+- ``showing``: what is shown, hidden and selected
 - ``pieces``: parts as objects
 - ``joints``: pegs and such, which join these
-- ``cut_list``: their cuts as a list on the object
-- ``cut_curves``: curves that Separate would cut along
-- ``by_extent``: modifiers that work by the extent of the whole mesh, and would shape a piece otherwise
 - ``moving``: parts that move: bones, rigid bodies, hulls
-- ``uv_map``: a UV map with an island for each part
-- ``showing``: what is shown, hidden and selected of objects and parts
-- ``ours``: what is ours, and whether the user has worked on it
 - ``saving``: what leaves Blender as files
-
-Settings:
-
-- ``settings``: what the next run, and what is made of its parts, will be like
-- ``defaults``: what the preferences say
+- ``ours``: what is ours, and whether the user has worked on it
 
 What every operator needs:
 
@@ -49,6 +32,7 @@ What every operator needs:
 - ``errors``: what users are told, and the way into core
 - ``transaction``: all or nothing
 - ``snapshots``: what a transaction keeps
+- ``property_updates``: whether it is the user who writes a property
 - ``modes``: leaves a mode, and returns to it
 - ``temporary``: data that is there for a while only
 - ``handlers``: functions that Blender calls

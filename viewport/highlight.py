@@ -16,9 +16,10 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.steps import Steps
-from ..scene import bridge, cut_curves, store
+from ..scene import bridge, store
 from ..scene.errors import SceneError
 from ..scene.graph import graph_objects
+from ..scene.pieces import cut_curves
 from ..scene.reading import mesh_arrays
 from ..scene.reading.seen_points import seen_points, version
 from ..scene.result.part_list import chosen_numbers

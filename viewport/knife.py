@@ -13,9 +13,10 @@ from ..core.mesh.corners import CornerTable
 from ..core.mesh.labels import FaceGraph
 from ..core.sentence import Count
 from ..core.steps import Steps, stretched
-from ..scene import bridge, cut_curves, store
+from ..scene import bridge, store
 from ..scene.changes import edits
 from ..scene.errors import SceneError
+from ..scene.pieces import cut_curves
 from ..scene.reading import mesh_arrays
 from ..scene.reading.seen_points import seen_points
 from ..scene.result import part_list, part_names

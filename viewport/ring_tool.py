@@ -12,9 +12,9 @@ from bpy.app.translations import pgettext_rpt as rpt_
 
 from ..core.sentence import Count
 from ..core.steps import Steps
-from ..scene import cut_curves
 from ..scene.changes import edits
 from ..scene.errors import SceneError
+from ..scene.pieces import cut_curves
 from ..scene.reading.seen_points import seen_points
 from ..scene.result import part_list
 from ..scene.store import Stored

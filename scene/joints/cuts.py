@@ -13,7 +13,7 @@ import numpy as np
 from ...core.arrays.components import components
 from ...core.arrays.pairs import distinct_pairs
 from ...core.mesh.triangles import EdgeTable
-from ..pieces import caps
+from ..pieces.closing import caps
 from ..reading import mesh_arrays
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..pieces import caps
+from ..pieces.closing import caps
 from ..reading import mesh_arrays
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..pieces import caps
+from ..pieces.closing import caps
 from ..reading import mesh_arrays
 from ..temporary import removed
 

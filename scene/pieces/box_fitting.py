@@ -19,7 +19,7 @@ from ..errors import SceneError
 from ..reading import mesh_arrays, mesh_groups
 from ..reading.matrix_layers import as_bmesh
 from ..temporary import freed
-from . import caps
+from .closing import caps
 
 _SHARED = "reeb_parts_shared"  # face layer, while caps are divided
 # So many more pieces at most: a box in other units than the model is a mistake.

@@ -25,8 +25,9 @@ from ..reading import element_layers, mesh_arrays, mesh_groups
 from ..reading.elements import CORNER, Elements
 from ..showing import hidden
 from ..temporary import removed
-from . import cap_looks, caps, smooth_faces, welding
-from .cut_holes import Holes
+from . import smooth_faces, welding
+from .closing import cap_looks, caps
+from .closing.cut_holes import Holes
 from .sculpted_pieces import SculptedMesh, is_sculpted
 
 _CUSTOM = "custom_normal"  # Blender's own

@@ -16,8 +16,8 @@ from ...core.arrays.vectors import cross
 from ...core.surface.reach import within_reach
 from .. import transaction
 from ..reading import mesh_arrays
-from . import caps
-from .body_surface import crossing, search_tree
+from .closing import caps
+from .closing.body_surface import crossing, search_tree
 
 CHECK = "reeb_parts_check"  # on a piece: what was found, as JSON
 

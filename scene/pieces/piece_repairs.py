@@ -14,7 +14,8 @@ from ..ours import made_objects
 from ..ours.surroundings import Surroundings
 from ..reading import mesh_arrays, mesh_groups
 from ..reading.matrix_layers import as_bmesh
-from . import cap_looks, caps, piece_checks, piece_objects
+from . import piece_checks, piece_objects
+from .closing import cap_looks, caps
 from .piece_checks import Check
 
 

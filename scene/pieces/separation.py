@@ -16,7 +16,7 @@ from mathutils import Matrix, Vector
 
 from ...core.steps import Steps, finished, stretched
 from ...core.uses.colors import linear
-from .. import bridge, by_extent, cut_list, joints
+from .. import bridge, joints
 from ..ours import made_objects, modifiers
 from ..reading import mesh_arrays, modified
 from ..reading.placing import millimeters
@@ -25,7 +25,8 @@ from ..settings import SeparateProperties, closes_holes
 from ..showing import explode, hidden
 from ..store import Stored
 from ..temporary import removed
-from . import box_fitting, cap_looks
+from . import box_fitting, by_extent, cut_list
+from .closing import cap_looks
 from .part_meshes import making_pieces
 from .piece_objects import (
     DOWEL,

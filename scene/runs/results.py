@@ -12,11 +12,12 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ...core.result.numbering import NumberedParts
 from ...core.steps import Steps, finished
 from ...core.uses.graph_folding import unfolded
-from .. import bridge, outputs, property_updates, store, targets, transaction, uv_map
+from .. import bridge, outputs, property_updates, store, targets, transaction
 from ..errors import SceneError
 from ..graph import graph_objects
 from ..moving import armature
 from ..ours import orphan_outputs
+from ..outputs import uv_map
 from ..result import notes
 from ..showing import explode, hidden
 from . import succession

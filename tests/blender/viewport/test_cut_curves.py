@@ -78,8 +78,9 @@ MESHES = {
 @pytest.fixture
 def modules(package):
     names = {"core": ("steps",),
-             "scene": ("cut_curves", "bridge", "mesh_arrays", "errors", "seen_points"),
-             "scene.pieces": ("part_meshes",),
+             "scene": ("bridge", "errors"),
+             "scene.reading": ("mesh_arrays", "seen_points"),
+             "scene.pieces": ("cut_curves", "part_meshes"),
              "viewport": ("highlight", "idle", "knife", "pointing", "ring_tool")}
     return SimpleNamespace(**{name: importlib.import_module(f"{package}.{folder}.{name}")
                               for folder, several in names.items() for name in several})

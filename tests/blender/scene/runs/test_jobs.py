@@ -396,7 +396,7 @@ def test_the_operator_computes_in_blender_for_scripts(obj):
 
 def test_parts_of_what_was_edited_or_deleted_meanwhile_are_not_written(package, obj):
     results, bridge, errors = (importlib.import_module(f"{package}.scene.{name}")
-                               for name in ("results", "bridge", "errors"))
+                               for name in ("runs.results", "bridge", "errors"))
     computed = {obj.name: bridge.read_shape(obj).digest}
     results.check_unchanged(computed)
     obj.data.vertices[0].co.x += 0.1

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ...core.arrays.indexing import renumbered, sums_by
-from ...core.arrays.vectors import cross, unit
+from ....core.arrays.indexing import renumbered, sums_by
+from ....core.arrays.vectors import cross, unit
 
 
 def search_tree(points: np.ndarray, triangles: np.ndarray) -> BVHTree:

@@ -11,14 +11,14 @@ import numpy as np
 from mathutils.geometry import delaunay_2d_cdt
 from scipy.sparse import coo_array
 
-from ...core.arrays.components import components
-from ...core.arrays.indexing import ranges
-from ...core.arrays.vectors import cross, cross_in_plane
-from ...core.mesh.triangles import EdgeTable
-from ...core.uses.caps.rims import is_inside
-from ...core.uses.caps.sleeves import Sleeve, sleeve
-from ...core.uses.caps.surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
-from ..reading import mesh_arrays
+from ....core.arrays.components import components
+from ....core.arrays.indexing import ranges
+from ....core.arrays.vectors import cross, cross_in_plane
+from ....core.mesh.triangles import EdgeTable
+from ....core.uses.caps.rims import is_inside
+from ....core.uses.caps.sleeves import Sleeve, sleeve
+from ....core.uses.caps.surfaces import away_from_curve, harmonic_weights, in_a_circle, over_a_plane, spread
+from ...reading import mesh_arrays
 from .body_surface import BodySurface
 from .disc import Disc
 from .disc_fitting import depths, pulled, pushed, steep

@@ -11,9 +11,9 @@ from collections.abc import Callable
 
 import bpy
 
-from . import transaction
-from .joints import CutJoints
-from .result import part_names
+from .. import transaction
+from ..joints import CutJoints
+from ..result import part_names
 
 
 def chosen(obj: bpy.types.Object, part: dict[int, int]) -> Callable[[int, int], str]:

@@ -7,9 +7,9 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-from .reading import mesh_arrays
-from .showing import explode, hidden
-from .temporary import removed
+from ..reading import mesh_arrays
+from ..showing import explode, hidden
+from ..temporary import removed
 
 
 def array_offsets(context: bpy.types.Context, obj: bpy.types.Object) -> dict[str, Vector]:

@@ -6,10 +6,10 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...core.arrays.indexing import run_starts
-from ...core.mesh.corners import next_of_owner
-from ...core.uses.caps.maps import cap_map
-from ..reading import mesh_arrays
+from ....core.arrays.indexing import run_starts
+from ....core.mesh.corners import next_of_owner
+from ....core.uses.caps.maps import cap_map
+from ...reading import mesh_arrays
 from . import caps
 
 CAP_MATERIAL = "reeb_parts_cap"  # on a material: it is that of caps

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...core.uses.caps.surfaces import spread
+from ....core.uses.caps.surfaces import spread
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

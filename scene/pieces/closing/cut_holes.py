@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ...core.mesh.corners import edge_labels
-from ...core.uses.caps.rims import nested_rims
-from ...core.uses.caps.surfaces import common_order
-from ..reading import element_layers, mesh_arrays
-from ..reading.elements import Elements, Selection
-from ..temporary import removed
+from ....core.mesh.corners import edge_labels
+from ....core.uses.caps.rims import nested_rims
+from ....core.uses.caps.surfaces import common_order
+from ...reading import element_layers, mesh_arrays
+from ...reading.elements import Elements, Selection
+from ...temporary import removed
 from . import caps
 
 if TYPE_CHECKING:
@@ -115,8 +115,8 @@ def _around_holes(piece: Elements, opened: np.ndarray) -> np.ndarray:
 
     A hole goes round borders that there were before, too, if the cut ends there.
     """
-    from ...core.arrays.components import components
-    from ...core.arrays.indexing import renumbered
+    from ....core.arrays.components import components
+    from ....core.arrays.indexing import renumbered
 
     border = np.bincount(piece.corner_edge, minlength=len(piece.ends)) == 1
     on = np.zeros(len(piece.points), bool)

@@ -10,17 +10,17 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays.indexing import renumbered
-from ..core.arrays.pairs import distinct_pairs
-from ..core.mesh.corners import CornerTable
-from ..core.steps import Steps, stretched
-from . import bridge
-from .pieces import smooth_faces
-from .reading import mesh_arrays
-from .temporary import freed
+from ...core.arrays.indexing import renumbered
+from ...core.arrays.pairs import distinct_pairs
+from ...core.mesh.corners import CornerTable
+from ...core.steps import Steps, stretched
+from .. import bridge
+from ..reading import mesh_arrays
+from ..temporary import freed
+from . import smooth_faces
 
 if TYPE_CHECKING:
-    from ..core.uses.clean_cuts.curves import Curves
+    from ...core.uses.clean_cuts.curves import Curves
 
 
 def read(obj: bpy.types.Object) -> tuple[CornerTable, np.ndarray]:
@@ -48,8 +48,8 @@ def finding_curves(table: CornerTable, points: np.ndarray, face_numbers: np.ndar
         Of the vertices of the mesh. Only to close holes may Separate leave one of them, for the edges of faces, where
         what fills the holes would cross something.
     """
-    from ..core.uses.clean_cuts.curves import curves_of  # imports SciPy
-    from ..core.uses.clean_cuts.method import finding_cuts
+    from ...core.uses.clean_cuts.curves import curves_of  # imports SciPy
+    from ...core.uses.clean_cuts.method import finding_cuts
 
     cuts = yield from stretched(finding_cuts(table, face_numbers, planar=planar), 0.0, 0.5)
     while len(cuts.odd):

@@ -13,9 +13,9 @@ from bmesh.types import BMEdge, BMesh, BMFace, BMLoop, BMVert
 from mathutils import Vector
 from mathutils.geometry import tessellate_polygon
 
-from ...core.uses.caps.surfaces import common_order
-from ..reading import mesh_arrays, mesh_groups
-from ..reading.matrix_layers import as_bmesh
+from ....core.uses.caps.surfaces import common_order
+from ...reading import mesh_arrays, mesh_groups
+from ...reading.matrix_layers import as_bmesh
 
 if TYPE_CHECKING:
     from .disc import Disc

@@ -161,7 +161,7 @@ def test_a_group_deleted_by_hand_comes_back_and_leaves_no_vertex_in_another(obj,
 
 def test_many_vertex_groups_do_not_slow_down_what_is_read_and_written_of_faces_and_edges(obj, scene_module):
     """Blender 5 looks through all of them at each face and edge, if it is asked for one by one."""
-    arrays, mesh = scene_module("mesh_arrays"), obj.data
+    arrays, mesh = scene_module("reading.mesh_arrays"), obj.data
     for index in range(3000):
         obj.vertex_groups.new(name=f"Bone {index}")
     keys = {"polygons": ("hide", "select", "material_index"), "edges": ("hide", "select", "use_seam", "use_edge_sharp"),

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...core.arrays.components import components
-from ...core.arrays.indexing import renumbered, sums_by
-from ...core.arrays.ties import rounded
-from ...core.arrays.vectors import lengths
-from ...core.uses.caps.networks import nested_sides, own_places
-from ...core.uses.caps.surfaces import common_order
+from ....core.arrays.components import components
+from ....core.arrays.indexing import renumbered, sums_by
+from ....core.arrays.ties import rounded
+from ....core.arrays.vectors import lengths
+from ....core.uses.caps.networks import nested_sides, own_places
+from ....core.uses.caps.surfaces import common_order
 from .body_surface import crossing, search_tree
 from .discs import LED_IN, PLAIN
 

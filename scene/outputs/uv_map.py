@@ -10,20 +10,20 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.arrays.indexing import renumbered
-from ..core.uses.maps.stacking import double_corners
-from . import store, transaction
-from .errors import SceneError
-from .modes import call_with, set_mode
-from .ours import made_objects
-from .reading import fingerprints, mesh_arrays
-from .showing.selection import nothing_selected
-from .store import Stored
-from .temporary import removed
+from ...core.arrays.indexing import renumbered
+from ...core.uses.maps.stacking import double_corners
+from .. import store, transaction
+from ..errors import SceneError
+from ..modes import call_with, set_mode
+from ..ours import made_objects
+from ..reading import fingerprints, mesh_arrays
+from ..showing.selection import nothing_selected
+from ..store import Stored
+from ..temporary import removed
 
 if TYPE_CHECKING:
-    from ..core.mesh.corners import CornerTable
-    from ..core.uses.maps.distortion import Distortion
+    from ...core.mesh.corners import CornerTable
+    from ...core.uses.maps.distortion import Distortion
 
 UV_MAP = "Reeb Parts UV"
 MADE = "reeb_parts_uv"  # on the mesh: what Blender has called our map
@@ -125,7 +125,7 @@ def _of_faces_below(table: CornerTable, numbers: np.ndarray, double: np.ndarray)
 
 def _unfolding_seams(table: CornerTable, cut: np.ndarray, left_out: np.ndarray) -> np.ndarray:
     """Edges to be cut so that all lies flat but for some faces, (e,) bool. cut : (e,) bool. left_out : (p,) bool."""
-    from ..core.uses.maps.unfold import unfolding_seams  # imports SciPy
+    from ...core.uses.maps.unfold import unfolding_seams  # imports SciPy
 
     rest = table.within(~left_out)
     faces, corner_face = renumbered(rest.corner_face)
@@ -137,7 +137,7 @@ def _unfolding_seams(table: CornerTable, cut: np.ndarray, left_out: np.ndarray) 
 
 def _images(table: CornerTable, stored: Stored) -> np.ndarray:
     """The corner that each corner of a part is the exact mirror image of, (c,), -1 for none."""
-    from ..core.uses.maps.stacking import image_corners
+    from ...core.uses.maps.stacking import image_corners
 
     decomposition, parts = stored.decomposition, stored.shown_parts().parts
     if decomposition.plane is None:
@@ -147,7 +147,7 @@ def _images(table: CornerTable, stored: Stored) -> np.ndarray:
 
 def _distortion(table: CornerTable, flat: np.ndarray, image: np.ndarray) -> Distortion:
     """What the map does, without faces that share the place of others."""
-    from ..core.uses.maps.distortion import distortion
+    from ...core.uses.maps.distortion import distortion
 
     alone = ~_left_out(table, image)
     return distortion(table.within(alone), flat[alone[table.corner_face]].astype(np.float64))

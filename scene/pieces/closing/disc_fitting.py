@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ...core.uses.caps.surfaces import spread
+from ....core.uses.caps.surfaces import spread
 
 if TYPE_CHECKING:
-    from ...core.uses.caps.sleeves import Sleeve
+    from ....core.uses.caps.sleeves import Sleeve
     from .body_surface import BodySurface
     from .disc import Disc
 
