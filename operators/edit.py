@@ -13,7 +13,7 @@ from ..scene.reporting import PartOperator
 from ..scene.result import part_list, part_names
 from ..scene.result.part_list import chosen_numbers
 from ..scene.store import Stored
-from ..viewport.ring_tool import RingTool, move
+from ..viewport.modal.ring_tool import RingTool, move
 
 
 class REEB_PARTS_OT_merge(PartOperator, bpy.types.Operator):

@@ -12,8 +12,8 @@ from ..scene.result import part_names
 from ..scene.result.part_list import active_number
 from ..scene.store import Stored
 from ..viewport import pointing
-from ..viewport.brush import START_SIZE, Brush, ReebDab, paint
-from ..viewport.colored_tool import ColoredTool
+from ..viewport.modal.brush import START_SIZE, Brush, ReebDab, paint
+from ..viewport.modal.colored_tool import ColoredTool
 from ..viewport.pointing import Target
 
 

@@ -11,8 +11,8 @@ from ..scene.result import part_names
 from ..scene.result.part_list import choose, toggle
 from ..scene.store import Stored
 from ..viewport import pointing
+from ..viewport.modal.view_tool import ViewTool
 from ..viewport.pointing import Target
-from ..viewport.view_tool import ViewTool
 
 
 class REEB_PARTS_OT_pick(ViewTool, PartOperator, bpy.types.Operator):

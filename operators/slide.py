@@ -12,10 +12,10 @@ from ..scene.result import part_names
 from ..scene.result.part_list import active_number
 from ..scene.store import Stored
 from ..viewport import pointing
-from ..viewport.boundary import Boundary, check_borders, write_moved
-from ..viewport.colored_tool import ColoredTool
+from ..viewport.modal.boundary import Boundary, check_borders, write_moved
+from ..viewport.modal.colored_tool import ColoredTool
+from ..viewport.modal.view_tool import turns_view
 from ..viewport.pointing import Target
-from ..viewport.view_tool import turns_view
 
 
 class REEB_PARTS_OT_slide(ColoredTool, PartOperator, bpy.types.Operator):

@@ -12,7 +12,7 @@ from ..scene.reporting import PartOperator, ReportingOperator
 from ..scene.result import part_list
 from ..scene.store import Stored
 from ..viewport import hover, pointing
-from ..viewport.box import Frame, parts_in_box
+from ..viewport.modal.box import Frame, parts_in_box
 
 
 class REEB_PARTS_OT_choose(ReportingOperator, bpy.types.Operator):

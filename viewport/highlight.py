@@ -26,7 +26,7 @@ from ..scene.result.part_list import chosen_numbers
 from ..scene.showing import explode, selection
 from .idle import IdleSearch
 from .lines import Lines, Surface
-from .view_tool import CHANGED
+from .modal.view_tool import CHANGED
 
 if TYPE_CHECKING:
     from ..core.uses.clean_cuts.curves import Curves

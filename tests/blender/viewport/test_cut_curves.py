@@ -81,7 +81,8 @@ def modules(package):
              "scene": ("bridge", "errors"),
              "scene.reading": ("mesh_arrays", "seen_points"),
              "scene.pieces": ("cut_curves", "part_meshes"),
-             "viewport": ("highlight", "idle", "knife", "pointing", "ring_tool")}
+             "viewport": ("highlight", "idle", "pointing"),
+             "viewport.modal": ("knife", "ring_tool")}
     return SimpleNamespace(**{name: importlib.import_module(f"{package}.{folder}.{name}")
                               for folder, several in names.items() for name in several})
 

@@ -11,15 +11,15 @@ import numpy as np
 from bpy.app.translations import pgettext_n as n_
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.steps import Steps
-from ..scene import redraw, running
-from ..scene.errors import SceneError
-from ..scene.reporting import ReportingOperator
-from ..scene.transaction import transaction
-from . import hover, idle, pointing
-from .idle import IdleSearch
-from .lines import Lines, fill
-from .pointing import Target
+from ...core.steps import Steps
+from ...scene import redraw, running
+from ...scene.errors import SceneError
+from ...scene.reporting import ReportingOperator
+from ...scene.transaction import transaction
+from .. import hover, idle, pointing
+from ..idle import IdleSearch
+from ..lines import Lines, fill
+from ..pointing import Target
 
 _CONFIRM = {"RET", "NUMPAD_ENTER"}
 _CANCEL = {"ESC", "RIGHTMOUSE"}

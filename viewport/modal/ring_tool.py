@@ -10,21 +10,21 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.sentence import Count
-from ..core.steps import Steps
-from ..scene.changes import edits
-from ..scene.errors import SceneError
-from ..scene.pieces import cut_curves
-from ..scene.reading.seen_points import seen_points
-from ..scene.result import part_list
-from ..scene.store import Stored
+from ...core.sentence import Count
+from ...core.steps import Steps
+from ...scene.changes import edits
+from ...scene.errors import SceneError
+from ...scene.pieces import cut_curves
+from ...scene.reading.seen_points import seen_points
+from ...scene.result import part_list
+from ...scene.store import Stored
+from ..pointing import Target
 from .boundary import Boundary, check_borders, write_moved
 from .colored_tool import ColoredTool
-from .pointing import Target
 from .view_tool import turns_view
 
 if TYPE_CHECKING:
-    from ..core.uses.clean_cuts.curves import Curves
+    from ...core.uses.clean_cuts.curves import Curves
 
 _WORDS = ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE")
 _DIGITS = {key: digit for digit, word in enumerate(_WORDS) for key in (word, f"NUMPAD_{digit}")}

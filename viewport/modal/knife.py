@@ -9,21 +9,21 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.mesh.corners import CornerTable
-from ..core.mesh.labels import FaceGraph
-from ..core.sentence import Count
-from ..core.steps import Steps, stretched
-from ..scene import bridge, store
-from ..scene.changes import edits
-from ..scene.errors import SceneError
-from ..scene.pieces import cut_curves
-from ..scene.reading import mesh_arrays
-from ..scene.reading.seen_points import seen_points
-from ..scene.result import part_list, part_names
-from .pointing import Model, Target
+from ...core.mesh.corners import CornerTable
+from ...core.mesh.labels import FaceGraph
+from ...core.sentence import Count
+from ...core.steps import Steps, stretched
+from ...scene import bridge, store
+from ...scene.changes import edits
+from ...scene.errors import SceneError
+from ...scene.pieces import cut_curves
+from ...scene.reading import mesh_arrays
+from ...scene.reading.seen_points import seen_points
+from ...scene.result import part_list, part_names
+from ..pointing import Model, Target
 
 if TYPE_CHECKING:
-    from ..core.result.editing.contour_cut import Contours
+    from ...core.result.editing.contour_cut import Contours
 
 
 class Knife:
@@ -45,7 +45,7 @@ class Knife:
         chosen : int
             -1 if there is none.
         """
-        from ..core.result.editing.contour_cut import contours
+        from ...core.result.editing.contour_cut import contours
 
         number = self.model.number(target)
         if number not in self._parts:
@@ -91,8 +91,8 @@ class Knife:
 
         face_graph : core.mesh.labels.FaceGraph
         """
-        from ..core.result.editing.changes import smaller_side, two_sides
-        from ..core.result.editing.contour_cut import contour_sides
+        from ...core.result.editing.changes import smaller_side, two_sides
+        from ...core.result.editing.contour_cut import contour_sides
 
         found, chosen = self.contour(target)
         if chosen < 0:
@@ -140,7 +140,7 @@ def nothing_there(obj: bpy.types.Object, number: int) -> str:
 
 def _parts_beside(before: Model, after: store.Stored, new: int) -> int:
     """How many parts have come about beside a new one and its mirror image."""
-    from ..core.result.editing.mirrored import twin_numbers
+    from ...core.result.editing.mirrored import twin_numbers
 
     made = np.setdiff1d(after.shown, before.numbers)
     return len(np.setdiff1d(made, [new, twin_numbers(after.shown_parts()).get(new, new)]))

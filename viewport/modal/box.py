@@ -10,8 +10,8 @@ from bpy_extras import view3d_utils
 from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
-from ..scene.reading import mesh_arrays
-from .pointing import Model, on_screen
+from ...scene.reading import mesh_arrays
+from ..pointing import Model, on_screen
 
 SAMPLES = 64  # faces of each part that are looked at, whether something hides them
 

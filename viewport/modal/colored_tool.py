@@ -7,11 +7,11 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..scene.changes import edits
-from ..scene.errors import SceneError
-from ..scene.outputs import colors
-from ..scene.result import part_names
-from ..scene.result.part_list import active_number
+from ...scene.changes import edits
+from ...scene.errors import SceneError
+from ...scene.outputs import colors
+from ...scene.result import part_names
+from ...scene.result.part_list import active_number
 from .view_tool import CHANGED, ViewTool
 
 

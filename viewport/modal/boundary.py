@@ -9,13 +9,13 @@ import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 
-from ..core.sentence import Count
-from ..scene import bridge
-from ..scene.changes import edits
-from ..scene.errors import SceneError
-from ..scene.reading import mesh_arrays
-from ..scene.result import part_names
-from ..scene.store import Stored
+from ...core.sentence import Count
+from ...scene import bridge
+from ...scene.changes import edits
+from ...scene.errors import SceneError
+from ...scene.reading import mesh_arrays
+from ...scene.result import part_names
+from ...scene.store import Stored
 
 RING = 0.01  # width of a ring, as a share of the object's size
 FACES = 1.5  # and at least so many times as far as from face to face: else a ring would have gaps
@@ -46,7 +46,7 @@ class Boundary:
 
     def __init__(self, obj: bpy.types.Object, stored: Stored, number: int, neighbor: int = 0) -> None:
         """Of the part ``number``: all of it, or only where it meets the part ``neighbor``."""
-        from ..core.result.editing.changes import boundary_distance
+        from ...core.result.editing.changes import boundary_distance
 
         self.number = number
         self.numbers = stored.face_numbers

@@ -6,16 +6,16 @@ import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt_
 from numpy.typing import ArrayLike
 
-from ..core.arrays.components import components
-from ..core.arrays.indexing import expanded
-from ..core.arrays.pairs import both_ways
-from ..core.sentence import Count
-from ..scene import store
-from ..scene.changes import edits
-from ..scene.errors import SceneError
-from ..scene.reading import mesh_arrays
-from ..scene.result import part_names
-from .pointing import Model, check_place
+from ...core.arrays.components import components
+from ...core.arrays.indexing import expanded
+from ...core.arrays.pairs import both_ways
+from ...core.sentence import Count
+from ...scene import store
+from ...scene.changes import edits
+from ...scene.errors import SceneError
+from ...scene.reading import mesh_arrays
+from ...scene.result import part_names
+from ..pointing import Model, check_place
 
 # What a stroke leaves of a part between itself and others goes along if it is smaller than this share of what it took;
 # a hand beyond a painted bracelet does not.
