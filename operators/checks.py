@@ -7,7 +7,7 @@ from bpy.app.translations import pgettext_rpt as rpt_
 from ..core.sentence import Count
 from ..scene import bridge, redraw, targets, transaction
 from ..scene.errors import SceneError
-from ..scene.pieces import piece_checks, piece_objects, piece_repairs
+from ..scene.pieces import origins, piece_checks, piece_objects, piece_repairs
 from ..scene.reporting import ReportingOperator
 from ..scene.showing.selection import select_faces
 
@@ -36,7 +36,7 @@ class REEB_PARTS_OT_check_pieces(PieceOperator, bpy.types.Operator):
 def _chosen_pieces(context: bpy.types.Context) -> list[bpy.types.Object]:
     """The active one and all selected ones."""
     chosen = [targets.active_object(context), *targets.selected_objects(context)]
-    return list(dict.fromkeys(obj for obj in chosen if piece_objects.original(obj) is not None))
+    return list(origins.originals(chosen))
 
 
 class REEB_PARTS_OT_select_faults(PieceOperator, bpy.types.Operator):

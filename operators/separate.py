@@ -11,7 +11,7 @@ from ..scene import store, targets
 from ..scene.changes import moved
 from ..scene.errors import SceneError
 from ..scene.modes import object_mode
-from ..scene.pieces import piece_objects, separation
+from ..scene.pieces import origins, piece_objects, separation
 from ..scene.reporting import ReportingOperator
 from ..scene.result.part_list import check_parts, wanted_numbers
 from ..scene.settings import SEPARATE, SeparateProperties, closes_holes, fill_in
@@ -59,9 +59,10 @@ class REEB_PARTS_OT_separate(SteppedOperator, bpy.types.Operator, SeparateProper
                 steps = separation.separating(context, obj, stored, wanted_numbers(obj.data, self.which), self)
                 separated = yield from stretched(steps, index / len(found), (index + 1) / len(found))
                 made.append((obj, separated))
+        every = [piece for _, separated in made for piece in (*separated.pieces, *separated.loose)]
+        origins.include(context, every)
         if self.hide:
             self._hide(context, [obj for obj, _ in made])
-        every = [piece for _, separated in made for piece in (*separated.pieces, *separated.loose)]
         self._show(context, every, made[0][1].pieces)
         for obj, separated in made:
             self._report(obj, separated)
@@ -161,7 +162,7 @@ class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):
         obj = targets.active_object(context)
         targets.check_object(obj)
         assert obj is not None
-        if not piece_objects.piece_objects(obj):
+        if not piece_objects.has_pieces(obj):
             raise SceneError(rpt_("There are no separated parts of {name}. Separate them first.").format(
                 name=obj.name))
         if context.mode != "OBJECT":
@@ -169,12 +170,14 @@ class REEB_PARTS_OT_show_pieces(ReportingOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> None:
         chosen = [targets.active_object(context), *targets.selected_objects(context)]
-        objects = [obj for obj in dict.fromkeys(chosen) if piece_objects.piece_objects(obj)]
+        objects = [obj for obj in dict.fromkeys(chosen) if piece_objects.has_pieces(obj)]
         pieces = []
         for obj, _ in targets.usable(objects, targets.check_object, self.report):
             # Appended alone to another file, an object comes with its pieces, but these are in no scene.
-            piece_objects.make_collection(context, obj)
-            pieces += piece_objects.piece_objects(obj)
+            origins.make_collection(context, obj)
+            own = piece_objects.piece_objects(obj)
+            origins.include(context, own)
+            pieces += own
             piece_objects.hide_original(context, obj)
             piece_objects.show_pieces(context, obj, True)
         shading.show_pieces(context)
@@ -190,10 +193,11 @@ class REEB_PARTS_OT_show_original(ReportingOperator, bpy.types.Operator):
 
     @classmethod
     def check_context(cls, context: bpy.types.Context) -> None:
-        _check_shown(context, piece_objects.original(piece_objects.active_piece(context)))
+        _check_shown(context, origins.original(piece_objects.active_piece(context)))
 
     def run(self, context: bpy.types.Context) -> None:
-        found = piece_objects.originals([targets.active_object(context), *targets.selected_objects(context)])
+        pieces = [targets.active_object(context), *targets.selected_objects(context)]
+        found = list(dict.fromkeys(origins.originals(pieces).values()))
         objects = [obj for obj, _ in targets.usable(found, lambda obj: _check_shown(context, obj), self.report)]
         for obj in objects:
             piece_objects.show_original(context, obj)

@@ -147,7 +147,7 @@ def discard(*blocks: bpy.types.ID) -> None:
     first = next((place for place, block in enumerate(blocks) if _open and not is_new(block)), len(blocks))
     for block in blocks[first:]:
         if not is_discarded(block):
-            _open[0].discarded.append(block)
+            _open[0].discarded[block] = None
             for named in (block, getattr(block, "shape_keys", None)):
                 if named is not None:
                     if not is_new(named):
@@ -166,8 +166,8 @@ class Transaction:
         What takes back, the last first.
     last : list of callable
         What cannot be taken back.
-    discarded : list of bpy.types.ID
-        What will be gone.
+    discarded : dict of bpy.types.ID -> None
+        What will be gone, in order.
     renamed : list of callable
         What gives those their names back, when nothing that is new has these names any more.
     """
@@ -175,7 +175,7 @@ class Transaction:
     def __init__(self) -> None:
         self.inverses: list[Callable[[], object]] = []
         self.last: list[Callable[[], object]] = []
-        self.discarded: list[bpy.types.ID] = []
+        self.discarded: dict[bpy.types.ID, None] = {}
         self.renamed: list[Callable[[], object]] = []
         self._meshes: dict[bpy.types.Mesh, MeshCopy] = {}
         self._groups: set[tuple[bpy.types.ID, str]] = set()
@@ -209,7 +209,8 @@ class Transaction:
     def removals(self) -> list[Callable[[], object]]:
         """What is done at the very end."""
         copies = [partial(bpy.data.meshes.remove, kept.copy, do_unlink=False) for kept in self._meshes.values()]
-        return [*copies, *self.last, *([partial(bpy.data.batch_remove, self.discarded)] if self.discarded else [])]
+        gone = [partial(bpy.data.batch_remove, list(self.discarded))] if self.discarded else []
+        return [*copies, *self.last, *gone]
 
     def take_back(self) -> None:
         """Have everything as it was before; what cannot be done does not keep the rest from being done."""

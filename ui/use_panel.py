@@ -9,7 +9,7 @@ from bpy.app.translations import pgettext_n as n_
 
 from ..core.sentence import Count
 from ..scene import store
-from ..scene.pieces import cut_list, piece_checks, piece_objects
+from ..scene.pieces import cut_list, origins, piece_checks, piece_objects
 from .fitting import Room
 from .panel import SubPanel
 
@@ -62,7 +62,7 @@ class REEB_PARTS_PT_use(SubPanel, bpy.types.Panel):
         room.operator(self.layout, "reeb_parts.export", text="Export to Files...", icon="EXPORT")
         room.operator(self.layout, "reeb_parts.armature", text="Make Armature", icon="ARMATURE_DATA")
         room.operator(self.layout, "reeb_parts.hulls", text="Make Collision Hulls", icon="MESH_ICOSPHERE")
-        if piece_objects.piece_objects(obj):
+        if piece_objects.has_pieces(obj):
             room.operator(self.layout, "reeb_parts.rigid_bodies", text="Make Rigid Bodies", icon="RIGID_BODY")
 
 
@@ -84,14 +84,14 @@ class REEB_PARTS_PT_piece(SubPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return context.object is not None and piece_objects.original(context.object) is not None
+        return context.object is not None and origins.original(context.object) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
-        obj = piece_objects.original(context.object)
+        obj = origins.original(context.object)
         assert obj is not None  # poll
         room = Room(context)
         room.wrapped(self.layout.column(align=True), iface_("A part of {name}").format(name=obj.name), "MESH_DATA")
-        several = len(piece_objects.originals([context.object, *context.selected_objects])) > 1
+        several = len(set(origins.originals([context.object, *context.selected_objects]).values())) > 1
         show = iface_("Show Originals") if several else iface_("Show {name}").format(name=obj.name)
         room.operator(self.layout, "reeb_parts.show_original", text=show, icon="HIDE_OFF")
         self._draw_check(room, context.object)

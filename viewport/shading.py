@@ -9,7 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..scene import handlers, redraw, transaction
-from ..scene.pieces import piece_objects
+from ..scene.pieces import origins
 
 
 @dataclass
@@ -81,7 +81,7 @@ def _undone(*_: object) -> None:
     if not _of_pieces:
         return
     objects = [obj for obj in bpy.context.view_layer.objects if obj is not None]  # after removals some are none
-    there = any(piece_objects.original(obj) is not None for obj in objects if obj.visible_get())
+    there = bool(origins.originals(obj for obj in objects if obj.visible_get()))
     for space in redraw.view_spaces():
         if _of_pieces.get(space.as_pointer(), there) == there:
             continue

@@ -16,7 +16,7 @@ from bpy.app.handlers import persistent
 
 from .. import handlers, redraw, store, transaction
 from ..graph import graph_follow, graph_objects, graph_visibility
-from ..pieces import piece_objects
+from ..pieces import origins, piece_objects
 from ..reading import fingerprints, seen_points
 from ..temporary import removed
 from . import moved
@@ -110,7 +110,7 @@ def _look() -> float | None:
 
 def _is_untidy() -> bool:
     """Whether anything is left of objects that were deleted."""
-    return (any(graph_objects.left_behind()) or any(piece_objects.left_behind())
+    return (any(graph_objects.left_behind()) or any(origins.left_behind())
             or bool(piece_objects.hidden_for_nothing(bpy.context)))
 
 
@@ -138,8 +138,8 @@ def _tidy() -> None:
     with transaction.transaction():
         for obj in list(graph_objects.left_behind()):
             graph_objects.remove(obj)
-        for collection in list(piece_objects.left_behind()):
-            piece_objects.forget_original(collection)
+        for collection in list(origins.left_behind()):
+            origins.forget_original(collection)
         for obj in piece_objects.hidden_for_nothing(bpy.context):
             piece_objects.show_original(bpy.context, obj)
 

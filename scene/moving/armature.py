@@ -16,7 +16,7 @@ from .. import outputs, property_updates, targets, transaction
 from ..errors import SceneError
 from ..modes import call_with, set_mode
 from ..ours import made_objects, modifiers
-from ..pieces import part_meshes, piece_objects
+from ..pieces import origins, part_meshes
 from ..reading import mesh_arrays, mesh_groups, placing
 from ..result import part_names
 from ..showing.selection import nothing_selected
@@ -101,15 +101,17 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     else:
         _write_groups(obj, numbered)
         groups = [part.group for part in obj.data.reeb_parts.parts]
-    collection = piece_objects.make_collection(context, obj)
+    collection = origins.make_collection(context, obj)
     role = "armature"  # which is all that it stands for
-    earlier = made_objects.remove_untouched(collection.objects, role, _former_looks, lambda _: role, {role})
+    there = origins.made_of(obj, made_objects.ROLE)
+    earlier = made_objects.remove_untouched(there, role, _former_looks, lambda _: role, {role})
     data = bpy.data.armatures.new(f"{NAME} {obj.name}")
     rig = bpy.data.objects.new(data.name, data)
     rig.matrix_world = found.place
     rig.show_in_front = True
     rig[made_objects.ROLE] = role
     collection.objects.link(rig)
+    origins.claim(rig, obj)
     _add_bones(context, rig, found.bones, groups)
     made_objects.mark([rig])
     if own_groups:
@@ -121,6 +123,7 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, defo
     else:
         remove_modifier(obj)
     made_objects.hand_on(earlier.gone, [(role, rig)])
+    origins.follow(obj, earlier.gone, [(role, rig)])
     return Made(rig, found.n_stiff, earlier.kept)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..ours import made_objects
-from ..pieces import piece_objects
+from ..pieces import origins
 from ..reading import fingerprints, mesh_arrays, placing
 from ..result import part_names
 from ..store import Stored
@@ -50,9 +50,10 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
     numbered = stored.shown_parts()
     table = mesh_arrays.joined_table(obj.data, mesh_arrays.shown_points(obj))
     hulls = part_hulls(table, numbered.parts.labels, per_part)
-    collection = piece_objects.make_collection(context, obj)
+    collection = origins.make_collection(context, obj)
     coming = set(map(str, numbered.numbers.tolist()))
-    earlier = made_objects.remove_untouched(collection.objects, "hull", _former_looks, _stands_for, coming)
+    there = origins.made_of(obj, made_objects.ROLE)
+    earlier = made_objects.remove_untouched(there, "hull", _former_looks, _stands_for, coming)
     found: list[bpy.types.Object] = []
     names, place_of = part_names.all_names(obj.data), placing.world_matrix(obj)
     for number, several in zip(numbered.numbers.tolist(), hulls, strict=True):
@@ -66,8 +67,11 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored, engi
             found.append(_placed(bpy.data.objects.new(name, mesh), place_of))
             found[-1][PART] = number
             collection.objects.link(found[-1])
+            origins.claim(found[-1], obj)
     made_objects.mark(found)
-    made_objects.hand_on(earlier.gone, [(_stands_for(hull), hull) for hull in found])
+    new = [(_stands_for(hull), hull) for hull in found]
+    made_objects.hand_on(earlier.gone, new)
+    origins.follow(obj, earlier.gone, new)
     return Made(found, earlier.kept)
 
 

@@ -13,6 +13,7 @@ from mathutils import Matrix
 
 from .. import transaction
 from ..ours import made_objects
+from ..pieces import origins
 from ..reading import mesh_arrays, placing
 from ..store import Stored
 
@@ -36,7 +37,7 @@ class RigidBodies:
 
 
 def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
-         pieces: dict[int, list[bpy.types.Object]], collection: bpy.types.Collection, kind: str) -> RigidBodies:
+         pieces: dict[int, list[bpy.types.Object]], kind: str) -> RigidBodies:
     """Make rigid bodies of pieces, and joints at the cuts in place of earlier ones; Object Mode.
 
     A piece that is a rigid body already stays as it is, and so does the rigid body world if there is one.
@@ -49,8 +50,6 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     stored : Stored
     pieces : dict of int -> list of bpy.types.Object
         By the number of their part.
-    collection : bpy.types.Collection
-        For the joints.
     kind : str
         Of KINDS. A hinge bends about the longest line of the cut.
 
@@ -61,7 +60,8 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     from ...core.uses.moving.body_joints import body_joints, overlapping  # imports SciPy
     from ...core.uses.moving.hulls import part_hulls
 
-    earlier = remove_joints(collection)
+    collection = origins.make_collection(context, obj)
+    earlier = remove_joints(obj)
     numbered = stored.shown_parts()
     points = placing.transformed(mesh_arrays.shown_points(obj), placing.world_matrix(obj))
     table = mesh_arrays.joined_table(obj.data, points)
@@ -72,8 +72,12 @@ def make(context: bpy.types.Context, obj: bpy.types.Object, stored: Stored,
     _add_bodies(site, bodies, np.array([abs(hull.volume) for hull in hulls]))
     joints = [*_joints_at_cuts(site, bodies, found, kind), *_joints_within_parts(site, bodies)]
     apart = _joints_that_hold_nothing(site, bodies, overlapping(hulls), found.pairs)
+    for joint in (*joints, *apart):
+        origins.claim(joint, obj)
     made_objects.mark([*joints, *apart])
-    made_objects.hand_on(earlier.gone, [(joint.name, joint) for joint in (*joints, *apart)])
+    named = [(joint.name, joint) for joint in (*joints, *apart)]
+    made_objects.hand_on(earlier.gone, named)
+    origins.follow(obj, earlier.gone, named)
     return RigidBodies([piece for some in bodies for piece in some], joints)
 
 
@@ -188,13 +192,13 @@ def _joint(site: _Site, kind: str, ends: tuple[bpy.types.Object, bpy.types.Objec
     return joint
 
 
-def remove_joints(collection: bpy.types.Collection,
+def remove_joints(obj: bpy.types.Object,
                   of: Iterable[bpy.types.Object] | None = None) -> made_objects.Earlier:
-    """Remove joints that the user has not worked on; they stand for what their names say.
+    """Remove joints of an object that the user has not worked on; they stand for what their names say.
 
-    collection : where the joints are. of : only those of these pieces.
+    of : only those of these pieces.
     """
-    joints = list(collection.objects)
+    joints = origins.made_of(obj, made_objects.ROLE)
     if of is not None:
         ends, held = set(of), [(joint, joint.rigid_body_constraint) for joint in joints]
         joints = [joint for joint, holds in held if holds is not None and {holds.object1, holds.object2} & ends]

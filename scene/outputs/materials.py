@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Iterable
 
 import bpy
 import numpy as np
@@ -43,8 +43,7 @@ def remove(obj: bpy.types.Object) -> None:
     transaction.keep_mesh(obj.data)
     mesh = obj.data
     result = mesh.reeb_parts
-    for part in result.parts:
-        remove_one(mesh, part.material)
+    remove_these(mesh, [part.material for part in result.parts])
     if result.has_materials and _KEPT in mesh.attributes:
         mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, taken_out(mesh, _KEPT))
         if not result.had_material_index:
@@ -68,29 +67,30 @@ def take_back(mesh: bpy.types.Mesh, ours: np.ndarray) -> None:
         gone = np.isin(now, [index for index, material in enumerate(mesh.materials) if material in marked])
         slots = np.where(gone, own[np.clip(before, 0, len(own) - 1)], now)
         mesh_arrays.set_element_values(mesh, "polygons", _MATERIAL_INDEX, slots)
-        for material in marked:
-            remove_one(mesh, material)
+        remove_these(mesh, marked)
     remove_attribute(mesh, _KEPT)
 
 
-def remove_one(mesh: bpy.types.Mesh, material: bpy.types.Material | None) -> None:
-    """Remove the material that was made for a part, with its slot; None is none."""
-    if material is None:
+def remove_these(mesh: bpy.types.Mesh, made: Iterable[bpy.types.Material | None]) -> None:
+    """Remove materials that were made for parts, with their slots; in one pass, as there may be thousands."""
+    gone = dict.fromkeys(material for material in made if material is not None)
+    if not gone:
         return
-    drop_slots(mesh, [material])
+    drop_slots(mesh, gone)
     if not len(mesh.materials):
         mesh.materials.clear()  # popping the last one leaves an empty slot on the objects
     for part in mesh.reeb_parts.parts:
-        if part.material == material:
+        if part.material in gone:
             part.material = None
-    if material.users == 0:
-        transaction.discard(material)
+    for material in gone:
+        if material.users == 0:
+            transaction.discard(material)
 
 
 def drop_slots(mesh: bpy.types.Mesh, gone: Container[bpy.types.Material]) -> None:
     """Remove the slots of some materials."""
-    for index in reversed(range(len(mesh.materials))):
-        if mesh.materials[index] in gone:
+    for index, material in reversed(list(enumerate(mesh.materials))):
+        if material in gone:
             mesh.materials.pop(index=index)
 
 
@@ -151,9 +151,10 @@ def _name(material: bpy.types.Material, name: str) -> None:
 
 
 def _color_material(material: bpy.types.Material, color: np.ndarray) -> None:
-    transaction.keep(material, "diffuse_color")
-    material.diffuse_color = (*color, 1.0)
-    for node in material.node_tree.nodes:
-        if node.type == "BSDF_PRINCIPLED":
-            transaction.keep(node.inputs["Base Color"], "default_value")
-            node.inputs["Base Color"].default_value = (*color, 1.0)
+    """Give a material a color; what has it already is left alone, as Blender takes a millisecond for each change."""
+    nodes = [node.inputs["Base Color"] for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED"]
+    wanted = np.array((*color, 1.0), np.float32).tolist()
+    for block, name in ((material, "diffuse_color"), *((node, "default_value") for node in nodes)):
+        if getattr(block, name)[:] != tuple(wanted):
+            transaction.keep(block, name)
+            setattr(block, name, wanted)

@@ -66,9 +66,9 @@ def update_outputs(obj: bpy.types.Object, numbered: NumberedParts, before: np.nd
     new = part_names.number_colors(mesh)
     # Colors first: what evaluates the scene there finds nothing else changed yet.
     colors.write(mesh, numbered.face_numbers, new, _recolored(numbered, before, old, new))
-    for group, material in gone:
+    for group, _ in gone:
         vertex_groups.remove_one(obj, group)
-        materials.remove_one(mesh, material)
+    materials.remove_these(mesh, [material for _, material in gone])
     vertex_groups.write(obj, numbered, before)
     for output in (face_attribute, materials, face_sets, seams):
         output.write(mesh, numbered)

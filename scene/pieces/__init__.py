@@ -3,6 +3,7 @@
 
 - ``separation``: makes the objects
 - ``piece_objects``: knows them
+- ``origins``: whose they are
 - ``piece_checks``: measures them
 - ``piece_repairs``: repairs what it can
 - ``cut_list``: their cuts as a list on the object

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts as objects of their own, called pieces: which there are, whose they are, and whether they are seen.
+"""Parts as objects of their own, called pieces: which there are, and whether they are seen.
 
-``separation`` makes them.
+``separation`` makes them, ``origins`` knows whose they are.
 """
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection
 
 import bpy
 import numpy as np
@@ -21,40 +21,29 @@ from ..moving import rigid_bodies
 from ..ours import made_objects
 from ..ours.surroundings import Surroundings
 from ..reading import element_layers, fingerprints
-from ..result.part_names import fitted, without_number
 from ..showing import visibility
 from ..showing.selection import in_layer
 from ..store import Stored
 from ..temporary import remove_object
-from . import piece_checks
+from . import origins, piece_checks
+from .origins import DOWEL, NUMBER, collection_of, original
 
-COLLECTION_OF = "reeb_parts_pieces_of"  # on the collection: the object that the pieces come from; once it was its name
-_PARTS_OF = "Parts of "  # how its name begins
-NUMBER = "reeb_parts_number"  # on a piece: of its part
 FACES = "reeb_parts_faces"  # on a piece: which faces of the original were its part, as a short text
-DOWEL = "reeb_parts_dowel"  # on a loose dowel: the numbers of the two parts that it joins; once it was 1
-
-
-def collection_of(obj: bpy.types.Object) -> bpy.types.Collection | None:
-    """The collection with the pieces of an object, or None."""
-    if not obj.is_property_set("reeb_parts_made"):  # to read it would set it
-        return None
-    collection = obj.reeb_parts_made.pieces
-    # A copy of the object has this too, but the pieces are not its own.
-    return collection if collection is not None and collection.get(COLLECTION_OF) in (obj, obj.name) else None
 
 
 def piece_objects(obj: bpy.types.Object) -> list:
     """What was separated from an object and is still there, in the order of the part numbers."""
-    collection = collection_of(obj)
-    found = [piece for piece in collection.objects if NUMBER in piece] if collection else []
-    return sorted(found, key=lambda piece: piece[NUMBER])
+    return sorted(origins.made_of(obj, NUMBER), key=lambda piece: piece[NUMBER])
+
+
+def has_pieces(obj: bpy.types.Object) -> bool:
+    """Whether ``piece_objects`` finds any, which is sooner known."""
+    return origins.has_any(obj, NUMBER)
 
 
 def dowels(obj: bpy.types.Object) -> list:
     """The loose dowels between the pieces of an object."""
-    collection = collection_of(obj)
-    return [dowel for dowel in collection.objects if DOWEL in dowel] if collection else []
+    return origins.made_of(obj, DOWEL)
 
 
 def is_of(item: bpy.types.Object, numbers: Collection[int]) -> bool:
@@ -65,59 +54,11 @@ def is_of(item: bpy.types.Object, numbers: Collection[int]) -> bool:
     return isinstance(joined, int) or not set(numbers).isdisjoint(joined)
 
 
-def original(piece: bpy.types.Object) -> bpy.types.Object | None:
-    """The object that a piece was separated from, or None if it is gone."""
-    for collection in piece.users_collection if NUMBER in piece else ():
-        obj = _source(collection)
-        if obj is not None:
-            return obj
-    return None
-
-
-def originals(objects: Iterable[bpy.types.Object]) -> list[bpy.types.Object]:
-    """The objects that the pieces among some objects were separated from, each once."""
-    source = {piece: found for collection in reversed(bpy.data.collections[:])
-              if COLLECTION_OF in collection and (found := _source(collection)) is not None
-              for piece in collection.objects if NUMBER in piece}
-    return list(dict.fromkeys(source[obj] for obj in objects if obj in source))
-
-
-def _source(collection: bpy.types.Collection) -> bpy.types.Object | None:
-    """The object whose pieces a collection holds, or None: none are, or it is gone."""
-    obj = collection.get(COLLECTION_OF)
-    if isinstance(obj, str):
-        obj = bpy.data.objects.get((obj, None))
-    return obj if obj is not None and obj.users_scene and collection_of(obj) == collection else None
-
-
-def left_behind() -> Iterator[bpy.types.Collection]:
-    """Collections of pieces whose original is gone from all scenes; it would stay in the file for them."""
-    for collection in bpy.data.collections:
-        source = collection.get(COLLECTION_OF)
-        if isinstance(source, bpy.types.Object) and not source.users_scene and collection.is_editable:
-            yield collection
-
-
-def forget_original(collection: bpy.types.Collection) -> None:
-    """Let pieces be the user's alone, as their original is gone."""
-    transaction.keep_keys(collection, COLLECTION_OF)
-    del collection[COLLECTION_OF]
-
-
 def hidden_for_nothing(context: bpy.types.Context) -> list[bpy.types.Object]:
     """Objects of the scene that were hidden for their pieces, all of which are deleted now."""
-    empty = [obj for obj in context.scene.objects if obj.hide_render and obj.is_editable and NUMBER not in obj
-             and store.has_parts(obj) and visibility.is_known(obj) and not _has_pieces(obj)]
-    # Pieces that were moved to another collection do not say whose they are.
-    moved = empty and any(NUMBER in item and item.users_scene and original(item) is None for item in bpy.data.objects)
-    return [] if moved else empty
-
-
-def _has_pieces(obj: bpy.types.Object) -> bool:
-    """Whether a piece of an object is left, be it the user's own by now; hulls and joints are none."""
-    collection = collection_of(obj)
-    return collection is not None and any(item.type == "MESH" and made_objects.ROLE not in item
-                                          for item in collection.objects)
+    hidden = [obj for obj in context.scene.objects if obj.hide_render and obj.is_editable and NUMBER not in obj
+              and store.has_parts(obj) and visibility.is_known(obj)]
+    return origins.without_pieces(hidden) if hidden else []
 
 
 def stands_for(item: bpy.types.Object) -> str:
@@ -179,7 +120,7 @@ def make_bodies(context: bpy.types.Context, obj: bpy.types.Object, stored: Store
     around = Surroundings.now()
     untouched = [piece for some in pieces.values() for piece in some
                  if made_objects.is_as_made(piece, former_looks, around)]
-    joined = rigid_bodies.make(context, obj, stored, pieces, make_collection(context, obj), kind)
+    joined = rigid_bodies.make(context, obj, stored, pieces, kind)
     for piece in untouched:  # that they are bodies now is no work of the user's
         transaction.keep_keys(piece, made_objects.MADE)
     made_objects.mark(untouched)
@@ -210,21 +151,6 @@ def check_pieces(pieces: list[bpy.types.Object], stretch: np.ndarray | None = No
         piece_checks.keep(piece, piece_checks.check(piece.data, own)[0])
 
 
-def make_collection(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Collection:
-    """The collection with what is made from an object's parts; made if it is not there."""
-    collection, name = collection_of(obj), fitted(_PARTS_OF + obj.name)
-    if collection is None:
-        collection = bpy.data.collections.new(name)
-        collection[COLLECTION_OF] = obj
-        transaction.keep_group(obj, "reeb_parts_made")
-        obj.reeb_parts_made.pieces = collection
-    elif collection.name.startswith(_PARTS_OF) and name not in (collection.name, without_number(collection.name)):
-        transaction.keep(collection, "name")
-        collection.name = name  # the object was renamed
-    visibility.include(context, collection)
-    return collection
-
-
 def removing_earlier(obj: bpy.types.Object, numbers: list[int], coming: Collection[str]) -> Steps[made_objects.Earlier]:
     """Remove pieces of these parts, and dowels in them, unless the user has worked on them or needs them.
 
@@ -242,7 +168,7 @@ def removing_earlier(obj: bpy.types.Object, numbers: list[int], coming: Collecti
             made_objects.hand_over(piece, NUMBER, FACES, made_objects.MADE, DOWEL)
     earlier = [piece for _, piece in gone]
     if earlier:
-        rigid_bodies.remove_joints(collection_of(obj), earlier)
+        rigid_bodies.remove_joints(obj, earlier)
     for piece in earlier:
         remove_object(piece)
     return made_objects.Earlier(gone, len(there) - len(gone))

@@ -25,18 +25,16 @@ from ..settings import SeparateProperties, closes_holes
 from ..showing import explode, hidden
 from ..store import Stored
 from ..temporary import removed
-from . import box_fitting, by_extent, cut_list
+from . import box_fitting, by_extent, cut_list, origins
 from .closing import cap_looks
+from .origins import DOWEL, NUMBER, make_collection
 from .part_meshes import making_pieces
 from .piece_objects import (
-    DOWEL,
     FACES,
-    NUMBER,
     check_pieces,
     dowels,
     faces_of,
     is_rendered,
-    make_collection,
     part_stands_for,
     removing_earlier,
     show_pieces,
@@ -204,7 +202,9 @@ def _finishing(run: _Run, pieces: list[bpy.types.Object], loose: list[bpy.types.
     """Remember what the new objects are like, have them take the places of earlier ones, and check closed pieces."""
     new = [*pieces, *loose]
     yield from stretched(made_objects.marking(new), 0.0, 0.5)
-    made_objects.hand_on(earlier.gone, [(stands_for(item), item) for item in new])
+    standing = [(stands_for(item), item) for item in new]
+    made_objects.hand_on(earlier.gone, standing)
+    origins.follow(run.obj, earlier.gone, standing)
     for index, piece in enumerate(pieces if closes_holes(run.style) else ()):
         yield 0.5 + 0.5 * index / len(pieces)
         check_pieces([piece], run.stretch)
@@ -253,6 +253,7 @@ def _objects(run: _Run, meshes: dict[int, bpy.types.Mesh], names: dict[int, str]
         by_extent.set_offsets(piece, offsets)
         piece.color = (*linear(colors[number]), 1.0)
         piece[NUMBER], piece[FACES] = number, faces_of(face_numbers, number)
+        origins.claim(piece, obj)
         collection.objects.link(piece)
         pieces.append(piece)
     return pieces
@@ -264,6 +265,7 @@ def _dowel(run: _Run, dowel: joints.Dowel, part: dict[int, int]) -> bpy.types.Ob
     item.modifiers.clear()
     item[DOWEL] = sorted(part.get(key, key) for key in dowel.keys)
     make_collection(run.context, run.obj).objects.link(item)
+    origins.claim(item, run.obj)
     return item
 
 

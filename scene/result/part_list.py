@@ -16,7 +16,7 @@ from mathutils import Matrix
 from .. import property_updates, store, targets, transaction
 from ..changes.settled import reaction
 from ..errors import SceneError
-from ..pieces import piece_objects
+from ..pieces import origins
 from ..reading import mesh_arrays
 
 
@@ -24,7 +24,7 @@ def check_parts(obj: bpy.types.Object | None) -> None:
     """Raise SceneError unless the parts of an object can be worked on."""
     if not store.has_parts(obj):
         # After Separate a piece is active.
-        original = piece_objects.original(obj) if obj is not None else None
+        original = origins.original(obj) if obj is not None else None
         if original is not None:
             raise SceneError(rpt_("Select the original, {name}, first.").format(name=original.name))
         raise SceneError(rpt_("Decompose the mesh first"))

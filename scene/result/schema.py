@@ -149,6 +149,7 @@ class ReebPartsMade(bpy.types.PropertyGroup, Settled):
     # Of what is hidden while something of ours is shown in its place: 1 if it was rendered before, 0 if not.
     rendered: IntProperty(default=-1, options=set())
     pieces: PointerProperty(type=bpy.types.Collection, description="Where the separated parts are")
+    key: StringProperty()  # what pieces know the object by, wherever they are, see pieces.origins
     explode: FloatProperty(
         name="Explode", default=0.0, min=0.0, soft_max=2.0, step=1, update=explode.changed,
         description="How far the parts drift apart, as a multiple of their distance from the middle. Only "

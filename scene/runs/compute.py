@@ -29,7 +29,10 @@ _KEEP = 3
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """What became of one object: a decomposition, or the sentence why there is none."""
+    """What became of one object: a decomposition, or the sentence why there is none.
+
+    seconds : how long it was computed, 0 where it was known.
+    """
 
     object_name: str
     shape: Shape
@@ -38,11 +41,11 @@ class Outcome:
     seconds: float = 0.0
 
     @classmethod
-    def of(cls, name: str, shape: Shape, found: Decomposition | ReebError) -> Outcome:
-        """The outcome for an object, from what core returned or raised."""
+    def of(cls, name: str, shape: Shape, found: Decomposition | ReebError, was_known: bool) -> Outcome:
+        """The outcome for an object, from what core returned or raised, or from what was known before."""
         if isinstance(found, ReebError):
             return cls(name, shape, problem=found.args[0])
-        return cls(name, shape, found, seconds=sum(found.seconds.values()))
+        return cls(name, shape, found, seconds=0.0 if was_known else sum(found.seconds.values()))
 
 
 def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
@@ -69,6 +72,7 @@ def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
             progress(stage, (index + share) / len(shapes), *told)
 
         found: Decomposition | ReebError
+        was_known = key_of(shape, parameters) in _done
         try:
             found = decomposition(shape, parameters, step)
         except Cancelled:
@@ -77,7 +81,7 @@ def compute_all(shapes: list[tuple[str, Shape]], parameters: Parameters,
             found = error
         except MemoryError as error:
             raise lacking_memory(name, shape) from error
-        outcomes.append(Outcome.of(name, shape, found))
+        outcomes.append(Outcome.of(name, shape, found, was_known))
     return outcomes
 
 

@@ -17,7 +17,7 @@ from ...core.file_names import file_name
 from ...core.uses.threemf import Assembly, ColoredMesh, write_3mf
 from .. import bridge, store
 from ..errors import SceneError
-from ..pieces import piece_objects
+from ..pieces import origins, piece_objects
 from ..pieces.part_meshes import piece_meshes
 from ..reading import mesh_arrays, placing
 from ..result import part_names
@@ -188,7 +188,7 @@ def _colors(obj: bpy.types.Object) -> dict[str, tuple[float, ...]]:
     for piece in piece_objects.piece_objects(obj):
         # Parts that are not shown now are not in the list; pieces of them have the color that these had.
         own = Color(piece.color[:3]).from_scene_linear_to_srgb()[:]
-        colors[piece.name] = listed.get(piece[piece_objects.NUMBER], own)
+        colors[piece.name] = listed.get(piece[origins.NUMBER], own)
     return colors | {part_names.with_object(obj, names[number]): color for number, color in listed.items()}
 
 

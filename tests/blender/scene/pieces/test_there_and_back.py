@@ -304,3 +304,119 @@ def test_pieces_of_a_file_that_knew_the_name_alone(obj):
     bpy.data.collections["Parts of Tree"]["reeb_parts_pieces_of"] = "Tree"
     bpy.ops.reeb_parts.show_original()
     assert bpy.context.view_layer.objects.active == obj
+
+
+def moved_to(name, items):
+    """Move objects to a collection, as M does."""
+    collection = bpy.data.collections.get(name) or bpy.data.collections.new(name)
+    if name not in bpy.context.scene.collection.children:
+        bpy.context.scene.collection.children.link(collection)
+    for item in items:
+        for before in item.users_collection:
+            before.objects.unlink(item)
+        collection.objects.link(item)
+
+
+def without_collection(obj):
+    """Delete a collection as the Outliner does: what is in it goes to where it was."""
+    collection = obj.reeb_parts_made.pieces
+    for item in collection.objects:
+        bpy.context.scene.collection.objects.link(item)
+    bpy.data.collections.remove(collection)
+
+
+AWAY = {
+    "moved": lambda obj, items: moved_to("Mine", items),
+    "some": lambda obj, items: moved_to("Mine", items[::2]),
+    "in the collection of another's pieces": lambda obj, items: moved_to("Parts of Other", items),
+    "collection deleted": lambda obj, items: without_collection(obj),
+}
+
+
+@pytest.mark.parametrize("way", AWAY)
+def test_pieces_know_their_original_wherever_they_are(obj, make, tree, way):
+    """Elsewhere they led to no original, which stayed hidden; the next run made all of them once more."""
+    other = make(tree, "Other")
+    for item in (other, obj):
+        activate(item)
+        bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
+        bpy.ops.reeb_parts.hulls()
+        activate(item)
+        bpy.ops.reeb_parts.separate(joints="DOWEL")
+    made = [item for item in obj.reeb_parts_made.pieces.objects if item not in (obj, other)]
+    AWAY[way](obj, made)
+    before = {item.name: [place.name for place in item.users_collection] for item in bpy.data.objects}
+    activate(bpy.data.objects["Tree Part 01"])
+    bpy.ops.reeb_parts.show_original()
+    assert bpy.context.view_layer.objects.active == obj
+    bpy.ops.reeb_parts.show_pieces()
+    bpy.ops.reeb_parts.show_original()
+    bpy.ops.reeb_parts.hulls()
+    activate(obj)
+    bpy.ops.reeb_parts.separate(joints="DOWEL")
+    assert {item.name: [place.name for place in item.users_collection] for item in bpy.data.objects} == before
+    assert not other.hide_render or other.hide_get()
+
+
+def test_pieces_in_a_collection_of_the_users_that_is_excluded_are_shown(obj):
+    """The original was hidden for pieces that nobody saw."""
+    bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
+    bpy.ops.reeb_parts.separate()
+    moved_to("Mine", pieces_of())
+    for command in (bpy.ops.reeb_parts.show_pieces, bpy.ops.reeb_parts.separate):
+        bpy.ops.reeb_parts.show_original()
+        bpy.context.view_layer.layer_collection.children["Mine"].exclude = True
+        activate(obj)
+        command()
+        bpy.context.view_layer.update()
+        assert [piece.visible_get() for piece in bpy.data.collections["Mine"].objects] == [True] * 3
+        assert not obj.visible_get()
+
+
+def test_pasted_pieces_are_pieces(obj):
+    """They come without the original, and the next run leaves them to the user. In another file they know nothing."""
+    bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
+    bpy.ops.reeb_parts.separate()
+    activate(pieces_of()[0])
+    bpy.ops.view3d.copybuffer()
+    for _ in range(2):
+        bpy.ops.view3d.pastebuffer()
+    assert len(bpy.data.objects) == 1 + 3 + 2
+    bpy.ops.reeb_parts.show_original()
+    assert bpy.context.view_layer.objects.active == obj
+    assert not [item for item in bpy.context.visible_objects if item != obj]
+    bpy.ops.reeb_parts.separate()
+    assert len(bpy.data.objects) == 1 + 3 + 2
+    bpy.ops.wm.read_homefile(use_empty=True)
+    bpy.ops.view3d.pastebuffer()
+    (alone,) = bpy.data.objects
+    activate(alone)
+    assert not bpy.ops.reeb_parts.show_original.poll()
+
+
+def test_the_pieces_of_a_copy_are_its_own(obj):
+    """A copy knows what the object knows, such as where pieces are."""
+    bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
+    bpy.ops.reeb_parts.separate()
+    moved_to("Mine", pieces_of())
+    bpy.ops.reeb_parts.show_original()
+    copy = obj.copy()
+    bpy.context.scene.collection.objects.link(copy)
+    activate(copy)
+    bpy.ops.reeb_parts.separate()
+    assert len(bpy.data.collections["Mine"].objects) == 3
+    assert len(copy.reeb_parts_made.pieces.objects) == 3
+    activate(bpy.data.collections["Mine"].objects[0])
+    bpy.ops.reeb_parts.show_original()
+    assert bpy.context.view_layer.objects.active == obj
+
+
+def test_the_original_is_back_once_the_collection_of_its_pieces_is_unlinked(package, obj):
+    watch = importlib.import_module(f"{package}.scene.changes.watch")
+    bpy.ops.reeb_parts.decompose(n_parts=3, graph=False)
+    bpy.ops.reeb_parts.separate()
+    bpy.context.scene.collection.children.unlink(obj.reeb_parts_made.pieces)
+    assert watch._is_untidy()
+    watch._tidy()
+    assert obj.visible_get()
+    assert not obj.hide_render

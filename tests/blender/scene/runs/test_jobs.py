@@ -155,11 +155,14 @@ def test_what_was_computed_is_not_computed_again(jobs, compute, read, parameters
     assert again.pid is None
     assert again.result[0].decomposition.candidates is first.candidates
     assert again.result[0].decomposition.parameters.detail == 0.9
+    assert again.result[0].seconds == 0.0  # not those of before
+    assert compute.compute_all(given[:1], parameters(), lambda *_: None)[0].seconds == 0.0
     both = jobs.Job(given, parameters())
     seen = followed(both)
     assert {of for of, stage, _ in seen if stage} == {"Object 1"}
     assert both.result[0].decomposition.candidates is first.candidates
     assert both.result[1].decomposition.n_faces == len(given[1][1].triangles)
+    assert both.result[0].seconds == 0.0 < both.result[1].seconds
 
 
 def test_progress(jobs, read, parameters):
