@@ -12,8 +12,8 @@ The first model judges parts that come near each other. What it says of meshes t
 second sees, beside all pairs of the largest parts: packs are left out in turn for that (a pack is what a name begins
 with, up to the first dot; a category of the benchmark is one, too).
 
-What ships was learned from rigged models, from what robots.py and game_models.py make (FOLDER...), from models with
-materials (--hints) and from half of the benchmark (--apart).
+What ships was learned from rigged models, from what robots.py, game_models.py and aircraft.py make (FOLDER...), from
+models with materials (--hints) and from half of the benchmark (--apart).
 
 --folds leaves packs out in turn and prints the Rand index error on the packs left out, instead of writing models.
 """
